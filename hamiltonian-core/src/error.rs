@@ -1,0 +1,77 @@
+//! What can go wrong in a run.
+//!
+//! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
+//! `f64` whatever the scalar of the run, so that the error is one type.
+
+use alloc::vec::Vec;
+
+/// What can go wrong in a run. Memory is allocated only when something did.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The step is zero, NaN or infinite.
+    #[error("a step must be finite and not zero, found {step}")]
+    Step {
+        /// The step given.
+        step: f64,
+    },
+    /// A vector, or an array of parameters, has the wrong number of components.
+    #[error("`{name}` must have {expected} components, found {found}")]
+    Shape {
+        /// The name of the coordinate, momentum or parameter.
+        name: &'static str,
+        /// The number of components the system asks for.
+        expected: usize,
+        /// The number of components given.
+        found: usize,
+    },
+    /// A start has a NaN or an infinity in it.
+    #[error("the start is not finite: t = {time}, q = {q:?}, p = {p:?}")]
+    Start {
+        /// Its time.
+        time: f64,
+        /// Its coordinates.
+        q: Vec<f64>,
+        /// Its momenta.
+        p: Vec<f64>,
+    },
+    /// A step led to a NaN or an infinity. The run stays at the state before that step.
+    #[error("step {step} led to a state that is not finite: t = {time}, q = {q:?}, p = {p:?}")]
+    NotFinite {
+        /// The number of the step, counted from 1: the first whose end is not finite.
+        step: u64,
+        /// The time at the end of that step.
+        time: f64,
+        /// The coordinates there.
+        q: Vec<f64>,
+        /// The momenta there.
+        p: Vec<f64>,
+    },
+    /// The equations of an implicit step were not solved. The run stays at the state before that
+    /// step.
+    #[error(
+        "step {step} from t = {time} was not solved: residual {residual:e} after {iterations} iterations"
+    )]
+    Solve {
+        /// The number of the step, counted from 1.
+        step: u64,
+        /// The time at its beginning.
+        time: f64,
+        /// The last change of the iterate, in the maximum norm.
+        residual: f64,
+        /// The number of iterations made.
+        iterations: u32,
+    },
+    /// A time that whole steps from the present one do not meet (or that lies behind).
+    #[error(
+        "t = {target} is no whole number of steps ahead: the nearest times are {before} and {after}"
+    )]
+    OffGrid {
+        /// The time asked for.
+        target: f64,
+        /// The last reachable time that is not beyond it.
+        before: f64,
+        /// The first reachable time beyond it.
+        after: f64,
+    },
+}

@@ -1,0 +1,185 @@
+//! What a Hamiltonian system is to the schemes; the `hamiltonian!` macro implements these traits.
+//!
+//! Input: parameters. Output: [`System`] → [`System::prepare`] → [`Dynamics`] → accumulating
+//! [`Kick`], [`Drift`], [`Flow`]. Invariant: everything that depends on parameters alone is
+//! computed in `prepare`, everything that depends on parameters and a step coefficient in
+//! `flow`/`kick`/`drift`; what remains per evaluation depends on (t, q, p).
+
+use crate::state::{Gradient, State};
+use crate::vector::Vector;
+use hamiltonian_lanes::Real;
+
+/// One group of coordinates as it was declared: `q`, `x[N]`, `q[n][3]`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Group {
+    /// The coordinate's name.
+    pub coordinate: &'static str,
+    /// The name of the conjugate momentum.
+    pub momentum: &'static str,
+    /// 0 for a scalar, 1 for `[N]`, 2 for `[N][c]`.
+    pub rank: usize,
+    /// The part of the [`Vector`] that holds the group, and
+    pub part: usize,
+    /// the index of its first component in that part.
+    pub offset: usize,
+    /// The last extent of a rank-2 group (its column count); 1 otherwise.
+    pub columns: usize,
+}
+
+/// What a named function of (t, q, p) was declared as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ObservableKind {
+    /// `monitor name = e`
+    Monitor,
+    /// `invariant name = e`, proven at compile time or assumed by its author
+    Invariant,
+    /// `event name = e`
+    Event,
+}
+
+/// A named scalar function of (t, q, p); vector-valued ones are one entry a component.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Observable {
+    /// The declared name, with the component in brackets for vectors: `angular_momentum[2]`.
+    pub name: &'static str,
+    /// How it was declared.
+    pub kind: ObservableKind,
+}
+
+/// A Hamiltonian H(q, p, t) with its parameters, over the state scalar `T`.
+///
+/// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's.
+pub trait System<T: Real> {
+    /// Coordinates, and momenta, which have the same shape.
+    type Vector: Vector<Scalar = T>;
+    /// The system with all parameter-only work done.
+    type Prepared: Dynamics<T, Vector = Self::Vector>;
+
+    /// The name of the system (of the type for item form, `H` for expression form).
+    const NAME: &'static str;
+    /// The groups of coordinates in declaration order.
+    const GROUPS: &'static [Group];
+    /// Monitors, invariants and events in declaration order.
+    const OBSERVABLES: &'static [Observable];
+
+    /// Does all work that depends on parameters alone.
+    fn prepare(&self) -> Self::Prepared;
+    /// The zero vector of this system's shape.
+    fn zeros(&self) -> Self::Vector;
+
+    /// H at a state.
+    fn energy(&self, state: &State<Self::Vector>) -> T {
+        self.prepare().energy(state.t, &state.q, &state.p)
+    }
+    /// ∂H/∂q and ∂H/∂p at a state.
+    fn gradient(&self, state: &State<Self::Vector>) -> Gradient<Self::Vector> {
+        let mut gradient = Gradient {
+            q: self.zeros(),
+            p: self.zeros(),
+        };
+        self.prepare().gradient(
+            state.t,
+            &state.q,
+            &state.p,
+            &mut gradient.q,
+            &mut gradient.p,
+        );
+        gradient
+    }
+}
+
+/// A prepared system: H and its derivatives at (t, q, p).
+///
+/// Output vectors have the system's shape and are overwritten.
+pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
+    /// Coordinates and momenta.
+    type Vector: Vector<Scalar = T>;
+    /// J∇H scaled by a step coefficient.
+    type Flow: Flow<Self::Vector>;
+
+    /// H.
+    fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
+    /// ∂H/∂q into `out`.
+    fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector);
+    /// ∂H/∂p into `out`.
+    fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector);
+    /// ∂H/∂q and ∂H/∂p, sharing all common work.
+    fn gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    );
+    /// H, returned, with ∂H/∂q and ∂H/∂p, sharing all common work.
+    fn energy_and_gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    ) -> T;
+    /// ∂H/∂t.
+    fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
+    /// The Hessian of H in (q, p) times (vq, vp): `out_q = H_qq·vq + H_qp·vp`,
+    /// `out_p = H_pq·vq + H_pp·vp`.
+    #[allow(clippy::too_many_arguments)]
+    fn hessian_vector(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        vq: &Self::Vector,
+        vp: &Self::Vector,
+        out_q: &mut Self::Vector,
+        out_p: &mut Self::Vector,
+    );
+    /// Observable `index` of [`System::OBSERVABLES`].
+    fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
+    /// J∇H with the coefficient `c` folded into the prepared constants.
+    fn flow(&self, c: T) -> Self::Flow;
+}
+
+/// `c·J∇H`, accumulating.
+pub trait Flow<V: Vector>: Clone + core::fmt::Debug {
+    /// `into_q += c·∂H/∂p(q, p, t)`, `into_p −= c·∂H/∂q(q, p, t)`.
+    fn flow(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
+}
+
+/// The flow of V(q, t) for a fixed time `c` (with t frozen).
+pub trait Kick<V: Vector>: Clone + core::fmt::Debug {
+    /// `p −= c·∂V/∂q(q, t)`.
+    fn kick(&self, t: V::Scalar, q: &V, p: &mut V);
+}
+
+/// The flow of T(p, t) for a fixed time `c` (with t frozen).
+pub trait Drift<V: Vector>: Clone + core::fmt::Debug {
+    /// `q += c·∂T/∂p(p, t)`.
+    fn drift(&self, t: V::Scalar, p: &V, q: &mut V);
+}
+
+/// H = T(p, t) + V(q, t), proven at compile time.
+pub trait Separable<T: Real>: System<T> {
+    /// The flow of V.
+    type Kick: Kick<Self::Vector>;
+    /// The flow of T.
+    type Drift: Drift<Self::Vector>;
+    /// The kick for the time `c`, with `c` folded into the prepared constants.
+    fn kick(prepared: &Self::Prepared, c: T) -> Self::Kick;
+    /// The drift for the time `c`.
+    fn drift(prepared: &Self::Prepared, c: T) -> Self::Drift;
+}
+
+/// T = ½ pᵀM⁻¹p with constant M, proven at compile time.
+pub trait QuadraticKinetic {}
+
+/// H does not depend on t, proven at compile time.
+pub trait Autonomous {}
+
+/// Coordinates that do not appear in H: their momenta are conserved.
+pub trait Cyclic {
+    /// Names of the cyclic coordinates as declared (`q`, or `q[0]` for a component).
+    const CYCLIC: &'static [&'static str];
+}

@@ -1,0 +1,281 @@
+//! Coordinates as schemes see them: contiguous slices of scalars, never shapes.
+//!
+//! Input: nalgebra storage (or a generated struct with one field per group). Output: [`Vector`],
+//! [`IntoVector`]. Invariant: nothing here allocates except `clone` of a run-time size and
+//! `zeros_like`.
+
+use alloc::vec::Vec;
+use hamiltonian_lanes::Real;
+use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage};
+
+/// A vector of coordinates or of momenta over one scalar.
+///
+/// `[N]` is `SVector<T, N>`, `[N][3]` the N×3 column-major matrix (component `c` of body `i` at
+/// `i + N·c`), run-time sizes `DVector` and `OMatrix<T, Dyn, Const<3>>`; coordinates of mixed
+/// shape are a generated struct with one part per group.
+///
+/// The provided methods are the whole linear algebra a scheme needs. They are loops over the
+/// parts; the flat index runs through part 0, then part 1, and so on.
+pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
+    /// The scalar of every component.
+    type Scalar: Real;
+    /// How many contiguous parts there are (1 except for mixed shapes).
+    const PARTS: usize;
+    /// Part `k < PARTS` as a slice.
+    fn part(&self, k: usize) -> &[Self::Scalar];
+    /// Part `k < PARTS` as a mutable slice.
+    fn part_mut(&mut self, k: usize) -> &mut [Self::Scalar];
+    /// The same shape, all zero.
+    fn zeros_like(&self) -> Self;
+
+    /// The number of components.
+    #[inline(always)]
+    fn len(&self) -> usize {
+        let mut len = 0;
+        for k in 0..Self::PARTS {
+            len += self.part(k).len();
+        }
+        len
+    }
+
+    /// Whether there are no components at all.
+    #[inline(always)]
+    fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Whether every part has as many components as the same part of `other`.
+    #[inline(always)]
+    fn same_shape(&self, other: &Self) -> bool {
+        for k in 0..Self::PARTS {
+            if self.part(k).len() != other.part(k).len() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Component `index` in flat order.
+    ///
+    /// # Panics
+    /// If `index` is not below [`Vector::len`].
+    #[inline(always)]
+    fn component(&self, index: usize) -> Self::Scalar {
+        let mut rest = index;
+        for k in 0..Self::PARTS {
+            let part = self.part(k);
+            if rest < part.len() {
+                return part[rest];
+            }
+            rest -= part.len();
+        }
+        panic!("component {index} of a vector of {}", self.len());
+    }
+
+    /// Component `index` in flat order, mutable.
+    ///
+    /// # Panics
+    /// If `index` is not below [`Vector::len`].
+    #[inline(always)]
+    fn component_mut(&mut self, index: usize) -> &mut Self::Scalar {
+        let mut rest = index;
+        for k in 0..Self::PARTS {
+            let len = self.part(k).len();
+            if rest < len {
+                return &mut self.part_mut(k)[rest];
+            }
+            rest -= len;
+        }
+        panic!("component {index} of a vector of {}", self.len());
+    }
+
+    /// All components in flat order.
+    #[inline(always)]
+    fn components(&self) -> impl Iterator<Item = Self::Scalar> {
+        (0..Self::PARTS).flat_map(|k| self.part(k).iter().copied())
+    }
+
+    /// `self = other`, for equal shapes; unlike `clone_from` it never allocates.
+    #[inline(always)]
+    fn copy_from(&mut self, other: &Self) {
+        for k in 0..Self::PARTS {
+            for (to, from) in self.part_mut(k).iter_mut().zip(other.part(k)) {
+                *to = *from;
+            }
+        }
+    }
+
+    /// `self += c·v`, fused where the scalar fuses.
+    #[inline(always)]
+    fn accumulate(&mut self, c: Self::Scalar, v: &Self) {
+        for k in 0..Self::PARTS {
+            for (to, from) in self.part_mut(k).iter_mut().zip(v.part(k)) {
+                *to = c.fma(*from, *to);
+            }
+        }
+    }
+
+    /// `self *= c`.
+    #[inline(always)]
+    fn scale(&mut self, c: Self::Scalar) {
+        for k in 0..Self::PARTS {
+            for to in self.part_mut(k) {
+                *to *= c;
+            }
+        }
+    }
+
+    /// `self = 0`.
+    #[inline(always)]
+    fn set_zero(&mut self) {
+        for k in 0..Self::PARTS {
+            for to in self.part_mut(k) {
+                *to = Self::Scalar::zero();
+            }
+        }
+    }
+
+    /// The maximum norm over all components, [`Real::magnitude`] of each; NaN if any is NaN.
+    #[inline(always)]
+    fn magnitude(&self) -> f64 {
+        let mut largest = 0.0;
+        for k in 0..Self::PARTS {
+            for component in self.part(k) {
+                largest = larger(largest, component.magnitude());
+            }
+        }
+        largest
+    }
+
+    /// The maximum norm of `self − other`; NaN if any difference is NaN.
+    #[inline(always)]
+    fn distance(&self, other: &Self) -> f64 {
+        let mut largest = 0.0;
+        for k in 0..Self::PARTS {
+            for (a, b) in self.part(k).iter().zip(other.part(k)) {
+                largest = larger(largest, (*a - *b).magnitude());
+            }
+        }
+        largest
+    }
+
+    /// Whether every component is finite.
+    #[inline(always)]
+    fn is_finite(&self) -> bool {
+        let mut finite = true;
+        for k in 0..Self::PARTS {
+            for component in self.part(k) {
+                finite &= component.is_finite();
+            }
+        }
+        finite
+    }
+}
+
+/// The larger of two non-negative numbers, NaN if either is NaN (`f64::max` would drop it).
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a >= b || a.is_nan() { a } else { b }
+}
+
+impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
+    type Scalar = T;
+    const PARTS: usize = 1;
+    #[inline(always)]
+    fn part(&self, _: usize) -> &[T] {
+        self.as_slice()
+    }
+    #[inline(always)]
+    fn part_mut(&mut self, _: usize) -> &mut [T] {
+        self.as_mut_slice()
+    }
+    #[inline(always)]
+    fn zeros_like(&self) -> Self {
+        SMatrix::from_element(T::zero())
+    }
+}
+
+impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
+    type Scalar = T;
+    const PARTS: usize = 1;
+    #[inline(always)]
+    fn part(&self, _: usize) -> &[T] {
+        self.as_slice()
+    }
+    #[inline(always)]
+    fn part_mut(&mut self, _: usize) -> &mut [T] {
+        self.as_mut_slice()
+    }
+    fn zeros_like(&self) -> Self {
+        OMatrix::from_element_generic(Dyn(self.nrows()), Const, T::zero())
+    }
+}
+
+/// What [`State::new`](crate::State::new) takes: arrays, vectors, and every [`Vector`] itself.
+///
+/// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
+/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows. `M` only tells these
+/// cases apart and is always inferred.
+pub trait IntoVector<M> {
+    /// The storage it becomes.
+    type Vector: Vector;
+    /// The same numbers in that storage.
+    fn into_vector(self) -> Self::Vector;
+}
+
+/// The cases of [`IntoVector`].
+pub mod shape {
+    /// `[T; N]`
+    #[derive(Debug, Clone, Copy)]
+    pub struct Array;
+    /// `[[T; C]; N]`
+    #[derive(Debug, Clone, Copy)]
+    pub struct Rows;
+    /// `Vec<T>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct Sequence;
+    /// `Vec<[T; C]>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct SequenceOfRows;
+    /// A [`Vector`](crate::Vector) already.
+    #[derive(Debug, Clone, Copy)]
+    pub struct Same;
+}
+
+impl<T: Real, const N: usize> IntoVector<shape::Array> for [T; N] {
+    type Vector = SVector<T, N>;
+    #[inline]
+    fn into_vector(self) -> SVector<T, N> {
+        Matrix::from_array_storage(ArrayStorage([self]))
+    }
+}
+
+impl<T: Real, const N: usize, const C: usize> IntoVector<shape::Rows> for [[T; C]; N] {
+    type Vector = SMatrix<T, N, C>;
+    fn into_vector(self) -> SMatrix<T, N, C> {
+        SMatrix::from_fn(|row, column| self[row][column])
+    }
+}
+
+impl<T: Real> IntoVector<shape::Sequence> for Vec<T> {
+    type Vector = DVector<T>;
+    fn into_vector(self) -> DVector<T> {
+        let rows = Dyn(self.len());
+        Matrix::from_data(VecStorage::new(rows, Const::<1>, self))
+    }
+}
+
+impl<T: Real, const C: usize> IntoVector<shape::SequenceOfRows> for Vec<[T; C]> {
+    type Vector = OMatrix<T, Dyn, Const<C>>;
+    fn into_vector(self) -> OMatrix<T, Dyn, Const<C>> {
+        OMatrix::from_fn_generic(Dyn(self.len()), Const, |row, column| self[row][column])
+    }
+}
+
+impl<V: Vector> IntoVector<shape::Same> for V {
+    type Vector = V;
+    #[inline(always)]
+    fn into_vector(self) -> V {
+        self
+    }
+}

@@ -1,0 +1,75 @@
+//! Double-double numbers: the unevaluated sum of two `f64`, about 106 bits.
+//!
+//! Input: `f64`s, pairs of them, decimal text. Output: [`DoubleDouble`] with every operation of
+//! [`Real`]. Invariant: `hi` is the sum rounded to nearest (|lo| ≤ ½ ulp(hi)), and `lo = 0` where
+//! `hi` is 0, infinite or NaN.
+
+mod arithmetic;
+
+use arithmetic::two_sum;
+
+/// `hi + lo`, two `f64` read as one number of about 106 bits (32 decimal digits): what orders and
+/// invariants are measured with where `f64` ends.
+///
+/// The arithmetic is Dekker's (*Numer. Math.* 18, 224, 1971, doi:10.1007/BF01397083) in the
+/// variants whose bounds Joldes, Muller and Popescu proved (*ACM Trans. Math. Softw.* 44, 15,
+/// 2017, doi:10.1145/3121432).
+///
+/// ```
+/// use hamiltonian_lanes::DoubleDouble;
+///
+/// let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
+/// let error = third * DoubleDouble::from(3.0) - DoubleDouble::from(1.0);
+/// assert!(error.hi().abs() < 1e-31);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+pub struct DoubleDouble {
+    hi: f64,
+    lo: f64,
+}
+
+impl DoubleDouble {
+    /// The number `a + b`, exactly unless it needs more than 106 bits; the words need not be
+    /// ordered.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::DoubleDouble;
+    /// let x = DoubleDouble::new(1e-20, 1.0);
+    /// assert_eq!((x.hi(), x.lo()), (1.0, 1e-20));
+    /// ```
+    #[inline(always)]
+    pub const fn new(a: f64, b: f64) -> Self {
+        let (hi, lo) = two_sum(a, b);
+        Self::finish(a + b, hi, lo)
+    }
+
+    /// The leading word: the number rounded to `f64`.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::DoubleDouble;
+    /// assert_eq!(DoubleDouble::from(0.5).hi(), 0.5);
+    /// ```
+    #[inline(always)]
+    pub const fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// The trailing word: what `hi` leaves out.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::DoubleDouble;
+    /// let tenth = DoubleDouble::from(1.0) / DoubleDouble::from(10.0);
+    /// assert!(tenth.lo() != 0.0 && tenth.lo().abs() < 1e-17);
+    /// ```
+    #[inline(always)]
+    pub const fn lo(self) -> f64 {
+        self.lo
+    }
+}
+
+impl From<f64> for DoubleDouble {
+    #[inline(always)]
+    fn from(value: f64) -> Self {
+        Self { hi: value, lo: 0.0 }
+    }
+}

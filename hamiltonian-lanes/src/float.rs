@@ -1,0 +1,115 @@
+//! `f64` and `f32` as scalars, `bool` as their mask.
+//!
+//! Input: IEEE 754 numbers. Output: [`Real`] for both. Invariant: nothing is fused (a product and
+//! a sum are rounded apart, so the same bits on every machine), and every operator is one
+//! instruction.
+
+use crate::elementary::{double, single};
+use crate::real::{Mask, Real};
+
+impl Mask for bool {
+    #[inline(always)]
+    fn splat(flag: bool) -> Self {
+        flag
+    }
+    #[inline(always)]
+    fn all(self) -> bool {
+        self
+    }
+    #[inline(always)]
+    fn any(self) -> bool {
+        self
+    }
+}
+
+/// [`Real`] for one float type, with its elementary functions from `$functions`.
+macro_rules! float {
+    ($float:ident, $functions:ident) => {
+        impl Real for $float {
+            type Mask = bool;
+
+            #[inline(always)]
+            fn constant(hi: f64, lo: f64) -> Self {
+                // `hi + 0.0` would turn −0 into 0.
+                (if lo == 0.0 { hi } else { hi + lo }) as $float
+            }
+            #[inline(always)]
+            fn fma(self, b: Self, c: Self) -> Self {
+                self * b + c
+            }
+            #[inline(always)]
+            fn select(mask: bool, yes: Self, no: Self) -> Self {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> bool {
+                self < other
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> bool {
+                self <= other
+            }
+            #[inline(always)]
+            fn equals(self, other: Self) -> bool {
+                self == other
+            }
+            #[inline(always)]
+            fn magnitude(self) -> f64 {
+                f64::from(self).abs()
+            }
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                f64::from(self)
+            }
+            #[inline(always)]
+            fn epsilon() -> f64 {
+                f64::from($float::EPSILON)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                $float::abs(self)
+            }
+            #[inline(always)]
+            fn sign(self) -> Self {
+                if self > 0.0 {
+                    1.0
+                } else if self < 0.0 {
+                    -1.0
+                } else {
+                    // 0 and NaN are their own sign.
+                    self
+                }
+            }
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $functions::sin_cos(self)
+            }
+            float!(@unary $functions: sqrt cbrt sin cos tan asin acos atan sinh cosh tanh
+                asinh acosh atanh exp exp_m1 ln ln_1p);
+            float!(@binary $functions: atan2 hypot pow);
+        }
+    };
+    (@unary $functions:ident: $($name:ident)*) => {
+        $(
+            #[inline(always)]
+            fn $name(self) -> Self {
+                $functions::$name(self)
+            }
+        )*
+    };
+    (@binary $functions:ident: $($name:ident)*) => {
+        $(
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                $functions::$name(self, other)
+            }
+        )*
+    };
+}
+
+float!(f64, double);
+float!(f32, single);

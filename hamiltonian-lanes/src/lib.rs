@@ -1,0 +1,35 @@
+//! The scalars of `hamiltonian`: what schemes and emitted programs compute with.
+//!
+//! Input: numbers of the caller. Output: [`Real`], the arithmetic everything is generic over, for
+//! `f64`, `f32`, [`Dual`] numbers (exact derivatives, nested for higher orders) and
+//! [`DoubleDouble`] (about 106 bits). Invariant: a scalar is a value of fixed size without heap
+//! memory, and every operation is total: NaN and infinities, never a panic.
+//!
+//! ```
+//! use hamiltonian_lanes::{Dual, Real};
+//!
+//! fn energy<T: Real>(q: T, p: T) -> T {
+//!     p * p / T::constant(2.0, 0.0) - q.cos()
+//! }
+//!
+//! assert_eq!(energy(0.0, 2.0), 1.0);
+//! // ∂H/∂p at (q, p) = (0, 2)
+//! assert_eq!(energy(Dual::fixed(0.0), Dual::variable(2.0)).eps, 2.0);
+//! ```
+#![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+
+mod real;
+
+mod elementary;
+mod float;
+
+#[allow(dead_code)]
+mod double_double;
+mod dual;
+
+mod lift;
+
+pub use double_double::DoubleDouble;
+pub use dual::Dual;
+pub use real::{Lift, Mask, Real};

@@ -1,0 +1,155 @@
+//! The scalar every scheme and every emitted program is generic over.
+//!
+//! Input: nothing. Output: [`Real`], [`Mask`], [`Lift`]. Invariant: a `Real` is a value of fixed
+//! size without heap memory; all its operations are total (NaN and infinities instead of panics).
+
+use core::fmt::Debug;
+use core::ops::{
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
+};
+
+/// The result of comparing two [`Real`]s: `bool` for scalars, one flag a lane for packs.
+pub trait Mask:
+    Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
+    /// Every lane the same flag.
+    fn splat(flag: bool) -> Self;
+    /// Whether every lane is set.
+    fn all(self) -> bool;
+    /// Whether any lane is set.
+    fn any(self) -> bool;
+}
+
+/// A scalar made from a value of type `P` without loss of what `P` says: parameters of type `P`
+/// serve every state scalar they lift to.
+pub trait Lift<P> {
+    /// The value as this scalar.
+    fn lift(value: P) -> Self;
+}
+
+/// Real arithmetic: `f64`, `f32`, dual numbers, double-double, and (later) packs of lanes.
+pub trait Real:
+    Copy
+    + Debug
+    + PartialEq
+    + Default
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+    + Lift<f64>
+    + Lift<Self>
+{
+    /// What comparisons return.
+    type Mask: Mask;
+
+    /// The number `hi + lo` (two words, so that double-double constants are exact to 106 bits).
+    fn constant(hi: f64, lo: f64) -> Self;
+    /// `self·b + c`, fused where this type fuses; for `f64` it is `self * b + c`.
+    fn fma(self, b: Self, c: Self) -> Self;
+    /// `yes` where the mask is set, `no` elsewhere; the value not taken never shows.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// `self·factor`, where a factor of exactly 0 gives 0 even if `self` is infinite or NaN: how a
+    /// slope meets a derivative part, so that what does not vary adds nothing.
+    #[inline(always)]
+    fn mul_absorbing(self, factor: Self) -> Self {
+        Self::select(factor.equals(Self::zero()), factor, self * factor)
+    }
+    /// `self < other`, by value (derivative parts do not take part).
+    fn lt(self, other: Self) -> Self::Mask;
+    /// `self ≤ other`.
+    fn le(self, other: Self) -> Self::Mask;
+    /// `self = other`.
+    fn equals(self, other: Self) -> Self::Mask;
+    /// The largest absolute value of any component (lanes, derivative parts) as `f64`; NaN if any
+    /// component is NaN.
+    fn magnitude(self) -> f64;
+    /// Whether every component is finite.
+    fn is_finite(self) -> bool;
+    /// The value rounded to `f64` (derivative parts dropped).
+    fn to_f64(self) -> f64;
+    /// The spacing of this type's numbers at 1.
+    fn epsilon() -> f64;
+
+    /// 0.
+    #[inline(always)]
+    fn zero() -> Self {
+        Self::constant(0.0, 0.0)
+    }
+    /// 1.
+    #[inline(always)]
+    fn one() -> Self {
+        Self::constant(1.0, 0.0)
+    }
+    /// `1/self`.
+    #[inline(always)]
+    fn recip(self) -> Self {
+        Self::one() / self
+    }
+    /// Square root; NaN below 0.
+    fn sqrt(self) -> Self;
+    /// Cube root, odd.
+    fn cbrt(self) -> Self;
+    /// Absolute value; its derivative is `sign`.
+    fn abs(self) -> Self;
+    /// −1, 0 or 1; `sign(0) = 0`; its derivative is 0.
+    fn sign(self) -> Self;
+    /// Sine.
+    fn sin(self) -> Self;
+    /// Cosine.
+    fn cos(self) -> Self;
+    /// Tangent.
+    fn tan(self) -> Self;
+    /// Arc sine in [−π/2, π/2].
+    fn asin(self) -> Self;
+    /// Arc cosine in [0, π].
+    fn acos(self) -> Self;
+    /// Arc tangent in (−π/2, π/2).
+    fn atan(self) -> Self;
+    /// Hyperbolic sine.
+    fn sinh(self) -> Self;
+    /// Hyperbolic cosine.
+    fn cosh(self) -> Self;
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self;
+    /// Inverse hyperbolic sine.
+    fn asinh(self) -> Self;
+    /// Inverse hyperbolic cosine; NaN below 1.
+    fn acosh(self) -> Self;
+    /// Inverse hyperbolic tangent; NaN outside [−1, 1].
+    fn atanh(self) -> Self;
+    /// Exponential.
+    fn exp(self) -> Self;
+    /// `exp(self) − 1`, accurate near 0.
+    fn exp_m1(self) -> Self;
+    /// Natural logarithm; NaN below 0.
+    fn ln(self) -> Self;
+    /// `ln(1 + self)`, accurate near 0.
+    fn ln_1p(self) -> Self;
+    /// Sine and cosine of one angle.
+    fn sin_cos(self) -> (Self, Self);
+    /// The angle of the point (`other`, `self`) in (−π, π].
+    fn atan2(self, other: Self) -> Self;
+    /// `√(self² + other²)` without undue overflow.
+    fn hypot(self, other: Self) -> Self;
+    /// `self` to the power `exponent`; NaN for a negative base and an exponent that is no integer.
+    fn pow(self, exponent: Self) -> Self;
+    /// The smaller; where equal, the derivative is that of `self`; a NaN operand is returned.
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        Self::select(self.le(other) | !self.equals(self), self, other)
+    }
+    /// The larger; where equal, the derivative is that of `self`; a NaN operand is returned.
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self::select(other.le(self) | !self.equals(self), self, other)
+    }
+}

@@ -1,0 +1,477 @@
+//! The arena of expressions: hash-consed, children before parents.
+//!
+//! Input: constructor calls (the rules they apply are in `simplify`). Output: [`Node`] handles.
+//! Invariant: structurally equal expressions are the same node, sums and products up to the order
+//! of their operands; the order first written is kept for evaluation; a child's number is below
+//! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
+
+use crate::index::{Affine, Domain, Index, Size};
+use crate::op::Op;
+use crate::rational::Rational;
+use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
+
+/// An expression.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Node(pub u32);
+
+/// A parameter of the system: its number in the model.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Parameter(pub u16);
+
+/// Which vector of phase space an element belongs to.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Side {
+    /// Coordinates.
+    Q,
+    /// Momenta.
+    P,
+}
+
+/// What an array element is read from.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Array {
+    /// Column `column` of group `group` of the coordinates or momenta.
+    Phase {
+        /// Coordinates or momenta.
+        side: Side,
+        /// The group of coordinates.
+        group: u16,
+        /// The column (component) of a rank-2 group; 0 otherwise.
+        column: u16,
+    },
+    /// The same of the direction a Hessian is multiplied with.
+    Direction {
+        /// Coordinates or momenta.
+        side: Side,
+        /// The group of coordinates.
+        group: u16,
+        /// The column.
+        column: u16,
+    },
+    /// A parameter array; rank 2 is indexed by row and column.
+    Parameter(Parameter),
+}
+
+/// A comparison.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Relation {
+    /// a < b
+    Less,
+    /// a ≤ b
+    LessEqual,
+    /// a = b
+    Equal,
+}
+
+/// Which derivative of an external function.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Part {
+    /// The function itself.
+    Value,
+    /// ∂/∂(argument i).
+    First(u16),
+    /// ∂²/∂(argument i)∂(argument j), i ≤ j.
+    Second(u16, u16),
+}
+
+/// What a node is.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Kind {
+    /// An exact number.
+    Constant(Rational),
+    /// π.
+    Pi,
+    /// A scalar parameter.
+    Scalar(Parameter),
+    /// Time.
+    Time,
+    /// The coefficient of an accumulating kick, drift or flow.
+    Coefficient,
+    /// A loop variable as a real.
+    Variable(Domain),
+    /// A size as a real.
+    Extent(Size),
+    /// An array element: row, and column for a rank-2 parameter.
+    Element(Array, Index, Option<Index>),
+    /// `constant + Σ k·node`
+    Sum(Rational, Vec<(Rational, Node)>),
+    /// `k·Π node^n`, n a non-zero integer.
+    Product(Rational, Vec<(Node, i32)>),
+    /// An elementary function.
+    Call(Op, Vec<Node>),
+    /// A function written in Rust, by its number in the model, or a derivative of it.
+    External(u16, Part, Vec<Node>),
+    /// Σ of the body over a loop.
+    Reduce(Domain, Node),
+    /// The number of times a loop runs, as a real.
+    Count(Domain),
+    /// A comparison (a condition, not a number).
+    Compare(Relation, Node, Node),
+    /// Not (a condition).
+    Not(Node),
+    /// And (conditions).
+    And(Node, Node),
+    /// Or (conditions).
+    Or(Node, Node),
+    /// The second where the first (a condition) holds, the third elsewhere.
+    Select(Node, Node, Node),
+}
+
+/// What a node depends on.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Dependence(pub u8);
+
+impl Dependence {
+    /// On coordinates.
+    pub const Q: Dependence = Dependence(1);
+    /// On momenta.
+    pub const P: Dependence = Dependence(2);
+    /// On time.
+    pub const TIME: Dependence = Dependence(4);
+    /// On parameters or named sizes.
+    pub const PARAMETER: Dependence = Dependence(8);
+    /// On the step coefficient.
+    pub const COEFFICIENT: Dependence = Dependence(16);
+    /// On the direction of a Hessian product.
+    pub const DIRECTION: Dependence = Dependence(32);
+
+    /// Whether it shares anything with `other`.
+    #[must_use]
+    pub fn on(self, other: Dependence) -> bool {
+        self.0 & other.0 != 0
+    }
+    /// When it can be computed.
+    #[must_use]
+    pub fn stage(self) -> Stage {
+        if self.0 & 0b10_0111 != 0 {
+            Stage::Evaluation
+        } else if self.0 & 16 != 0 {
+            Stage::Coefficient
+        } else if self.0 & 8 != 0 {
+            Stage::Parameters
+        } else {
+            Stage::Constant
+        }
+    }
+}
+
+/// When a value can be computed: the binding times of the emitted code.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Stage {
+    /// At compile time.
+    Constant,
+    /// Once per run, from parameters (`prepare`).
+    Parameters,
+    /// Once per step size, from parameters and the step coefficient.
+    Coefficient,
+    /// At every evaluation.
+    Evaluation,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Facts {
+    dependence: Dependence,
+    variables: u64,
+    nonnegative: bool,
+}
+
+/// A loop: its range, in the context of its parent.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Range {
+    /// The enclosing loop.
+    pub parent: Option<Domain>,
+    /// The first value.
+    pub start: Affine,
+    /// One past the last value.
+    pub end: Affine,
+}
+
+/// A small multiplicative hasher: fast without optimisation, and the same on every machine.
+#[derive(Default)]
+pub struct Mixer(u64);
+impl Hasher for Mixer {
+    fn finish(&self) -> u64 {
+        self.0
+    }
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(u64::from(byte));
+        }
+    }
+    fn write_u8(&mut self, value: u8) {
+        self.write_u64(u64::from(value));
+    }
+    fn write_u16(&mut self, value: u16) {
+        self.write_u64(u64::from(value));
+    }
+    fn write_u32(&mut self, value: u32) {
+        self.write_u64(u64::from(value));
+    }
+    fn write_i32(&mut self, value: i32) {
+        self.write_u64(value as u64);
+    }
+    fn write_i64(&mut self, value: i64) {
+        self.write_u64(value as u64);
+    }
+    fn write_usize(&mut self, value: usize) {
+        self.write_u64(value as u64);
+    }
+    fn write_u64(&mut self, value: u64) {
+        self.0 = (self.0.rotate_left(5) ^ value).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+}
+
+/// A hash map with the fixed hasher; never iterated where order could show.
+pub type Map<K, V> = HashMap<K, V, BuildHasherDefault<Mixer>>;
+
+/// The arena.
+#[derive(Default, Debug, Clone)]
+pub struct Dag {
+    kinds: Vec<Kind>,
+    facts: Vec<Facts>,
+    known: Map<Kind, Node>,
+    ranges: Vec<Range>,
+    known_ranges: Map<Range, Domain>,
+}
+
+impl Dag {
+    /// An empty arena.
+    #[must_use]
+    pub fn new() -> Dag {
+        Dag::default()
+    }
+    /// How many nodes there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+    /// What a node is.
+    #[must_use]
+    pub fn kind(&self, node: Node) -> &Kind {
+        &self.kinds[node.0 as usize]
+    }
+    /// What a node depends on.
+    #[must_use]
+    pub fn dependence(&self, node: Node) -> Dependence {
+        self.facts[node.0 as usize].dependence
+    }
+    /// When a node can be computed.
+    #[must_use]
+    pub fn stage(&self, node: Node) -> Stage {
+        self.dependence(node).stage()
+    }
+    /// The loop variables a node depends on, as a bit set of domain numbers.
+    #[must_use]
+    pub fn variables(&self, node: Node) -> u64 {
+        self.facts[node.0 as usize].variables
+    }
+    /// Whether the value is provably ≥ 0 (or NaN).
+    #[must_use]
+    pub fn is_nonnegative(&self, node: Node) -> bool {
+        self.facts[node.0 as usize].nonnegative
+    }
+    /// The innermost loop a node must be computed in.
+    #[must_use]
+    pub fn home(&self, node: Node) -> Option<Domain> {
+        self.deepest(self.variables(node))
+    }
+    /// The deepest of a set of loops, which lie on one path.
+    #[must_use]
+    pub fn deepest(&self, set: u64) -> Option<Domain> {
+        let mut best: Option<(usize, Domain)> = None;
+        let mut rest = set;
+        while rest != 0 {
+            let domain = Domain(rest.trailing_zeros());
+            rest &= rest - 1;
+            let depth = self.path(Some(domain)).len();
+            if best.is_none_or(|(d, _)| depth > d) {
+                best = Some((depth, domain));
+            }
+        }
+        best.map(|(_, domain)| domain)
+    }
+    /// The loops from the outermost to `domain`.
+    #[must_use]
+    pub fn path(&self, domain: Option<Domain>) -> Vec<Domain> {
+        let mut path = Vec::new();
+        let mut at = domain;
+        while let Some(d) = at {
+            path.push(d);
+            at = self.range(d).parent;
+        }
+        path.reverse();
+        path
+    }
+    /// A loop's range.
+    #[must_use]
+    pub fn range(&self, domain: Domain) -> &Range {
+        &self.ranges[domain.0 as usize]
+    }
+    /// How many loops are known; a bit set holds 64.
+    #[must_use]
+    pub fn loop_count(&self) -> usize {
+        self.ranges.len()
+    }
+    /// The loop over `start..end` inside `parent`. At most 64 are told apart; callers check
+    /// [`Dag::loop_count`].
+    pub fn domain(&mut self, parent: Option<Domain>, start: Affine, end: Affine) -> Domain {
+        let range = Range { parent, start, end };
+        if let Some(&domain) = self.known_ranges.get(&range) {
+            return domain;
+        }
+        let domain = Domain(self.ranges.len().min(63) as u32);
+        if self.ranges.len() < 64 {
+            self.ranges.push(range.clone());
+            self.known_ranges.insert(range, domain);
+        }
+        domain
+    }
+
+    /// Calls `visit` with each child of a node.
+    pub fn for_children(&self, node: Node, mut visit: impl FnMut(Node)) {
+        match self.kind(node) {
+            Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
+            Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
+            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => arguments.iter().for_each(|n| visit(*n)),
+            Kind::Reduce(_, body) => visit(*body),
+            Kind::Not(a) => visit(*a),
+            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Select(c, a, b) => {
+                visit(*c);
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Constant(_) | Kind::Pi | Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Variable(_) | Kind::Extent(_) | Kind::Element(..) | Kind::Count(_) => {}
+        }
+    }
+
+    /// All nodes the roots need, children before parents.
+    #[must_use]
+    pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
+        let mut seen = vec![false; self.len()];
+        for root in roots {
+            seen[root.0 as usize] = true;
+        }
+        for number in (0..self.len()).rev() {
+            if seen[number] {
+                self.for_children(Node(number as u32), |child| seen[child.0 as usize] = true);
+            }
+        }
+        (0..self.len()).filter(|n| seen[*n]).map(|n| Node(n as u32)).collect()
+    }
+
+    /// The node of a kind, new or known. Operands of sums and products are compared without
+    /// regard to order; the constructors in `simplify` are the way to call this.
+    pub(crate) fn intern(&mut self, kind: Kind) -> Node {
+        let key = match &kind {
+            Kind::Sum(c, terms) => {
+                let mut sorted = terms.clone();
+                sorted.sort_unstable_by_key(|(_, n)| *n);
+                Kind::Sum(c.clone(), sorted)
+            }
+            Kind::Product(c, factors) => {
+                let mut sorted = factors.clone();
+                sorted.sort_unstable_by_key(|(n, _)| *n);
+                Kind::Product(c.clone(), sorted)
+            }
+            _ => kind.clone(),
+        };
+        if let Some(&node) = self.known.get(&key) {
+            return node;
+        }
+        let node = Node(self.kinds.len() as u32);
+        let facts = self.facts_of(&kind);
+        self.kinds.push(kind);
+        self.facts.push(facts);
+        self.known.insert(key, node);
+        node
+    }
+
+    /// The node of a kind if it is already there.
+    pub(crate) fn known(&self, sorted: &Kind) -> Option<Node> {
+        self.known.get(sorted).copied()
+    }
+
+    fn facts_of(&self, kind: &Kind) -> Facts {
+        let mut dependence = Dependence::default();
+        let mut variables = 0u64;
+        let mut child = |node: Node| {
+            dependence.0 |= self.dependence(node).0;
+            variables |= self.variables(node);
+        };
+        let nonnegative = match kind {
+            Kind::Constant(c) => !c.is_negative(),
+            Kind::Pi | Kind::Extent(_) | Kind::Count(_) => true,
+            Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Variable(_) | Kind::Element(..) => false,
+            Kind::Sum(c, terms) => {
+                terms.iter().for_each(|(_, n)| child(*n));
+                !c.is_negative() && terms.iter().all(|(k, n)| !k.is_negative() && self.is_nonnegative(*n))
+            }
+            Kind::Product(c, factors) => {
+                factors.iter().for_each(|(n, _)| child(*n));
+                !c.is_negative() && factors.iter().all(|(n, k)| k % 2 == 0 || self.is_nonnegative(*n))
+            }
+            Kind::Call(op, arguments) => {
+                arguments.iter().for_each(|n| child(*n));
+                matches!(op, Op::Sqrt | Op::Abs | Op::Exp | Op::Cosh | Op::Acos | Op::Acosh | Op::Hypot)
+                    || (*op == Op::Pow && self.is_nonnegative(arguments[0]))
+            }
+            Kind::External(_, _, arguments) => {
+                arguments.iter().for_each(|n| child(*n));
+                false
+            }
+            Kind::Reduce(_, body) => {
+                child(*body);
+                self.is_nonnegative(*body)
+            }
+            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
+                child(*a);
+                child(*b);
+                false
+            }
+            Kind::Not(a) => {
+                child(*a);
+                false
+            }
+            Kind::Select(c, a, b) => {
+                child(*c);
+                child(*a);
+                child(*b);
+                self.is_nonnegative(*a) && self.is_nonnegative(*b)
+            }
+        };
+        let own = match kind {
+            Kind::Scalar(_) | Kind::Extent(_) | Kind::Element(Array::Parameter(_), ..) => Dependence::PARAMETER,
+            Kind::Element(Array::Phase { side: Side::Q, .. }, ..) => Dependence::Q,
+            Kind::Element(Array::Phase { side: Side::P, .. }, ..) => Dependence::P,
+            Kind::Element(Array::Direction { .. }, ..) => Dependence::DIRECTION,
+            Kind::Time => Dependence::TIME,
+            Kind::Coefficient => Dependence::COEFFICIENT,
+            Kind::Count(d) | Kind::Reduce(d, _) => {
+                let range = self.range(*d);
+                variables |= range.start.variables() | range.end.variables();
+                variables &= !(1u64 << d.0);
+                if range.start.sizes.is_empty() && range.end.sizes.is_empty() { Dependence::default() } else { Dependence::PARAMETER }
+            }
+            _ => Dependence::default(),
+        };
+        dependence.0 |= own.0;
+        match kind {
+            Kind::Variable(d) => variables |= 1 << d.0,
+            Kind::Element(_, row, column) => {
+                variables |= row.variables() | column.as_ref().map_or(0, Index::variables);
+            }
+            _ => {}
+        }
+        Facts { dependence, variables, nonnegative }
+    }
+}

@@ -1,0 +1,107 @@
+//! A Hamiltonian as mathematics: the arena with the names and shapes of what its leaves mean.
+//!
+//! Input: what the front end checked. Output: [`Model`], from which `pipeline` makes a program and
+//! `print` makes text. Invariant: numbers of groups, parameters, sizes and external functions used
+//! in the arena index the lists here.
+
+use crate::dag::{Array, Dag, Node, Parameter, Side};
+use crate::index::{Affine, Index};
+
+/// The shape of a group of coordinates or of a parameter.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Shape {
+    /// One number.
+    Scalar,
+    /// `[rows]`
+    Vector(Affine),
+    /// `[rows][columns]`
+    Matrix(Affine, Affine),
+}
+
+/// A group of coordinates with its conjugate momenta.
+#[derive(Clone, Debug)]
+pub struct Group {
+    /// The coordinate's name.
+    pub coordinate: String,
+    /// The momentum's name.
+    pub momentum: String,
+    /// The shape of both; the columns of a matrix are a literal.
+    pub shape: Shape,
+}
+
+/// A parameter.
+#[derive(Clone, Debug)]
+pub struct ParameterDeclaration {
+    /// Its name.
+    pub name: String,
+    /// Its shape.
+    pub shape: Shape,
+}
+
+/// A function written in Rust.
+#[derive(Clone, Debug)]
+pub struct External {
+    /// Its name inside the mathematics.
+    pub name: String,
+    /// How many arguments it takes.
+    pub arity: u16,
+    /// Whether its second derivatives were given.
+    pub second: bool,
+}
+
+/// What a named function of (t, q, p) was declared as.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ObservableKind {
+    /// `monitor`
+    Monitor,
+    /// `invariant`
+    Invariant,
+    /// `event`
+    Event,
+}
+
+/// A named function of (t, q, p): one node a component.
+#[derive(Clone, Debug)]
+pub struct Observable {
+    /// Its name.
+    pub name: String,
+    /// How it was declared.
+    pub kind: ObservableKind,
+    /// Its components; one for a scalar.
+    pub components: Vec<Node>,
+}
+
+/// A system.
+#[derive(Clone, Debug, Default)]
+pub struct Model {
+    /// The arena.
+    pub dag: Dag,
+    /// The system's name.
+    pub name: String,
+    /// Coordinates and momenta.
+    pub groups: Vec<Group>,
+    /// Parameters.
+    pub parameters: Vec<ParameterDeclaration>,
+    /// Names of sizes: const generics and run-time sizes.
+    pub sizes: Vec<String>,
+    /// The name of time, where it was declared.
+    pub time: Option<String>,
+    /// Functions written in Rust.
+    pub externals: Vec<External>,
+    /// Monitors, invariants and events in declaration order.
+    pub observables: Vec<Observable>,
+    /// H.
+    pub hamiltonian: Option<Node>,
+}
+
+impl Model {
+    /// The scalar coordinate or momentum of a scalar group.
+    pub fn scalar(&mut self, side: Side, group: usize) -> Node {
+        self.dag.element(Array::Phase { side, group: group as u16, column: 0 }, Index::constant(0), None)
+    }
+    /// The number of the parameter of that name.
+    #[must_use]
+    pub fn parameter_named(&self, name: &str) -> Option<Parameter> {
+        self.parameters.iter().position(|p| p.name == name).map(|at| Parameter(at as u16))
+    }
+}

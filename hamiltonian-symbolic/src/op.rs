@@ -1,0 +1,157 @@
+//! The operation table: everything the engine knows about an elementary function, one row each.
+//!
+//! Input: nothing. Output: [`Op`] with its name, parity, value at zero, derivative and evaluation.
+//! Invariant: a new function is one row of `operations!` below (and, if it is new to arithmetic, a
+//! method of `Real`); parser, differentiation, printing and emission all read this table.
+
+use crate::dag::{Dag, Node};
+use crate::rational::Rational;
+use hamiltonian_lanes::Real;
+
+/// What a function does with the sign of its argument.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Parity {
+    /// f(−x) = f(x)
+    Even,
+    /// f(−x) = −f(x)
+    Odd,
+    /// Neither.
+    None,
+}
+
+/// Derivatives with respect to each argument: from the arena, the arguments and the value itself.
+type Partials = fn(&mut Dag, &[Node], Node) -> Vec<Node>;
+
+/// A row of the table.
+#[derive(Debug)]
+pub struct Row {
+    /// The name in the language, which is also the method of `Real`.
+    pub name: &'static str,
+    /// How many arguments it takes.
+    pub arity: usize,
+    /// What it does with a sign.
+    pub parity: Parity,
+    /// Its exact value at 0 where that is an integer.
+    pub at_zero: Option<i64>,
+    /// Its name in LaTeX.
+    pub latex: &'static str,
+    /// Its partial derivatives.
+    pub partials: Partials,
+}
+
+macro_rules! operations {
+    ($($variant:ident $name:ident($($arg:ident),+) $parity:ident $zero:expr, $latex:literal, |$d:ident, $x:ident, $f:ident| $partials:expr;)+) => {
+        /// An elementary function.
+        #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+        #[repr(u8)]
+        pub enum Op {
+            $(#[doc = concat!("`", stringify!($name), "`")] $variant,)+
+        }
+
+        /// All rows, in the order of [`Op`].
+        pub static TABLE: &[Row] = &[$(Row {
+            name: stringify!($name),
+            arity: [$(stringify!($arg)),+].len(),
+            parity: Parity::$parity,
+            at_zero: $zero,
+            latex: $latex,
+            #[allow(unused_variables)]
+            partials: |$d, $x, $f| $partials,
+        },)+];
+
+        const ALL: &[Op] = &[$(Op::$variant,)+];
+
+        impl Op {
+            /// The function's value.
+            pub fn eval<T: Real>(self, arguments: &[T]) -> T {
+                match (self, arguments) {
+                    $((Op::$variant, &[$($arg),+]) => operations!(@call $name $($arg)+),)+
+                    _ => T::constant(f64::NAN, 0.0),
+                }
+            }
+        }
+    };
+    (@call $name:ident $a:ident) => { $a.$name() };
+    (@call $name:ident $a:ident $b:ident) => { $a.$name($b) };
+}
+
+operations! {
+    Sqrt sqrt(x) None Some(0), "\\sqrt", |d, x, f| { let g = d.powi(f, -1); vec![d.scale(&Rational::new(1, 2), g)] };
+    Cbrt cbrt(x) Odd Some(0), "\\sqrt[3]", |d, x, f| { let g = d.powi(f, -2); vec![d.scale(&Rational::new(1, 3), g)] };
+    Abs abs(x) Even Some(0), "\\operatorname{abs}", |d, x, f| vec![d.call(Op::Sign, x)];
+    Sign sign(x) Odd Some(0), "\\operatorname{sign}", |d, x, f| vec![d.integer(0)];
+    Sin sin(x) Odd Some(0), "\\sin", |d, x, f| vec![d.call(Op::Cos, x)];
+    Cos cos(x) Even Some(1), "\\cos", |d, x, f| { let s = d.call(Op::Sin, x); vec![d.neg(s)] };
+    Tan tan(x) Odd Some(0), "\\tan", |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
+    Asin asin(x) Odd Some(0), "\\arcsin", |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
+    Acos acos(x) None None, "\\arccos", |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
+    Atan atan(x) Odd Some(0), "\\arctan", |d, x, f| { let r = d.one_plus_square(x[0], 1); vec![d.powi(r, -1)] };
+    Sinh sinh(x) Odd Some(0), "\\sinh", |d, x, f| vec![d.call(Op::Cosh, x)];
+    Cosh cosh(x) Even Some(1), "\\cosh", |d, x, f| vec![d.call(Op::Sinh, x)];
+    Tanh tanh(x) Odd Some(0), "\\tanh", |d, x, f| vec![d.one_plus_square(f, -1)];
+    Asinh asinh(x) Odd Some(0), "\\operatorname{arsinh}", |d, x, f| { let r = d.one_plus_square(x[0], 1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
+    Acosh acosh(x) None None, "\\operatorname{arcosh}", |d, x, f| {
+        // √(x−1)·√(x+1), because √(x²−1) would cancel near 1 and be real below −1.
+        let (one, minus) = (d.integer(1), d.integer(-1));
+        let (below, above) = (d.add(&[x[0], minus]), d.add(&[x[0], one]));
+        let (below, above) = (d.call(Op::Sqrt, &[below]), d.call(Op::Sqrt, &[above]));
+        let product = d.mul(&[below, above]);
+        vec![d.powi(product, -1)]
+    };
+    Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}", |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
+    Exp exp(x) None Some(1), "\\exp", |d, x, f| vec![f];
+    ExpM1 exp_m1(x) None Some(0), "\\operatorname{expm1}", |d, x, f| vec![d.call(Op::Exp, x)];
+    Ln ln(x) None None, "\\ln", |d, x, f| vec![d.powi(x[0], -1)];
+    Ln1p ln_1p(x) None Some(0), "\\operatorname{log1p}", |d, x, f| { let one = d.integer(1); let r = d.add(&[one, x[0]]); vec![d.powi(r, -1)] };
+    Atan2 atan2(y, x) None None, "\\operatorname{atan2}", |d, x, f| {
+        let squares = d.sum_of_squares(&[x[1], x[0]]);
+        let r = d.powi(squares, -1);
+        let minus = d.mul(&[x[0], r]);
+        vec![d.mul(&[x[1], r]), d.neg(minus)]
+    };
+    Hypot hypot(x, y) None None, "\\operatorname{hypot}", |d, x, f| {
+        let r = d.powi(f, -1);
+        vec![d.mul(&[x[0], r]), d.mul(&[x[1], r])]
+    };
+    Min min(x, y) None None, "\\min", |d, x, f| {
+        let first = d.less_equal(x[0], x[1]);
+        let (zero, one) = (d.integer(0), d.integer(1));
+        vec![d.select(first, one, zero), d.select(first, zero, one)]
+    };
+    Max max(x, y) None None, "\\max", |d, x, f| {
+        let first = d.less_equal(x[1], x[0]);
+        let (zero, one) = (d.integer(0), d.integer(1));
+        vec![d.select(first, one, zero), d.select(first, zero, one)]
+    };
+    Pow pow(x, y) None None, "\\operatorname{pow}", |d, x, f| {
+        // y·x^(y−1) from its own power, not from f/x, which is 0/0 at x = 0.
+        let minus = d.integer(-1);
+        let lower = d.add(&[x[1], minus]);
+        let lower = d.pow(x[0], lower);
+        let log = d.call(Op::Ln, &[x[0]]);
+        vec![d.mul(&[x[1], lower]), d.mul(&[f, log])]
+    };
+}
+
+impl Op {
+    /// The function's row.
+    #[must_use]
+    pub fn row(self) -> &'static Row {
+        &TABLE[self as usize]
+    }
+    /// The function of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Op> {
+        ALL.iter().copied().find(|op| op.row().name == name)
+    }
+    /// All functions.
+    #[must_use]
+    pub fn all() -> &'static [Op] {
+        ALL
+    }
+    /// The exact value at 0.
+    #[must_use]
+    pub fn at_zero(self) -> Option<Rational> {
+        self.row().at_zero.map(Rational::integer)
+    }
+}

@@ -1,0 +1,268 @@
+//! The form between mathematics and Rust: scheduled instructions with loops, several functions
+//! over one set of prepared values.
+//!
+//! Input: made by `schedule`. Output: read by the interpreter (`eval`) and by emission. Invariant:
+//! a value is computed once, before its uses, in the outermost block where it can be: work that
+//! depends on parameters alone in [`Program::prepare`], on parameters and the step coefficient in
+//! [`Function::coefficient`], the rest in [`Function::evaluation`].
+
+use crate::dag::{Array, Parameter, Part, Relation, Side};
+use crate::index::{Affine, Domain, Index, Size};
+use crate::op::Op;
+use crate::rational::Rational;
+
+/// The result of an instruction.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Value(pub u32);
+
+/// How a value is computed.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Instruction {
+    /// An exact number, rounded once to the scalar type.
+    Constant(Rational),
+    /// π.
+    Pi,
+    /// A scalar parameter.
+    Scalar(Parameter),
+    /// Time.
+    Time,
+    /// The step coefficient.
+    Coefficient,
+    /// A loop variable as a real.
+    Variable(Domain),
+    /// A size as a real.
+    Extent(Size),
+    /// The number of times a loop runs, as a real: `max(end − start, 0)`.
+    Count(Affine, Affine),
+    /// An array element: row, and column for a rank-2 parameter.
+    Load(Array, Index, Option<Index>),
+    /// A running sum: 0 before its loop, added to by [`Step::Accumulate`] inside, final after.
+    Accumulator,
+    /// −a
+    Neg(Value),
+    /// a + b
+    Add(Value, Value),
+    /// a − b
+    Sub(Value, Value),
+    /// a·b
+    Mul(Value, Value),
+    /// a·b + c
+    MulAdd(Value, Value, Value),
+    /// a·b − c
+    MulSub(Value, Value, Value),
+    /// c − a·b
+    NegMulAdd(Value, Value, Value),
+    /// a/b
+    Div(Value, Value),
+    /// 1/a
+    Recip(Value),
+    /// An elementary function of one argument.
+    Call(Op, Value),
+    /// An elementary function of two arguments.
+    Call2(Op, Value, Value),
+    /// sin of an angle whose cosine is needed too: computed together with the [`Instruction::PairedCos`]
+    /// that names this value.
+    PairedSin(Value),
+    /// The cosine that belongs to a [`Instruction::PairedSin`] (named by its value).
+    PairedCos(Value),
+    /// A function written in Rust, or a derivative of it.
+    External(u16, Part, Vec<Value>),
+    /// A comparison (a mask).
+    Compare(Relation, Value, Value),
+    /// Not (a mask).
+    Not(Value),
+    /// And (masks).
+    And(Value, Value),
+    /// Or (masks).
+    Or(Value, Value),
+    /// The second where the first (a mask) is set, the third elsewhere.
+    Select(Value, Value, Value),
+}
+
+/// What a function writes.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Target {
+    /// Column `column` of group `group` of the output vector that belongs to coordinates
+    /// ([`Side::Q`]: ∂H/∂q, or the coordinates a drift or flow adds to) or to momenta.
+    Phase {
+        /// Which output vector.
+        side: Side,
+        /// The group.
+        group: u16,
+        /// The column.
+        column: u16,
+    },
+    /// The derivative with respect to a parameter; arrays element by element.
+    Parameter(Parameter),
+}
+
+/// How an element is updated.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Update {
+    /// `= v`
+    Set(Value),
+    /// `+= v`
+    Add(Value),
+    /// `−= v`
+    Sub(Value),
+    /// `+= a·b`, fused
+    AddProduct(Value, Value),
+    /// `−= a·b`, fused
+    SubProduct(Value, Value),
+}
+
+/// A step of a block.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Step {
+    /// Compute a value.
+    Let(Value),
+    /// Add a value to an accumulator of an enclosing loop.
+    Accumulate(Value, Value),
+    /// Update an element of an output: row, and column for a rank-2 parameter.
+    Store(Target, Index, Option<Index>, Update),
+    /// A loop.
+    Loop(Loop),
+}
+
+/// A loop.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Loop {
+    /// Its variable.
+    pub domain: Domain,
+    /// The first value.
+    pub start: Affine,
+    /// One past the last value; nothing runs where it is not above the start.
+    pub end: Affine,
+    /// The accumulators set to 0 before it.
+    pub accumulators: Vec<Value>,
+    /// What one iteration does.
+    pub body: Vec<Step>,
+}
+
+/// What a function computes.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Purpose {
+    /// H, returned.
+    Energy,
+    /// ∂H/∂q into the [`Side::Q`] output.
+    GradientQ,
+    /// ∂H/∂p into the [`Side::P`] output.
+    GradientP,
+    /// Both.
+    Gradient,
+    /// H, returned, and both.
+    EnergyAndGradient,
+    /// ∂H/∂t, returned.
+    TimeDerivative,
+    /// ∂H/∂(each parameter) into the parameter outputs.
+    ParameterGradient,
+    /// The Hessian times the direction, into both outputs.
+    HessianVector,
+    /// The components of observable n, returned.
+    Observable(u16),
+    /// `into_q += c·∂H/∂p`, `into_p −= c·∂H/∂q`.
+    Flow,
+    /// `into_p −= c·∂H/∂q`.
+    Kick,
+    /// `into_q += c·∂H/∂p`.
+    Drift,
+}
+
+impl Purpose {
+    /// Whether outputs are added to instead of overwritten.
+    #[must_use]
+    pub fn accumulates(self) -> bool {
+        matches!(self, Purpose::Flow | Purpose::Kick | Purpose::Drift)
+    }
+}
+
+/// One function of a program.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Function {
+    /// What it computes.
+    pub purpose: Purpose,
+    /// Work done once per step coefficient.
+    pub coefficient: Vec<Step>,
+    /// Work done at every evaluation.
+    pub evaluation: Vec<Step>,
+    /// Output columns that must be 0 before the evaluation (elements are then added to).
+    pub cleared: Vec<Target>,
+    /// The values returned.
+    pub results: Vec<Value>,
+}
+
+/// A program.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Program {
+    /// The instructions, by value.
+    pub instructions: Vec<Instruction>,
+    /// Work done once, from parameters alone, for all functions.
+    pub prepare: Vec<Step>,
+    /// The values of `prepare` that functions read, in order of computation.
+    pub prepared: Vec<Value>,
+    /// The functions.
+    pub functions: Vec<Function>,
+}
+
+/// Operations of one evaluation, as a reader would count them: negation is free, a fused
+/// multiply–add is two, sine and cosine of one angle are one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Operations {
+    /// Additions, subtractions and multiplications.
+    pub arithmetic: usize,
+    /// Divisions.
+    pub divisions: usize,
+    /// Roots and transcendental functions.
+    pub functions: usize,
+}
+
+impl Operations {
+    /// All of them.
+    #[must_use]
+    pub fn total(self) -> usize {
+        self.arithmetic + self.divisions + self.functions
+    }
+}
+
+impl Program {
+    /// The instruction of a value.
+    #[must_use]
+    pub fn instruction(&self, value: Value) -> &Instruction {
+        &self.instructions[value.0 as usize]
+    }
+    /// The function with a purpose.
+    #[must_use]
+    pub fn function(&self, purpose: Purpose) -> Option<&Function> {
+        self.functions.iter().find(|f| f.purpose == purpose)
+    }
+    /// The operations of one evaluation, each loop body counted once.
+    #[must_use]
+    pub fn operations(&self, function: &Function) -> Operations {
+        let mut count = Operations::default();
+        self.count(&function.evaluation, &mut count);
+        count
+    }
+
+    fn count(&self, steps: &[Step], count: &mut Operations) {
+        for step in steps {
+            match step {
+                Step::Let(value) => match self.instruction(*value) {
+                    Instruction::Add(..) | Instruction::Sub(..) | Instruction::Mul(..) => count.arithmetic += 1,
+                    Instruction::MulAdd(..) | Instruction::MulSub(..) | Instruction::NegMulAdd(..) => count.arithmetic += 2,
+                    Instruction::Div(..) | Instruction::Recip(..) => count.divisions += 1,
+                    Instruction::Call(op, _) if !matches!(op, Op::Abs | Op::Sign) => count.functions += 1,
+                    Instruction::Call2(op, ..) if !matches!(op, Op::Min | Op::Max) => count.functions += 1,
+                    Instruction::PairedSin(_) | Instruction::External(..) => count.functions += 1,
+                    _ => {}
+                },
+                Step::Accumulate(..) => count.arithmetic += 1,
+                Step::Store(_, _, _, update) => match update {
+                    Update::Set(_) => {}
+                    Update::Add(_) | Update::Sub(_) => count.arithmetic += 1,
+                    Update::AddProduct(..) | Update::SubProduct(..) => count.arithmetic += 2,
+                },
+                Step::Loop(l) => self.count(&l.body, count),
+            }
+        }
+    }
+}

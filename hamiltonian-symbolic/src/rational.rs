@@ -1,0 +1,361 @@
+//! Exact rational numbers of any size, small ones without heap memory.
+//!
+//! Input: decimal literals, integers. Output: [`Rational`], rounded once to two `f64` words by
+//! [`Rational::to_words`]. Invariant: in lowest terms, denominator positive, and `Small` whenever
+//! numerator and denominator fit `i64`.
+
+use num_bigint::{BigInt, Sign};
+use num_integer::Integer;
+use num_rational::BigRational;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// An exact rational number.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Rational(Form);
+
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+enum Form {
+    Small(i64, i64),
+    Big(Box<BigRational>),
+}
+
+impl Rational {
+    /// 0.
+    pub const ZERO: Rational = Rational(Form::Small(0, 1));
+    /// 1.
+    pub const ONE: Rational = Rational(Form::Small(1, 1));
+    /// −1.
+    pub const MINUS_ONE: Rational = Rational(Form::Small(-1, 1));
+
+    /// An integer.
+    #[must_use]
+    pub fn integer(value: i64) -> Rational {
+        if value == i64::MIN {
+            return Rational::from_big(BigRational::from_integer(value.into()));
+        }
+        Rational(Form::Small(value, 1))
+    }
+
+    /// `numerator/denominator`; the denominator must not be 0.
+    #[must_use]
+    pub fn new(numerator: i64, denominator: i64) -> Rational {
+        Rational::reduce(i128::from(numerator), i128::from(denominator))
+    }
+
+    /// `digits · 10^exponent` for a string of decimal digits; `None` if a character is no digit.
+    #[must_use]
+    pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
+        let mantissa = BigInt::parse_bytes(digits.as_bytes(), 10)?;
+        let power = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).ok()?);
+        Some(Rational::from_big(if exponent >= 0 {
+            BigRational::from_integer(mantissa * power)
+        } else {
+            BigRational::new(mantissa, power)
+        }))
+    }
+
+    fn reduce(mut n: i128, mut d: i128) -> Rational {
+        debug_assert!(d != 0);
+        if d != 1 {
+            let g = gcd(n.unsigned_abs(), d.unsigned_abs());
+            if g > 1 {
+                // g divides d, which came from products of i64 values, so it fits.
+                n /= g as i128;
+                d /= g as i128;
+            }
+            if d < 0 {
+                n = -n;
+                d = -d;
+            }
+        }
+        match (i64::try_from(n), i64::try_from(d)) {
+            (Ok(n), Ok(d)) if n != i64::MIN => Rational(Form::Small(n, d)),
+            _ => Rational(Form::Big(Box::new(BigRational::new_raw(n.into(), d.into())))),
+        }
+    }
+
+    fn from_big(value: BigRational) -> Rational {
+        match (value.numer().to_i64(), value.denom().to_i64()) {
+            (Some(n), Some(d)) if n != i64::MIN => Rational(Form::Small(n, d)),
+            _ => Rational(Form::Big(Box::new(value))),
+        }
+    }
+
+    fn big(&self) -> BigRational {
+        match &self.0 {
+            Form::Small(n, d) => BigRational::new_raw((*n).into(), (*d).into()),
+            Form::Big(value) => (**value).clone(),
+        }
+    }
+
+    /// The sum.
+    #[must_use]
+    pub fn add(&self, other: &Rational) -> Rational {
+        match (&self.0, &other.0) {
+            (Form::Small(a, 1), Form::Small(b, 1)) => Rational::reduce(i128::from(*a) + i128::from(*b), 1),
+            (Form::Small(a, b), Form::Small(c, d)) => {
+                let (a, b, c, d) = (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
+                match (a * d).checked_add(c * b) {
+                    Some(n) => Rational::reduce(n, b * d),
+                    None => Rational::from_big(self.big() + other.big()),
+                }
+            }
+            _ => Rational::from_big(self.big() + other.big()),
+        }
+    }
+
+    /// The product.
+    #[must_use]
+    pub fn mul(&self, other: &Rational) -> Rational {
+        match (&self.0, &other.0) {
+            (Form::Small(a, b), Form::Small(c, d)) => {
+                Rational::reduce(i128::from(*a) * i128::from(*c), i128::from(*b) * i128::from(*d))
+            }
+            _ => Rational::from_big(self.big() * other.big()),
+        }
+    }
+
+    /// The negative.
+    #[must_use]
+    pub fn neg(&self) -> Rational {
+        match &self.0 {
+            Form::Small(n, d) => Rational(Form::Small(-n, *d)),
+            Form::Big(value) => Rational::from_big(-(**value).clone()),
+        }
+    }
+
+    /// The difference.
+    #[must_use]
+    pub fn sub(&self, other: &Rational) -> Rational {
+        self.add(&other.neg())
+    }
+
+    /// The reciprocal; `None` of 0.
+    #[must_use]
+    pub fn recip(&self) -> Option<Rational> {
+        match &self.0 {
+            Form::Small(0, _) => None,
+            Form::Small(n, d) => Some(Rational(Form::Small(d * n.signum(), n.abs()))),
+            Form::Big(value) => Some(Rational::from_big(value.recip())),
+        }
+    }
+
+    /// The power with an integer exponent; `None` for 0 to a negative power or beyond 2¹⁶ bits.
+    #[must_use]
+    pub fn pow(&self, exponent: i32) -> Option<Rational> {
+        if exponent == 1 {
+            return Some(self.clone());
+        }
+        if self.is_one() {
+            return Some(Rational::ONE);
+        }
+        let base = if exponent < 0 { self.recip()? } else { self.clone() };
+        let value = base.big();
+        let bits = value.numer().bits().max(value.denom().bits());
+        if bits.saturating_mul(u64::from(exponent.unsigned_abs())) > 1 << 16 {
+            return None;
+        }
+        Some(Rational::from_big(num_traits::pow(value, exponent.unsigned_abs() as usize)))
+    }
+
+    /// The exact square root, if it is rational.
+    #[must_use]
+    pub fn sqrt(&self) -> Option<Rational> {
+        if self.is_negative() {
+            return None;
+        }
+        let value = self.big();
+        let (n, d) = (value.numer().sqrt(), value.denom().sqrt());
+        (&n * &n == *value.numer() && &d * &d == *value.denom()).then(|| Rational::from_big(BigRational::new_raw(n, d)))
+    }
+
+    /// Whether this is 0.
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        matches!(self.0, Form::Small(0, _))
+    }
+    /// Whether this is 1.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        matches!(self.0, Form::Small(1, 1))
+    }
+    /// Whether this is below 0.
+    #[must_use]
+    pub fn is_negative(&self) -> bool {
+        match &self.0 {
+            Form::Small(n, _) => *n < 0,
+            Form::Big(value) => value.is_negative(),
+        }
+    }
+    /// The absolute value.
+    #[must_use]
+    pub fn abs(&self) -> Rational {
+        if self.is_negative() { self.neg() } else { self.clone() }
+    }
+    /// The value as an integer that fits `i32`, if it is one.
+    #[must_use]
+    pub fn to_i32(&self) -> Option<i32> {
+        match self.0 {
+            Form::Small(n, 1) => i32::try_from(n).ok(),
+            _ => None,
+        }
+    }
+    /// Numerator and denominator where both fit `i64`.
+    #[must_use]
+    pub fn to_small(&self) -> Option<(i64, i64)> {
+        match self.0 {
+            Form::Small(n, d) => Some((n, d)),
+            Form::Big(_) => None,
+        }
+    }
+
+    /// The nearest `f64` (ties to even), infinite past its range.
+    #[must_use]
+    pub fn to_f64(&self) -> f64 {
+        if let Form::Small(n, d) = self.0 {
+            // Both are exact below 2⁵³, and one division rounds once.
+            if n.unsigned_abs() < 1 << 53 && d.unsigned_abs() < 1 << 53 {
+                return n as f64 / d as f64;
+            }
+        }
+        round(&self.big())
+    }
+
+    /// The two words `hi + lo` nearest to the value: `hi` is [`Rational::to_f64`], `lo` the
+    /// nearest `f64` to what is left.
+    #[must_use]
+    pub fn to_words(&self) -> (f64, f64) {
+        let hi = self.to_f64();
+        if let Form::Small(n, 1) = self.0 {
+            if n.unsigned_abs() <= 1 << 53 {
+                return (hi, 0.0);
+            }
+        }
+        match BigRational::from_float(hi) {
+            Some(word) => (hi, round(&(self.big() - word))),
+            None => (hi, 0.0),
+        }
+    }
+
+    /// The text: an integer, a finite decimal of at most 6 places, or `n/d`.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        match &self.0 {
+            Form::Small(n, 1) => n.to_string(),
+            Form::Small(n, d) => {
+                for places in 1..=6usize {
+                    let scale = 10i64.pow(places as u32);
+                    if scale % d == 0 {
+                        let Some(scaled) = n.unsigned_abs().checked_mul((scale / d) as u64) else { break };
+                        let sign = if *n < 0 { "-" } else { "" };
+                        let (whole, part) = (scaled / scale as u64, scaled % scale as u64);
+                        return format!("{sign}{whole}.{part:0places$}");
+                    }
+                }
+                format!("{n}/{d}")
+            }
+            Form::Big(value) => {
+                let f = self.to_f64();
+                if f != 0.0 && f.is_finite() && BigRational::from_float(f).as_ref() != Some(value) && value.denom().bits() > 64 {
+                    return format!("{f:e}");
+                }
+                if value.denom().is_one() { value.numer().to_string() } else { value.to_string() }
+            }
+        }
+    }
+}
+
+fn gcd(mut a: u128, mut b: u128) -> u128 {
+    while b != 0 {
+        if let (Ok(x), Ok(y)) = (u64::try_from(a), u64::try_from(b)) {
+            return u128::from(x.gcd(&y));
+        }
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+/// The nearest `f64`, ties to even, subnormals right: scale to an integer quotient of 55 to 64
+/// bits with a sticky bit, then round at the bit where the result's precision ends.
+fn round(value: &BigRational) -> f64 {
+    if value.is_zero() {
+        return 0.0;
+    }
+    let negative = value.numer().sign() == Sign::Minus;
+    let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
+    let shift = 64 - (n.bits() as i64 - d.bits() as i64);
+    let (n, d) = if shift >= 0 { (n << shift as u64, d.clone()) } else { (n.clone(), d << (-shift) as u64) };
+    let (quotient, remainder) = n.div_rem(&d);
+    let mut bits: u128 = quotient.to_u128().unwrap_or(u128::MAX) << 1 | u128::from(!remainder.is_zero());
+    // value = bits · 2^(−shift−1); the leading bit has this exponent:
+    let exponent = 127 - i64::from(bits.leading_zeros()) - shift - 1;
+    let unit = (exponent - 52).max(-1074);
+    let drop = unit + shift + 1;
+    let half = 1u128 << (drop - 1).clamp(0, 127);
+    let rest = if drop >= 128 { bits } else { bits & ((half << 1) - 1) };
+    bits = if drop >= 128 { 0 } else { bits >> drop };
+    if rest > half || (rest == half && bits & 1 == 1) {
+        bits += 1;
+    }
+    let mut result = bits as f64;
+    // Two factors, because 2^unit itself may be subnormal or the product may pass through range.
+    let half_unit = unit / 2;
+    result = result * exp2(half_unit) * exp2(unit - half_unit);
+    if negative { -result } else { result }
+}
+
+fn exp2(exponent: i64) -> f64 {
+    if exponent > 1023 {
+        return f64::INFINITY;
+    }
+    if exponent >= -1022 {
+        return f64::from_bits(((exponent + 1023) as u64) << 52);
+    }
+    0.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_exact_and_round_once() {
+        let tenth = Rational::decimal("1", -1).unwrap();
+        let sum = tenth.add(&Rational::decimal("2", -1).unwrap()).sub(&Rational::decimal("3", -1).unwrap());
+        assert!(sum.is_zero());
+        for text in ["0.1", "9.81", "1e-300", "4.9e-324", "2.2250738585072011e-308", "1.7976931348623157e308", "123456789012345678901234567890", "3e-324", "2e-324"] {
+            let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
+            let places = mantissa.split_once('.').map_or(0, |(_, p)| p.len() as i64);
+            let value = Rational::decimal(&mantissa.replace('.', ""), exponent.parse::<i64>().unwrap() - places).unwrap();
+            assert_eq!(value.to_f64(), text.parse::<f64>().unwrap(), "{text}");
+        }
+        assert_eq!(Rational::decimal("1", 400).unwrap().to_f64(), f64::INFINITY);
+    }
+
+    #[test]
+    fn two_words_hold_more_than_a_hundred_bits() {
+        let third = Rational::new(1, 3);
+        let (hi, lo) = third.to_words();
+        let error = BigRational::from_float(hi).unwrap() + BigRational::from_float(lo).unwrap() - third.big();
+        assert!(error.abs() < BigRational::new(1.into(), BigInt::one() << 107));
+        assert_ne!(lo, 0.0);
+    }
+
+    #[test]
+    fn large_values_leave_and_reenter_the_small_form() {
+        let big = Rational::integer(i64::MAX).mul(&Rational::integer(i64::MAX));
+        assert!(big.to_small().is_none());
+        let back = big.mul(&Rational::integer(i64::MAX).recip().unwrap());
+        assert_eq!(back, Rational::integer(i64::MAX));
+        assert_eq!(Rational::new(4, 9).sqrt(), Some(Rational::new(2, 3)));
+        assert_eq!(Rational::new(2, 9).sqrt(), None);
+        assert_eq!(Rational::new(-3, 2).pow(-3), Some(Rational::new(-8, 27)));
+    }
+
+    #[test]
+    fn text_is_decimal_where_it_ends() {
+        assert_eq!(Rational::new(1, 2).to_text(), "0.5");
+        assert_eq!(Rational::new(-7, 4).to_text(), "-1.75");
+        assert_eq!(Rational::new(1, 3).to_text(), "1/3");
+    }
+}

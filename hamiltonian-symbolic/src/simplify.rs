@@ -1,0 +1,648 @@
+//! The constructors of expressions and the rules they apply.
+//!
+//! Input: nodes. Output: nodes in canonical form. Invariant: directional rules only: no rule adds
+//! an operation, none introduces cancellation, and the domain changes only by `0·x = 0`,
+//! `x/x = 1`, `√(x²) = |x|`. Half-integer powers are integer powers of a square root, so that
+//! `√x·√x` keeps the domain of `√x`.
+
+use crate::dag::{Array, Dag, Kind, Map, Node, Parameter, Part, Relation};
+use crate::index::{Affine, Domain, Index, Size};
+use crate::op::{Op, Parity};
+use crate::rational::Rational;
+
+/// Past this exponent an integer power is left to `pow`.
+const LARGEST_POWER: i32 = 1024;
+/// Products with more factors than this are multiplied step by step (see `seal`).
+pub(crate) const FEW: usize = 4;
+
+impl Dag {
+    /// An exact number.
+    pub fn constant(&mut self, value: Rational) -> Node {
+        self.intern(Kind::Constant(value))
+    }
+    /// An integer.
+    pub fn integer(&mut self, value: i64) -> Node {
+        self.constant(Rational::integer(value))
+    }
+    /// π.
+    pub fn pi(&mut self) -> Node {
+        self.intern(Kind::Pi)
+    }
+    /// A scalar parameter.
+    pub fn parameter(&mut self, parameter: Parameter) -> Node {
+        self.intern(Kind::Scalar(parameter))
+    }
+    /// Time.
+    pub fn time(&mut self) -> Node {
+        self.intern(Kind::Time)
+    }
+    /// The coefficient of an accumulating kick, drift or flow.
+    pub fn coefficient(&mut self) -> Node {
+        self.intern(Kind::Coefficient)
+    }
+    /// An array element.
+    pub fn element(&mut self, array: Array, row: Index, column: Option<Index>) -> Node {
+        self.intern(Kind::Element(array, row, column))
+    }
+    /// A size as a real.
+    pub fn extent(&mut self, size: Size) -> Node {
+        self.intern(Kind::Extent(size))
+    }
+    /// A loop variable as a real.
+    pub fn variable(&mut self, domain: Domain) -> Node {
+        self.intern(Kind::Variable(domain))
+    }
+    /// An affine index as a real.
+    pub fn affine(&mut self, affine: &Affine) -> Node {
+        let mut terms = Vec::new();
+        for &(domain, k) in &affine.loops {
+            let node = self.variable(domain);
+            terms.push((Rational::integer(k), node));
+        }
+        for &(size, k) in &affine.sizes {
+            let node = self.extent(size);
+            terms.push((Rational::integer(k), node));
+        }
+        self.linear(&Rational::integer(affine.constant), &terms)
+    }
+
+    /// The value of a constant node.
+    #[must_use]
+    pub fn as_constant(&self, node: Node) -> Option<&Rational> {
+        match self.kind(node) {
+            Kind::Constant(value) => Some(value),
+            _ => None,
+        }
+    }
+    /// Whether the node is the number 0.
+    #[must_use]
+    pub fn is_zero(&self, node: Node) -> bool {
+        self.as_constant(node).is_some_and(Rational::is_zero)
+    }
+    /// Whether the node is the number 1.
+    #[must_use]
+    pub fn is_one(&self, node: Node) -> bool {
+        self.as_constant(node).is_some_and(Rational::is_one)
+    }
+
+    /// The rational factor of a node and the rest: `−2·x·y` is −2 and `x·y`.
+    pub fn split_coefficient(&mut self, node: Node) -> (Rational, Node) {
+        match self.kind(node) {
+            Kind::Constant(value) => {
+                let value = value.clone();
+                (value, self.integer(1))
+            }
+            Kind::Product(k, factors) if !k.is_one() => {
+                let (k, factors) = (k.clone(), factors.clone());
+                let rest = self.bare_product(Rational::ONE, factors);
+                (k, rest)
+            }
+            _ => (Rational::ONE, node),
+        }
+    }
+
+    fn bare_product(&mut self, k: Rational, factors: Vec<(Node, i32)>) -> Node {
+        match factors.as_slice() {
+            [] => self.constant(k),
+            [(node, 1)] if k.is_one() => *node,
+            _ if k.is_zero() => self.integer(0),
+            _ => self.intern(Kind::Product(k, factors)),
+        }
+    }
+
+    /// The sum of nodes.
+    pub fn add(&mut self, nodes: &[Node]) -> Node {
+        let terms: Vec<_> = nodes.iter().map(|n| (Rational::ONE, *n)).collect();
+        self.linear(&Rational::ZERO, &terms)
+    }
+    /// The difference.
+    pub fn sub(&mut self, a: Node, b: Node) -> Node {
+        self.linear(&Rational::ZERO, &[(Rational::ONE, a), (Rational::MINUS_ONE, b)])
+    }
+    /// The negative.
+    pub fn neg(&mut self, node: Node) -> Node {
+        self.scale(&Rational::MINUS_ONE, node)
+    }
+    /// A rational multiple.
+    pub fn scale(&mut self, k: &Rational, node: Node) -> Node {
+        if k.is_one() {
+            return node;
+        }
+        match self.kind(node) {
+            Kind::Constant(value) => {
+                let value = value.mul(k);
+                self.constant(value)
+            }
+            Kind::Product(c, factors) => {
+                let (c, factors) = (c.mul(k), factors.clone());
+                self.bare_product(c, factors)
+            }
+            _ => self.bare_product(k.clone(), vec![(node, 1)]),
+        }
+    }
+
+    /// `constant + Σ k·node`. A first operand that is itself a sum is continued (`a + b + c` is
+    /// one sum); a later one stays a unit, because taking it apart could introduce cancellation.
+    pub fn linear(&mut self, constant: &Rational, operands: &[(Rational, Node)]) -> Node {
+        let mut constant = constant.clone();
+        let mut terms: Vec<(Rational, Node)> = Vec::with_capacity(operands.len());
+        let mut place: Map<Node, usize> = Map::default();
+        let mut push = |terms: &mut Vec<(Rational, Node)>, k: Rational, node: Node| match place.get(&node) {
+            Some(&at) => terms[at].0 = terms[at].0.add(&k),
+            None => {
+                place.insert(node, terms.len());
+                terms.push((k, node));
+            }
+        };
+        for (at, (k, node)) in operands.iter().enumerate() {
+            if k.is_zero() {
+                continue;
+            }
+            let (c, node) = self.split_coefficient(*node);
+            let k = k.mul(&c);
+            match self.kind(node) {
+                Kind::Constant(value) => constant = constant.add(&k.mul(value)),
+                Kind::Sum(c, inner) if at == 0 && k.is_one() => {
+                    constant = constant.add(c);
+                    for (k, node) in inner.clone() {
+                        push(&mut terms, k, node);
+                    }
+                }
+                _ => push(&mut terms, k, node),
+            }
+        }
+        terms.retain(|(k, _)| !k.is_zero());
+        match terms.as_slice() {
+            [] => self.constant(constant),
+            [(k, node)] if constant.is_zero() => {
+                let (k, node) = (k.clone(), *node);
+                self.scale(&k, node)
+            }
+            _ => {
+                // The negative of a known sum is that sum negated, so that a−b and b−a share.
+                let mut negated: Vec<_> = terms.iter().map(|(k, n)| (k.neg(), *n)).collect();
+                negated.sort_unstable_by_key(|(_, n)| *n);
+                match self.known(&Kind::Sum(constant.neg(), negated)) {
+                    Some(known) => self.neg(known),
+                    None => self.intern(Kind::Sum(constant, terms)),
+                }
+            }
+        }
+    }
+
+    /// The product of nodes.
+    pub fn mul(&mut self, nodes: &[Node]) -> Node {
+        let factors: Vec<_> = nodes.iter().map(|n| (*n, 1)).collect();
+        self.product(&Rational::ONE, &factors)
+    }
+    /// The quotient.
+    pub fn div(&mut self, a: Node, b: Node) -> Node {
+        self.product(&Rational::ONE, &[(a, 1), (b, -1)])
+    }
+    /// An integer power.
+    pub fn powi(&mut self, node: Node, exponent: i32) -> Node {
+        self.product(&Rational::ONE, &[(node, exponent)])
+    }
+
+    /// `k·Π node^n`.
+    pub fn product(&mut self, k: &Rational, operands: &[(Node, i32)]) -> Node {
+        let mut k = k.clone();
+        let mut factors: Vec<(Node, i32)> = Vec::with_capacity(operands.len());
+        let mut place: Map<Node, usize> = Map::default();
+        let mut push = |factors: &mut Vec<(Node, i32)>, node: Node, n: i32| match place.get(&node) {
+            Some(&at) => factors[at].1 = factors[at].1.saturating_add(n),
+            None => {
+                place.insert(node, factors.len());
+                factors.push((node, n));
+            }
+        };
+        for &(node, n) in operands {
+            match self.kind(node) {
+                Kind::Constant(value) => match value.pow(n) {
+                    Some(value) => k = k.mul(&value),
+                    // 0 to a negative power, or out of all bounds: left to run time.
+                    None => push(&mut factors, node, n),
+                },
+                Kind::Product(c, inner) if inner.len() <= 2 * FEW || n != 1 => match c.pow(n) {
+                    Some(c) if inner.iter().all(|(_, m)| m.checked_mul(n).is_some()) => {
+                        k = k.mul(&c);
+                        for (node, m) in inner.clone() {
+                            push(&mut factors, node, m * n);
+                        }
+                    }
+                    _ => push(&mut factors, node, n),
+                },
+                _ => push(&mut factors, node, n),
+            }
+        }
+        if k.is_zero() {
+            return self.integer(0);
+        }
+        self.settle_roots(&mut factors);
+        factors.retain(|(_, n)| *n != 0);
+        self.bare_product(k, factors)
+    }
+
+    /// Powers of √x with x ≥ 0 known: x·√x is (√x)³, and an even power of √x is a power of x;
+    /// |x| to an even power is x to that power.
+    fn settle_roots(&mut self, factors: &mut Vec<(Node, i32)>) {
+        for at in 0..factors.len() {
+            let (node, n) = factors[at];
+            let Kind::Call(op, arguments) = self.kind(node) else { continue };
+            let inner = arguments[0];
+            if *op == Op::Abs && n % 2 == 0 {
+                factors[at].1 = 0;
+                merge_factor(factors, inner, n);
+            } else if *op == Op::Sqrt && self.is_nonnegative(inner) {
+                let whole = match factors.iter().position(|(other, _)| *other == inner) {
+                    Some(other) => core::mem::replace(&mut factors[other].1, 0),
+                    None => 0,
+                };
+                let total = n + 2 * whole;
+                if total % 2 == 0 {
+                    factors[at].1 = 0;
+                    if let Kind::Product(c, parts) = self.kind(inner) {
+                        // Only a bare product of powers may be taken apart without a constant.
+                        if c.is_one() {
+                            for (part, m) in parts.clone() {
+                                merge_factor(factors, part, m * (total / 2));
+                            }
+                            continue;
+                        }
+                    }
+                    merge_factor(factors, inner, total / 2);
+                } else {
+                    factors[at].1 = total;
+                }
+            }
+        }
+    }
+
+    /// `a·b` as it stands, without taking either apart: long products are built step by step so
+    /// that their parts are shared.
+    pub(crate) fn seal(&mut self, a: Node, b: Node) -> Node {
+        if a == b || self.as_constant(a).is_some() || self.as_constant(b).is_some() {
+            return self.mul(&[a, b]);
+        }
+        self.intern(Kind::Product(Rational::ONE, vec![(a, 1), (b, 1)]))
+    }
+
+    /// `x^y`. Integer exponents are products, half-integer ones powers of the square root, thirds
+    /// powers of the cube root where x ≥ 0 is known; otherwise the function `pow`, NaN for x < 0.
+    pub fn pow(&mut self, x: Node, y: Node) -> Node {
+        if self.is_one(x) {
+            return x;
+        }
+        if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small) {
+            if let Some(n) = i32::try_from(n).ok().filter(|n| n.abs() <= LARGEST_POWER) {
+                match d {
+                    1 => return self.powi(x, n),
+                    2 => {
+                        let root = self.call(Op::Sqrt, &[x]);
+                        return self.powi(root, n);
+                    }
+                    3 if self.is_nonnegative(x) => {
+                        let root = self.call(Op::Cbrt, &[x]);
+                        return self.powi(root, n);
+                    }
+                    _ => {}
+                }
+            }
+        }
+        self.intern(Kind::Call(Op::Pow, vec![x, y]))
+    }
+
+    /// An elementary function.
+    pub fn call(&mut self, op: Op, arguments: &[Node]) -> Node {
+        let x = arguments[0];
+        match op {
+            Op::Pow => return self.pow(x, arguments[1]),
+            Op::Min | Op::Max if x == arguments[1] => return x,
+            Op::Ln if self.is_one(x) => return self.integer(0),
+            Op::Abs if self.is_nonnegative(x) => return x,
+            Op::Sqrt => {
+                if let Some(root) = self.exact_root(x) {
+                    return root;
+                }
+            }
+            _ => {}
+        }
+        if arguments.len() == 1 {
+            if self.is_zero(x) {
+                if let Some(value) = op.at_zero() {
+                    return self.constant(value);
+                }
+            }
+            let parity = op.row().parity;
+            if parity != Parity::None && self.is_negated(x) {
+                let flipped = self.neg(x);
+                let value = self.call(op, &[flipped]);
+                return if parity == Parity::Odd { self.neg(value) } else { value };
+            }
+            if let (Op::Abs | Op::Sign, Some(value)) = (op, self.as_constant(x)) {
+                let value = if op == Op::Abs { value.abs() } else { Rational::ONE };
+                return self.constant(value);
+            }
+        }
+        self.intern(Kind::Call(op, arguments.to_vec()))
+    }
+
+    fn is_negated(&self, node: Node) -> bool {
+        match self.kind(node) {
+            Kind::Constant(value) => value.is_negative(),
+            Kind::Product(k, _) => k.is_negative(),
+            _ => false,
+        }
+    }
+
+    /// The root of a perfect square: of a rational, or of a product of even powers.
+    fn exact_root(&mut self, x: Node) -> Option<Node> {
+        match self.kind(x) {
+            Kind::Constant(value) => {
+                let root = value.sqrt()?;
+                Some(self.constant(root))
+            }
+            Kind::Product(k, factors) if factors.iter().all(|(_, n)| n % 2 == 0) => {
+                let (root, factors) = (k.sqrt()?, factors.clone());
+                let mut halves = Vec::with_capacity(factors.len());
+                for (node, n) in factors {
+                    let half = n / 2;
+                    let base = if half % 2 == 0 { node } else { self.call(Op::Abs, &[node]) };
+                    halves.push((base, half));
+                }
+                Some(self.product(&root, &halves))
+            }
+            _ => None,
+        }
+    }
+
+    /// `1 + x²` (sign 1) or `1 − x²` (sign −1); the latter as (1 − x)(1 + x) would cost one more
+    /// operation, and the square's rounding matters only where the derivative is unbounded.
+    pub(crate) fn one_plus_square(&mut self, x: Node, sign: i64) -> Node {
+        let square = self.powi(x, 2);
+        self.linear(&Rational::ONE, &[(Rational::integer(sign), square)])
+    }
+    /// `Σ x²`.
+    pub fn sum_of_squares(&mut self, nodes: &[Node]) -> Node {
+        let squares: Vec<_> = nodes.iter().map(|n| (Rational::ONE, self.powi(*n, 2))).collect();
+        self.linear(&Rational::ZERO, &squares)
+    }
+
+    /// A function written in Rust, or a derivative of it.
+    pub fn external(&mut self, function: u16, part: Part, arguments: &[Node]) -> Node {
+        self.intern(Kind::External(function, part, arguments.to_vec()))
+    }
+    /// The condition `a < b`.
+    pub fn less(&mut self, a: Node, b: Node) -> Node {
+        self.intern(Kind::Compare(Relation::Less, a, b))
+    }
+    /// The condition `a ≤ b`.
+    pub fn less_equal(&mut self, a: Node, b: Node) -> Node {
+        self.intern(Kind::Compare(Relation::LessEqual, a, b))
+    }
+    /// The condition `a = b`.
+    pub fn equal(&mut self, a: Node, b: Node) -> Node {
+        self.intern(Kind::Compare(Relation::Equal, a, b))
+    }
+    /// The condition `not a`.
+    pub fn not(&mut self, a: Node) -> Node {
+        match self.kind(a) {
+            Kind::Not(inner) => *inner,
+            _ => self.intern(Kind::Not(a)),
+        }
+    }
+    /// The condition `a and b`.
+    pub fn and(&mut self, a: Node, b: Node) -> Node {
+        if a == b { a } else { self.intern(Kind::And(a, b)) }
+    }
+    /// The condition `a or b`.
+    pub fn or(&mut self, a: Node, b: Node) -> Node {
+        if a == b { a } else { self.intern(Kind::Or(a, b)) }
+    }
+    /// `yes` where the condition holds, `no` elsewhere.
+    pub fn select(&mut self, condition: Node, yes: Node, no: Node) -> Node {
+        if yes == no {
+            return yes;
+        }
+        match self.kind(condition) {
+            Kind::Not(inner) => {
+                let inner = *inner;
+                return self.select(inner, no, yes);
+            }
+            Kind::Compare(relation, a, b) => {
+                if let (Some(a), Some(b)) = (self.as_constant(*a), self.as_constant(*b)) {
+                    let holds = match relation {
+                        Relation::Less => a < b,
+                        Relation::LessEqual => a <= b,
+                        Relation::Equal => a == b,
+                    };
+                    return if holds { yes } else { no };
+                }
+            }
+            _ => {}
+        }
+        self.intern(Kind::Select(condition, yes, no))
+    }
+
+    /// Σ of `body` over a loop. Factors that do not depend on the loop stand outside; a loop that
+    /// does not depend on its parent is moved out of it.
+    pub fn reduce(&mut self, domain: Domain, body: Node) -> Node {
+        let bit = 1u64 << domain.0;
+        let range = self.range(domain).clone();
+        if self.is_zero(body) {
+            return body;
+        }
+        if self.variables(body) & bit == 0 {
+            let count = self.count(domain);
+            return self.mul(&[count, body]);
+        }
+        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant()) {
+            if end <= start {
+                return self.integer(0);
+            }
+        }
+        if let Kind::Product(k, factors) = self.kind(body) {
+            let (k, factors) = (k.clone(), factors.clone());
+            let (inside, mut outside): (Vec<_>, Vec<_>) = factors.iter().partition(|(n, _)| self.variables(*n) & bit != 0);
+            if !outside.is_empty() || !k.is_one() {
+                let inside = self.product(&Rational::ONE, &inside);
+                let sum = self.reduce(domain, inside);
+                outside.push((sum, 1));
+                return self.product(&k, &outside);
+            }
+        }
+        let needs = (self.variables(body) | range.start.variables() | range.end.variables()) & !bit;
+        let parent = self.deepest(needs);
+        if parent != range.parent {
+            let moved = self.domain(parent, range.start, range.end);
+            let body = self.replace(body, domain, &Affine::variable(moved));
+            return self.intern(Kind::Reduce(moved, body));
+        }
+        self.intern(Kind::Reduce(domain, body))
+    }
+
+    /// The number of times a loop runs.
+    pub fn count(&mut self, domain: Domain) -> Node {
+        let range = self.range(domain).clone();
+        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant()) {
+            return self.integer((end - start).max(0));
+        }
+        let needs = range.start.variables() | range.end.variables();
+        let parent = self.deepest(needs);
+        let domain = self.domain(parent, range.start, range.end);
+        self.intern(Kind::Count(domain))
+    }
+
+    /// The same node over other children.
+    pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
+        match self.kind(node).clone() {
+            Kind::Sum(c, terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();
+                self.linear(&c, &terms)
+            }
+            Kind::Product(k, factors) => {
+                let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new(n), e)).collect();
+                self.product(&k, &factors)
+            }
+            Kind::Call(op, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                self.call(op, &arguments)
+            }
+            Kind::External(function, part, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                self.external(function, part, &arguments)
+            }
+            Kind::Reduce(domain, body) => self.reduce(domain, new(body)),
+            Kind::Compare(relation, a, b) => self.intern(Kind::Compare(relation, new(a), new(b))),
+            Kind::Not(a) => self.not(new(a)),
+            Kind::And(a, b) => self.and(new(a), new(b)),
+            Kind::Or(a, b) => self.or(new(a), new(b)),
+            Kind::Select(c, a, b) => self.select(new(c), new(a), new(b)),
+            _ => node,
+        }
+    }
+
+    /// The expression with some nodes replaced: `leaf` gives a node's replacement, or `None` to
+    /// rebuild it from its children.
+    pub fn substitute(&mut self, root: Node, mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>) -> Node {
+        let mut new: Map<Node, Node> = Map::default();
+        for node in self.reachable(&[root]) {
+            let image = match leaf(self, node) {
+                Some(image) => image,
+                None => {
+                    let changed = {
+                        let mut changed = false;
+                        self.for_children(node, |child| changed |= new[&child] != child);
+                        changed
+                    };
+                    if changed { self.rebuild(node, &|child| new[&child]) } else { node }
+                }
+            };
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    /// The expression with a loop variable replaced by an affine index; loops inside it that
+    /// depend on the variable move with it.
+    pub fn replace(&mut self, root: Node, variable: Domain, by: &Affine) -> Node {
+        let mut moved: Map<Domain, Domain> = Map::default();
+        let mut new: Map<Node, Node> = Map::default();
+        for node in self.reachable(&[root]) {
+            let touched = {
+                let mut touched = false;
+                self.for_children(node, |child| touched |= new[&child] != child);
+                touched || self.mentions(node, variable)
+            };
+            if !touched {
+                new.insert(node, node);
+                continue;
+            }
+            let image = match self.kind(node).clone() {
+                Kind::Variable(d) if d == variable => self.affine(by),
+                Kind::Variable(d) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.variable(d)
+                }
+                Kind::Element(array, row, column) => {
+                    let mut indices = vec![row];
+                    indices.extend(column);
+                    let mut images = Vec::new();
+                    for index in indices {
+                        let mut targets: Map<Domain, Affine> = Map::default();
+                        let all = index.variables();
+                        for d in (0..64).filter(|d| all >> d & 1 == 1).map(Domain) {
+                            let target = if d == variable {
+                                by.clone()
+                            } else {
+                                Affine::variable(self.moved(d, variable, by, &mut moved))
+                            };
+                            targets.insert(d, target);
+                        }
+                        images.push(index.substitute(&|d| targets[&d].clone()));
+                    }
+                    let mut images = images.into_iter();
+                    let row = images.next().unwrap_or_else(|| Index::constant(0));
+                    self.element(array, row, images.next())
+                }
+                Kind::Reduce(d, body) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.reduce(d, new[&body])
+                }
+                Kind::Count(d) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.count(d)
+                }
+                _ => self.rebuild(node, &|child| new[&child]),
+            };
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    /// Whether a node itself (not its children) names the variable or a loop inside it.
+    fn mentions(&self, node: Node, variable: Domain) -> bool {
+        let set = match self.kind(node) {
+            Kind::Variable(d) | Kind::Reduce(d, _) | Kind::Count(d) => 1u64 << d.0,
+            Kind::Element(_, row, column) => row.variables() | column.as_ref().map_or(0, Index::variables),
+            _ => 0,
+        };
+        (0..64).filter(|d| set >> d & 1 == 1).any(|d| self.path(Some(Domain(d))).contains(&variable))
+    }
+
+    /// The image of a loop when `variable` is replaced.
+    fn moved(&mut self, domain: Domain, variable: Domain, by: &Affine, moved: &mut Map<Domain, Domain>) -> Domain {
+        if !self.path(Some(domain)).contains(&variable) || domain == variable {
+            return domain;
+        }
+        if let Some(&known) = moved.get(&domain) {
+            return known;
+        }
+        let range = self.range(domain).clone();
+        let parent = match range.parent {
+            Some(parent) if parent == variable => {
+                let outer = self.range(variable).parent.map_or(0, |d| 1u64 << d.0);
+                self.deepest(by.variables() | outer)
+            }
+            Some(parent) => Some(self.moved(parent, variable, by, moved)),
+            None => None,
+        };
+        let chain = self.path(Some(domain));
+        let mut targets: Map<Domain, Affine> = Map::default();
+        for &d in &chain[..chain.len() - 1] {
+            let target = if d == variable { by.clone() } else { Affine::variable(self.moved(d, variable, by, moved)) };
+            targets.insert(d, target);
+        }
+        let image = |affine: &Affine| affine.substitute(&|d| targets[&d].clone());
+        let image = self.domain(parent, image(&range.start), image(&range.end));
+        moved.insert(domain, image);
+        image
+    }
+}
+
+fn merge_factor(factors: &mut Vec<(Node, i32)>, node: Node, n: i32) {
+    match factors.iter_mut().find(|(other, _)| *other == node) {
+        Some(entry) => entry.1 += n,
+        None => factors.push((node, n)),
+    }
+}

@@ -1,0 +1,499 @@
+//! The definition as it was written: statements over one arena of expressions.
+//!
+//! Input: none (built by `parse`). Output: [`Ast`], which `check` resolves into
+//! [`crate::checked::Checked`]; nothing else reads it. Invariants:
+//!
+//! - A node's children, and the nodes its meaning depends on, have smaller indices than the node, so
+//!   that every pass over expressions is a forward loop and depth costs no stack. A
+//!   [`ExprKind::Bind`] stands after the bounds of its loop variable and before the body of the sum.
+//! - The nodes of one [`Expression`] are contiguous.
+//! - `%` occurs only as [`ExprKind::Index::modulo`]; `ds` was taken out of `dt = g*ds`.
+//! - No identifier is raw, `_`, or holds a `·`.
+
+use crate::report::Spans;
+use proc_macro2::{Ident, Span, TokenStream};
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+/// A whole definition.
+#[derive(Debug)]
+pub struct Ast {
+    /// The header of item form; `None` in expression form.
+    pub item: Option<Item>,
+    /// The statements in source order.
+    pub statements: Vec<Statement>,
+    /// All expressions.
+    pub nodes: Vec<Expr>,
+    /// All loop variables, each a scope of its own.
+    pub scopes: Vec<Scope>,
+    /// All names.
+    pub symbols: Symbols,
+}
+
+/// `#[…] pub struct Name<const N: usize> { … }`.
+#[derive(Debug)]
+pub struct Item {
+    /// Attributes and docs that pass through, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// `#[max_ops = 40]`, with the span of the number.
+    pub max_ops: Option<(u64, Span)>,
+    /// `pub`, `pub(crate)` or nothing.
+    pub visibility: TokenStream,
+    /// The name of the type.
+    pub name: Ident,
+    /// `const N: usize`.
+    pub generics: Vec<Ident>,
+    /// What stands between the braces.
+    pub parameters: Vec<Parameter>,
+}
+
+/// One entry between the braces of the struct.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Attributes and docs, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// The name.
+    pub name: Ident,
+    /// What it is.
+    pub kind: ParameterKind,
+}
+
+/// What a parameter was declared as.
+#[derive(Debug)]
+pub enum ParameterKind {
+    /// `name` or `name = -1.5`
+    Scalar(Option<DefaultValue>),
+    /// `name: usize`
+    Size,
+    /// `name: [s]` or `name: [s][s]`
+    Array(Vec<Size>),
+}
+
+/// The default of a scalar parameter.
+#[derive(Debug, Clone)]
+pub struct DefaultValue {
+    /// A minus sign stands before the number.
+    pub negative: bool,
+    /// The number.
+    pub number: Number,
+}
+
+/// A size where an array is declared.
+#[derive(Debug, Clone)]
+pub enum Size {
+    /// `3`
+    Literal(u64, Span),
+    /// `N` or `n`
+    Name(Ident),
+}
+
+impl Size {
+    /// Where it stands.
+    pub fn span(&self) -> Span {
+        match self {
+            Size::Literal(_, span) => *span,
+            Size::Name(name) => name.span(),
+        }
+    }
+}
+
+/// One statement.
+#[derive(Debug)]
+pub struct Statement {
+    /// Docs that pass through to the function the statement makes, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// The first word of the statement.
+    pub keyword: Span,
+    /// What it says.
+    pub kind: StatementKind,
+}
+
+/// What a statement says.
+#[derive(Debug)]
+pub enum StatementKind {
+    /// `let name = value`; `let name(a, …) = value`
+    Let {
+        /// The name it defines.
+        name: Ident,
+        /// The arguments of a function; `None` for a value.
+        arguments: Option<Vec<Ident>>,
+        /// The right side.
+        value: Expression,
+    },
+    /// `H = value`; `H(q; p) = value`; `H(q; p; t) = value`
+    Hamiltonian {
+        /// `None` is short for `(q; p)`.
+        signature: Option<Signature>,
+        /// The right side.
+        value: Expression,
+    },
+    /// `L(q; v) = value`; `L(q; v; t) = value`
+    Lagrangian {
+        /// Coordinates and velocities.
+        signature: Signature,
+        /// The right side.
+        value: Expression,
+    },
+    /// `invariant name = value [on H = shell]`; `monitor name = value`; `event name = value`
+    Observable {
+        /// Which of the three.
+        kind: ObservableKind,
+        /// `#[assume]` stands before it.
+        assumed: bool,
+        /// The name it defines.
+        name: Ident,
+        /// The right side.
+        value: Expression,
+        /// The energy of the shell on which an invariant is claimed.
+        shell: Option<Expression>,
+    },
+    /// `split { A = …; B = …; … }`
+    Split {
+        /// The pieces.
+        pieces: Vec<(Ident, Expression)>,
+    },
+    /// `force(q; p) = value`
+    Force {
+        /// Coordinates and momenta again, so that the formula reads by itself.
+        signature: Signature,
+        /// The right side: one expression, or `[f1, f2, …]`.
+        value: Expression,
+    },
+    /// `fn name(a, …) = value, (first, …)[, (second, …)]`
+    Function {
+        /// The name it defines.
+        name: Ident,
+        /// Its arguments.
+        arguments: Vec<Ident>,
+        /// The path of the Rust function.
+        value: TokenStream,
+        /// Paths of the partial derivatives, one an argument, with the span of the list.
+        first: (Vec<TokenStream>, Spans),
+        /// Paths of the second partials: the upper triangle row by row (xx, xy, yy).
+        second: Option<(Vec<TokenStream>, Spans)>,
+    },
+    /// `dt = factor*ds`
+    Time {
+        /// dt/ds.
+        factor: Expression,
+    },
+    /// `coordinates polar(x, y)`
+    Coordinates {
+        /// `polar`, `spherical`, …
+        chart: Ident,
+        /// Names of coordinates and, for `jacobi` and `heliocentric`, of the masses.
+        arguments: Vec<Ident>,
+    },
+}
+
+/// What an observable was declared as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ObservableKind {
+    /// `invariant name = e`
+    Invariant,
+    /// `monitor name = e`
+    Monitor,
+    /// `event name = e`
+    Event,
+}
+
+impl ObservableKind {
+    /// The word that declares it.
+    pub fn word(self) -> &'static str {
+        match self {
+            ObservableKind::Invariant => "invariant",
+            ObservableKind::Monitor => "monitor",
+            ObservableKind::Event => "event",
+        }
+    }
+}
+
+/// `(coordinates; momenta or velocities; time)`.
+#[derive(Debug)]
+pub struct Signature {
+    /// The parentheses.
+    pub spans: Spans,
+    /// The sections between the semicolons, as many as were written.
+    pub sections: Vec<Vec<Variable>>,
+}
+
+/// `q`, `q[N]`, `q[N][3]` in a signature.
+#[derive(Debug)]
+pub struct Variable {
+    /// The name.
+    pub name: Ident,
+    /// The sizes in the brackets.
+    pub sizes: Vec<Size>,
+}
+
+/// A contiguous run of nodes with its root.
+#[derive(Debug, Clone)]
+pub struct Expression {
+    /// All nodes of the expression.
+    pub nodes: Range<u32>,
+    /// The whole expression.
+    pub root: ExprId,
+}
+
+/// The index of an expression node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct ExprId(pub u32);
+
+/// An expression node.
+#[derive(Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// From its first to its last token, parentheses around it included.
+    pub spans: Spans,
+    /// The narrowest token that stands for it: its operator, its name, its number.
+    pub at: Span,
+}
+
+/// What an expression node is.
+#[derive(Debug)]
+pub enum ExprKind {
+    /// Something an error was reported for, or that means nothing by itself; says nothing further.
+    Error,
+    /// A number.
+    Number(Number),
+    /// A name and the innermost loop variable in whose scope it stands.
+    Name(Symbol, Option<ScopeId>),
+    /// `-a`, `!a`
+    Unary(UnaryOp, ExprId),
+    /// `a + b` and so on
+    Binary(BinaryOp, ExprId, ExprId),
+    /// `f(a, …)`; `bracket(a, b)` too
+    Call(Symbol, Option<ScopeId>, Vec<ExprId>),
+    /// `base[index]`, `base[index % modulo]`
+    Index {
+        /// What is indexed.
+        base: ExprId,
+        /// Left of `%`.
+        index: ExprId,
+        /// Right of `%`.
+        modulo: Option<ExprId>,
+    },
+    /// `[a, b, c]`
+    Vector(Vec<ExprId>),
+    /// `i in lower..upper`: binds a loop variable for the nodes up to its [`ExprKind::Sum`].
+    Bind {
+        /// The loop variable.
+        scope: ScopeId,
+        /// The first value.
+        lower: ExprId,
+        /// One past the last value.
+        upper: ExprId,
+    },
+    /// `sum(i in a..b, j in c..d) { body }`
+    Sum {
+        /// Its loop variables, outermost first.
+        scopes: Range<u32>,
+        /// What is added.
+        body: ExprId,
+    },
+    /// `if condition { then } else { otherwise }`
+    If {
+        /// The condition.
+        condition: ExprId,
+        /// The value where it holds.
+        then: ExprId,
+        /// The value where it does not.
+        otherwise: ExprId,
+    },
+}
+
+/// Prefix operators.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnaryOp {
+    /// `-`
+    Neg,
+    /// `!`
+    Not,
+}
+
+/// Infix operators. `%` exists only between the parser's operand stack and the index it ends in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BinaryOp {
+    /// `+`
+    Add,
+    /// `-`
+    Sub,
+    /// `*`
+    Mul,
+    /// `/`
+    Div,
+    /// `^`
+    Pow,
+    /// `%`
+    Rem,
+    /// `<`, `<=`, `>`, `>=`, `==`, `!=`
+    Compare(Comparison),
+    /// `&&`
+    And,
+    /// `||`
+    Or,
+}
+
+/// Comparisons.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Comparison {
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+}
+
+impl BinaryOp {
+    /// As it is written.
+    pub fn symbol(self) -> &'static str {
+        match self {
+            BinaryOp::Add => "+",
+            BinaryOp::Sub => "-",
+            BinaryOp::Mul => "*",
+            BinaryOp::Div => "/",
+            BinaryOp::Pow => "^",
+            BinaryOp::Rem => "%",
+            BinaryOp::Compare(Comparison::Less) => "<",
+            BinaryOp::Compare(Comparison::LessEqual) => "<=",
+            BinaryOp::Compare(Comparison::Greater) => ">",
+            BinaryOp::Compare(Comparison::GreaterEqual) => ">=",
+            BinaryOp::Compare(Comparison::Equal) => "==",
+            BinaryOp::Compare(Comparison::NotEqual) => "!=",
+            BinaryOp::And => "&&",
+            BinaryOp::Or => "||",
+        }
+    }
+}
+
+/// A non-negative decimal number, exactly: `digits · 10^exponent`.
+///
+/// Canonical: no leading and no trailing zero in `digits`; zero is `"0"` with exponent 0. It rounds
+/// to a finite f64, and to zero only if it is zero.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Number {
+    /// Decimal digits.
+    pub digits: String,
+    /// The power of ten.
+    pub exponent: i64,
+}
+
+impl Number {
+    /// Reads `1`, `1_000`, `0.1`, `1.`, `1e-3`; `None` for anything else, and for numbers whose
+    /// exponent has more than 18 digits.
+    pub fn read(text: &str) -> Option<Number> {
+        let text = text.replace('_', "");
+        let (mantissa, exponent) = match text.find(['e', 'E']) {
+            Some(at) => {
+                let exponent = &text[at + 1..];
+                if exponent.len() > 18 {
+                    return None;
+                }
+                (&text[..at], exponent.parse::<i64>().ok()?)
+            }
+            None => (text.as_str(), 0),
+        };
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        if whole.is_empty()
+            || !whole
+                .bytes()
+                .chain(fraction.bytes())
+                .all(|byte| byte.is_ascii_digit())
+        {
+            return None;
+        }
+        let written = format!("{whole}{fraction}");
+        let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
+        let without_tail = written.trim_end_matches('0');
+        let digits = without_tail.trim_start_matches('0');
+        if digits.is_empty() {
+            return Some(Number {
+                digits: "0".into(),
+                exponent: 0,
+            });
+        }
+        let tail = i64::try_from(written.len() - without_tail.len()).ok()?;
+        Some(Number {
+            digits: digits.into(),
+            exponent: exponent.checked_add(tail)?,
+        })
+    }
+
+    /// It is zero.
+    pub fn is_zero(&self) -> bool {
+        self.digits == "0"
+    }
+
+    /// The nearest f64.
+    pub fn to_f64(&self) -> f64 {
+        format!("{}e{}", self.digits, self.exponent)
+            .parse()
+            .unwrap_or(f64::INFINITY)
+    }
+
+    /// Its value, if it is an integer that fits.
+    pub fn to_integer(&self) -> Option<i64> {
+        let exponent = u32::try_from(self.exponent).ok()?;
+        self.digits
+            .parse::<i64>()
+            .ok()?
+            .checked_mul(10i64.checked_pow(exponent)?)
+    }
+}
+
+/// One loop variable of a sum.
+#[derive(Debug)]
+pub struct Scope {
+    /// The loop variable in whose scope this one stands.
+    pub parent: Option<ScopeId>,
+    /// The loop variable.
+    pub name: Ident,
+    /// The same, interned.
+    pub symbol: Symbol,
+}
+
+/// The index of a loop variable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ScopeId(pub u32);
+
+/// A name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Symbol(pub u32);
+
+/// All names of a definition.
+#[derive(Debug, Default)]
+pub struct Symbols {
+    names: Vec<String>,
+    index: BTreeMap<String, Symbol>,
+}
+
+impl Symbols {
+    /// The symbol of a name.
+    pub fn intern(&mut self, name: &str) -> Symbol {
+        if let Some(symbol) = self.index.get(name) {
+            return *symbol;
+        }
+        let symbol = Symbol(self.names.len() as u32);
+        self.names.push(name.to_owned());
+        self.index.insert(name.to_owned(), symbol);
+        symbol
+    }
+
+    /// The name of a symbol.
+    pub fn name(&self, symbol: Symbol) -> &str {
+        &self.names[symbol.0 as usize]
+    }
+
+    /// How many there are; symbols are smaller than that.
+    pub fn len(&self) -> usize {
+        self.names.len()
+    }
+}

@@ -1,0 +1,397 @@
+//! The definition resolved: every name is what it stands for, every node has a type, every index
+//! is affine. This is what lowering reads.
+//!
+//! Input: none (built by `check`). Output: [`Checked`]. Invariants lowering may rely on:
+//!
+//! - **Children precede parents** in [`Checked::nodes`]: one forward loop over the indices is a
+//!   bottom-up walk of everything, and no pass needs recursion. Some nodes may be reached from no
+//!   root; they cost nothing once lowered into a DAG.
+//! - There are no scopes, `let`s or functions left: a `let` value *is* its node, a `let` function
+//!   was instantiated with the nodes of its arguments at every call. Loop variables are leaves.
+//!   What remains of the `let`s are their names, in [`Checked::lets`].
+//! - Every node is well typed: the comments of [`Kind`] state operand and result types. [`Type`]
+//!   extents are equal exactly if they are the same size.
+//! - Every [`Affine`] mentions only sizes and loops in whose scope it stands. A loop's bounds
+//!   mention only loops outside it; a [`Kind::Sum`] lists its loops outermost first. A range whose
+//!   upper bound is not above its lower is empty, its sum zero.
+//! - Loops are not shared between sums, so a loop variable stands for one loop only.
+//! - An index with [`Index::proven`] is in range whatever the sizes are (where the loops around it
+//!   run at all); others depend on the sizes and need a check where sizes are known. None is
+//!   provably out of range.
+//! - There is exactly one definition, at least one group, and some momentum occurs in it.
+
+use crate::ast::{Comparison, DefaultValue, Number, ObservableKind};
+use crate::names::Builtin;
+use crate::report::Spans;
+use proc_macro2::{Ident, Span, TokenStream};
+use std::ops::Range;
+
+/// A resolved definition.
+#[derive(Debug)]
+pub struct Checked {
+    /// The header of item form; `None` in expression form.
+    pub item: Option<Item>,
+    /// Sizes that are not literals: const generics first, then run-time sizes.
+    pub sizes: Vec<Size>,
+    /// Scalar and array parameters.
+    pub parameters: Vec<Parameter>,
+    /// Names captured in expression form, scalars, in order of first use. Their spans are the
+    /// user's, so that the identifier resolves where the macro was called.
+    pub captures: Vec<Ident>,
+    /// Coordinates with their momenta.
+    pub groups: Vec<Group>,
+    /// The name of time, if the signature has one.
+    pub time: Option<Ident>,
+    /// H or L.
+    pub definition: Definition,
+    /// Values named by `let`, in source order.
+    pub lets: Vec<(Ident, NodeId)>,
+    /// Rust functions.
+    pub functions: Vec<Function>,
+    /// Invariants, monitors and events in source order.
+    pub observables: Vec<Observable>,
+    /// `split { A = …; B = …; }`: scalars; empty without one.
+    pub split: Vec<(Ident, NodeId)>,
+    /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
+    pub force: Vec<NodeId>,
+    /// `dt = g*ds`: g, a scalar, with the first word of the statement.
+    pub time_factor: Option<(NodeId, Span)>,
+    /// `coordinates polar(x, y)`.
+    pub charts: Vec<Chart>,
+    /// All loops of all sums.
+    pub loops: Vec<Loop>,
+    /// All expressions, children before parents.
+    pub nodes: Vec<Node>,
+}
+
+impl Checked {
+    /// A node.
+    pub fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.0 as usize]
+    }
+}
+
+/// The header of item form.
+#[derive(Debug)]
+pub struct Item {
+    /// Attributes and docs that pass through to the struct, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// `#[max_ops = 40]`, with the span of the number.
+    pub max_ops: Option<(u64, Span)>,
+    /// `pub`, `pub(crate)` or nothing; for the fields too.
+    pub visibility: TokenStream,
+    /// The name of the type.
+    pub name: Ident,
+    /// Run-time sizes and parameters in the order they were declared: the fields of the struct.
+    pub fields: Vec<Field>,
+}
+
+/// One entry between the braces of the struct.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Field {
+    /// `name: usize`
+    Size(SizeId),
+    /// `name`, `name = 1.0`, `name: [s]`, `name: [s][s]`
+    Parameter(ParameterId),
+}
+
+/// A size that is not a literal.
+#[derive(Debug)]
+pub struct Size {
+    /// Its name.
+    pub name: Ident,
+    /// Where it comes from.
+    pub kind: SizeKind,
+    /// Docs of a run-time size, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+}
+
+/// Where a size comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SizeKind {
+    /// `struct S<const N: usize>`
+    Const,
+    /// `n: usize`
+    Runtime,
+}
+
+/// A scalar or array parameter.
+#[derive(Debug)]
+pub struct Parameter {
+    /// Docs, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// Its name.
+    pub name: Ident,
+    /// Scalar, vector or matrix.
+    pub ty: Type,
+    /// The default of a scalar.
+    pub default: Option<DefaultValue>,
+}
+
+/// A group of coordinates with its momenta.
+#[derive(Debug)]
+pub struct Group {
+    /// The name of the coordinate.
+    pub coordinate: Ident,
+    /// The name of the conjugate momentum. Under a Lagrangian, which names none, it is
+    /// `p_` followed by the name of the coordinate.
+    pub momentum: Ident,
+    /// The name of the velocity, under a Lagrangian.
+    pub velocity: Option<Ident>,
+    /// The type of each of them: scalar, vector, or matrix with a literal last extent.
+    pub ty: Type,
+}
+
+/// What is given.
+#[derive(Debug, Clone, Copy)]
+pub enum Definition {
+    /// `H(q; p[; t]) = …`, a scalar
+    Hamiltonian(NodeId),
+    /// `L(q; v[; t]) = …`, a scalar without [`Kind::Momentum`] and [`Kind::Hamiltonian`].
+    /// Elsewhere in such a definition [`Kind::Velocity`] means the velocity as a function of q, p.
+    Lagrangian(NodeId),
+}
+
+/// `fn name(a, …) = value, (first, …)[, (second, …)]`: scalars to a scalar.
+#[derive(Debug)]
+pub struct Function {
+    /// The name in expressions.
+    pub name: Ident,
+    /// The number of arguments, at least one.
+    pub arity: usize,
+    /// The path of the function.
+    pub value: TokenStream,
+    /// Paths of the partial derivatives, one an argument.
+    pub first: Vec<TokenStream>,
+    /// Paths of the second partials: the upper triangle row by row (xx, xy, yy), `n(n+1)/2` of them.
+    pub second: Option<Vec<TokenStream>>,
+}
+
+/// An invariant, a monitor or an event.
+#[derive(Debug)]
+pub struct Observable {
+    /// Docs, each with its `#`.
+    pub attributes: Vec<TokenStream>,
+    /// Which of the three.
+    pub kind: ObservableKind,
+    /// The author's word that it is an invariant.
+    pub assumed: bool,
+    /// Its name, different from those of other observables.
+    pub name: Ident,
+    /// A scalar, or (not for events) a vector of literal extent.
+    pub value: NodeId,
+    /// `on H = shell`: the energy of the shell on which the invariant is claimed, a scalar.
+    pub shell: Option<NodeId>,
+}
+
+/// A canonical change of coordinates.
+#[derive(Debug)]
+pub struct Chart {
+    /// The word, for errors.
+    pub name: Ident,
+    /// Which change.
+    pub kind: ChartKind,
+}
+
+/// Which change of coordinates.
+#[derive(Debug, Clone)]
+pub enum ChartKind {
+    /// `polar(x, y)` or `polar(q)` with `q[2]`: the Cartesian components.
+    Polar([Component; 2]),
+    /// `spherical(x, y, z)` or `spherical(q)` with `q[3]`.
+    Spherical([Component; 3]),
+    /// `jacobi(q, m)`: positions `[n][d]` or `[n]`, masses `[n]`.
+    Jacobi(GroupId, ParameterId),
+    /// `heliocentric(q, m)`, the first body the central one.
+    Heliocentric(GroupId, ParameterId),
+}
+
+/// A scalar coordinate: a group, or one component of a vector group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Component {
+    /// The group.
+    pub group: GroupId,
+    /// The component of a vector group.
+    pub index: Option<u64>,
+}
+
+/// One loop of a sum: `name in lower..upper`.
+#[derive(Debug)]
+pub struct Loop {
+    /// The loop variable.
+    pub name: Ident,
+    /// The first value; never provably negative.
+    pub lower: Affine,
+    /// One past the last value.
+    pub upper: Affine,
+}
+
+/// `constant + Σ coefficient·variable`, exactly.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Affine {
+    /// The constant.
+    pub constant: i64,
+    /// Variables in increasing order, without zero coefficients.
+    pub terms: Vec<(IndexVariable, i64)>,
+}
+
+/// What an affine expression is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum IndexVariable {
+    /// A size.
+    Size(SizeId),
+    /// A loop variable.
+    Loop(LoopId),
+}
+
+/// `affine` or `affine % modulo` (Euclidean).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Index {
+    /// Left of `%`.
+    pub affine: Affine,
+    /// Right of `%`.
+    pub modulo: Option<Extent>,
+    /// In range whatever the sizes are.
+    pub proven: bool,
+}
+
+/// An extent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Extent {
+    /// A number, at least 1.
+    Literal(u64),
+    /// A const generic or run-time size.
+    Size(SizeId),
+}
+
+/// The type of a node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Type {
+    /// A condition.
+    Bool,
+    /// A number.
+    Scalar,
+    /// `[extent]`
+    Vector(Extent),
+    /// `[rows][columns]`
+    Matrix(Extent, Extent),
+}
+
+/// An expression node.
+#[derive(Debug)]
+pub struct Node {
+    /// What it is.
+    pub kind: Kind,
+    /// What it evaluates to.
+    pub ty: Type,
+    /// From its first to its last token.
+    pub spans: Spans,
+    /// The narrowest token that stands for it: its operator, its name, its number.
+    pub at: Span,
+}
+
+/// What a node is. S is a scalar, V a vector, M a matrix, X any of the three, B a condition.
+#[derive(Debug)]
+pub enum Kind {
+    /// S: an exact number.
+    Number(Number),
+    /// S: π.
+    Pi,
+    /// X: a whole group of coordinates.
+    Coordinate(GroupId),
+    /// X: a whole group of momenta.
+    Momentum(GroupId),
+    /// X: a whole group of velocities, under a Lagrangian.
+    Velocity(GroupId),
+    /// S: time.
+    Time,
+    /// X: a parameter.
+    Parameter(ParameterId),
+    /// S: a name of the scope around the macro.
+    Capture(CaptureId),
+    /// S: a size as a real number.
+    Size(SizeId),
+    /// S: a loop variable as a real number.
+    Loop(LoopId),
+    /// S: the Hamiltonian itself; only in statements that H does not depend on.
+    Hamiltonian,
+    /// X → X
+    Neg(NodeId),
+    /// X, X → X, the same type
+    Add(NodeId, NodeId),
+    /// X, X → X, the same type
+    Sub(NodeId, NodeId),
+    /// S, X → X; X, S → X; a matrix parameter `[r][c]` times `[c]` → `[r]`
+    Mul(NodeId, NodeId),
+    /// X, S → X
+    Div(NodeId, NodeId),
+    /// S, S → S; `pow(x, y)` too
+    Pow(NodeId, NodeId),
+    /// S, S → B
+    Compare(Comparison, NodeId, NodeId),
+    /// B, B → B
+    And(NodeId, NodeId),
+    /// B, B → B
+    Or(NodeId, NodeId),
+    /// B → B
+    Not(NodeId),
+    /// `base[index]`: V → S, M → V (a row)
+    Index {
+        /// What is indexed.
+        base: NodeId,
+        /// Which component or row.
+        index: Index,
+    },
+    /// S, … → V of literal extent
+    Vector(Vec<NodeId>),
+    /// A function of the language; operand types in [`Builtin`]. Never [`Builtin::Pow`] nor
+    /// [`Builtin::Bracket`], which have nodes of their own.
+    Call(Builtin, Vec<NodeId>),
+    /// S, … → S: a Rust function.
+    Function(FunctionId, Vec<NodeId>),
+    /// S, S → S: the Poisson bracket {a, b} = Σ ∂a/∂q·∂b/∂p − ∂a/∂p·∂b/∂q; not inside a sum.
+    Bracket(NodeId, NodeId),
+    /// X → X: the sum of `body` over `loops`, the outermost first.
+    Sum {
+        /// Loops with consecutive ids.
+        loops: Range<u32>,
+        /// What is added.
+        body: NodeId,
+    },
+    /// B, X, X → X, the same type
+    If {
+        /// The condition.
+        condition: NodeId,
+        /// The value where it holds.
+        then: NodeId,
+        /// The value where it does not.
+        otherwise: NodeId,
+    },
+}
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+            pub struct $name(pub u32);
+        )*
+    };
+}
+
+ids! {
+    /// Index into [`Checked::nodes`].
+    NodeId
+    /// Index into [`Checked::groups`].
+    GroupId
+    /// Index into [`Checked::parameters`].
+    ParameterId
+    /// Index into [`Checked::captures`].
+    CaptureId
+    /// Index into [`Checked::sizes`].
+    SizeId
+    /// Index into [`Checked::loops`].
+    LoopId
+    /// Index into [`Checked::functions`].
+    FunctionId
+}

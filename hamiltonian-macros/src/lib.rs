@@ -1,0 +1,6 @@
+//! wip
+#![allow(dead_code)]
+mod ast;
+mod checked;
+mod names;
+mod report;

@@ -1,0 +1,134 @@
+//! Diagnostics: what is wrong, where, and what to write instead.
+//!
+//! Input: errors of one stage, in the order they are met. Output: `compile_error!` tokens, each
+//! placed on the tokens it speaks of. Invariant: a report never loses an error, and never says the
+//! same thing twice at the same place.
+
+use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
+
+/// From the first to the last token of a piece of source (stable Rust cannot join spans).
+#[derive(Debug, Clone, Copy)]
+pub struct Spans {
+    /// The first token.
+    pub start: Span,
+    /// The last token.
+    pub end: Span,
+}
+
+impl Spans {
+    /// From one piece to another.
+    pub fn to(self, end: Spans) -> Spans {
+        Spans {
+            start: self.start,
+            end: end.end,
+        }
+    }
+}
+
+impl From<Span> for Spans {
+    fn from(span: Span) -> Spans {
+        Spans {
+            start: span,
+            end: span,
+        }
+    }
+}
+
+/// One error.
+#[derive(Debug, Clone)]
+pub struct Diagnostic {
+    /// What is wrong: one line, lower case, code in backticks.
+    pub message: String,
+    /// What to write instead.
+    pub help: Option<String>,
+    /// The narrowest tokens that are wrong.
+    pub spans: Spans,
+}
+
+impl Diagnostic {
+    /// The text rustc shows.
+    pub fn text(&self) -> String {
+        match &self.help {
+            Some(help) => format!("{}\nhelp: {help}", self.message),
+            None => self.message.clone(),
+        }
+    }
+
+    /// `::core::compile_error! { "text" }` on the spans. Braces, so that it may stand as an item,
+    /// as a statement and as an expression.
+    pub fn to_compile_error(&self) -> TokenStream {
+        let Spans { start, end } = self.spans;
+        let punct = |character, spacing, span| {
+            let mut punct = Punct::new(character, spacing);
+            punct.set_span(span);
+            TokenTree::Punct(punct)
+        };
+        let mut text = Literal::string(&self.text());
+        text.set_span(end);
+        let mut body = Group::new(
+            Delimiter::Brace,
+            TokenStream::from(TokenTree::Literal(text)),
+        );
+        body.set_span(end);
+        TokenStream::from_iter([
+            punct(':', Spacing::Joint, start),
+            punct(':', Spacing::Alone, start),
+            TokenTree::Ident(Ident::new("core", start)),
+            punct(':', Spacing::Joint, start),
+            punct(':', Spacing::Alone, start),
+            TokenTree::Ident(Ident::new("compile_error", start)),
+            punct('!', Spacing::Alone, start),
+            TokenTree::Group(body),
+        ])
+    }
+}
+
+/// The errors of one definition.
+#[derive(Debug, Default)]
+pub struct Report {
+    errors: Vec<Diagnostic>,
+}
+
+impl Report {
+    /// Adds an error: what is wrong and what to write instead.
+    pub fn error(
+        &mut self,
+        spans: impl Into<Spans>,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        self.push(Diagnostic {
+            message: message.into(),
+            help: Some(help.into()),
+            spans: spans.into(),
+        });
+    }
+
+    /// Adds an error for which there is nothing to write instead.
+    pub fn error_without_help(&mut self, spans: impl Into<Spans>, message: impl Into<String>) {
+        self.push(Diagnostic {
+            message: message.into(),
+            help: None,
+            spans: spans.into(),
+        });
+    }
+
+    fn push(&mut self, diagnostic: Diagnostic) {
+        self.errors.push(diagnostic);
+    }
+
+    /// No error so far.
+    pub fn is_empty(&self) -> bool {
+        self.errors.is_empty()
+    }
+
+    /// The errors in the order they were met.
+    pub fn errors(&self) -> &[Diagnostic] {
+        &self.errors
+    }
+
+    /// The barrier between two stages: the result of a stage, if nothing went wrong in it.
+    pub fn barrier<T>(&self, result: T) -> Option<T> {
+        self.is_empty().then_some(result)
+    }
+}

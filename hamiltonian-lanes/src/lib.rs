@@ -6,7 +6,7 @@
 //! memory, and every operation is total: NaN and infinities, never a panic.
 //!
 //! ```
-//! use hamiltonian_lanes::{Dual, Real};
+//! use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 //!
 //! fn energy<T: Real>(q: T, p: T) -> T {
 //!     p * p / T::constant(2.0, 0.0) - q.cos()
@@ -15,6 +15,8 @@
 //! assert_eq!(energy(0.0, 2.0), 1.0);
 //! // ∂H/∂p at (q, p) = (0, 2)
 //! assert_eq!(energy(Dual::fixed(0.0), Dual::variable(2.0)).eps, 2.0);
+//! // The same in 32 digits.
+//! assert_eq!(energy(DoubleDouble::from(0.0), DoubleDouble::from(2.0)).to_f64(), 1.0);
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
@@ -24,7 +26,6 @@ mod real;
 mod elementary;
 mod float;
 
-#[allow(dead_code)]
 mod double_double;
 mod dual;
 

@@ -4,6 +4,7 @@
 //! scalar lifts from itself and from `f64`; a value too wide for the scalar is rounded to nearest,
 //! ties to even; a value lifted into a dual is constant (its derivative part is 0).
 
+use crate::double_double::DoubleDouble;
 use crate::dual::Dual;
 use crate::real::{Lift, Real};
 
@@ -21,6 +22,12 @@ macro_rules! lift_float {
                 #[inline(always)]
                 fn lift(value: $float) -> Self {
                     value as f32
+                }
+            }
+            impl Lift<$float> for DoubleDouble {
+                #[inline(always)]
+                fn lift(value: $float) -> Self {
+                    Self::from(value as f64)
                 }
             }
             impl<T: Real> Lift<$float> for Dual<T> {
@@ -49,6 +56,13 @@ macro_rules! lift_integer {
                     value as f32
                 }
             }
+            impl Lift<$integer> for DoubleDouble {
+                #[inline(always)]
+                fn lift(value: $integer) -> Self {
+                    let (hi, lo) = words(value as i128);
+                    Self::constant(hi, lo)
+                }
+            }
             impl<T: Real> Lift<$integer> for Dual<T> {
                 #[inline(always)]
                 fn lift(value: $integer) -> Self {
@@ -63,10 +77,24 @@ macro_rules! lift_integer {
 lift_float!(f64 f32);
 lift_integer!(i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
 
+impl Lift<DoubleDouble> for DoubleDouble {
+    #[inline(always)]
+    fn lift(value: DoubleDouble) -> Self {
+        value
+    }
+}
+
 impl<T: Real> Lift<Dual<T>> for Dual<T> {
     #[inline(always)]
     fn lift(value: Dual<T>) -> Self {
         value
+    }
+}
+
+impl<T: Real + Lift<DoubleDouble>> Lift<DoubleDouble> for Dual<T> {
+    #[inline(always)]
+    fn lift(value: DoubleDouble) -> Self {
+        Self::fixed(T::lift(value))
     }
 }
 

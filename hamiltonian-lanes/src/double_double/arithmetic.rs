@@ -1,4 +1,4 @@
-//! The four operations and the square root of double-doubles.
+//! The four operations of double-doubles.
 //!
 //! Input: normalised pairs of words. Output: the same, with the relative errors stated at each
 //! operation (u = 2⁻⁵³; measured bounds are in the tests). Invariant: a sum or product that is
@@ -7,7 +7,6 @@
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use super::DoubleDouble;
-use crate::elementary::double;
 
 /// `a + b = s + e` exactly, `s` rounded to nearest (D. E. Knuth, *The Art of Computer Programming*
 /// 2, §4.2.2, theorem B, 1969).
@@ -63,6 +62,12 @@ pub(super) fn exponent(x: f64) -> i32 {
     ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }
 
+/// `|x|/2^exponent(x)`, in [1, 2).
+#[inline(always)]
+pub(super) fn significand(x: f64) -> f64 {
+    f64::from_bits((x.to_bits() & ((1 << 52) - 1)) | 1023 << 52)
+}
+
 impl DoubleDouble {
     /// The result `(hi, lo)` of an operation whose `f64` counterpart on the leading words is
     /// `plain`: that one stands where it is infinite, NaN or a signed zero.
@@ -111,24 +116,6 @@ impl DoubleDouble {
         let (product, error) = two_product(self.hi, other);
         let (hi, lo) = fast_two_sum(product, error + self.lo * other);
         Self::finish(product, hi, lo)
-    }
-
-    /// The square root, relative error ≤ 3.2u²; NaN below 0 (V. Lefèvre, N. Louvet, J.-M. Muller,
-    /// J. Picot, L. Rideau, *ACM Trans. Math. Softw.* 49, 2023, doi:10.1145/3568672).
-    #[inline]
-    pub(super) fn square_root(self) -> Self {
-        // Below, the error of the square of the root would be subnormal.
-        if self.hi < 1e-270 && self.hi > 0.0 {
-            return self
-                .scale(power_of_two(200))
-                .square_root()
-                .scale(power_of_two(-100));
-        }
-        let root = double::sqrt(self.hi);
-        let (square, error) = two_product(root, root);
-        let rest = ((self.hi - square) - error) + self.lo;
-        let (hi, lo) = fast_two_sum(root, rest / (2.0 * root));
-        Self::finish(root, hi, lo)
     }
 }
 

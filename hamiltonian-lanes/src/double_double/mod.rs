@@ -5,6 +5,15 @@
 //! `hi` is 0, infinite or NaN.
 
 mod arithmetic;
+mod constants;
+
+mod reduction;
+mod roots;
+
+mod exponential;
+mod trigonometric;
+
+mod scalar;
 
 use arithmetic::two_sum;
 
@@ -16,11 +25,11 @@ use arithmetic::two_sum;
 /// 2017, doi:10.1145/3121432).
 ///
 /// ```
-/// use hamiltonian_lanes::DoubleDouble;
+/// use hamiltonian_lanes::{DoubleDouble, Real};
 ///
 /// let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
 /// let error = third * DoubleDouble::from(3.0) - DoubleDouble::from(1.0);
-/// assert!(error.hi().abs() < 1e-31);
+/// assert!(error.magnitude() < 1e-31);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
 pub struct DoubleDouble {

@@ -1,0 +1,153 @@
+//! [`Real`] for double-doubles: which function of this folder is which operation.
+//!
+//! Input: the functions beside this file. Output: the trait. Invariant: comparisons order by the
+//! leading word, then by the trailing one; NaN compares false.
+
+use super::DoubleDouble;
+use crate::real::Real;
+
+impl Real for DoubleDouble {
+    type Mask = bool;
+
+    #[inline(always)]
+    fn constant(hi: f64, lo: f64) -> Self {
+        if lo == 0.0 {
+            Self::from(hi)
+        } else {
+            Self::new(hi, lo)
+        }
+    }
+    #[inline(always)]
+    fn fma(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    #[inline(always)]
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn equals(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline(always)]
+    fn magnitude(self) -> f64 {
+        self.hi.abs()
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.hi.is_finite()
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.hi
+    }
+    #[inline(always)]
+    fn epsilon() -> f64 {
+        // 2⁻¹⁰⁵: two words of 53 bits.
+        f64::EPSILON * f64::EPSILON * 0.5
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.size()
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        Self::from(self.hi.sign())
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        self.square_root()
+    }
+    #[inline(always)]
+    fn cbrt(self) -> Self {
+        self.cube_root()
+    }
+    #[inline(always)]
+    fn sin(self) -> Self {
+        self.sine_cosine().0
+    }
+    #[inline(always)]
+    fn cos(self) -> Self {
+        self.sine_cosine().1
+    }
+    #[inline(always)]
+    fn tan(self) -> Self {
+        self.tangent()
+    }
+    #[inline(always)]
+    fn asin(self) -> Self {
+        self.arc_sine()
+    }
+    #[inline(always)]
+    fn acos(self) -> Self {
+        self.arc_cosine()
+    }
+    #[inline(always)]
+    fn atan(self) -> Self {
+        self.arc_tangent()
+    }
+    #[inline(always)]
+    fn sinh(self) -> Self {
+        self.hyperbolic_sine()
+    }
+    #[inline(always)]
+    fn cosh(self) -> Self {
+        self.hyperbolic_cosine()
+    }
+    #[inline(always)]
+    fn tanh(self) -> Self {
+        self.hyperbolic_tangent()
+    }
+    #[inline(always)]
+    fn asinh(self) -> Self {
+        self.area_sine()
+    }
+    #[inline(always)]
+    fn acosh(self) -> Self {
+        self.area_cosine()
+    }
+    #[inline(always)]
+    fn atanh(self) -> Self {
+        self.area_tangent()
+    }
+    #[inline(always)]
+    fn exp(self) -> Self {
+        self.exponential()
+    }
+    #[inline(always)]
+    fn exp_m1(self) -> Self {
+        self.exponential_less_one()
+    }
+    #[inline(always)]
+    fn ln(self) -> Self {
+        self.logarithm()
+    }
+    #[inline(always)]
+    fn ln_1p(self) -> Self {
+        self.logarithm_of_one_plus()
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        self.sine_cosine()
+    }
+    #[inline(always)]
+    fn atan2(self, other: Self) -> Self {
+        self.angle(other)
+    }
+    #[inline(always)]
+    fn hypot(self, other: Self) -> Self {
+        self.hypotenuse(other)
+    }
+    #[inline(always)]
+    fn pow(self, exponent: Self) -> Self {
+        self.power(exponent)
+    }
+}

@@ -1,0 +1,411 @@
+//! A run: a system, a scheme, a start and a step under way.
+//!
+//! Input: those four. Output: states, and what observers make of them. Invariants: time is
+//! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
+//! is not finite is never shown, but found, located and reported.
+
+use crate::error::Error;
+use crate::observe::{Observer, View};
+use crate::scheme::{Clock, Copies, Entry, Scheme, Stepper, Unsolved};
+use crate::state::{Point, State};
+use crate::system::System;
+use crate::vector::Vector;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{Mask, Real};
+
+/// Steps between two checks that everything is finite: few enough that replaying a bad block is
+/// quick, enough that the check costs nothing.
+const BLOCK: u64 = 1024;
+
+/// A run: a system, a scheme, a start and a step under way.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+/// run.advance(100)?;
+/// println!("q = {} at t = {}", run.state().q[0], run.state().t);
+/// for state in run.states(10).take(5) {
+///     println!("{}", state?.q[0]);
+/// }
+/// assert_eq!(run.steps(), 150);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+///
+/// # Blocks
+/// Whether everything is finite is checked once every 1024 steps, at the end of each call and
+/// before each observation; a check every step would cost a third of a simple system's run. When
+/// it is not, the block is made again step by step to find the first bad step, which the error
+/// reports; the run then stands at the state before that step. No observer sees a state that is
+/// not finite.
+#[derive(Debug, Clone)]
+pub struct Integrator<T: Real, S: System<T>, M: Scheme<T, S>, O = ()> {
+    prepared: S::Prepared,
+    scheme: M,
+    stepper: M::Stepper,
+    /// What was carried at the beginning of the present block.
+    snapshot: <M::Stepper as Stepper>::Carried,
+    clock: Clock<T>,
+    step: T,
+    steps: u64,
+    state: State<S::Vector>,
+    observer: O,
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
+    /// A run of `scheme` on `system` from `start` with the step size `step`, which is negative to
+    /// integrate backwards. Units are the caller's.
+    ///
+    /// # Errors
+    /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
+    /// the system's shape; [`Error::Start`] when it is not finite.
+    pub fn new(system: &S, scheme: M, start: State<S::Vector>, step: T) -> Result<Self, Error> {
+        if !step.is_finite() || step.equals(T::zero()).any() {
+            return Err(Error::Step {
+                step: step.to_f64(),
+            });
+        }
+        let zeros = system.zeros();
+        check_shape(
+            S::GROUPS.iter().map(|group| (group.part, group.coordinate)),
+            &zeros,
+            &start.q,
+        )?;
+        check_shape(
+            S::GROUPS.iter().map(|group| (group.part, group.momentum)),
+            &zeros,
+            &start.p,
+        )?;
+        if !finite(&start) {
+            let (q, p) = (numbers(&start.q), numbers(&start.p));
+            return Err(Error::Start {
+                time: start.t.to_f64(),
+                q,
+                p,
+            });
+        }
+        let prepared = system.prepare();
+        let stepper = scheme.prepare(&prepared, &start, step);
+        let duration = T::constant(f64::from(scheme.entry().duration), 0.0);
+        Ok(Integrator {
+            snapshot: stepper.carried().clone(),
+            clock: Clock {
+                start: start.t,
+                interval: step * duration,
+            },
+            prepared,
+            scheme,
+            stepper,
+            step,
+            steps: 0,
+            state: start,
+            observer: (),
+        })
+    }
+
+    /// The same run with an observer, which is shown the present state at once and from then on
+    /// every state whose step number is a multiple of its [interval](Observer::interval), on
+    /// every path: [`advance`](Integrator::advance), [`advance_to`](Integrator::advance_to),
+    /// [`states`](Integrator::states).
+    ///
+    /// Several observers are a tuple. An observer is given away and got back by
+    /// [`observer`](Integrator::observer), or lent as `&mut`.
+    pub fn observe<O: Observer<T, S>>(self, mut observer: O) -> Integrator<T, S, M, O> {
+        let Integrator {
+            prepared,
+            scheme,
+            stepper,
+            snapshot,
+            clock,
+            step,
+            steps,
+            state,
+            ..
+        } = self;
+        observer.attach(&View {
+            step: steps,
+            state: &state,
+            prepared: &prepared,
+        });
+        Integrator {
+            prepared,
+            scheme,
+            stepper,
+            snapshot,
+            clock,
+            step,
+            steps,
+            state,
+            observer,
+        }
+    }
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S, M, O> {
+    /// Makes `n` steps and returns the state after them.
+    ///
+    /// # Errors
+    /// [`Error::NotFinite`], [`Error::Solve`]. The run then stands at the last good state and
+    /// can be asked for it.
+    pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
+        let end = self.steps.saturating_add(n);
+        let interval = self.observer.interval().max(1);
+        while self.steps < end {
+            let due = (self.steps / interval)
+                .saturating_add(1)
+                .saturating_mul(interval);
+            self.run_to(due.min(end))?;
+            if self.steps == due {
+                self.observer.observe(&View {
+                    step: self.steps,
+                    state: &self.state,
+                    prepared: &self.prepared,
+                });
+            }
+        }
+        Ok(&self.state)
+    }
+
+    /// Makes the whole number of steps that leads to the time `t`.
+    ///
+    /// The step size is never changed, and a state at another time is never passed off as one at
+    /// `t`: if no whole number of steps leads there, to within the rounding of `t`, the step and
+    /// the start, that is an error and no step is made.
+    ///
+    /// # Errors
+    /// [`Error::OffGrid`] with the reachable times on both sides; those of
+    /// [`advance`](Integrator::advance).
+    pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
+        let count = ((t - self.clock.start) / self.clock.interval).to_f64();
+        let nearest = (count.max(0.0) + 0.5) as u64;
+        let reached = self.clock.at(nearest);
+        // t, the start and the interval are each off by half an ulp at most, and so are the
+        // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
+        // user, whatever the scalar.
+        let size =
+            t.magnitude() + self.clock.start.magnitude() + (reached - self.clock.start).magnitude();
+        let rounding = T::epsilon().max(f64::EPSILON) * size;
+        if nearest < self.steps || !((reached - t).magnitude() <= rounding) {
+            let below = if count.is_nan() {
+                0
+            } else {
+                (count.max(0.0) as u64).max(self.steps)
+            };
+            let after = if count < self.steps as f64 {
+                below
+            } else {
+                below + 1
+            };
+            return Err(Error::OffGrid {
+                target: t.to_f64(),
+                before: self.clock.at(below).to_f64(),
+                after: self.clock.at(after).to_f64(),
+            });
+        }
+        self.advance(nearest - self.steps)
+    }
+
+    /// The states after `every`, 2·`every`, … further steps (0 counts as 1), without end. The
+    /// first error is the last item.
+    pub fn states(&mut self, every: u64) -> States<'_, T, S, M, O> {
+        States {
+            run: self,
+            every: every.max(1),
+            failed: false,
+        }
+    }
+
+    /// Steps to `stop`, leaves the synchronised state there.
+    fn run_to(&mut self, stop: u64) -> Result<(), Error> {
+        while self.steps < stop {
+            let n = BLOCK.min(stop - self.steps);
+            self.snapshot.copy_from(self.stepper.carried());
+            if self.stepper.run(self.steps, n).is_err() || !self.arrives(self.steps + n) {
+                return Err(self.replay(n));
+            }
+            self.steps += n;
+        }
+        Ok(())
+    }
+
+    /// Writes the state after `made` steps, which the stepper has made; whether all is finite.
+    fn arrives(&mut self, made: u64) -> bool {
+        self.stepper
+            .synchronise(made, &mut self.state.q, &mut self.state.p);
+        self.state.t = self.clock.at(made);
+        finite(&self.state) && self.stepper.carried().is_finite()
+    }
+
+    /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
+    #[cold]
+    fn replay(&mut self, n: u64) -> Error {
+        let last = self.steps + n - 1;
+        self.stepper.carried_mut().copy_from(&self.snapshot);
+        loop {
+            self.snapshot.copy_from(self.stepper.carried());
+            let outcome = self.stepper.run(self.steps, 1);
+            let good = outcome.is_ok() && self.arrives(self.steps + 1);
+            // The last step is the bad one if none before it was.
+            if good && self.steps < last {
+                self.steps += 1;
+                continue;
+            }
+            let error = match outcome {
+                Err(Unsolved {
+                    made,
+                    residual,
+                    iterations,
+                }) => Error::Solve {
+                    step: made + 1,
+                    time: self.clock.at(made).to_f64(),
+                    residual,
+                    iterations,
+                },
+                Ok(()) => Error::NotFinite {
+                    step: self.steps + 1,
+                    time: self.state.t.to_f64(),
+                    q: numbers(&self.state.q),
+                    p: numbers(&self.state.p),
+                },
+            };
+            self.stepper.carried_mut().copy_from(&self.snapshot);
+            self.arrives(self.steps);
+            return error;
+        }
+    }
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O> {
+    /// The present state: time, coordinates and momenta, all at the same time.
+    pub fn state(&self) -> &State<S::Vector> {
+        &self.state
+    }
+
+    /// The present time.
+    pub fn time(&self) -> T {
+        self.state.t
+    }
+
+    /// The number of steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The step size.
+    pub fn step(&self) -> T {
+        self.step
+    }
+
+    /// The time one step advances: the step size, but twice that for
+    /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
+    pub fn interval(&self) -> T {
+        self.clock.interval
+    }
+
+    /// H at the present state.
+    pub fn energy(&self) -> T {
+        use crate::system::Dynamics;
+        self.prepared
+            .energy(self.state.t, &self.state.q, &self.state.p)
+    }
+
+    /// The system with its parameters worked in.
+    pub fn prepared(&self) -> &S::Prepared {
+        &self.prepared
+    }
+
+    /// The scheme's entry in the catalogue.
+    pub fn entry(&self) -> &'static Entry {
+        self.scheme.entry()
+    }
+
+    /// The observer.
+    pub fn observer(&self) -> &O {
+        &self.observer
+    }
+
+    /// Ends the run: the observer.
+    pub fn into_observer(self) -> O {
+        self.observer
+    }
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O>
+where
+    M::Stepper: Copies,
+{
+    /// The second copy (q̃, p̃) at the present time; the first is [`state`](Integrator::state).
+    pub fn copy(&self) -> Point<S::Vector> {
+        self.stepper.copy()
+    }
+
+    /// How far the two copies are apart: the Euclidean norm of (q − q̃, p − p̃).
+    pub fn copy_distance(&self) -> f64 {
+        let Point { q, p } = self.copy();
+        let mut sum = T::zero();
+        for (here, there) in [(&self.state.q, &q), (&self.state.p, &p)] {
+            for (a, b) in here.components().zip(there.components()) {
+                sum = (a - b).fma(a - b, sum);
+            }
+        }
+        Real::sqrt(sum.to_f64())
+    }
+}
+
+/// The iterator of [`Integrator::states`].
+#[derive(Debug)]
+pub struct States<'a, T: Real, S: System<T>, M: Scheme<T, S>, O> {
+    run: &'a mut Integrator<T, S, M, O>,
+    every: u64,
+    failed: bool,
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Iterator
+    for States<'_, T, S, M, O>
+{
+    type Item = Result<State<S::Vector>, Error>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.failed {
+            return None;
+        }
+        let state = self.run.advance(self.every).cloned();
+        self.failed = state.is_err();
+        Some(state)
+    }
+}
+
+/// Whether time, coordinates and momenta are finite.
+fn finite<V: Vector>(state: &State<V>) -> bool {
+    state.t.is_finite() && state.q.is_finite() && state.p.is_finite()
+}
+
+/// The components as `f64`.
+fn numbers<V: Vector>(vector: &V) -> Vec<f64> {
+    vector.components().map(Real::to_f64).collect()
+}
+
+/// An error where a part has not the length the system asks for, with the name of the first group
+/// in it.
+fn check_shape<V: Vector>(
+    mut groups: impl Iterator<Item = (usize, &'static str)> + Clone,
+    expected: &V,
+    found: &V,
+) -> Result<(), Error> {
+    for k in 0..V::PARTS {
+        let (expected, found) = (expected.part(k).len(), found.part(k).len());
+        if expected != found {
+            let name = groups
+                .find(|(part, _)| *part == k)
+                .map_or("", |(_, name)| name);
+            return Err(Error::Shape {
+                name,
+                expected,
+                found,
+            });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,367 @@
+//! Watching a run.
+//!
+//! Input: states of a run, as [`View`]s. Output: what an [`Observer`] makes of them:
+//! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
+//! changes no bit of the run.
+
+use crate::state::State;
+use crate::system::{Dynamics, ObservableKind, System};
+use alloc::vec::Vec;
+use hamiltonian_lanes::Real;
+
+/// A state of a run as observers see it.
+#[derive(Debug)]
+pub struct View<'a, T: Real, S: System<T>> {
+    /// The number of steps made.
+    pub step: u64,
+    /// Time, coordinates and momenta, all at the same time; finite.
+    pub state: &'a State<S::Vector>,
+    /// The system with its parameters worked in.
+    pub prepared: &'a S::Prepared,
+}
+
+impl<T: Real, S: System<T>> View<'_, T, S> {
+    /// H here.
+    pub fn energy(&self) -> T {
+        self.prepared
+            .energy(self.state.t, &self.state.q, &self.state.p)
+    }
+
+    /// Observable `index` of [`System::OBSERVABLES`] here.
+    pub fn observable(&self, index: usize) -> T {
+        self.prepared
+            .observable(index, self.state.t, &self.state.q, &self.state.p)
+    }
+}
+
+/// What watches a run.
+///
+/// It is shown the state at which it is attached, and from then on every state whose step number,
+/// counted from the start of the run, is a multiple of its interval. Which states it is shown
+/// depends on nothing else: not on how the run is cut into calls. A tuple of observers is an
+/// observer, and so is `&mut O`; a closure becomes one by [`watch`].
+pub trait Observer<T: Real, S: System<T>> {
+    /// Steps between observations, at least 1.
+    fn interval(&self) -> u64 {
+        1
+    }
+    /// Shows it the state at which it is attached.
+    fn attach(&mut self, view: &View<'_, T, S>) {
+        self.observe(view);
+    }
+    /// Shows it a state whose step number is a multiple of its interval.
+    fn observe(&mut self, view: &View<'_, T, S>);
+}
+
+/// A closure as an observer.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, every, schemes::StormerVerlet, watch};
+///
+/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
+///     .observe(every(50, watch(|view| println!("{} {}", view.state.t, view.energy()))));
+/// run.advance(100)?;
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+pub fn watch<T: Real, S: System<T>, F: FnMut(&View<'_, T, S>)>(closure: F) -> Watch<F> {
+    Watch(closure)
+}
+
+/// The observer [`watch`] makes.
+#[derive(Debug, Clone)]
+pub struct Watch<F>(F);
+
+impl<T: Real, S: System<T>, F: FnMut(&View<'_, T, S>)> Observer<T, S> for Watch<F> {
+    fn observe(&mut self, view: &View<'_, T, S>) {
+        (self.0)(view);
+    }
+}
+
+/// Every `steps` steps (0 counts as 1), `observer`.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{EnergyDrift, Integrator, Recorder, State, every, schemes::StormerVerlet};
+///
+/// let mut drift = EnergyDrift::new();
+/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
+///     .observe((&mut drift, every(100, Recorder::new())));
+/// run.advance(1_000)?;
+/// assert_eq!(run.observer().1.inner.rows(), 11);
+/// assert!(drift.max_relative() < 1e-4);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+pub fn every<O>(steps: u64, observer: O) -> Every<O> {
+    Every {
+        steps: steps.max(1),
+        inner: observer,
+    }
+}
+
+/// The observer [`every`] makes.
+#[derive(Debug, Clone)]
+pub struct Every<O> {
+    steps: u64,
+    /// The observer that is shown every so many steps.
+    pub inner: O,
+}
+
+impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
+    fn interval(&self) -> u64 {
+        self.steps.saturating_mul(self.inner.interval().max(1))
+    }
+    fn attach(&mut self, view: &View<'_, T, S>) {
+        self.inner.attach(view);
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) {
+        self.inner.observe(view);
+    }
+}
+
+impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
+    fn interval(&self) -> u64 {
+        (**self).interval()
+    }
+    fn attach(&mut self, view: &View<'_, T, S>) {
+        (**self).attach(view);
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) {
+        (**self).observe(view);
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for () {
+    fn interval(&self) -> u64 {
+        u64::MAX
+    }
+    fn observe(&mut self, _: &View<'_, T, S>) {}
+}
+
+/// The greatest common divisor, so that every member of a tuple is reached; `u64::MAX`, the
+/// interval of `()`, divides nothing and is passed over.
+fn common(a: u64, b: u64) -> u64 {
+    let (mut a, mut b) = (a.max(1), b.max(1));
+    if a == u64::MAX || b == u64::MAX {
+        return a.min(b);
+    }
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+macro_rules! tuple {
+    ($($observer:ident $index:tt),+) => {
+        impl<T: Real, S: System<T>, $($observer: Observer<T, S>),+> Observer<T, S>
+            for ($($observer,)+)
+        {
+            fn interval(&self) -> u64 {
+                let mut interval = u64::MAX;
+                $(interval = common(interval, self.$index.interval());)+
+                interval
+            }
+            fn attach(&mut self, view: &View<'_, T, S>) {
+                $(self.$index.attach(view);)+
+            }
+            fn observe(&mut self, view: &View<'_, T, S>) {
+                $(if view.step % self.$index.interval().max(1) == 0 {
+                    self.$index.observe(view);
+                })+
+            }
+        }
+    };
+}
+
+tuple!(A 0);
+tuple!(A 0, B 1);
+tuple!(A 0, B 1, C 2);
+tuple!(A 0, B 1, C 2, D 3);
+tuple!(A 0, B 1, C 2, D 3, E 4);
+tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
+
+/// How far a function of the state goes from its value where the observer was attached.
+///
+/// Differences are taken in the run's scalar, then rounded to `f64`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Deviation<T> {
+    start: T,
+    count: u64,
+    max: f64,
+    sum_of_sizes: f64,
+    sum: f64,
+}
+
+impl<T: Real> Deviation<T> {
+    fn new(start: T) -> Self {
+        Deviation {
+            start,
+            count: 0,
+            max: 0.0,
+            sum_of_sizes: 0.0,
+            sum: 0.0,
+        }
+    }
+
+    fn record(&mut self, value: T) {
+        let change = (value - self.start).to_f64();
+        let size = if change < 0.0 { -change } else { change };
+        self.count += 1;
+        // A NaN stays.
+        if !(size <= self.max) {
+            self.max = size;
+        }
+        self.sum_of_sizes += size;
+        self.sum += change;
+    }
+
+    /// The value f₀ at the start.
+    pub fn start(&self) -> T {
+        self.start
+    }
+
+    /// How many states were seen.
+    pub fn count(&self) -> u64 {
+        self.count
+    }
+
+    /// max |f − f₀|.
+    pub fn max_absolute(&self) -> f64 {
+        self.max
+    }
+
+    /// max |f/f₀ − 1|; infinite or NaN when f₀ = 0.
+    pub fn max_relative(&self) -> f64 {
+        self.max / self.scale()
+    }
+
+    /// The mean of |f − f₀|.
+    pub fn mean_absolute(&self) -> f64 {
+        self.sum_of_sizes / self.count as f64
+    }
+
+    /// The mean of |f/f₀ − 1|; infinite or NaN when f₀ = 0.
+    pub fn mean_relative(&self) -> f64 {
+        self.mean_absolute() / self.scale()
+    }
+
+    /// The mean of f.
+    pub fn mean(&self) -> f64 {
+        self.start.to_f64() + self.sum / self.count as f64
+    }
+
+    /// |f₀|.
+    fn scale(&self) -> f64 {
+        Real::abs(self.start.to_f64())
+    }
+}
+
+/// The drift of H, see [`Deviation`].
+///
+/// For a system that depends on time H is no invariant, and this is no error.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EnergyDrift<T = f64> {
+    drift: Option<Deviation<T>>,
+}
+
+impl<T: Real> EnergyDrift<T> {
+    /// An observer that has seen nothing.
+    pub fn new() -> Self {
+        EnergyDrift { drift: None }
+    }
+
+    /// What was seen; `None` before it is attached.
+    pub fn drift(&self) -> Option<&Deviation<T>> {
+        self.drift.as_ref()
+    }
+
+    /// max |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    pub fn max_relative(&self) -> f64 {
+        self.drift
+            .as_ref()
+            .map_or(f64::NAN, Deviation::max_relative)
+    }
+
+    /// The mean of |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    pub fn mean_relative(&self) -> f64 {
+        self.drift
+            .as_ref()
+            .map_or(f64::NAN, Deviation::mean_relative)
+    }
+
+    /// The mean of H; NaN before it is attached.
+    pub fn mean(&self) -> f64 {
+        self.drift.as_ref().map_or(f64::NAN, Deviation::mean)
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
+    fn attach(&mut self, view: &View<'_, T, S>) {
+        self.drift = None;
+        self.observe(view);
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) {
+        let energy = view.energy();
+        self.drift
+            .get_or_insert_with(|| Deviation::new(energy))
+            .record(energy);
+    }
+}
+
+/// The drift of every observable of the system: its monitors, invariants and events.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Monitors<T = f64> {
+    monitors: Vec<Monitor<T>>,
+}
+
+/// One line of [`Monitors`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Monitor<T> {
+    /// The declared name, with the component in brackets for vectors.
+    pub name: &'static str,
+    /// How it was declared.
+    pub kind: ObservableKind,
+    /// What was seen.
+    pub drift: Deviation<T>,
+}
+
+impl<T: Real> Monitors<T> {
+    /// An observer that has seen nothing.
+    pub fn new() -> Self {
+        Monitors {
+            monitors: Vec::new(),
+        }
+    }
+
+    /// All observables in declaration order; empty before it is attached.
+    pub fn all(&self) -> &[Monitor<T>] {
+        &self.monitors
+    }
+
+    /// The drift of the observable of that name.
+    pub fn get(&self, name: &str) -> Option<&Deviation<T>> {
+        self.monitors
+            .iter()
+            .find(|monitor| monitor.name == name)
+            .map(|monitor| &monitor.drift)
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
+    fn attach(&mut self, view: &View<'_, T, S>) {
+        self.monitors = (0..)
+            .zip(S::OBSERVABLES)
+            .map(|(index, observable)| Monitor {
+                name: observable.name,
+                kind: observable.kind,
+                drift: Deviation::new(view.observable(index)),
+            })
+            .collect();
+        self.observe(view);
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) {
+        for (index, monitor) in self.monitors.iter_mut().enumerate() {
+            monitor.drift.record(view.observable(index));
+        }
+    }
+}

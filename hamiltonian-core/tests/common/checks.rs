@@ -1,0 +1,315 @@
+//! Order and symplecticity, measured, for any scheme on any system.
+
+use super::reference::{difference, solution};
+use hamiltonian_core::schemes::Visitor;
+use hamiltonian_core::{
+    Copies, Dual, Entry, Form, Integrator, Real, Scheme, State, Stepper, System, Vector,
+};
+
+/// The exponent of the error against the step, by least squares over all points.
+pub fn slope(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs: Vec<_> = points
+        .iter()
+        .map(|(h, error)| (h.ln(), error.ln()))
+        .collect();
+    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n;
+    let (x, y) = (mean(|log| log.0), mean(|log| log.1));
+    let covariance: f64 = logs.iter().map(|log| (log.0 - x) * (log.1 - y)).sum();
+    covariance / logs.iter().map(|log| (log.0 - x).powi(2)).sum::<f64>()
+}
+
+/// The order of every visited scheme: errors at eight times up to `span` against the reference,
+/// with `coarsest`, and four halvings of it.
+///
+/// The maximum over several times keeps a zero of the leading error term from passing for order.
+pub struct Order<S: System<f64>> {
+    pub system: S,
+    pub start: State<S::Vector>,
+    pub span: f64,
+    pub coarsest: f64,
+    pub measured: Vec<(&'static Entry, f64)>,
+}
+
+impl<S: System<f64>> Visitor<f64, S> for Order<S> {
+    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+        const TIMES: u64 = 8;
+        let exact: Vec<_> = (1..=TIMES)
+            .map(|i| {
+                let t = self.start.t + self.span * i as f64 / TIMES as f64;
+                solution(&self.system, &self.start, t)
+            })
+            .collect();
+        let mut points = Vec::new();
+        for halving in 0..5 {
+            // A whole number of steps to each time, also where a step advances two of them.
+            let steps =
+                2 * (self.span / TIMES as f64 / self.coarsest / 2.0).ceil() as u64 * (1 << halving);
+            let h = self.span / (TIMES * steps) as f64;
+            let run = Integrator::new(&self.system, scheme.clone(), self.start.clone(), h);
+            let mut run = run.expect("a good start");
+            let every = steps / u64::from(scheme.entry().duration);
+            let error = run
+                .states(every)
+                .zip(&exact)
+                .map(|(state, exact)| difference(&state.expect("a good step"), exact))
+                .fold(0.0, f64::max);
+            points.push((h, error));
+        }
+        let slope = slope(&points);
+        let entry = scheme.entry();
+        let name = format!("{} {} on {}", entry.name, entry.variant, S::NAME);
+        assert!(
+            (slope - f64::from(entry.order)).abs() <= 0.1,
+            "{name}: slope {slope}, {points:?}"
+        );
+        self.measured.push((entry, slope));
+    }
+}
+
+/// MᵀJM − J, and ‖M‖², both in the maximum norm of entries; columns of M are `columns`.
+pub fn defect(columns: &[Vec<f64>], form: impl Fn(usize, usize) -> f64) -> (f64, f64) {
+    let n = columns.len();
+    let (mut defect, mut size) = (0.0_f64, 0.0_f64);
+    for i in 0..n {
+        for j in 0..n {
+            let mut sum = -form(i, j);
+            for k in 0..n {
+                for l in 0..n {
+                    let weight = form(k, l);
+                    if weight != 0.0 {
+                        sum += columns[i][k] * weight * columns[j][l];
+                    }
+                }
+            }
+            defect = defect.max(sum.abs());
+            size = size.max(columns[i][j].abs());
+        }
+    }
+    (defect, size * size)
+}
+
+/// dq∧dp of one point with n coordinates, flat as q, p.
+pub fn one_point(n: usize) -> impl Fn(usize, usize) -> f64 {
+    move |i, j| match () {
+        () if j == i + n => 1.0,
+        () if i == j + n => -1.0,
+        () => 0.0,
+    }
+}
+
+/// dq_x∧dp_y + dq_y∧dp_x of two points, flat as x.q, x.p, y.q, y.p.
+pub fn crossed(n: usize) -> impl Fn(usize, usize) -> f64 {
+    move |i, j| {
+        let partner = |k: usize| match k / n {
+            0 => (k + 3 * n, 1.0),
+            1 => (k + n, -1.0),
+            2 => (k - n, 1.0),
+            _ => (k - 3 * n, -1.0),
+        };
+        let (of, sign) = partner(i);
+        if of == j { sign } else { 0.0 }
+    }
+}
+
+/// dq_x∧dp_x + dq_y∧dp_y of two points: what two-point schemes do not preserve.
+pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
+    move |i, j| {
+        let half = 2 * n;
+        if i / half == j / half {
+            one_point(n)(i % half, j % half)
+        } else {
+            0.0
+        }
+    }
+}
+
+/// The tangent of what is seen over the step after the first `made`, by dual numbers.
+pub fn visible_tangent<S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<<S as System<f64>>::Vector>,
+    h: f64,
+    steps: u64,
+) -> Vec<Vec<f64>>
+where
+    S: System<f64> + System<Dual<f64>>,
+    M: Scheme<Dual<f64>, S>,
+{
+    let n = start.q.len();
+    (0..2 * n)
+        .map(|seed| {
+            let mut dual = State {
+                t: Dual::fixed(start.t),
+                q: <S as System<Dual<f64>>>::zeros(system),
+                p: <S as System<Dual<f64>>>::zeros(system),
+            };
+            for i in 0..n {
+                *dual.q.component_mut(i) = seeded(start.q.component(i), i == seed);
+                *dual.p.component_mut(i) = seeded(start.p.component(i), i + n == seed);
+            }
+            let run = Integrator::new(system, scheme.clone(), dual, Dual::fixed(h));
+            let mut run = run.expect("a good start");
+            let end = run.advance(steps).expect("good steps");
+            end.q
+                .components()
+                .chain(end.p.components())
+                .map(|x| x.eps)
+                .collect()
+        })
+        .collect()
+}
+
+/// The tangent of one step of what is carried, by dual numbers, at a carried point that the run
+/// from `start` reaches after `made` steps.
+pub fn carried_tangent<S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<<S as System<Dual<f64>>>::Vector>,
+    h: f64,
+    made: u64,
+) -> Vec<Vec<f64>>
+where
+    S: System<Dual<f64>>,
+    M: Scheme<Dual<f64>, S>,
+{
+    let prepared = system.prepare();
+    let mut stepper = scheme.prepare(&prepared, start, Dual::fixed(h));
+    stepper.run(0, made).expect("good steps");
+    (0..stepper.carried().len())
+        .map(|seed| {
+            let mut stepper = stepper.clone();
+            *stepper.carried_mut().component_mut(seed) =
+                Dual::variable(stepper.carried().component(seed).re);
+            stepper.run(made, 1).expect("a good step");
+            stepper.carried().components().map(|x| x.eps).collect()
+        })
+        .collect()
+}
+
+/// The tangent of one step of both copies, started together at different points, by dual numbers,
+/// flat as q, p, q̃, p̃.
+pub fn copies_tangent<S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<<S as System<Dual<f64>>>::Vector>,
+    h: f64,
+) -> Vec<Vec<f64>>
+where
+    S: System<Dual<f64>>,
+    M: Scheme<Dual<f64>, S>,
+    M::Stepper: Copies,
+{
+    let prepared = system.prepare();
+    let n = start.q.len();
+    // Crossed or not, both halves of x and y are one copy's each; where a copy's component lies
+    // in what is carried is found by moving it.
+    let plain = scheme.prepare(&prepared, start, Dual::fixed(h));
+    let read = |stepper: &mut M::Stepper, made: u64| {
+        let (mut q, mut p) = (start.q.clone(), start.p.clone());
+        stepper.synchronise(made, &mut q, &mut p);
+        let copy = stepper.copy();
+        let all: Vec<_> = q
+            .components()
+            .chain(p.components())
+            .chain(copy.q.components())
+            .chain(copy.p.components())
+            .collect();
+        all
+    };
+    let mut columns = vec![Vec::new(); 4 * n];
+    for seed in 0..4 * n {
+        let mut stepper = plain.clone();
+        for i in 0..4 * n {
+            // The copies apart, so that the check is no special case.
+            let value = stepper.carried().component(i).re + 0.01 * i as f64;
+            *stepper.carried_mut().component_mut(i) = seeded(value, i == seed);
+        }
+        let place = read(&mut stepper, 0).iter().position(|x| x.eps == 1.0);
+        stepper.run(0, 1).expect("a good step");
+        columns[place.expect("seen")] = read(&mut stepper, 1).iter().map(|x| x.eps).collect();
+    }
+    columns
+}
+
+fn seeded(value: f64, seed: bool) -> Dual<f64> {
+    if seed {
+        Dual::variable(value)
+    } else {
+        Dual::fixed(value)
+    }
+}
+
+/// A start in duals.
+pub fn lifted<S: System<Dual<f64>>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+    let mut state = State {
+        t: Dual::fixed(0.0),
+        q: system.zeros(),
+        p: system.zeros(),
+    };
+    for (i, (q, p)) in q.iter().zip(p).enumerate() {
+        *state.q.component_mut(i) = Dual::fixed(*q);
+        *state.p.component_mut(i) = Dual::fixed(*p);
+    }
+    state
+}
+
+/// A start in doubles.
+pub fn plain<S: System<f64>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+    let mut state = State {
+        t: 0.0,
+        q: system.zeros(),
+        p: system.zeros(),
+    };
+    for (i, (q, p)) in q.iter().zip(p).enumerate() {
+        *state.q.component_mut(i) = *q;
+        *state.p.component_mut(i) = *p;
+    }
+    state
+}
+
+/// The form each visited scheme says it preserves, over the first, second and third step.
+pub struct Geometry<S> {
+    pub system: S,
+    pub q: Vec<f64>,
+    pub p: Vec<f64>,
+    pub h: f64,
+    pub measured: Vec<(&'static Entry, f64)>,
+}
+
+impl<S: System<f64> + System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
+    fn visit<M: Scheme<Dual<f64>, S>>(&mut self, scheme: M) {
+        // Exact up to the rounding of the tangents themselves: entries of M are sums of a few
+        // products, wrong by some ulps of ‖M‖, and enter twice.
+        const BOUND: f64 = 1e-13;
+        let entry = scheme.entry();
+        let n = self.q.len();
+        let state = plain::<S>(&self.system, &self.q, &self.p);
+        let dual = lifted::<S>(&self.system, &self.q, &self.p);
+        for made in 0..3 {
+            let (worst, size) = match entry.preserves {
+                Form::TwoPoint => defect(
+                    &carried_tangent(&self.system, &scheme, &dual, self.h, made),
+                    crossed(n),
+                ),
+                Form::OnePoint | Form::Nothing => defect(
+                    &visible_tangent(&self.system, &scheme, &state, self.h, made + 1),
+                    one_point(n),
+                ),
+            };
+            let name = format!(
+                "{} {} on {}",
+                entry.name,
+                entry.variant,
+                <S as System<f64>>::NAME
+            );
+            match entry.preserves {
+                Form::Nothing => {
+                    assert!(worst > 1e3 * BOUND * size, "{name}: {worst:e} of {size:e}");
+                }
+                _ => assert!(worst <= BOUND * size, "{name}: {worst:e} of {size:e}"),
+            }
+            self.measured.push((entry, worst / size));
+        }
+    }
+}

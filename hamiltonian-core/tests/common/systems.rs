@@ -1,0 +1,569 @@
+//! Systems by hand: what the macro would emit, without its care for speed.
+
+use hamiltonian_core::private::{DVector, SVector};
+use hamiltonian_core::{
+    Drift, Dual, Dynamics, Flow, Group, Kick, Observable, ObservableKind, Real, Separable, System,
+};
+
+/// H as a formula over any scalar, with N coordinates.
+pub trait Formula<const N: usize>: Clone + std::fmt::Debug + Send + Sync + 'static {
+    const NAME: &'static str;
+    const GROUPS: &'static [Group];
+    const OBSERVABLES: &'static [Observable] = &[];
+    fn energy<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> T;
+    /// ∂H/∂q, ∂H/∂p; by dual numbers unless written out.
+    fn gradient<T: Real>(&self, t: T, q: &[T; N], p: &[T; N]) -> ([T; N], [T; N]) {
+        let (mut dq, mut dp) = ([T::zero(); N], [T::zero(); N]);
+        let at = Dual::fixed(t);
+        let (fq, fp) = (q.map(Dual::fixed), p.map(Dual::fixed));
+        for i in 0..N {
+            let mut moved = fq;
+            moved[i] = Dual::variable(q[i]);
+            dq[i] = self.energy(at, &moved, &fp).eps;
+            let mut moved = fp;
+            moved[i] = Dual::variable(p[i]);
+            dp[i] = self.energy(at, &fq, &moved).eps;
+        }
+        (dq, dp)
+    }
+    fn observable<T: Real>(&self, _: usize, t: T, q: &[T; N], p: &[T; N]) -> T {
+        self.energy(t, q, p)
+    }
+}
+
+/// H = T(p, t) + V(q, t).
+pub trait Split<const N: usize>: Formula<N> {
+    fn force<T: Real>(&self, t: T, q: &[T; N]) -> [T; N];
+    fn velocity<T: Real>(&self, t: T, p: &[T; N]) -> [T; N];
+}
+
+/// A formula as a system.
+#[derive(Debug, Clone)]
+pub struct Hand<H, const N: usize>(pub H);
+
+/// A formula, prepared, and with a step coefficient.
+#[derive(Debug, Clone)]
+pub struct Ready<H, const N: usize>(H);
+#[derive(Debug, Clone)]
+pub struct Scaled<H, T, const N: usize>(H, T);
+
+fn array<T: Real, const N: usize>(v: &SVector<T, N>) -> &[T; N] {
+    &v.data.0[0]
+}
+
+impl<T: Real, H: Formula<N>, const N: usize> System<T> for Hand<H, N> {
+    type Vector = SVector<T, N>;
+    type Prepared = Ready<H, N>;
+    const NAME: &'static str = H::NAME;
+    const GROUPS: &'static [Group] = H::GROUPS;
+    const OBSERVABLES: &'static [Observable] = H::OBSERVABLES;
+    fn prepare(&self) -> Ready<H, N> {
+        Ready(self.0.clone())
+    }
+    fn zeros(&self) -> SVector<T, N> {
+        SVector::from_element(T::zero())
+    }
+}
+
+impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N>
+where
+    Ready<H, N>: Clone,
+{
+    type Vector = SVector<T, N>;
+    type Flow = Scaled<H, T, N>;
+    fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+        self.0.energy(t, array(q), array(p))
+    }
+    fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
+        out.data.0[0] = self.0.gradient(t, array(q), array(p)).0;
+    }
+    fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
+        out.data.0[0] = self.0.gradient(t, array(q), array(p)).1;
+    }
+    fn gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    ) {
+        (dq.data.0[0], dp.data.0[0]) = self.0.gradient(t, array(q), array(p));
+    }
+    fn energy_and_gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    ) -> T {
+        self.gradient(t, q, p, dq, dp);
+        self.energy(t, q, p)
+    }
+    fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+        let (q, p) = (array(q).map(Dual::fixed), array(p).map(Dual::fixed));
+        self.0.energy(Dual::variable(t), &q, &p).eps
+    }
+    fn hessian_vector(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        vq: &Self::Vector,
+        vp: &Self::Vector,
+        out_q: &mut Self::Vector,
+        out_p: &mut Self::Vector,
+    ) {
+        let (mut moved_q, mut moved_p) = ([Dual::fixed(T::zero()); N], [Dual::fixed(T::zero()); N]);
+        for i in 0..N {
+            moved_q[i] = Dual::new(q[i], vq[i]);
+            moved_p[i] = Dual::new(p[i], vp[i]);
+        }
+        let (dq, dp) = self.0.gradient(Dual::fixed(t), &moved_q, &moved_p);
+        for i in 0..N {
+            out_q[i] = dq[i].eps;
+            out_p[i] = dp[i].eps;
+        }
+    }
+    fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+        self.0.observable(index, t, array(q), array(p))
+    }
+    fn flow(&self, c: T) -> Scaled<H, T, N> {
+        Scaled(self.0.clone(), c)
+    }
+}
+
+impl<T: Real, H: Formula<N>, const N: usize> Flow<SVector<T, N>> for Scaled<H, T, N> {
+    #[inline(always)]
+    fn flow(
+        &self,
+        t: T,
+        q: &SVector<T, N>,
+        p: &SVector<T, N>,
+        into_q: &mut SVector<T, N>,
+        into_p: &mut SVector<T, N>,
+    ) {
+        let (dq, dp) = self.0.gradient(t, array(q), array(p));
+        for i in 0..N {
+            into_q[i] = self.1.fma(dp[i], into_q[i]);
+            into_p[i] = (-self.1).fma(dq[i], into_p[i]);
+        }
+    }
+}
+
+impl<T: Real, H: Split<N>, const N: usize> Separable<T> for Hand<H, N> {
+    type Kick = Scaled<H, T, N>;
+    type Drift = Scaled<H, T, N>;
+    fn kick(prepared: &Ready<H, N>, c: T) -> Scaled<H, T, N> {
+        Scaled(prepared.0.clone(), c)
+    }
+    fn drift(prepared: &Ready<H, N>, c: T) -> Scaled<H, T, N> {
+        Scaled(prepared.0.clone(), c)
+    }
+}
+
+impl<T: Real, H: Split<N>, const N: usize> Kick<SVector<T, N>> for Scaled<H, T, N> {
+    #[inline(always)]
+    fn kick(&self, t: T, q: &SVector<T, N>, p: &mut SVector<T, N>) {
+        let force = self.0.force(t, array(q));
+        for i in 0..N {
+            p[i] = (-self.1).fma(force[i], p[i]);
+        }
+    }
+}
+
+impl<T: Real, H: Split<N>, const N: usize> Drift<SVector<T, N>> for Scaled<H, T, N> {
+    #[inline(always)]
+    fn drift(&self, t: T, p: &SVector<T, N>, q: &mut SVector<T, N>) {
+        let velocity = self.0.velocity(t, array(p));
+        for i in 0..N {
+            q[i] = self.1.fma(velocity[i], q[i]);
+        }
+    }
+}
+
+/// A scalar coordinate and its momentum.
+pub const fn scalar(coordinate: &'static str, momentum: &'static str, offset: usize) -> Group {
+    Group {
+        coordinate,
+        momentum,
+        rank: 0,
+        part: 0,
+        offset,
+        columns: 1,
+    }
+}
+
+fn number<T: Real>(x: f64) -> T {
+    T::constant(x, 0.0)
+}
+
+/// Gives a separable formula the gradient its halves make.
+macro_rules! gradient_of_halves {
+    ($n:literal) => {
+        fn gradient<T: Real>(&self, t: T, q: &[T; $n], p: &[T; $n]) -> ([T; $n], [T; $n]) {
+            (self.force(t, q), self.velocity(t, p))
+        }
+    };
+}
+
+/// The paper's pendulum, with g, and with the zero of V at the bottom or at the pivot.
+#[derive(Debug, Clone)]
+pub struct Pendulum {
+    pub m: f64,
+    pub l: f64,
+    pub g: f64,
+    /// V = mgl(1 − cos q) instead of −mgl cos q.
+    pub from_bottom: bool,
+}
+
+/// m = 1, l = 10 (the paper's), g = 9.81.
+pub fn pendulum(from_bottom: bool) -> Hand<Pendulum, 1> {
+    Hand(Pendulum {
+        m: 1.0,
+        l: 10.0,
+        g: 9.81,
+        from_bottom,
+    })
+}
+
+impl Formula<1> for Pendulum {
+    const NAME: &'static str = "Pendulum";
+    const GROUPS: &'static [Group] = &[scalar("theta", "p", 0)];
+    const OBSERVABLES: &'static [Observable] = &[Observable {
+        name: "height",
+        kind: ObservableKind::Monitor,
+    }];
+    fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let mgl = number::<T>(self.m) * number(self.g) * number(self.l);
+        let inertia = number::<T>(self.m) * number(self.l) * number(self.l);
+        let lift = if self.from_bottom { mgl } else { T::zero() };
+        p[0] * p[0] / (number::<T>(2.0) * inertia) + (lift - mgl * q[0].cos())
+    }
+    gradient_of_halves!(1);
+    fn observable<T: Real>(&self, _: usize, _: T, q: &[T; 1], _: &[T; 1]) -> T {
+        -number::<T>(self.l) * q[0].cos()
+    }
+}
+
+impl Split<1> for Pendulum {
+    fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
+        [number::<T>(self.m) * number(self.g) * number(self.l) * q[0].sin()]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
+        [p[0] / (number::<T>(self.m) * number(self.l) * number(self.l))]
+    }
+}
+
+/// (34): H = ½(q² + 1)(p² + 1).
+#[derive(Debug, Clone)]
+pub struct Paper34;
+
+impl Formula<1> for Paper34 {
+    const NAME: &'static str = "Paper34";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+        number::<T>(0.5) * (q[0] * q[0] + T::one()) * (p[0] * p[0] + T::one())
+    }
+    fn gradient<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> ([T; 1], [T; 1]) {
+        (
+            [q[0] * (p[0] * p[0] + T::one())],
+            [p[0] * (q[0] * q[0] + T::one())],
+        )
+    }
+}
+
+/// (34) with a clock: H = ½(q² + 1)(p² + 1)(1 + ½ sin 2t).
+#[derive(Debug, Clone)]
+pub struct Shaken34;
+
+impl Formula<1> for Shaken34 {
+    const NAME: &'static str = "Shaken34";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let factor = T::one() + number::<T>(0.5) * (t + t).sin();
+        Paper34.energy(t, q, p) * factor
+    }
+}
+
+/// H = (p_x² + p_y²)/2 + (x² + y²)/2 + x²y − y³/3.
+#[derive(Debug, Clone)]
+pub struct HenonHeiles;
+
+impl Formula<2> for HenonHeiles {
+    const NAME: &'static str = "HenonHeiles";
+    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
+        let (x, y, px, py) = (*x, *y, *px, *py);
+        number::<T>(0.5) * (px * px + py * py + x * x + y * y) + x * x * y - y * y * y / number(3.0)
+    }
+    gradient_of_halves!(2);
+}
+
+impl Split<2> for HenonHeiles {
+    fn force<T: Real>(&self, _: T, [x, y]: &[T; 2]) -> [T; 2] {
+        let (x, y) = (*x, *y);
+        [x + number::<T>(2.0) * x * y, y + x * x - y * y]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 2]) -> [T; 2] {
+        *p
+    }
+}
+
+/// H = √(1 + p²) − cos q + q⁴/10: separable, neither half quadratic.
+#[derive(Debug, Clone)]
+pub struct Relativistic;
+
+impl Formula<1> for Relativistic {
+    const NAME: &'static str = "Relativistic";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let square = q[0] * q[0];
+        (T::one() + p[0] * p[0]).sqrt() - q[0].cos() + square * square / number(10.0)
+    }
+    gradient_of_halves!(1);
+}
+
+impl Split<1> for Relativistic {
+    fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
+        [q[0].sin() + number::<T>(0.4) * q[0] * q[0] * q[0]]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
+        [p[0] / (T::one() + p[0] * p[0]).sqrt()]
+    }
+}
+
+/// H = p²/2 + q²/2 + q⁴/4 − a q cos ωt.
+#[derive(Debug, Clone)]
+pub struct Driven {
+    pub a: f64,
+    pub omega: f64,
+}
+
+impl Formula<1> for Driven {
+    const NAME: &'static str = "Driven";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let square = q[0] * q[0];
+        number::<T>(0.5) * (p[0] * p[0] + square) + number::<T>(0.25) * square * square
+            - number::<T>(self.a) * q[0] * (number::<T>(self.omega) * t).cos()
+    }
+    gradient_of_halves!(1);
+}
+
+impl Split<1> for Driven {
+    fn force<T: Real>(&self, t: T, q: &[T; 1]) -> [T; 1] {
+        let drive = number::<T>(self.a) * (number::<T>(self.omega) * t).cos();
+        [q[0] + q[0] * q[0] * q[0] - drive]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
+        *p
+    }
+}
+
+/// H = (1 + ½ sin 2t) √(1 + p²) + (1 + ½ cos 3t)(q²/2 + q⁴/4): both halves depend on time.
+#[derive(Debug, Clone)]
+pub struct Pumped;
+
+impl Pumped {
+    fn factors<T: Real>(t: T) -> (T, T) {
+        let half = number::<T>(0.5);
+        (
+            T::one() + half * (number::<T>(2.0) * t).sin(),
+            T::one() + half * (number::<T>(3.0) * t).cos(),
+        )
+    }
+}
+
+impl Formula<1> for Pumped {
+    const NAME: &'static str = "Pumped";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let (a, b) = Self::factors(t);
+        let square = q[0] * q[0];
+        a * (T::one() + p[0] * p[0]).sqrt()
+            + b * (number::<T>(0.5) * square + number::<T>(0.25) * square * square)
+    }
+    gradient_of_halves!(1);
+}
+
+impl Split<1> for Pumped {
+    fn force<T: Real>(&self, t: T, q: &[T; 1]) -> [T; 1] {
+        [Self::factors(t).1 * (q[0] + q[0] * q[0] * q[0])]
+    }
+    fn velocity<T: Real>(&self, t: T, p: &[T; 1]) -> [T; 1] {
+        [Self::factors(t).0 * p[0] / (T::one() + p[0] * p[0]).sqrt()]
+    }
+}
+
+/// The planar double pendulum, angles from the vertical; m₁ = m₂ = l₁ = l₂ = 1, g = 9.81.
+#[derive(Debug, Clone)]
+pub struct DoublePendulum;
+
+impl Formula<2> for DoublePendulum {
+    const NAME: &'static str = "DoublePendulum";
+    const GROUPS: &'static [Group] = &[scalar("a", "p_a", 0), scalar("b", "p_b", 1)];
+    fn energy<T: Real>(&self, _: T, [a, b]: &[T; 2], [pa, pb]: &[T; 2]) -> T {
+        let (a, b, pa, pb) = (*a, *b, *pa, *pb);
+        let (two, g) = (number::<T>(2.0), number::<T>(9.81));
+        let (sin, cos) = (a - b).sin_cos();
+        (pa * pa + two * pb * pb - two * pa * pb * cos) / (two * (T::one() + sin * sin))
+            - g * (two * a.cos() + b.cos())
+    }
+}
+
+/// A chain of n sites between fixed ends, sized at run time:
+/// H = Σ p²/2 + Σ (q[i+1] − q[i])²/2 + Σ q⁴/4.
+#[derive(Debug, Clone)]
+pub struct Chain {
+    pub n: usize,
+}
+
+/// A chain with a step coefficient.
+#[derive(Debug, Clone)]
+pub struct ScaledChain<T>(T);
+
+impl<T: Real> System<T> for Chain {
+    type Vector = DVector<T>;
+    type Prepared = Chain;
+    const NAME: &'static str = "Chain";
+    const GROUPS: &'static [Group] = &[Group {
+        coordinate: "q",
+        momentum: "p",
+        rank: 1,
+        part: 0,
+        offset: 0,
+        columns: 1,
+    }];
+    const OBSERVABLES: &'static [Observable] = &[];
+    fn prepare(&self) -> Chain {
+        self.clone()
+    }
+    fn zeros(&self) -> DVector<T> {
+        DVector::from_element(self.n, T::zero())
+    }
+}
+
+impl Chain {
+    fn force<T: Real>(q: &DVector<T>, i: usize) -> T {
+        let left = if i > 0 { q[i] - q[i - 1] } else { q[i] };
+        let right = if i + 1 < q.len() {
+            q[i] - q[i + 1]
+        } else {
+            q[i]
+        };
+        left + right + q[i] * q[i] * q[i]
+    }
+}
+
+impl<T: Real> Dynamics<T> for Chain {
+    type Vector = DVector<T>;
+    type Flow = ScaledChain<T>;
+    fn energy(&self, _: T, q: &DVector<T>, p: &DVector<T>) -> T {
+        let (half, quarter) = (number::<T>(0.5), number::<T>(0.25));
+        let mut sum = half * q[self.n - 1] * q[self.n - 1];
+        for i in 0..self.n {
+            let left = if i > 0 { q[i] - q[i - 1] } else { q[i] };
+            let square = q[i] * q[i];
+            sum += half * (p[i] * p[i] + left * left) + quarter * square * square;
+        }
+        sum
+    }
+    fn gradient_q(&self, _: T, q: &DVector<T>, _: &DVector<T>, out: &mut DVector<T>) {
+        for i in 0..self.n {
+            out[i] = Chain::force(q, i);
+        }
+    }
+    fn gradient_p(&self, _: T, _: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
+        out.copy_from_slice(p.as_slice());
+    }
+    fn gradient(
+        &self,
+        t: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        dq: &mut DVector<T>,
+        dp: &mut DVector<T>,
+    ) {
+        self.gradient_q(t, q, p, dq);
+        self.gradient_p(t, q, p, dp);
+    }
+    fn energy_and_gradient(
+        &self,
+        t: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        dq: &mut DVector<T>,
+        dp: &mut DVector<T>,
+    ) -> T {
+        self.gradient(t, q, p, dq, dp);
+        Dynamics::energy(self, t, q, p)
+    }
+    fn time_derivative(&self, _: T, _: &DVector<T>, _: &DVector<T>) -> T {
+        T::zero()
+    }
+    fn hessian_vector(
+        &self,
+        _: T,
+        q: &DVector<T>,
+        _: &DVector<T>,
+        vq: &DVector<T>,
+        vp: &DVector<T>,
+        out_q: &mut DVector<T>,
+        out_p: &mut DVector<T>,
+    ) {
+        let moved = DVector::from_fn(self.n, |i, _| Dual::new(q[i], vq[i]));
+        for i in 0..self.n {
+            out_q[i] = Chain::force(&moved, i).eps;
+            out_p[i] = vp[i];
+        }
+    }
+    fn observable(&self, _: usize, _: T, _: &DVector<T>, _: &DVector<T>) -> T {
+        T::zero()
+    }
+    fn flow(&self, c: T) -> ScaledChain<T> {
+        ScaledChain(c)
+    }
+}
+
+impl<T: Real> Flow<DVector<T>> for ScaledChain<T> {
+    fn flow(
+        &self,
+        t: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        into_q: &mut DVector<T>,
+        into_p: &mut DVector<T>,
+    ) {
+        self.drift(t, p, into_q);
+        self.kick(t, q, into_p);
+    }
+}
+
+impl<T: Real> Kick<DVector<T>> for ScaledChain<T> {
+    fn kick(&self, _: T, q: &DVector<T>, p: &mut DVector<T>) {
+        for i in 0..q.len() {
+            p[i] -= self.0 * Chain::force(q, i);
+        }
+    }
+}
+
+impl<T: Real> Drift<DVector<T>> for ScaledChain<T> {
+    fn drift(&self, _: T, p: &DVector<T>, q: &mut DVector<T>) {
+        for i in 0..p.len() {
+            q[i] = self.0.fma(p[i], q[i]);
+        }
+    }
+}
+
+impl<T: Real> Separable<T> for Chain {
+    type Kick = ScaledChain<T>;
+    type Drift = ScaledChain<T>;
+    fn kick(_: &Chain, c: T) -> ScaledChain<T> {
+        ScaledChain(c)
+    }
+    fn drift(_: &Chain, c: T) -> ScaledChain<T> {
+        ScaledChain(c)
+    }
+}

@@ -31,6 +31,6 @@ mod dual;
 
 mod lift;
 
-pub use double_double::DoubleDouble;
+pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
 pub use dual::Dual;
 pub use real::{Lift, Mask, Real};

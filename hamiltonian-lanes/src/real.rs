@@ -9,6 +9,15 @@ use core::ops::{
 };
 
 /// The result of comparing two [`Real`]s: `bool` for scalars, one flag a lane for packs.
+///
+/// ```
+/// use hamiltonian_lanes::{Mask, Real};
+///
+/// fn inside<T: Real>(x: T) -> T::Mask {
+///     T::zero().le(x) & x.lt(T::one())
+/// }
+/// assert!(inside(0.5f64).all() && !inside(1.0f64).any());
+/// ```
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
 {
@@ -21,13 +30,50 @@ pub trait Mask:
 }
 
 /// A scalar made from a value of type `P` without loss of what `P` says: parameters of type `P`
-/// serve every state scalar they lift to.
+/// serve every state scalar they lift to. A scalar narrower than `P` rounds to nearest (`f32`
+/// from `f64`); a dual number lifts as a constant.
+///
+/// ```
+/// use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Real};
+///
+/// fn twice<P, T: Real + Lift<P>>(parameter: P, x: T) -> T {
+///     T::lift(parameter) * x
+/// }
+/// assert_eq!(twice(2.5, 2.0), 5.0);
+/// assert_eq!(twice(2.5, Dual::variable(2.0)).eps, 2.5);
+/// assert_eq!(twice(2u32, DoubleDouble::from(2.0)).to_f64(), 4.0);
+/// ```
 pub trait Lift<P> {
     /// The value as this scalar.
     fn lift(value: P) -> Self;
 }
 
 /// Real arithmetic: `f64`, `f32`, dual numbers, double-double, and (later) packs of lanes.
+///
+/// Values, domains and special cases are those of IEEE 754 and of the C library: a point outside
+/// the domain gives NaN, a pole an infinity, odd functions keep the sign of zero,
+/// `atan2(±0, −0) = ±π`, `hypot(∞, NaN) = ∞`, `pow(x, 0) = pow(1, y) = 1`. Errors are one or two
+/// units in the last place for the floats, and as [`DoubleDouble`](crate::DoubleDouble) states;
+/// where derivatives do not exist, [`Dual`](crate::Dual) states what stands in for them.
+///
+/// ```
+/// use hamiltonian_lanes::{DoubleDouble, Dual, Real};
+///
+/// /// One step of Newton's iteration for `x·eˣ = y`, written once for every scalar.
+/// fn improve<T: Real>(x: T, y: T) -> T {
+///     x - (x * x.exp() - y) / ((T::one() + x) * x.exp())
+/// }
+///
+/// let x = improve(improve(0.6, 1.0), 1.0);
+/// assert!((x - 0.567143290409784).abs() < 1e-5);
+/// // In 32 digits, from there on.
+/// let one = DoubleDouble::from(1.0);
+/// let x = (0..4).fold(DoubleDouble::from(x), |x, _| improve(x, one));
+/// assert_eq!(x.to_string(), "0.56714329040978387299996866221036");
+/// // With its derivative by y, which is 1/((1 + x)·eˣ).
+/// let x = improve(Dual::fixed(0.5671432904097838), Dual::variable(1.0));
+/// assert!((x.eps - 0.3618962566348892).abs() < 1e-14);
+/// ```
 pub trait Real:
     Copy
     + Debug

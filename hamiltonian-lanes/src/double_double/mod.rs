@@ -15,7 +15,12 @@ mod trigonometric;
 
 mod scalar;
 
+mod big;
+mod decimal;
+
 use arithmetic::two_sum;
+
+pub use decimal::ParseDoubleDoubleError;
 
 /// `hi + lo`, two `f64` read as one number of about 106 bits (32 decimal digits): what orders and
 /// invariants are measured with where `f64` ends.
@@ -23,6 +28,22 @@ use arithmetic::two_sum;
 /// The arithmetic is Dekker's (*Numer. Math.* 18, 224, 1971, doi:10.1007/BF01397083) in the
 /// variants whose bounds Joldes, Muller and Popescu proved (*ACM Trans. Math. Softw.* 44, 15,
 /// 2017, doi:10.1145/3121432).
+///
+/// # Accuracy
+/// Largest relative errors over the full range (angles up to 10³⁰⁰, results above 10⁻²⁸⁰), asserted
+/// against 5 800 values of 50 digits; one unit 2⁻¹⁰⁵ is 2.5e-32:
+///
+/// | | ≤ | | ≤ | | ≤ |
+/// |---|---|---|---|---|---|
+/// | + − | 1.5e-32 | sin, cos | 3e-32 | exp | 1.5e-32 |
+/// | × | 3e-32 | tan | 5e-32 | exp_m1 | 4.5e-32 |
+/// | ÷ | 4e-32 | asin | 4e-32 | ln, ln_1p | 4.5e-32 |
+/// | sqrt | 3e-32 | acos | 4.5e-32 | sinh | 4e-32 |
+/// | cbrt | 4e-32 | atan, atan2 | 3e-32 | cosh | 2e-32 |
+/// | hypot | 3e-32 | tanh | 6e-32 | asinh, acosh, atanh | 5e-32, 6e-32, 6e-32 |
+///
+/// and 2.5e-31·(1 + |y ln x|) for x^y. Below 10⁻²⁹⁰ the trailing word is subnormal and digits are
+/// lost, as with any pair of `f64`. Signed zeros, infinities and NaN are as in `f64`.
 ///
 /// ```
 /// use hamiltonian_lanes::{DoubleDouble, Real};

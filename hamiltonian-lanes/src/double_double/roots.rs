@@ -23,6 +23,13 @@ impl DoubleDouble {
                 .square_root()
                 .scale(power_of_two(-100));
         }
+        // The square of the root of the largest numbers may overflow.
+        if self.hi > 1e300 {
+            return self
+                .scale(power_of_two(-200))
+                .square_root()
+                .scale(power_of_two(100));
+        }
         let root = double::sqrt(self.hi);
         let (square, error) = two_product(root, root);
         let rest = ((self.hi - square) - error) + self.lo;

@@ -1,21 +1,25 @@
-"""Writes double_double.txt: values of elementary functions at double-double points.
+"""Writes double_double.txt, values of operations and functions at double-double points, and
+decimal.txt, decimal numbers beside their words and the 32 digits of these.
 
 Run from the folder of the crate: python3 tests/reference/table.py
 Needs mpmath (pip install mpmath).
 
 A line is `function words-of-the-arguments words-of-the-value`, each word the bits of an f64 in
-hexadecimal. Values are computed with 50 digits beyond what cancellation takes (2600 bits, so that
+hexadecimal; one of decimal.txt is `text words digits`. Values are computed with 50 digits beyond what cancellation takes (2600 bits, so that
 sines of 1e300 are right) and rounded to two words. Points: uniform, log-uniform over the full
 range, near zeros, poles and branch points.
 """
 import random
 import struct
+from decimal import Decimal, getcontext
+from fractions import Fraction
 
 from mpmath import mp, mpf
 import mpmath
 
 mp.prec = 2600
 random.seed(1971)
+getcontext().prec = 32
 
 
 def words(x):
@@ -127,7 +131,17 @@ for _ in range(60):
     x = 1 + random.choice((1, -1)) * 10 ** random.uniform(-10, -1)
     powers.append((near(x), near(random.uniform(-600, 600) / abs(mpmath.log(x)).__float__())))
 
+pairs = [(a, b) for a, b in zip(spread(-120, 120, 150), spread(-120, 120, 150))]
+cancelling = []
+for _ in range(150):
+    a = near(random.uniform(-3, 3))
+    b = words(-(mpf(a[0]) + mpf(a[1])) * (1 + mpf(2) ** random.uniform(-104, -1)))
+    cancelling.append((a, b))
+
 TWO_ARGUMENTS = {
+    "add": (lambda x, y: x + y, plane[:150] + cancelling),
+    "mul": (lambda x, y: x * y, plane[:150] + pairs),
+    "div": (lambda x, y: x / y, plane[:150] + pairs),
     "atan2": (mpmath.atan2, plane),
     "hypot": (lambda y, x: mpmath.sqrt(y * y + x * x), plane),
     "pow": (lambda x, y: x ** int(y) if y == int(y) else x ** y, powers),
@@ -158,6 +172,23 @@ for name, (function, points) in ONE_ARGUMENT.items():
 for name, (function, points) in TWO_ARGUMENTS.items():
     for a, b in points:
         lines.append(line(name, (a, b), function(mpf(a[0]) + mpf(a[1]), mpf(b[0]) + mpf(b[1]))))
+
+texts = []
+for k in range(200):
+    if k < 60:
+        text = random.choice(("", "-")) + f"{random.randint(0, 999)}." + "".join(
+            random.choice("0123456789") for _ in range(random.randint(1, 45)))
+    else:
+        text = (random.choice(("", "-")) + f"{random.randint(1, 9)}." + "".join(
+            random.choice("0123456789") for _ in range(random.randint(1, 90)))
+            + f"e{random.randint(-270, 307)}")
+    hi, lo = words(mpf(text))
+    value = Fraction(hi) + Fraction(lo)
+    # Decimal's division rounds the exact quotient to 32 digits, ties to even.
+    digits = f"{Decimal(value.numerator) / Decimal(value.denominator):.31e}".replace("e+", "e")
+    texts.append(" ".join((text, bits(hi), bits(lo), digits)))
+with open("tests/reference/decimal.txt", "w", encoding="ascii") as out:
+    out.write("\n".join(texts) + "\n")
 
 with open("tests/reference/double_double.txt", "w", encoding="ascii") as out:
     out.write("\n".join(l for l in lines if l) + "\n")

@@ -1,0 +1,239 @@
+//! The trait carries packs of lanes: a pack written here gives, lane by lane, the bits of `f64`,
+//! alone and inside dual numbers.
+
+use core::array;
+use core::ops::{
+    Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,
+};
+
+use hamiltonian_lanes::{Dual, Lift, Mask, Real};
+
+const LANES: usize = 4;
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Pack([f64; LANES]);
+
+#[derive(Clone, Copy, Debug)]
+struct Flags([bool; LANES]);
+
+impl Pack {
+    fn each(self, f: impl Fn(f64) -> f64) -> Self {
+        Self(self.0.map(f))
+    }
+    fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self(array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+    fn compare(self, other: Self, f: impl Fn(f64, f64) -> bool) -> Flags {
+        Flags(array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+}
+
+impl BitAnd for Flags {
+    type Output = Self;
+    fn bitand(self, other: Self) -> Self {
+        Self(array::from_fn(|i| self.0[i] & other.0[i]))
+    }
+}
+
+impl BitOr for Flags {
+    type Output = Self;
+    fn bitor(self, other: Self) -> Self {
+        Self(array::from_fn(|i| self.0[i] | other.0[i]))
+    }
+}
+
+impl Not for Flags {
+    type Output = Self;
+    fn not(self) -> Self {
+        Self(self.0.map(|flag| !flag))
+    }
+}
+
+impl Mask for Flags {
+    fn splat(flag: bool) -> Self {
+        Self([flag; LANES])
+    }
+    fn all(self) -> bool {
+        self.0.into_iter().all(|flag| flag)
+    }
+    fn any(self) -> bool {
+        self.0.into_iter().any(|flag| flag)
+    }
+}
+
+macro_rules! operators {
+    ($($operator:ident $method:ident $assign:ident $assign_method:ident;)*) => {
+        $(
+            impl $operator for Pack {
+                type Output = Self;
+                fn $method(self, other: Self) -> Self {
+                    self.zip(other, |a, b| a.$method(b))
+                }
+            }
+            impl $assign for Pack {
+                fn $assign_method(&mut self, other: Self) {
+                    *self = self.$method(other);
+                }
+            }
+        )*
+    };
+}
+
+operators! {
+    Add add AddAssign add_assign;
+    Sub sub SubAssign sub_assign;
+    Mul mul MulAssign mul_assign;
+    Div div DivAssign div_assign;
+}
+
+impl Neg for Pack {
+    type Output = Self;
+    fn neg(self) -> Self {
+        self.each(Neg::neg)
+    }
+}
+
+impl Lift<f64> for Pack {
+    fn lift(value: f64) -> Self {
+        Self([value; LANES])
+    }
+}
+
+impl Lift<Pack> for Pack {
+    fn lift(value: Pack) -> Self {
+        value
+    }
+}
+
+macro_rules! by_lane {
+    ($($name:ident)*) => {
+        $(
+            fn $name(self) -> Self {
+                self.each(Real::$name)
+            }
+        )*
+    };
+}
+
+impl Real for Pack {
+    type Mask = Flags;
+
+    fn constant(hi: f64, lo: f64) -> Self {
+        Self([f64::constant(hi, lo); LANES])
+    }
+    fn fma(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    fn select(mask: Flags, yes: Self, no: Self) -> Self {
+        Self(array::from_fn(
+            |i| if mask.0[i] { yes.0[i] } else { no.0[i] },
+        ))
+    }
+    fn lt(self, other: Self) -> Flags {
+        self.compare(other, |a, b| a < b)
+    }
+    fn le(self, other: Self) -> Flags {
+        self.compare(other, |a, b| a <= b)
+    }
+    fn equals(self, other: Self) -> Flags {
+        self.compare(other, |a, b| a == b)
+    }
+    fn magnitude(self) -> f64 {
+        self.0.into_iter().map(f64::abs).fold(0.0, Real::max)
+    }
+    fn is_finite(self) -> bool {
+        self.0.into_iter().all(f64::is_finite)
+    }
+    fn to_f64(self) -> f64 {
+        self.0[0]
+    }
+    fn epsilon() -> f64 {
+        f64::EPSILON
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        (self.each(f64::sin), self.each(f64::cos))
+    }
+    fn atan2(self, other: Self) -> Self {
+        self.zip(other, f64::atan2)
+    }
+    fn hypot(self, other: Self) -> Self {
+        self.zip(other, f64::hypot)
+    }
+    fn pow(self, exponent: Self) -> Self {
+        self.zip(exponent, f64::powf)
+    }
+    by_lane!(sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh
+        exp exp_m1 ln ln_1p);
+}
+
+/// Everything that decides lane by lane, in one value each.
+fn decisions<T: Real>(x: T, y: T) -> Vec<T> {
+    vec![
+        x.min(y),
+        x.max(y),
+        x.pow(y),
+        x.hypot(y),
+        x.atan2(y),
+        x.sqrt(),
+        x.tanh(),
+        x.abs() * x.sign(),
+        x.ln().mul_absorbing(y),
+        T::select(x.lt(y) & !y.equals(T::zero()), x.sin(), y.exp()),
+        x.sin_cos().0 + x.asinh() / x.acosh(),
+    ]
+}
+
+fn bits(x: f64) -> u64 {
+    // All NaN are one.
+    if x.is_nan() {
+        f64::NAN.to_bits()
+    } else {
+        x.to_bits()
+    }
+}
+
+const X: [f64; LANES] = [0.0, -2.0, 3.0, f64::NAN];
+const Y: [f64; LANES] = [0.0, 3.0, 3.0, 1.0];
+
+#[test]
+fn lanes_have_the_bits_of_scalars() {
+    let packed = decisions(Pack(X), Pack(Y));
+    for lane in 0..LANES {
+        let alone = decisions(X[lane], Y[lane]);
+        for (packed, alone) in packed.iter().zip(&alone) {
+            assert_eq!(bits(packed.0[lane]), bits(*alone));
+        }
+    }
+}
+
+#[test]
+fn lanes_of_duals_have_the_bits_of_dual_scalars() {
+    // Directions that vanish in some lanes only.
+    for (dx, dy) in [
+        ([1.0, 0.0, 1.0, 1.0], [0.0; LANES]),
+        ([0.0; LANES], [1.0, 0.0, 2.0, 1.0]),
+    ] {
+        let packed = decisions(Dual::new(Pack(X), Pack(dx)), Dual::new(Pack(Y), Pack(dy)));
+        for lane in 0..LANES {
+            let alone = decisions(Dual::new(X[lane], dx[lane]), Dual::new(Y[lane], dy[lane]));
+            for (packed, alone) in packed.iter().zip(&alone) {
+                assert_eq!(bits(packed.re.0[lane]), bits(alone.re));
+                assert_eq!(bits(packed.eps.0[lane]), bits(alone.eps));
+            }
+        }
+    }
+}
+
+#[test]
+fn masks_of_packs_and_sizes() {
+    let mask = Pack(X).lt(Pack(Y));
+    assert!(mask.any() && !mask.all());
+    assert!((Flags::splat(true) & !Flags::splat(false)).all());
+    assert!((Flags::splat(false) | mask).any());
+    assert!(Pack(X).magnitude().is_nan() && !Pack(X).is_finite());
+    assert_eq!(
+        Dual::new(Pack(Y), Pack([0.0, -5.0, 1.0, 0.0])).magnitude(),
+        5.0
+    );
+    assert_eq!(Dual::<Pack>::lift(2.0).re, Pack([2.0; LANES]));
+}

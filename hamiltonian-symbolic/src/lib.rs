@@ -3,9 +3,19 @@
 
 pub mod dag;
 pub mod diff;
+pub mod eval;
+pub mod factor;
+mod instruct;
 pub mod index;
 pub mod model;
 pub mod op;
+pub mod pipeline;
+pub mod print;
 pub mod program;
 pub mod rational;
+pub mod schedule;
+pub mod share;
 pub mod simplify;
+
+/// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
+pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

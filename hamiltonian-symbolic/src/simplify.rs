@@ -144,6 +144,11 @@ impl Dag {
     /// `constant + Σ k·node`. A first operand that is itself a sum is continued (`a + b + c` is
     /// one sum); a later one stays a unit, because taking it apart could introduce cancellation.
     pub fn linear(&mut self, constant: &Rational, operands: &[(Rational, Node)]) -> Node {
+        self.collected(constant, operands, true)
+    }
+
+    /// [`Dag::linear`], where a first operand that is a sum is continued only if asked.
+    pub(crate) fn collected(&mut self, constant: &Rational, operands: &[(Rational, Node)], continued: bool) -> Node {
         let mut constant = constant.clone();
         let mut terms: Vec<(Rational, Node)> = Vec::with_capacity(operands.len());
         let mut place: Map<Node, usize> = Map::default();
@@ -162,7 +167,7 @@ impl Dag {
             let k = k.mul(&c);
             match self.kind(node) {
                 Kind::Constant(value) => constant = constant.add(&k.mul(value)),
-                Kind::Sum(c, inner) if at == 0 && k.is_one() => {
+                Kind::Sum(c, inner) if continued && at == 0 && k.is_one() => {
                     constant = constant.add(c);
                     for (k, node) in inner.clone() {
                         push(&mut terms, k, node);

@@ -1,0 +1,205 @@
+//! The interpreter of scheduled programs, over any scalar: the oracle of the tests.
+//!
+//! Input: a program and a point. Output: what a function returns and stores. Invariant: the same
+//! operations in the same order as the emitted code, so that over `f64` the bits agree.
+
+use crate::dag::{Array, Map, Part, Relation};
+use crate::index::{Affine, Domain, Index};
+use crate::program::{Function, Instruction, Program, Step, Target, Update, Value};
+use hamiltonian_lanes::Real;
+
+/// A function written in Rust: the part asked for, at its arguments.
+pub type ExternalFunction<T> = fn(Part, &[T]) -> T;
+
+/// Where a program is evaluated.
+#[derive(Clone, Debug)]
+pub struct Point<T> {
+    /// Time.
+    pub t: T,
+    /// The step coefficient.
+    pub c: T,
+    /// Sizes by number.
+    pub sizes: Vec<usize>,
+    /// Scalar parameters by number (anything for the others).
+    pub scalars: Vec<T>,
+    /// Arrays, by columns.
+    pub arrays: Map<Array, Vec<Vec<T>>>,
+    /// Outputs, by columns: their shape, and what is added to.
+    pub outputs: Map<Target, Vec<Vec<T>>>,
+    /// Functions written in Rust.
+    pub externals: Vec<ExternalFunction<T>>,
+}
+
+impl<T: Real> Point<T> {
+    /// An empty point at t = 0 with step coefficient 1.
+    #[must_use]
+    pub fn new() -> Point<T> {
+        Point { t: T::zero(), c: T::one(), sizes: Vec::new(), scalars: Vec::new(), arrays: Map::default(), outputs: Map::default(), externals: Vec::new() }
+    }
+}
+
+impl<T: Real> Default for Point<T> {
+    fn default() -> Point<T> {
+        Point::new()
+    }
+}
+
+/// What a function returned and stored.
+#[derive(Clone, Debug)]
+pub struct Outcome<T> {
+    /// The values returned.
+    pub results: Vec<T>,
+    /// The outputs, by columns.
+    pub outputs: Map<Target, Vec<Vec<T>>>,
+}
+
+/// Runs a function of a program at a point, all stages.
+#[must_use]
+pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) -> Outcome<T> {
+    let mut machine = Machine {
+        program,
+        point,
+        numbers: vec![T::zero(); program.instructions.len()],
+        masks: Map::default(),
+        variables: Map::default(),
+        outputs: point.outputs.clone(),
+    };
+    for target in &function.cleared {
+        for column in machine.outputs.get_mut(target).into_iter().flatten() {
+            column.fill(T::zero());
+        }
+    }
+    machine.steps(&program.prepare);
+    machine.steps(&function.coefficient);
+    machine.steps(&function.evaluation);
+    let results = function.results.iter().map(|v| machine.number(*v)).collect();
+    Outcome { results, outputs: machine.outputs }
+}
+
+struct Machine<'a, T: Real> {
+    program: &'a Program,
+    point: &'a Point<T>,
+    numbers: Vec<T>,
+    masks: Map<Value, T::Mask>,
+    variables: Map<Domain, i64>,
+    outputs: Map<Target, Vec<Vec<T>>>,
+}
+
+impl<T: Real> Machine<'_, T> {
+    fn number(&self, value: Value) -> T {
+        self.numbers[value.0 as usize]
+    }
+    fn affine(&self, affine: &Affine) -> i64 {
+        affine.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| self.point.sizes[s.0 as usize] as i64)
+    }
+    fn index(&self, index: &Index) -> usize {
+        let value = index.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| self.point.sizes[s.0 as usize] as i64);
+        usize::try_from(value).unwrap_or(usize::MAX)
+    }
+
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            match step {
+                Step::Let(value) => self.compute(*value),
+                Step::Accumulate(accumulator, term) => {
+                    let sum = self.number(*accumulator) + self.number(*term);
+                    self.numbers[accumulator.0 as usize] = sum;
+                }
+                Step::Store(target, row, column, update) => {
+                    let (row, column) = (self.index(row), column.as_ref().map_or(0, |c| self.index(c)));
+                    let Some(old) = self.outputs.get(target).and_then(|o| o.get(column)).and_then(|c| c.get(row)).copied() else { continue };
+                    let new = match *update {
+                        Update::Set(v) => self.number(v),
+                        Update::Add(v) => old + self.number(v),
+                        Update::Sub(v) => old - self.number(v),
+                        Update::AddProduct(a, b) => self.number(a).fma(self.number(b), old),
+                        Update::SubProduct(a, b) => (-self.number(a)).fma(self.number(b), old),
+                    };
+                    if let Some(columns) = self.outputs.get_mut(target) {
+                        columns[column][row] = new;
+                    }
+                }
+                Step::Loop(l) => {
+                    for accumulator in &l.accumulators {
+                        self.numbers[accumulator.0 as usize] = T::zero();
+                    }
+                    for i in self.affine(&l.start)..self.affine(&l.end) {
+                        self.variables.insert(l.domain, i);
+                        self.steps(&l.body);
+                    }
+                }
+            }
+        }
+    }
+
+    fn compute(&mut self, value: Value) {
+        let n = |v: &Value| self.numbers[v.0 as usize];
+        let real = |x: i64| T::constant(x as f64, 0.0);
+        let result = match self.program.instruction(value) {
+            Instruction::Constant(rational) => {
+                let (hi, lo) = rational.to_words();
+                T::constant(hi, lo)
+            }
+            Instruction::Pi => T::constant(core::f64::consts::PI, crate::PI_LOW),
+            Instruction::Scalar(parameter) => self.point.scalars[parameter.0 as usize],
+            Instruction::Time => self.point.t,
+            Instruction::Coefficient => self.point.c,
+            Instruction::Variable(domain) => real(self.variables.get(domain).copied().unwrap_or(0)),
+            Instruction::Extent(size) => real(self.point.sizes[size.0 as usize] as i64),
+            Instruction::Count(start, end) => real((self.affine(end) - self.affine(start)).max(0)),
+            Instruction::Load(array, row, column) => {
+                let column_number = column.as_ref().map_or(0, |c| self.index(c));
+                let row = self.index(row);
+                self.point.arrays.get(array).and_then(|a| a.get(column_number)).and_then(|c| c.get(row)).copied().unwrap_or(T::constant(f64::NAN, 0.0))
+            }
+            Instruction::Accumulator => T::zero(),
+            Instruction::Neg(a) => -n(a),
+            Instruction::Add(a, b) => n(a) + n(b),
+            Instruction::Sub(a, b) => n(a) - n(b),
+            Instruction::Mul(a, b) => n(a) * n(b),
+            Instruction::MulAdd(a, b, c) => n(a).fma(n(b), n(c)),
+            Instruction::MulSub(a, b, c) => n(a).fma(n(b), -n(c)),
+            Instruction::NegMulAdd(a, b, c) => (-n(a)).fma(n(b), n(c)),
+            Instruction::Div(a, b) => n(a) / n(b),
+            Instruction::Recip(a) => n(a).recip(),
+            Instruction::Call(op, a) => op.eval(&[n(a)]),
+            Instruction::Call2(op, a, b) => op.eval(&[n(a), n(b)]),
+            Instruction::PairedSin(a) => n(a).sin_cos().0,
+            Instruction::PairedCos(sin) => match self.program.instruction(*sin) {
+                Instruction::PairedSin(a) => n(a).sin_cos().1,
+                _ => T::constant(f64::NAN, 0.0),
+            },
+            Instruction::External(function, part, arguments) => {
+                let arguments: Vec<T> = arguments.iter().map(n).collect();
+                self.point.externals.get(*function as usize).map_or(T::constant(f64::NAN, 0.0), |f| f(*part, &arguments))
+            }
+            Instruction::Select(mask, a, b) => match self.masks.get(mask) {
+                Some(mask) => T::select(*mask, n(a), n(b)),
+                None => T::constant(f64::NAN, 0.0),
+            },
+            Instruction::Compare(relation, a, b) => {
+                let mask = match relation {
+                    Relation::Less => n(a).lt(n(b)),
+                    Relation::LessEqual => n(a).le(n(b)),
+                    Relation::Equal => n(a).equals(n(b)),
+                };
+                self.masks.insert(value, mask);
+                return;
+            }
+            Instruction::Not(a) => {
+                if let Some(mask) = self.masks.get(a).map(|m| !*m) {
+                    self.masks.insert(value, mask);
+                }
+                return;
+            }
+            Instruction::And(a, b) | Instruction::Or(a, b) => {
+                let and = matches!(self.program.instruction(value), Instruction::And(..));
+                if let (Some(a), Some(b)) = (self.masks.get(a).copied(), self.masks.get(b).copied()) {
+                    self.masks.insert(value, if and { a & b } else { a | b });
+                }
+                return;
+            }
+        };
+        self.numbers[value.0 as usize] = result;
+    }
+}

@@ -1,0 +1,267 @@
+//! Taking common factors out of sums, and putting coefficients where they cost nothing.
+//!
+//! Input: roots in canonical form. Output: the same functions with fewer multiplications.
+//! Invariant: a term used elsewhere too is left whole, so that factoring never undoes sharing;
+//! sums are regrouped by common factors only, which cannot introduce cancellation.
+
+use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::rational::Rational;
+
+/// How often each node is used, by parents or as a root.
+pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Map<Node, u32> {
+    let mut uses: Map<Node, u32> = Map::default();
+    for root in roots {
+        *uses.entry(*root).or_default() += 1;
+    }
+    for &node in order {
+        dag.for_children(node, |child| *uses.entry(child).or_default() += 1);
+    }
+    uses
+}
+
+/// Whether a node is computed before any evaluation, outside loops: its multiplication into a
+/// coefficient is free.
+pub(crate) fn is_prepared(dag: &Dag, node: Node) -> bool {
+    dag.stage(node) < Stage::Evaluation && dag.variables(node) == 0
+}
+
+/// A term `k·p·Π f`, p prepared, the rest not.
+#[derive(Clone, Debug)]
+struct Term {
+    k: Rational,
+    p: Node,
+    factors: Vec<(Node, i32)>,
+}
+
+impl Term {
+    fn has_coefficient(&self, one: Node) -> bool {
+        self.p != one || !(self.k.is_one() || self.k == Rational::MINUS_ONE)
+    }
+    fn multiplications(&self, one: Node) -> i64 {
+        let factors: i64 = self.factors.iter().map(|(_, n)| i64::from(n.abs())).sum();
+        if factors == 0 { 0 } else { factors - 1 + i64::from(self.has_coefficient(one)) }
+    }
+    fn without(&self, base: Node, sign: i32) -> Term {
+        let mut rest = self.clone();
+        for factor in &mut rest.factors {
+            if factor.0 == base {
+                factor.1 -= sign;
+            }
+        }
+        rest.factors.retain(|(_, n)| *n != 0);
+        rest
+    }
+}
+
+/// Rewrites the expressions the roots stand for.
+pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
+    let order = dag.reachable(roots);
+    let uses = count_uses(dag, roots, &order);
+    let mut new: Map<Node, Node> = Map::default();
+    for node in order {
+        let image = match dag.kind(node).clone() {
+            Kind::Sum(c, terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new[&n], uses[&n] == 1)).collect();
+                factored_sum(dag, &c, &terms, &Rational::ONE, None)
+            }
+            Kind::Product(k, factors) => match absorbing_sum(dag, &k, &factors, &uses) {
+                Some(at) => {
+                    let Kind::Sum(c, terms) = dag.kind(factors[at].0).clone() else { continue };
+                    let (prepared, others): (Vec<_>, Vec<_>) =
+                        factors.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, f)| (new[&f.0], f.1)).partition(|(n, _)| is_prepared(dag, *n));
+                    let p = dag.product(&Rational::ONE, &prepared);
+                    let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new[&n], uses[&n] == 1)).collect();
+                    let sum = factored_sum(dag, &c, &terms, &k, Some(p));
+                    let mut all = vec![(sum, 1)];
+                    all.extend(others);
+                    dag.product(&Rational::ONE, &all)
+                }
+                None => {
+                    let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new[&n], e)).collect();
+                    dag.product(&k, &factors)
+                }
+            },
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    for root in roots {
+        *root = new[root];
+    }
+}
+
+/// The factor of a product into which the product's coefficient can be multiplied for free: a
+/// sum used only here, all of whose terms but at most one have a coefficient already.
+fn absorbing_sum(dag: &Dag, k: &Rational, factors: &[(Node, i32)], uses: &Map<Node, u32>) -> Option<usize> {
+    let has_prepared = factors.iter().any(|(n, _)| is_prepared(dag, *n));
+    if !has_prepared && (k.is_one() || *k == Rational::MINUS_ONE) {
+        return None;
+    }
+    factors.iter().position(|&(node, n)| {
+        let Kind::Sum(c, terms) = dag.kind(node) else { return false };
+        if n != 1 || uses[&node] != 1 || is_prepared(dag, node) {
+            return false;
+        }
+        let plain = terms
+            .iter()
+            .filter(|(k, n)| {
+                let unit = k.is_one() || *k == Rational::MINUS_ONE;
+                let product = match dag.kind(*n) {
+                    Kind::Product(_, inner) if uses[n] == 1 => inner.iter().any(|(f, _)| is_prepared(dag, *f)),
+                    _ => is_prepared(dag, *n),
+                };
+                unit && !product
+            })
+            .count();
+        plain + usize::from(!c.is_zero()) <= 1
+    })
+}
+
+/// `scale·p·(c + Σ k·node)` with common factors taken out. `alone` says that a term is used here
+/// only and may be taken apart.
+fn factored_sum(dag: &mut Dag, c: &Rational, terms: &[(Rational, Node, bool)], scale: &Rational, p: Option<Node>) -> Node {
+    let one = dag.integer(1);
+    let p = p.unwrap_or(one);
+    let mut list: Vec<Term> = Vec::with_capacity(terms.len() + 1);
+    for (k, node, alone) in terms {
+        let mut term = Term { k: k.mul(scale), p, factors: Vec::new() };
+        match dag.kind(*node) {
+            Kind::Product(k, factors) if *alone => {
+                let (k, factors) = (k.clone(), factors.clone());
+                term.k = term.k.mul(&k);
+                let (prepared, rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
+                if !prepared.is_empty() {
+                    let prepared = dag.product(&Rational::ONE, &prepared);
+                    term.p = dag.mul(&[p, prepared]);
+                }
+                term.factors = rest;
+            }
+            _ if is_prepared(dag, *node) => term.p = dag.mul(&[p, *node]),
+            _ => term.factors.push((*node, 1)),
+        }
+        list.push(term);
+    }
+    let constant = c.mul(scale);
+    if p == one {
+        collect(dag, &constant, list, one)
+    } else {
+        if !constant.is_zero() {
+            list.push(Term { k: constant, p, factors: Vec::new() });
+        }
+        collect(dag, &Rational::ZERO, list, one)
+    }
+}
+
+/// What is taken out of some terms of a sum.
+enum Common {
+    Factor(Node, i32),
+    Coefficient(Rational, Node),
+}
+
+/// Greedily takes out what saves the most multiplications, until nothing saves any.
+fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) -> Node {
+    // Long sums are searched a few times only; what they share is found early.
+    let mut rounds = 4 + 4096 / terms.len().max(1);
+    while terms.len() > 1 && rounds > 0 {
+        rounds -= 1;
+        let Some((common, _)) = best(&terms, one) else { break };
+        let mut inner = Vec::new();
+        let mut rest = Vec::new();
+        let mut place = None;
+        for term in terms {
+            let quotient = match &common {
+                Common::Factor(base, sign) => {
+                    term.factors.iter().any(|(n, e)| n == base && e.signum() == *sign).then(|| term.without(*base, *sign))
+                }
+                Common::Coefficient(k, p) => (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
+                    k: if term.k.is_negative() { Rational::MINUS_ONE } else { Rational::ONE },
+                    p: one,
+                    factors: term.factors.clone(),
+                }),
+            };
+            match quotient {
+                Some(quotient) => {
+                    place.get_or_insert(rest.len());
+                    inner.push(quotient);
+                }
+                None => rest.push(term),
+            }
+        }
+        let sum = collect(dag, &Rational::ZERO, inner, one);
+        let (k, mut factors) = match dag.kind(sum).clone() {
+            Kind::Product(k, factors) => (k, factors),
+            _ => (Rational::ONE, vec![(sum, 1)]),
+        };
+        let mut term = Term { k, p: one, factors: Vec::new() };
+        match common {
+            Common::Factor(base, sign) => match factors.iter_mut().find(|(n, _)| *n == base) {
+                Some(entry) => entry.1 += sign,
+                None => factors.insert(0, (base, sign)),
+            },
+            Common::Coefficient(k, p) => {
+                term.k = term.k.mul(&k);
+                term.p = p;
+            }
+        }
+        factors.retain(|(_, n)| *n != 0);
+        let (prepared, others): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
+        if !prepared.is_empty() {
+            let prepared = dag.product(&Rational::ONE, &prepared);
+            term.p = dag.mul(&[term.p, prepared]);
+        }
+        term.factors = others;
+        rest.insert(place.unwrap_or(0).min(rest.len()), term);
+        terms = rest;
+    }
+    let nodes: Vec<_> = terms
+        .into_iter()
+        .map(|term| {
+            let mut factors = vec![(term.p, 1)];
+            factors.extend(term.factors);
+            let node = dag.product(&Rational::ONE, &factors);
+            (term.k, node)
+        })
+        .collect();
+    dag.collected(constant, &nodes, false)
+}
+
+/// The factor or coefficient whose extraction saves most, if any saves something.
+fn best(terms: &[Term], one: Node) -> Option<(Common, i64)> {
+    let mut savings: Map<(Node, i32), (i64, usize)> = Map::default();
+    let mut coefficients: Map<(Rational, Node), (i64, usize)> = Map::default();
+    let mut order = 0usize;
+    let mut keys = Vec::new();
+    for term in terms {
+        let cost = term.multiplications(one);
+        for &(base, n) in &term.factors {
+            let key = (base, n.signum());
+            let saved = cost - term.without(base, n.signum()).multiplications(one);
+            let entry = savings.entry(key).or_insert_with(|| {
+                keys.push(Common::Factor(key.0, key.1));
+                order += 1;
+                (-1, order)
+            });
+            entry.0 += saved;
+        }
+        if term.has_coefficient(one) && !term.factors.is_empty() {
+            let key = (term.k.abs(), term.p);
+            let entry = coefficients.entry(key.clone()).or_insert_with(|| {
+                keys.push(Common::Coefficient(key.0, key.1));
+                order += 1;
+                (-1, order)
+            });
+            entry.0 += 1;
+        }
+    }
+    let mut winner: Option<(Common, i64)> = None;
+    for key in keys {
+        let saved = match &key {
+            Common::Factor(base, sign) => savings[&(*base, *sign)].0,
+            Common::Coefficient(k, p) => coefficients[&(k.clone(), *p)].0,
+        };
+        if saved > 0 && winner.as_ref().is_none_or(|(_, best)| saved > *best) {
+            winner = Some((key, saved));
+        }
+    }
+    winner
+}

@@ -1,0 +1,209 @@
+//! H → program: the whole engine on one screen.
+//!
+//! Input: a [`Model`] and the purposes wanted. Output: a [`Program`]. Invariant: deterministic;
+//! what no function needs is not in it.
+
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::diff;
+use crate::factor::factor;
+use crate::index::Index;
+use crate::model::{Model, Shape};
+use crate::program::{Program, Purpose, Target};
+use crate::schedule::{Request, Store, schedule};
+use crate::share::share;
+
+/// The most operations a function may need after simplification.
+pub const CAP: usize = 1 << 15;
+
+/// Why there is no program.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Refusal {
+    /// A function needs more than [`CAP`] operations.
+    TooLarge {
+        /// How many.
+        operations: usize,
+    },
+    /// More than 64 different loops.
+    TooManyLoops,
+    /// A second derivative of a Rust function that came without one, by name.
+    NoSecondDerivative {
+        /// The function's name.
+        function: String,
+    },
+}
+
+/// H → requests → factored → shared → scheduled.
+pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
+    let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
+    for &purpose in wanted {
+        let mut request = request(model, purpose);
+        let mut roots = request.roots();
+        refuse(model, &roots)?;
+        factor(&mut model.dag, &mut roots);
+        share(&mut model.dag, &mut roots);
+        request.replace_roots(&roots);
+        requests.push(request);
+    }
+    let program = schedule(&model.dag, &requests);
+    for function in &program.functions {
+        let operations = program.operations(function).total();
+        if operations > CAP {
+            return Err(Refusal::TooLarge { operations });
+        }
+    }
+    Ok(program)
+}
+
+fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
+    if model.dag.loop_count() >= 64 {
+        return Err(Refusal::TooManyLoops);
+    }
+    for node in model.dag.reachable(roots) {
+        if let Kind::External(function, part, _) = model.dag.kind(node) {
+            let external = &model.externals[*function as usize];
+            if matches!(part, crate::dag::Part::Second(..)) && !external.second {
+                return Err(Refusal::NoSecondDerivative { function: external.name.clone() });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What a purpose asks of the model's H.
+pub fn request(model: &mut Model, purpose: Purpose) -> Request {
+    let h = model.hamiltonian.unwrap_or(Node(0));
+    let mut request = Request { purpose, results: Vec::new(), stores: Vec::new(), cleared: Vec::new() };
+    let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+    match purpose {
+        Purpose::Energy => request.results.push(h),
+        Purpose::GradientQ => derivatives(model, h, Dependence::Q, false, &mut request),
+        Purpose::GradientP => derivatives(model, h, Dependence::P, false, &mut request),
+        Purpose::Gradient => derivatives(model, h, both, false, &mut request),
+        Purpose::EnergyAndGradient => {
+            request.results.push(h);
+            derivatives(model, h, both, false, &mut request);
+        }
+        Purpose::TimeDerivative => {
+            let adjoints = diff::gradient(&mut model.dag, h, Dependence::TIME);
+            let zero = model.dag.integer(0);
+            request.results.push(adjoints.first().map_or(zero, |(_, value)| *value));
+        }
+        Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
+        Purpose::HessianVector => {
+            let along = diff::along_direction(&mut model.dag, h);
+            derivatives(model, along, both, false, &mut request);
+        }
+        Purpose::Observable(number) => {
+            request.results = model.observables.get(number as usize).map_or_else(Vec::new, |o| o.components.clone());
+        }
+        Purpose::Flow => derivatives(model, h, both, true, &mut request),
+        Purpose::Kick => derivatives(model, h, Dependence::Q, true, &mut request),
+        Purpose::Drift => derivatives(model, h, Dependence::P, true, &mut request),
+    }
+    request
+}
+
+/// The columns of all groups on one side, with the shape of each.
+fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
+    let mut all = Vec::new();
+    for (group, declaration) in model.groups.iter().enumerate() {
+        let count = match &declaration.shape {
+            Shape::Matrix(_, columns) => columns.as_constant().unwrap_or(1),
+            Shape::Scalar | Shape::Vector(_) => 1,
+        };
+        for column in 0..count {
+            all.push((Target::Phase { side, group: group as u16, column: column as u16 }, declaration.shape.clone()));
+        }
+    }
+    all
+}
+
+/// Stores of ∂root/∂q and ∂root/∂p: overwriting, or accumulating c·∂root/∂p into coordinates and
+/// −c·∂root/∂q into momenta.
+fn derivatives(model: &mut Model, root: Node, what: Dependence, accumulate: bool, request: &mut Request) {
+    let adjoints = diff::gradient(&mut model.dag, root, what);
+    let mut stores = Vec::new();
+    for (leaf, value) in adjoints {
+        let Kind::Element(Array::Phase { side, group, column }, row, _) = model.dag.kind(leaf).clone() else { continue };
+        let (side, value) = if accumulate { scaled(&mut model.dag, side, value) } else { (side, value) };
+        stores.push(Store { target: Target::Phase { side, group, column }, row, column: None, value, add: true });
+    }
+    if accumulate {
+        request.stores.append(&mut stores);
+        return;
+    }
+    for side in [Side::Q, Side::P] {
+        if what.on(if side == Side::Q { Dependence::Q } else { Dependence::P }) {
+            for (target, shape) in columns(model, side) {
+                overwrite(&mut model.dag, target, &shape, &mut stores, request);
+            }
+        }
+    }
+    request.stores.append(&mut stores);
+}
+
+/// c·∂H/∂p goes to coordinates, −c·∂H/∂q to momenta.
+fn scaled(dag: &mut Dag, side: Side, value: Node) -> (Side, Node) {
+    let c = dag.coefficient();
+    let value = dag.mul(&[c, value]);
+    match side {
+        Side::Q => (Side::P, dag.neg(value)),
+        Side::P => (Side::Q, value),
+    }
+}
+
+/// Makes an output column be overwritten: by one store where that covers it all, else by clearing
+/// and adding.
+fn overwrite(dag: &mut Dag, target: Target, shape: &Shape, stores: &mut Vec<Store>, request: &mut Request) {
+    let own: Vec<usize> = stores.iter().enumerate().filter(|(_, s)| s.target == target).map(|(at, _)| at).collect();
+    if *shape == Shape::Scalar {
+        match own.first() {
+            Some(&at) => stores[at].add = false,
+            None => stores.push(Store { target, row: Index::constant(0), column: None, value: dag.integer(0), add: false }),
+        }
+        return;
+    }
+    let rows = match shape {
+        Shape::Vector(rows) | Shape::Matrix(rows, _) => rows,
+        Shape::Scalar => return,
+    };
+    if let [at] = own.as_slice() {
+        let store = &mut stores[*at];
+        if let ([(domain, 1)], None, [], 0) = (store.row.affine.loops.as_slice(), &store.row.modulo, store.row.affine.sizes.as_slice(), store.row.affine.constant) {
+            let range = dag.range(*domain);
+            let whole = range.start.as_constant() == Some(0) && range.end == *rows && range.parent.is_none();
+            if whole && dag.variables(store.value) & !(1u64 << domain.0) == 0 {
+                store.add = false;
+                return;
+            }
+        }
+    }
+    request.cleared.push(target);
+}
+
+fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
+    let adjoints = diff::gradient(&mut model.dag, root, Dependence::PARAMETER);
+    let mut stores: Map<Target, ()> = Map::default();
+    for (leaf, value) in adjoints {
+        let (target, row, column, add) = match model.dag.kind(leaf).clone() {
+            Kind::Scalar(parameter) => (Target::Parameter(parameter), Index::constant(0), None, false),
+            Kind::Element(Array::Parameter(parameter), row, column) => (Target::Parameter(parameter), row, column, true),
+            _ => continue,
+        };
+        if stores.insert(target, ()).is_none() && add {
+            request.cleared.push(target);
+        }
+        request.stores.push(Store { target, row, column, value, add });
+    }
+    for number in 0..model.parameters.len() {
+        let target = Target::Parameter(crate::dag::Parameter(number as u16));
+        if !stores.contains_key(&target) {
+            if model.parameters[number].shape == Shape::Scalar {
+                let value = model.dag.integer(0);
+                request.stores.push(Store { target, row: Index::constant(0), column: None, value, add: false });
+            } else {
+                request.cleared.push(target);
+            }
+        }
+    }
+}

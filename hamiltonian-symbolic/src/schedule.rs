@@ -1,0 +1,389 @@
+//! Placing every node in the block where it is computed: its binding time, its loop, its order.
+//!
+//! Input: requests (what to return, what to store) over nodes as `share` left them. Output:
+//! [`Program`]. Invariant: a node stands in the outermost loop it can be computed in; all work of
+//! one level over one loop shares one nest; what needs a finished sum stands in a later nest over
+//! the same loop, where the body is computed again.
+
+use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::factor::count_uses;
+use crate::index::{Domain, Index};
+use crate::op::Op;
+use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
+
+/// An element of an output and what is put there, in every iteration of the value's loop.
+#[derive(Clone, Debug)]
+pub struct Store {
+    /// The output.
+    pub target: Target,
+    /// The element.
+    pub row: Index,
+    /// Its column, for rank-2 parameters.
+    pub column: Option<Index>,
+    /// The value.
+    pub value: Node,
+    /// Whether it is added to what is there.
+    pub add: bool,
+}
+
+/// What a function is to compute.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// Its purpose.
+    pub purpose: Purpose,
+    /// What it returns.
+    pub results: Vec<Node>,
+    /// What it stores.
+    pub stores: Vec<Store>,
+    /// Outputs to be set to 0 first.
+    pub cleared: Vec<Target>,
+}
+
+impl Request {
+    /// All expressions of the request.
+    #[must_use]
+    pub fn roots(&self) -> Vec<Node> {
+        self.results.iter().copied().chain(self.stores.iter().map(|s| s.value)).collect()
+    }
+    /// Puts other expressions in their places, in the order of [`Request::roots`].
+    pub fn replace_roots(&mut self, roots: &[Node]) {
+        let (results, stores) = roots.split_at(self.results.len());
+        self.results.copy_from_slice(results);
+        for (store, value) in self.stores.iter_mut().zip(stores) {
+            store.value = *value;
+        }
+    }
+}
+
+/// Schedules the functions: first what is prepared for all of them, then each one's coefficient
+/// stage, then its evaluation.
+#[must_use]
+pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
+    let mut program = Program::default();
+    let mut wanted = Vec::new();
+    for request in requests {
+        let (coefficients, mut direct) = frontier(dag, &request.roots(), Stage::Evaluation);
+        wanted.append(&mut direct);
+        wanted.append(&mut frontier(dag, &coefficients, Stage::Coefficient).1);
+    }
+    wanted.sort_unstable();
+    wanted.dedup();
+    let (prepare, prepared) = stage(dag, &mut program, Stage::Parameters, &wanted, &[], Map::default());
+    program.prepare = prepare;
+    program.prepared = wanted.iter().map(|n| prepared[n]).collect();
+    for request in requests {
+        let (coefficients, _) = frontier(dag, &request.roots(), Stage::Evaluation);
+        let (coefficient, carried) = stage(dag, &mut program, Stage::Coefficient, &coefficients, &[], prepared.clone());
+        let (evaluation, values) = stage(dag, &mut program, Stage::Evaluation, &request.results, &request.stores, carried);
+        let results = request.results.iter().map(|n| values[n]).collect();
+        program.functions.push(Function { purpose: request.purpose, coefficient, evaluation, cleared: request.cleared.clone(), results });
+    }
+    program
+}
+
+/// The stage that computes a node needed in `now`: numbers stand where they are used, other
+/// constants are prepared, and nothing that depends on a loop is carried over.
+fn stage_of(dag: &Dag, node: Node, now: Stage) -> Stage {
+    if dag.variables(node) != 0 || matches!(dag.kind(node), Kind::Constant(_) | Kind::Pi) {
+        return now;
+    }
+    dag.stage(node).max(Stage::Parameters)
+}
+
+/// The nodes of the coefficient stage and of preparation that the roots need in stage `now`.
+fn frontier(dag: &Dag, roots: &[Node], now: Stage) -> (Vec<Node>, Vec<Node>) {
+    let mut seen: Map<Node, ()> = Map::default();
+    let (mut coefficients, mut prepared) = (Vec::new(), Vec::new());
+    let mut pending = roots.to_vec();
+    while let Some(node) = pending.pop() {
+        if seen.insert(node, ()).is_some() {
+            continue;
+        }
+        match stage_of(dag, node, now) {
+            stage if stage == now => dag.for_children(node, |child| pending.push(child)),
+            Stage::Coefficient => coefficients.push(node),
+            _ => prepared.push(node),
+        }
+    }
+    coefficients.sort_unstable();
+    (coefficients, prepared)
+}
+
+/// The block of one stage, and the values known after it.
+fn stage(dag: &Dag, program: &mut Program, stage: Stage, wanted: &[Node], stores: &[Store], carried: Map<Node, Value>) -> (Vec<Step>, Map<Node, Value>) {
+    let roots: Vec<Node> = wanted.iter().copied().chain(stores.iter().map(|s| s.value)).collect();
+    let uses = count_uses(dag, &roots, &dag.reachable(&roots));
+    let mut placer = Placer { dag, program, uses: &uses, stage, scopes: vec![carried], open: Vec::new() };
+    let stores: Vec<&Store> = stores.iter().collect();
+    let steps = placer.block(None, wanted, &stores);
+    let mut values = placer.scopes.pop().unwrap_or_default();
+    for (node, value) in placer.scopes.pop().unwrap_or_default() {
+        values.insert(node, value);
+    }
+    (steps, values)
+}
+
+pub(crate) struct Placer<'a> {
+    pub(crate) dag: &'a Dag,
+    program: &'a mut Program,
+    /// How often each node is used in this stage's expressions.
+    uses: &'a Map<Node, u32>,
+    stage: Stage,
+    /// What is computed: by earlier stages, then in the open blocks, outermost first.
+    scopes: Vec<Map<Node, Value>>,
+    open: Vec<Option<Domain>>,
+}
+
+impl Placer<'_> {
+    fn stage_of(&self, node: Node) -> Stage {
+        stage_of(self.dag, node, self.stage)
+    }
+
+    fn new_value(&mut self, instruction: Instruction) -> Value {
+        self.program.instructions.push(instruction);
+        Value(self.program.instructions.len() as u32 - 1)
+    }
+
+    /// The value of a node that is already computed.
+    pub(crate) fn value(&self, node: Node) -> Value {
+        let found = self.scopes.iter().rev().find_map(|scope| scope.get(&node)).copied();
+        debug_assert!(found.is_some(), "{node:?} is used before it is computed: {:?}", self.dag.kind(node));
+        found.unwrap_or(Value(0))
+    }
+
+    /// Appends an instruction to a block.
+    pub(crate) fn push(&mut self, steps: &mut Vec<Step>, instruction: Instruction) -> Value {
+        let value = self.new_value(instruction);
+        steps.push(Step::Let(value));
+        value
+    }
+
+    fn home_of(&self, store: &Store) -> Option<Domain> {
+        let set = self.dag.variables(store.value) | store.row.variables() | store.column.as_ref().map_or(0, Index::variables);
+        self.dag.deepest(set)
+    }
+
+    /// The steps that compute `wanted` and make `stores` inside loop `here`; it opens a scope
+    /// in which their values can be looked up and which the caller closes.
+    fn block(&mut self, here: Option<Domain>, wanted: &[Node], stores: &[&Store]) -> Vec<Step> {
+        self.scopes.push(Map::default());
+        self.open.push(here);
+        let needed = self.needed(wanted, stores);
+        let mut level: Map<Node, usize> = Map::default();
+        let mut nests: Vec<Nest> = Vec::new();
+        let mut last = 0;
+        for &node in &needed {
+            let mut own = 0;
+            self.dag.for_children(node, |child| own = own.max(level.get(&child).copied().unwrap_or(0)));
+            if self.dag.home(node) == here {
+                if let Kind::Reduce(domain, _) = self.dag.kind(node) {
+                    own += 1;
+                    Nest::at(&mut nests, own, *domain).sums.push(node);
+                }
+            }
+            last = last.max(own);
+            level.insert(node, own);
+        }
+        let mut own_stores: Vec<(usize, &Store)> = Vec::new();
+        for &store in stores {
+            let own = level.get(&store.value).copied().unwrap_or(0);
+            let home = self.home_of(store);
+            if home == here {
+                own_stores.push((own, store));
+            } else {
+                let path = self.dag.path(home);
+                let Some(&next) = path.iter().find(|d| !self.open.contains(&Some(**d))) else { continue };
+                Nest::at(&mut nests, own + 1, next).stores.push(store);
+                last = last.max(own + 1);
+            }
+        }
+        let fused = self.fused(here, &needed, wanted, stores);
+        let mut steps = Vec::new();
+        for now in 0..=last {
+            for nest in nests.iter().filter(|n| n.level == now) {
+                let step = self.nest(nest);
+                steps.push(Step::Loop(step));
+            }
+            for &node in &needed {
+                if level[&node] == now && self.dag.home(node) == here && !fused.contains_key(&node) {
+                    self.compute(&mut steps, node);
+                }
+            }
+            for (_, store) in own_stores.iter().filter(|(l, _)| *l == now) {
+                self.store(&mut steps, store, &fused);
+            }
+        }
+        self.open.pop();
+        steps
+    }
+
+    /// The nodes of this stage not yet computed that the wanted ones need, bottom-up.
+    fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
+        let mut seen: Map<Node, ()> = Map::default();
+        let mut list = Vec::new();
+        let mut pending: Vec<Node> = wanted.iter().copied().chain(stores.iter().map(|s| s.value)).collect();
+        while let Some(node) = pending.pop() {
+            if seen.contains_key(&node) || self.scopes.iter().any(|scope| scope.contains_key(&node)) {
+                continue;
+            }
+            seen.insert(node, ());
+            if self.stage_of(node) != self.stage {
+                continue;
+            }
+            list.push(node);
+            self.dag.for_children(node, |child| pending.push(child));
+        }
+        list.sort_unstable();
+        list
+    }
+
+    fn nest(&mut self, nest: &Nest) -> Loop {
+        let range = self.dag.range(nest.domain).clone();
+        let mut accumulators = Vec::new();
+        for &sum in &nest.sums {
+            let value = self.new_value(Instruction::Accumulator);
+            accumulators.push(value);
+            if let Some(scope) = self.scopes.last_mut() {
+                scope.insert(sum, value);
+            }
+        }
+        let bodies: Vec<Node> = nest
+            .sums
+            .iter()
+            .map(|sum| match self.dag.kind(*sum) {
+                Kind::Reduce(_, body) => *body,
+                _ => *sum,
+            })
+            .collect();
+        let mut body = self.block(Some(nest.domain), &bodies, &nest.stores);
+        for (accumulator, term) in accumulators.iter().zip(&bodies) {
+            let term = self.value(*term);
+            body.push(Step::Accumulate(*accumulator, term));
+        }
+        self.scopes.pop();
+        Loop { domain: nest.domain, start: range.start, end: range.end, accumulators, body }
+    }
+
+    /// Products that become part of one fused instruction of their only user.
+    fn fused(&self, here: Option<Domain>, needed: &[Node], wanted: &[Node], stores: &[&Store]) -> Map<Node, ()> {
+        let mut fused: Map<Node, ()> = Map::default();
+        let open = |node: Node| self.stage_of(node) == self.stage && self.dag.home(node) == here;
+        for &node in needed {
+            if !open(node) {
+                continue;
+            }
+            if let Kind::Sum(c, terms) = self.dag.kind(node) {
+                for (at, (_, term)) in terms.iter().enumerate() {
+                    if open(*term) && self.can_fuse(*term) && crate::instruct::fuses(self.dag, c, terms, at, &|n| open(n) && self.can_fuse(n)) {
+                        fused.insert(*term, ());
+                    }
+                }
+            }
+        }
+        for store in stores {
+            if store.add && open(store.value) && self.home_of(store) == here && self.can_fuse(store.value) {
+                fused.insert(store.value, ());
+            }
+        }
+        for node in wanted {
+            fused.remove(node);
+        }
+        fused
+    }
+
+    /// Whether a node is a product without divisors, used once.
+    pub(crate) fn can_fuse(&self, node: Node) -> bool {
+        match self.dag.kind(node) {
+            Kind::Product(_, factors) => {
+                self.uses.get(&node) == Some(&1) && factors.iter().all(|(_, n)| *n > 0) && factors.iter().map(|(_, n)| n).sum::<i32>() > 1
+            }
+            _ => false,
+        }
+    }
+
+    /// Whether a node's value can be looked up.
+    pub(crate) fn is_computed(&self, node: Node) -> bool {
+        self.scopes.iter().any(|scope| scope.contains_key(&node))
+    }
+
+    /// Computes a node whose children are computed.
+    fn compute(&mut self, steps: &mut Vec<Step>, node: Node) {
+        if self.scopes.last().is_some_and(|scope| scope.contains_key(&node)) {
+            return;
+        }
+        let value = match self.dag.kind(node).clone() {
+            Kind::Call(Op::Sin, x) if self.partner(Op::Cos, x[0]).is_some() => {
+                let angle = self.value(x[0]);
+                let sin = self.push(steps, Instruction::PairedSin(angle));
+                let cos = self.push(steps, Instruction::PairedCos(sin));
+                if let Some(partner) = self.partner(Op::Cos, x[0]) {
+                    self.define(partner, cos);
+                }
+                sin
+            }
+            Kind::Call(Op::Cos, x) if self.partner(Op::Sin, x[0]).is_some() => {
+                let angle = self.value(x[0]);
+                let sin = self.push(steps, Instruction::PairedSin(angle));
+                if let Some(partner) = self.partner(Op::Sin, x[0]) {
+                    self.define(partner, sin);
+                }
+                self.push(steps, Instruction::PairedCos(sin))
+            }
+            kind => self.instruct(steps, node, &kind),
+        };
+        self.define(node, value);
+    }
+
+    /// The other of sin and cos of the same angle, if this function needs it too.
+    fn partner(&self, op: Op, angle: Node) -> Option<Node> {
+        self.dag.known(&Kind::Call(op, vec![angle])).filter(|n| self.uses.contains_key(n))
+    }
+
+    /// Notes a node's value.
+    fn define(&mut self, node: Node, value: Value) {
+        if let Some(scope) = self.scopes.last_mut() {
+            scope.insert(node, value);
+        }
+    }
+
+    fn store(&mut self, steps: &mut Vec<Step>, store: &Store, fused: &Map<Node, ()>) {
+        let (negative, magnitude) = match self.dag.kind(store.value) {
+            Kind::Product(k, factors) if k.is_negative() && (fused.contains_key(&store.value) || matches!(factors.as_slice(), [(_, 1)])) => (true, store.value),
+            _ => (false, store.value),
+        };
+        let update = if !store.add {
+            Update::Set(self.value(store.value))
+        } else if fused.contains_key(&store.value) {
+            let (a, b) = self.split_product(steps, magnitude);
+            if negative { Update::SubProduct(a, b) } else { Update::AddProduct(a, b) }
+        } else {
+            let value = self.value(store.value);
+            match *self.program.instruction(value) {
+                Instruction::Neg(inner) => Update::Sub(inner),
+                _ => Update::Add(value),
+            }
+        };
+        steps.push(Step::Store(store.target, store.row.clone(), store.column.clone(), update));
+    }
+}
+
+/// The work of one level over one loop.
+struct Nest<'a> {
+    level: usize,
+    domain: Domain,
+    sums: Vec<Node>,
+    stores: Vec<&'a Store>,
+}
+
+impl<'a> Nest<'a> {
+    fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: usize, domain: Domain) -> &'n mut Nest<'a> {
+        let at = match nests.iter().position(|n| n.level == level && n.domain == domain) {
+            Some(at) => at,
+            None => {
+                nests.push(Nest { level, domain, sums: Vec::new(), stores: Vec::new() });
+                nests.len() - 1
+            }
+        };
+        &mut nests[at]
+    }
+}

@@ -338,7 +338,9 @@ impl Dag {
         match self.kind(node) {
             Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
             Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
-            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => arguments.iter().for_each(|n| visit(*n)),
+            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
+                arguments.iter().for_each(|n| visit(*n))
+            }
             Kind::Reduce(_, body) => visit(*body),
             Kind::Not(a) => visit(*a),
             Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
@@ -350,7 +352,15 @@ impl Dag {
                 visit(*a);
                 visit(*b);
             }
-            Kind::Constant(_) | Kind::Pi | Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Variable(_) | Kind::Extent(_) | Kind::Element(..) | Kind::Count(_) => {}
+            Kind::Constant(_)
+            | Kind::Pi
+            | Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Element(..)
+            | Kind::Count(_) => {}
         }
     }
 
@@ -366,7 +376,10 @@ impl Dag {
                 self.for_children(Node(number as u32), |child| seen[child.0 as usize] = true);
             }
         }
-        (0..self.len()).filter(|n| seen[*n]).map(|n| Node(n as u32)).collect()
+        (0..self.len())
+            .filter(|n| seen[*n])
+            .map(|n| Node(n as u32))
+            .collect()
     }
 
     /// The node of a kind, new or known. Operands of sums and products are compared without
@@ -411,19 +424,31 @@ impl Dag {
         let nonnegative = match kind {
             Kind::Constant(c) => !c.is_negative(),
             Kind::Pi | Kind::Extent(_) | Kind::Count(_) => true,
-            Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Variable(_) | Kind::Element(..) => false,
+            Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Element(..) => false,
             Kind::Sum(c, terms) => {
                 terms.iter().for_each(|(_, n)| child(*n));
-                !c.is_negative() && terms.iter().all(|(k, n)| !k.is_negative() && self.is_nonnegative(*n))
+                !c.is_negative()
+                    && terms
+                        .iter()
+                        .all(|(k, n)| !k.is_negative() && self.is_nonnegative(*n))
             }
             Kind::Product(c, factors) => {
                 factors.iter().for_each(|(n, _)| child(*n));
-                !c.is_negative() && factors.iter().all(|(n, k)| k % 2 == 0 || self.is_nonnegative(*n))
+                !c.is_negative()
+                    && factors
+                        .iter()
+                        .all(|(n, k)| k % 2 == 0 || self.is_nonnegative(*n))
             }
             Kind::Call(op, arguments) => {
                 arguments.iter().for_each(|n| child(*n));
-                matches!(op, Op::Sqrt | Op::Abs | Op::Exp | Op::Cosh | Op::Acos | Op::Acosh | Op::Hypot)
-                    || (*op == Op::Pow && self.is_nonnegative(arguments[0]))
+                matches!(
+                    op,
+                    Op::Sqrt | Op::Abs | Op::Exp | Op::Cosh | Op::Acos | Op::Acosh | Op::Hypot
+                ) || (*op == Op::Pow && self.is_nonnegative(arguments[0]))
             }
             Kind::External(_, _, arguments) => {
                 arguments.iter().for_each(|n| child(*n));
@@ -450,7 +475,9 @@ impl Dag {
             }
         };
         let own = match kind {
-            Kind::Scalar(_) | Kind::Extent(_) | Kind::Element(Array::Parameter(_), ..) => Dependence::PARAMETER,
+            Kind::Scalar(_) | Kind::Extent(_) | Kind::Element(Array::Parameter(_), ..) => {
+                Dependence::PARAMETER
+            }
             Kind::Element(Array::Phase { side: Side::Q, .. }, ..) => Dependence::Q,
             Kind::Element(Array::Phase { side: Side::P, .. }, ..) => Dependence::P,
             Kind::Element(Array::Direction { .. }, ..) => Dependence::DIRECTION,
@@ -460,7 +487,11 @@ impl Dag {
                 let range = self.range(*d);
                 variables |= range.start.variables() | range.end.variables();
                 variables &= !(1u64 << d.0);
-                if range.start.sizes.is_empty() && range.end.sizes.is_empty() { Dependence::default() } else { Dependence::PARAMETER }
+                if range.start.sizes.is_empty() && range.end.sizes.is_empty() {
+                    Dependence::default()
+                } else {
+                    Dependence::PARAMETER
+                }
             }
             _ => Dependence::default(),
         };
@@ -472,6 +503,10 @@ impl Dag {
             }
             _ => {}
         }
-        Facts { dependence, variables, nonnegative }
+        Facts {
+            dependence,
+            variables,
+            nonnegative,
+        }
     }
 }

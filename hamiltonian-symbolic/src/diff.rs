@@ -21,7 +21,13 @@ pub fn gradient(dag: &mut Dag, root: Node, what: Dependence) -> Vec<(Node, Node)
 
 /// Adjoints with a seed, in the context of a loop: contributions are summed over the loops inside
 /// `context` only.
-fn sweep(dag: &mut Dag, root: Node, seed: Node, what: Dependence, context: Option<Domain>) -> Vec<(Node, Node)> {
+fn sweep(
+    dag: &mut Dag,
+    root: Node,
+    seed: Node,
+    what: Dependence,
+    context: Option<Domain>,
+) -> Vec<(Node, Node)> {
     if !dag.dependence(root).on(what) {
         return Vec::new();
     }
@@ -30,10 +36,12 @@ fn sweep(dag: &mut Dag, root: Node, seed: Node, what: Dependence, context: Optio
     contributions.insert(root, vec![seed]);
     let mut leaves = Vec::new();
     for &node in order.iter().rev() {
-        let Some(mut parts) = contributions.remove(&node) else { continue };
+        let Some(mut parts) = contributions.remove(&node) else {
+            continue;
+        };
         // Users were visited last to first; the source's order is the other way.
         parts.reverse();
-        let adjoint = dag.add(&parts);
+        let adjoint = dag.add_with_content(&parts);
         if dag.is_zero(adjoint) {
             continue;
         }
@@ -52,13 +60,18 @@ fn sweep(dag: &mut Dag, root: Node, seed: Node, what: Dependence, context: Optio
                 }
             }
             Kind::Product(k, factors) => {
-                for (child, partial) in product_partials(dag, &k, &factors, what).into_iter().rev() {
+                for (child, partial) in product_partials(dag, &k, &factors, what).into_iter().rev()
+                {
                     let value = dag.mul(&[adjoint, partial]);
                     give(dag, child, here, value);
                 }
             }
             Kind::Call(op @ (Op::Min | Op::Max), x) => {
-                let first = if op == Op::Min { dag.less_equal(x[0], x[1]) } else { dag.less_equal(x[1], x[0]) };
+                let first = if op == Op::Min {
+                    dag.less_equal(x[0], x[1])
+                } else {
+                    dag.less_equal(x[1], x[0])
+                };
                 for (child, value) in branches(dag, first, x[0], x[1], what, here) {
                     let value = dag.mul(&[adjoint, value]);
                     give(dag, child, here, value);
@@ -85,8 +98,18 @@ fn sweep(dag: &mut Dag, root: Node, seed: Node, what: Dependence, context: Optio
                     give(dag, child, here, value);
                 }
             }
-            Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => leaves.push((node, adjoint)),
-            Kind::Constant(_) | Kind::Pi | Kind::Variable(_) | Kind::Extent(_) | Kind::Count(_) | Kind::Compare(..) | Kind::Not(_) | Kind::And(..) | Kind::Or(..) => {}
+            Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => {
+                leaves.push((node, adjoint))
+            }
+            Kind::Constant(_)
+            | Kind::Pi
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Count(_)
+            | Kind::Compare(..)
+            | Kind::Not(_)
+            | Kind::And(..)
+            | Kind::Or(..) => {}
         }
     }
     leaves.sort_unstable_by_key(|(leaf, _)| *leaf);
@@ -94,16 +117,31 @@ fn sweep(dag: &mut Dag, root: Node, seed: Node, what: Dependence, context: Optio
 }
 
 /// The derivatives of both branches with respect to the leaves, selected.
-fn branches(dag: &mut Dag, condition: Node, yes: Node, no: Node, what: Dependence, here: Option<Domain>) -> Vec<(Node, Node)> {
+fn branches(
+    dag: &mut Dag,
+    condition: Node,
+    yes: Node,
+    no: Node,
+    what: Dependence,
+    here: Option<Domain>,
+) -> Vec<(Node, Node)> {
     let (one, zero) = (dag.integer(1), dag.integer(0));
     let from_yes = sweep(dag, yes, one, what, here);
     let from_no = sweep(dag, no, one, what, here);
-    let mut all: Vec<Node> = from_yes.iter().chain(&from_no).map(|(leaf, _)| *leaf).collect();
+    let mut all: Vec<Node> = from_yes
+        .iter()
+        .chain(&from_no)
+        .map(|(leaf, _)| *leaf)
+        .collect();
     all.sort_unstable();
     all.dedup();
     all.into_iter()
         .map(|leaf| {
-            let pick = |list: &[(Node, Node)]| list.iter().find(|(l, _)| *l == leaf).map_or(zero, |(_, value)| *value);
+            let pick = |list: &[(Node, Node)]| {
+                list.iter()
+                    .find(|(l, _)| *l == leaf)
+                    .map_or(zero, |(_, value)| *value)
+            };
             let (a, b) = (pick(&from_yes), pick(&from_no));
             (leaf, dag.select(condition, a, b))
         })
@@ -118,7 +156,13 @@ fn inner(dag: &Dag, a: Option<Domain>, b: Option<Domain>) -> Option<Domain> {
 
 /// A contribution made inside loop `within` to a node that lives further out is summed over the
 /// loops between, but not beyond `context`.
-fn sum_out(dag: &mut Dag, child: Node, within: Option<Domain>, context: Option<Domain>, value: Node) -> Node {
+fn sum_out(
+    dag: &mut Dag,
+    child: Node,
+    within: Option<Domain>,
+    context: Option<Domain>,
+    value: Node,
+) -> Node {
     let stop = inner(dag, dag.home(child), context);
     let mut value = value;
     let mut at = within;
@@ -140,7 +184,12 @@ fn derivative_of(part: Part, i: u16) -> Part {
 
 /// ∂(k·Π f^n)/∂f for each factor that matters. Up to [`FEW`] factors each is written out; longer
 /// products are cut into prefixes and suffixes, 3n − 6 multiplications in all (Speelpenning 1980).
-fn product_partials(dag: &mut Dag, k: &Rational, factors: &[(Node, i32)], what: Dependence) -> Vec<(Node, Node)> {
+fn product_partials(
+    dag: &mut Dag,
+    k: &Rational,
+    factors: &[(Node, i32)],
+    what: Dependence,
+) -> Vec<(Node, Node)> {
     let lowered = |dag: &mut Dag, node: Node, n: i32| {
         let power = dag.powi(node, n - 1);
         dag.scale(&Rational::integer(i64::from(n)), power)
@@ -197,13 +246,34 @@ fn product_partials(dag: &mut Dag, k: &Rational, factors: &[(Node, i32)], what: 
 pub fn along_direction(dag: &mut Dag, root: Node) -> Node {
     let what = Dependence(Dependence::Q.0 | Dependence::P.0);
     forward(dag, root, what, |dag, leaf| match dag.kind(leaf).clone() {
-        Kind::Element(Array::Phase { side, group, column }, row, c) => Some(dag.element(Array::Direction { side, group, column }, row, c)),
+        Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            c,
+        ) => Some(dag.element(
+            Array::Direction {
+                side,
+                group,
+                column,
+            },
+            row,
+            c,
+        )),
         _ => None,
     })
 }
 
 /// The forward sweep: the tangent of `root` when each leaf's tangent is `seed(leaf)`.
-pub fn forward(dag: &mut Dag, root: Node, what: Dependence, mut seed: impl FnMut(&mut Dag, Node) -> Option<Node>) -> Node {
+pub fn forward(
+    dag: &mut Dag,
+    root: Node,
+    what: Dependence,
+    mut seed: impl FnMut(&mut Dag, Node) -> Option<Node>,
+) -> Node {
     let zero = dag.integer(0);
     let mut tangents: Map<Node, Node> = Map::default();
     for node in dag.reachable(&[root]) {
@@ -218,16 +288,27 @@ pub fn forward(dag: &mut Dag, root: Node, what: Dependence, mut seed: impl FnMut
             }
             Kind::Product(k, factors) => {
                 let partials = product_partials(dag, &k, &factors, what);
-                let parts: Vec<_> = partials.into_iter().map(|(child, partial)| dag.mul(&[partial, tangents[&child]])).collect();
+                let parts: Vec<_> = partials
+                    .into_iter()
+                    .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
+                    .collect();
                 dag.add(&parts)
             }
             Kind::Call(op @ (Op::Min | Op::Max), x) => {
-                let first = if op == Op::Min { dag.less_equal(x[0], x[1]) } else { dag.less_equal(x[1], x[0]) };
+                let first = if op == Op::Min {
+                    dag.less_equal(x[0], x[1])
+                } else {
+                    dag.less_equal(x[1], x[0])
+                };
                 dag.select(first, tangents[&x[0]], tangents[&x[1]])
             }
             Kind::Call(op, arguments) => {
                 let partials = (op.row().partials)(dag, &arguments, node);
-                let parts: Vec<_> = arguments.into_iter().zip(partials).map(|(child, partial)| dag.mul(&[partial, tangents[&child]])).collect();
+                let parts: Vec<_> = arguments
+                    .into_iter()
+                    .zip(partials)
+                    .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
+                    .collect();
                 dag.add(&parts)
             }
             Kind::External(function, part, arguments) => {
@@ -239,7 +320,9 @@ pub fn forward(dag: &mut Dag, root: Node, what: Dependence, mut seed: impl FnMut
                 dag.add(&parts)
             }
             Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),
-            Kind::Select(condition, yes, no) => dag.select(condition, tangents[&yes], tangents[&no]),
+            Kind::Select(condition, yes, no) => {
+                dag.select(condition, tangents[&yes], tangents[&no])
+            }
             _ => seed(dag, node).unwrap_or(zero),
         };
         tangents.insert(node, tangent);

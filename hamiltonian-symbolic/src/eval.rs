@@ -34,7 +34,15 @@ impl<T: Real> Point<T> {
     /// An empty point at t = 0 with step coefficient 1.
     #[must_use]
     pub fn new() -> Point<T> {
-        Point { t: T::zero(), c: T::one(), sizes: Vec::new(), scalars: Vec::new(), arrays: Map::default(), outputs: Map::default(), externals: Vec::new() }
+        Point {
+            t: T::zero(),
+            c: T::one(),
+            sizes: Vec::new(),
+            scalars: Vec::new(),
+            arrays: Map::default(),
+            outputs: Map::default(),
+            externals: Vec::new(),
+        }
     }
 }
 
@@ -72,8 +80,15 @@ pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) ->
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
     machine.steps(&function.evaluation);
-    let results = function.results.iter().map(|v| machine.number(*v)).collect();
-    Outcome { results, outputs: machine.outputs }
+    let results = function
+        .results
+        .iter()
+        .map(|v| machine.number(*v))
+        .collect();
+    Outcome {
+        results,
+        outputs: machine.outputs,
+    }
 }
 
 struct Machine<'a, T: Real> {
@@ -90,10 +105,14 @@ impl<T: Real> Machine<'_, T> {
         self.numbers[value.0 as usize]
     }
     fn affine(&self, affine: &Affine) -> i64 {
-        affine.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| self.point.sizes[s.0 as usize] as i64)
+        affine.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| {
+            self.point.sizes[s.0 as usize] as i64
+        })
     }
     fn index(&self, index: &Index) -> usize {
-        let value = index.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| self.point.sizes[s.0 as usize] as i64);
+        let value = index.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| {
+            self.point.sizes[s.0 as usize] as i64
+        });
         usize::try_from(value).unwrap_or(usize::MAX)
     }
 
@@ -106,8 +125,19 @@ impl<T: Real> Machine<'_, T> {
                     self.numbers[accumulator.0 as usize] = sum;
                 }
                 Step::Store(target, row, column, update) => {
-                    let (row, column) = (self.index(row), column.as_ref().map_or(0, |c| self.index(c)));
-                    let Some(old) = self.outputs.get(target).and_then(|o| o.get(column)).and_then(|c| c.get(row)).copied() else { continue };
+                    let (row, column) = (
+                        self.index(row),
+                        column.as_ref().map_or(0, |c| self.index(c)),
+                    );
+                    let Some(old) = self
+                        .outputs
+                        .get(target)
+                        .and_then(|o| o.get(column))
+                        .and_then(|c| c.get(row))
+                        .copied()
+                    else {
+                        continue;
+                    };
                     let new = match *update {
                         Update::Set(v) => self.number(v),
                         Update::Add(v) => old + self.number(v),
@@ -150,7 +180,13 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Load(array, row, column) => {
                 let column_number = column.as_ref().map_or(0, |c| self.index(c));
                 let row = self.index(row);
-                self.point.arrays.get(array).and_then(|a| a.get(column_number)).and_then(|c| c.get(row)).copied().unwrap_or(T::constant(f64::NAN, 0.0))
+                self.point
+                    .arrays
+                    .get(array)
+                    .and_then(|a| a.get(column_number))
+                    .and_then(|c| c.get(row))
+                    .copied()
+                    .unwrap_or(T::constant(f64::NAN, 0.0))
             }
             Instruction::Accumulator => T::zero(),
             Instruction::Neg(a) => -n(a),
@@ -171,7 +207,10 @@ impl<T: Real> Machine<'_, T> {
             },
             Instruction::External(function, part, arguments) => {
                 let arguments: Vec<T> = arguments.iter().map(n).collect();
-                self.point.externals.get(*function as usize).map_or(T::constant(f64::NAN, 0.0), |f| f(*part, &arguments))
+                self.point
+                    .externals
+                    .get(*function as usize)
+                    .map_or(T::constant(f64::NAN, 0.0), |f| f(*part, &arguments))
             }
             Instruction::Select(mask, a, b) => match self.masks.get(mask) {
                 Some(mask) => T::select(*mask, n(a), n(b)),
@@ -194,7 +233,8 @@ impl<T: Real> Machine<'_, T> {
             }
             Instruction::And(a, b) | Instruction::Or(a, b) => {
                 let and = matches!(self.program.instruction(value), Instruction::And(..));
-                if let (Some(a), Some(b)) = (self.masks.get(a).copied(), self.masks.get(b).copied()) {
+                if let (Some(a), Some(b)) = (self.masks.get(a).copied(), self.masks.get(b).copied())
+                {
                     self.masks.insert(value, if and { a & b } else { a | b });
                 }
                 return;

@@ -39,7 +39,11 @@ impl Term {
     }
     fn multiplications(&self, one: Node) -> i64 {
         let factors: i64 = self.factors.iter().map(|(_, n)| i64::from(n.abs())).sum();
-        if factors == 0 { 0 } else { factors - 1 + i64::from(self.has_coefficient(one)) }
+        if factors == 0 {
+            0
+        } else {
+            factors - 1 + i64::from(self.has_coefficient(one))
+        }
     }
     fn without(&self, base: Node, sign: i32) -> Term {
         let mut rest = self.clone();
@@ -61,16 +65,28 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
     for node in order {
         let image = match dag.kind(node).clone() {
             Kind::Sum(c, terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new[&n], uses[&n] == 1)).collect();
+                let terms: Vec<_> = terms
+                    .into_iter()
+                    .map(|(k, n)| (k, new[&n], uses[&n] == 1))
+                    .collect();
                 factored_sum(dag, &c, &terms, &Rational::ONE, None)
             }
             Kind::Product(k, factors) => match absorbing_sum(dag, &k, &factors, &uses) {
                 Some(at) => {
-                    let Kind::Sum(c, terms) = dag.kind(factors[at].0).clone() else { continue };
-                    let (prepared, others): (Vec<_>, Vec<_>) =
-                        factors.iter().enumerate().filter(|(i, _)| *i != at).map(|(_, f)| (new[&f.0], f.1)).partition(|(n, _)| is_prepared(dag, *n));
+                    let Kind::Sum(c, terms) = dag.kind(factors[at].0).clone() else {
+                        continue;
+                    };
+                    let (prepared, others): (Vec<_>, Vec<_>) = factors
+                        .iter()
+                        .enumerate()
+                        .filter(|(i, _)| *i != at)
+                        .map(|(_, f)| (new[&f.0], f.1))
+                        .partition(|(n, _)| is_prepared(dag, *n));
                     let p = dag.product(&Rational::ONE, &prepared);
-                    let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new[&n], uses[&n] == 1)).collect();
+                    let terms: Vec<_> = terms
+                        .into_iter()
+                        .map(|(k, n)| (k, new[&n], uses[&n] == 1))
+                        .collect();
                     let sum = factored_sum(dag, &c, &terms, &k, Some(p));
                     let mut all = vec![(sum, 1)];
                     all.extend(others);
@@ -92,13 +108,20 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
 
 /// The factor of a product into which the product's coefficient can be multiplied for free: a
 /// sum used only here, all of whose terms but at most one have a coefficient already.
-fn absorbing_sum(dag: &Dag, k: &Rational, factors: &[(Node, i32)], uses: &Map<Node, u32>) -> Option<usize> {
+fn absorbing_sum(
+    dag: &Dag,
+    k: &Rational,
+    factors: &[(Node, i32)],
+    uses: &Map<Node, u32>,
+) -> Option<usize> {
     let has_prepared = factors.iter().any(|(n, _)| is_prepared(dag, *n));
     if !has_prepared && (k.is_one() || *k == Rational::MINUS_ONE) {
         return None;
     }
     factors.iter().position(|&(node, n)| {
-        let Kind::Sum(c, terms) = dag.kind(node) else { return false };
+        let Kind::Sum(c, terms) = dag.kind(node) else {
+            return false;
+        };
         if n != 1 || uses[&node] != 1 || is_prepared(dag, node) {
             return false;
         }
@@ -107,7 +130,9 @@ fn absorbing_sum(dag: &Dag, k: &Rational, factors: &[(Node, i32)], uses: &Map<No
             .filter(|(k, n)| {
                 let unit = k.is_one() || *k == Rational::MINUS_ONE;
                 let product = match dag.kind(*n) {
-                    Kind::Product(_, inner) if uses[n] == 1 => inner.iter().any(|(f, _)| is_prepared(dag, *f)),
+                    Kind::Product(_, inner) if uses[n] == 1 => {
+                        inner.iter().any(|(f, _)| is_prepared(dag, *f))
+                    }
                     _ => is_prepared(dag, *n),
                 };
                 unit && !product
@@ -119,17 +144,28 @@ fn absorbing_sum(dag: &Dag, k: &Rational, factors: &[(Node, i32)], uses: &Map<No
 
 /// `scale·p·(c + Σ k·node)` with common factors taken out. `alone` says that a term is used here
 /// only and may be taken apart.
-fn factored_sum(dag: &mut Dag, c: &Rational, terms: &[(Rational, Node, bool)], scale: &Rational, p: Option<Node>) -> Node {
+fn factored_sum(
+    dag: &mut Dag,
+    c: &Rational,
+    terms: &[(Rational, Node, bool)],
+    scale: &Rational,
+    p: Option<Node>,
+) -> Node {
     let one = dag.integer(1);
     let p = p.unwrap_or(one);
     let mut list: Vec<Term> = Vec::with_capacity(terms.len() + 1);
     for (k, node, alone) in terms {
-        let mut term = Term { k: k.mul(scale), p, factors: Vec::new() };
+        let mut term = Term {
+            k: k.mul(scale),
+            p,
+            factors: Vec::new(),
+        };
         match dag.kind(*node) {
             Kind::Product(k, factors) if *alone => {
                 let (k, factors) = (k.clone(), factors.clone());
                 term.k = term.k.mul(&k);
-                let (prepared, rest): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
+                let (prepared, rest): (Vec<_>, Vec<_>) =
+                    factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
                 if !prepared.is_empty() {
                     let prepared = dag.product(&Rational::ONE, &prepared);
                     term.p = dag.mul(&[p, prepared]);
@@ -146,7 +182,11 @@ fn factored_sum(dag: &mut Dag, c: &Rational, terms: &[(Rational, Node, bool)], s
         collect(dag, &constant, list, one)
     } else {
         if !constant.is_zero() {
-            list.push(Term { k: constant, p, factors: Vec::new() });
+            list.push(Term {
+                k: constant,
+                p,
+                factors: Vec::new(),
+            });
         }
         collect(dag, &Rational::ZERO, list, one)
     }
@@ -164,20 +204,30 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
     let mut rounds = 4 + 4096 / terms.len().max(1);
     while terms.len() > 1 && rounds > 0 {
         rounds -= 1;
-        let Some((common, _)) = best(&terms, one) else { break };
+        let Some((common, _)) = best(&terms, one) else {
+            break;
+        };
         let mut inner = Vec::new();
         let mut rest = Vec::new();
         let mut place = None;
         for term in terms {
             let quotient = match &common {
-                Common::Factor(base, sign) => {
-                    term.factors.iter().any(|(n, e)| n == base && e.signum() == *sign).then(|| term.without(*base, *sign))
+                Common::Factor(base, sign) => term
+                    .factors
+                    .iter()
+                    .any(|(n, e)| n == base && e.signum() == *sign)
+                    .then(|| term.without(*base, *sign)),
+                Common::Coefficient(k, p) => {
+                    (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
+                        k: if term.k.is_negative() {
+                            Rational::MINUS_ONE
+                        } else {
+                            Rational::ONE
+                        },
+                        p: one,
+                        factors: term.factors.clone(),
+                    })
                 }
-                Common::Coefficient(k, p) => (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
-                    k: if term.k.is_negative() { Rational::MINUS_ONE } else { Rational::ONE },
-                    p: one,
-                    factors: term.factors.clone(),
-                }),
             };
             match quotient {
                 Some(quotient) => {
@@ -192,7 +242,11 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
             Kind::Product(k, factors) => (k, factors),
             _ => (Rational::ONE, vec![(sum, 1)]),
         };
-        let mut term = Term { k, p: one, factors: Vec::new() };
+        let mut term = Term {
+            k,
+            p: one,
+            factors: Vec::new(),
+        };
         match common {
             Common::Factor(base, sign) => match factors.iter_mut().find(|(n, _)| *n == base) {
                 Some(entry) => entry.1 += sign,
@@ -204,7 +258,8 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
             }
         }
         factors.retain(|(_, n)| *n != 0);
-        let (prepared, others): (Vec<_>, Vec<_>) = factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
+        let (prepared, others): (Vec<_>, Vec<_>) =
+            factors.into_iter().partition(|(n, _)| is_prepared(dag, *n));
         if !prepared.is_empty() {
             let prepared = dag.product(&Rational::ONE, &prepared);
             term.p = dag.mul(&[term.p, prepared]);

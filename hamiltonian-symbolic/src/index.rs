@@ -40,17 +40,26 @@ impl Affine {
     /// A constant.
     #[must_use]
     pub fn constant(value: i64) -> Affine {
-        Affine { constant: value, ..Affine::default() }
+        Affine {
+            constant: value,
+            ..Affine::default()
+        }
     }
     /// A loop variable.
     #[must_use]
     pub fn variable(domain: Domain) -> Affine {
-        Affine { loops: vec![(domain, 1)], ..Affine::default() }
+        Affine {
+            loops: vec![(domain, 1)],
+            ..Affine::default()
+        }
     }
     /// A size.
     #[must_use]
     pub fn size(size: Size) -> Affine {
-        Affine { sizes: vec![(size, 1)], ..Affine::default() }
+        Affine {
+            sizes: vec![(size, 1)],
+            ..Affine::default()
+        }
     }
     /// `self + factor·other`.
     #[must_use]
@@ -75,13 +84,21 @@ impl Affine {
     /// The factor of a loop variable.
     #[must_use]
     pub fn factor(&self, domain: Domain) -> i64 {
-        self.loops.iter().find(|(d, _)| *d == domain).map_or(0, |entry| entry.1)
+        self.loops
+            .iter()
+            .find(|(d, _)| *d == domain)
+            .map_or(0, |entry| entry.1)
     }
     /// The same with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, replace: &impl Fn(Domain) -> Affine) -> Affine {
-        let rest = Affine { loops: Vec::new(), ..self.clone() };
-        self.loops.iter().fold(rest, |sum, &(d, k)| sum.plus(k, &replace(d)))
+        let rest = Affine {
+            loops: Vec::new(),
+            ..self.clone()
+        };
+        self.loops
+            .iter()
+            .fold(rest, |sum, &(d, k)| sum.plus(k, &replace(d)))
     }
     /// The loop variables as a bit set.
     #[must_use]
@@ -103,7 +120,10 @@ impl Index {
     /// An index without modulus.
     #[must_use]
     pub fn plain(affine: Affine) -> Index {
-        Index { affine, modulo: None }
+        Index {
+            affine,
+            modulo: None,
+        }
     }
     /// `affine % modulo`, with multiples of the modulus taken out.
     #[must_use]
@@ -114,12 +134,19 @@ impl Index {
                 return Index::plain(Affine::constant(n.rem_euclid(m)));
             }
         }
-        if modulo.loops.is_empty() && modulo.constant == 0 && modulo.sizes.len() == 1 && modulo.sizes[0].1 == 1 {
+        if modulo.loops.is_empty()
+            && modulo.constant == 0
+            && modulo.sizes.len() == 1
+            && modulo.sizes[0].1 == 1
+        {
             affine.sizes.retain(|(s, _)| *s != modulo.sizes[0].0);
         } else if let Some(m) = modulo.as_constant().filter(|m| *m > 0) {
             affine.constant = affine.constant.rem_euclid(m);
         }
-        Index { affine, modulo: Some(modulo) }
+        Index {
+            affine,
+            modulo: Some(modulo),
+        }
     }
     /// A constant index.
     #[must_use]

@@ -35,7 +35,11 @@ fn start_of(c: &Rational, terms: &[(Rational, Node)], can_fuse: &impl Fn(Node) -
         }
     }
     // A negative plain term in front is subtracted from the positive one after it.
-    if terms[0].0 == Rational::MINUS_ONE && terms.len() > 1 && terms[1].0.is_one() && !is_product(terms, 1, can_fuse) {
+    if terms[0].0 == Rational::MINUS_ONE
+        && terms.len() > 1
+        && terms[1].0.is_one()
+        && !is_product(terms, 1, can_fuse)
+    {
         return Start::Term(1);
     }
     Start::Term(0)
@@ -43,8 +47,16 @@ fn start_of(c: &Rational, terms: &[(Rational, Node)], can_fuse: &impl Fn(Node) -
 
 /// Whether term `at` of a sum is added by a fused instruction, so that its product is not needed
 /// by itself.
-pub(crate) fn fuses(_dag: &Dag, c: &Rational, terms: &[(Rational, Node)], at: usize, can_fuse: &impl Fn(Node) -> bool) -> bool {
-    is_unit(&terms[at].0) && start_of(c, terms, can_fuse) != Start::Term(at) && can_fuse(terms[at].1)
+pub(crate) fn fuses(
+    _dag: &Dag,
+    c: &Rational,
+    terms: &[(Rational, Node)],
+    at: usize,
+    can_fuse: &impl Fn(Node) -> bool,
+) -> bool {
+    is_unit(&terms[at].0)
+        && start_of(c, terms, can_fuse) != Start::Term(at)
+        && can_fuse(terms[at].1)
 }
 
 impl Placer<'_> {
@@ -62,7 +74,9 @@ impl Placer<'_> {
                 let range = self.dag.range(*domain);
                 Instruction::Count(range.start.clone(), range.end.clone())
             }
-            Kind::Element(array, row, column) => Instruction::Load(*array, row.clone(), column.clone()),
+            Kind::Element(array, row, column) => {
+                Instruction::Load(*array, row.clone(), column.clone())
+            }
             Kind::Sum(c, terms) => return self.sum(steps, c, terms),
             Kind::Product(k, factors) => return self.product(steps, k, factors),
             Kind::Call(op, x) => match x.as_slice() {
@@ -70,14 +84,20 @@ impl Placer<'_> {
                 [x, y, ..] => Instruction::Call2(*op, self.value(*x), self.value(*y)),
                 [] => Instruction::Pi,
             },
-            Kind::External(function, part, x) => Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).collect()),
+            Kind::External(function, part, x) => {
+                Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).collect())
+            }
             // The accumulator was defined when its loop was placed.
             Kind::Reduce(..) => return self.value(node),
-            Kind::Compare(relation, a, b) => Instruction::Compare(*relation, self.value(*a), self.value(*b)),
+            Kind::Compare(relation, a, b) => {
+                Instruction::Compare(*relation, self.value(*a), self.value(*b))
+            }
             Kind::Not(a) => Instruction::Not(self.value(*a)),
             Kind::And(a, b) => Instruction::And(self.value(*a), self.value(*b)),
             Kind::Or(a, b) => Instruction::Or(self.value(*a), self.value(*b)),
-            Kind::Select(c, a, b) => Instruction::Select(self.value(*c), self.value(*a), self.value(*b)),
+            Kind::Select(c, a, b) => {
+                Instruction::Select(self.value(*c), self.value(*a), self.value(*b))
+            }
         };
         self.push(steps, instruction)
     }
@@ -87,8 +107,15 @@ impl Placer<'_> {
     }
 
     fn sum(&mut self, steps: &mut Vec<Step>, c: &Rational, terms: &[(Rational, Node)]) -> Value {
-        let fusable: Vec<bool> = (0..terms.len()).map(|at| !self.is_computed(terms[at].1)).collect();
-        let can_fuse = |node: Node| terms.iter().position(|(_, n)| *n == node).is_some_and(|at| fusable[at]);
+        let fusable: Vec<bool> = (0..terms.len())
+            .map(|at| !self.is_computed(terms[at].1))
+            .collect();
+        let can_fuse = |node: Node| {
+            terms
+                .iter()
+                .position(|(_, n)| *n == node)
+                .is_some_and(|at| fusable[at])
+        };
         let start = start_of(c, terms, &can_fuse);
         let mut constant_left = !c.is_zero();
         let mut sum = match start {
@@ -100,15 +127,29 @@ impl Placer<'_> {
                 let (k, node) = &terms[at];
                 match terms.get(1) {
                     // −a + b·c is one instruction.
-                    Some((next, product)) if at == 0 && *k == Rational::MINUS_ONE && next.is_one() && fusable[1] => {
+                    Some((next, product))
+                        if at == 0 && *k == Rational::MINUS_ONE && next.is_one() && fusable[1] =>
+                    {
                         let a = self.value(*node);
                         let (x, y) = self.split_product(steps, *product);
                         let sum = self.push(steps, Instruction::MulSub(x, y, a));
-                        return self.rest_of_sum(steps, sum, c, constant_left, terms, &fusable, &[0, 1]);
+                        return self.rest_of_sum(
+                            steps,
+                            sum,
+                            c,
+                            constant_left,
+                            terms,
+                            &fusable,
+                            &[0, 1],
+                        );
                     }
                     _ => {}
                 }
-                let value = if fusable[at] { self.computed_product(steps, *node) } else { self.value(*node) };
+                let value = if fusable[at] {
+                    self.computed_product(steps, *node)
+                } else {
+                    self.value(*node)
+                };
                 if k.is_one() {
                     value
                 } else if *k == Rational::MINUS_ONE {
@@ -129,7 +170,16 @@ impl Placer<'_> {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn rest_of_sum(&mut self, steps: &mut Vec<Step>, start: Value, c: &Rational, constant_left: bool, terms: &[(Rational, Node)], fusable: &[bool], done: &[usize]) -> Value {
+    fn rest_of_sum(
+        &mut self,
+        steps: &mut Vec<Step>,
+        start: Value,
+        c: &Rational,
+        constant_left: bool,
+        terms: &[(Rational, Node)],
+        fusable: &[bool],
+        done: &[usize],
+    ) -> Value {
         let mut sum = start;
         for (at, (k, node)) in terms.iter().enumerate() {
             if done.contains(&at) {
@@ -139,19 +189,47 @@ impl Placer<'_> {
             if !is_unit(k) {
                 let value = self.value(*node);
                 let factor = self.constant(steps, k.abs());
-                sum = self.push(steps, if negative { Instruction::NegMulAdd(factor, value, sum) } else { Instruction::MulAdd(factor, value, sum) });
+                sum = self.push(
+                    steps,
+                    if negative {
+                        Instruction::NegMulAdd(factor, value, sum)
+                    } else {
+                        Instruction::MulAdd(factor, value, sum)
+                    },
+                );
             } else if fusable[at] {
                 let flipped = self.is_negated_product(*node);
                 let (a, b) = self.split_product(steps, *node);
-                sum = self.push(steps, if negative != flipped { Instruction::NegMulAdd(a, b, sum) } else { Instruction::MulAdd(a, b, sum) });
+                sum = self.push(
+                    steps,
+                    if negative != flipped {
+                        Instruction::NegMulAdd(a, b, sum)
+                    } else {
+                        Instruction::MulAdd(a, b, sum)
+                    },
+                );
             } else {
                 let value = self.value(*node);
-                sum = self.push(steps, if negative { Instruction::Sub(sum, value) } else { Instruction::Add(sum, value) });
+                sum = self.push(
+                    steps,
+                    if negative {
+                        Instruction::Sub(sum, value)
+                    } else {
+                        Instruction::Add(sum, value)
+                    },
+                );
             }
         }
         if constant_left {
             let constant = self.constant(steps, c.abs());
-            sum = self.push(steps, if c.is_negative() { Instruction::Sub(sum, constant) } else { Instruction::Add(sum, constant) });
+            sum = self.push(
+                steps,
+                if c.is_negative() {
+                    Instruction::Sub(sum, constant)
+                } else {
+                    Instruction::Add(sum, constant)
+                },
+            );
         }
         sum
     }
@@ -219,7 +297,11 @@ impl Placer<'_> {
                 self.push(steps, Instruction::Div(above, below))
             }
         };
-        if k.is_negative() { self.push(steps, Instruction::Neg(value)) } else { value }
+        if k.is_negative() {
+            self.push(steps, Instruction::Neg(value))
+        } else {
+            value
+        }
     }
 
     /// The product of a list; equal neighbours by squaring.

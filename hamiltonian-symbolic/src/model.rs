@@ -97,11 +97,22 @@ pub struct Model {
 impl Model {
     /// The scalar coordinate or momentum of a scalar group.
     pub fn scalar(&mut self, side: Side, group: usize) -> Node {
-        self.dag.element(Array::Phase { side, group: group as u16, column: 0 }, Index::constant(0), None)
+        self.dag.element(
+            Array::Phase {
+                side,
+                group: group as u16,
+                column: 0,
+            },
+            Index::constant(0),
+            None,
+        )
     }
     /// The number of the parameter of that name.
     #[must_use]
     pub fn parameter_named(&self, name: &str) -> Option<Parameter> {
-        self.parameters.iter().position(|p| p.name == name).map(|at| Parameter(at as u16))
+        self.parameters
+            .iter()
+            .position(|p| p.name == name)
+            .map(|at| Parameter(at as u16))
     }
 }

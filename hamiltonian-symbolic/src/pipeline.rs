@@ -62,7 +62,9 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
         if let Kind::External(function, part, _) = model.dag.kind(node) {
             let external = &model.externals[*function as usize];
             if matches!(part, crate::dag::Part::Second(..)) && !external.second {
-                return Err(Refusal::NoSecondDerivative { function: external.name.clone() });
+                return Err(Refusal::NoSecondDerivative {
+                    function: external.name.clone(),
+                });
             }
         }
     }
@@ -72,7 +74,12 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
 /// What a purpose asks of the model's H.
 pub fn request(model: &mut Model, purpose: Purpose) -> Request {
     let h = model.hamiltonian.unwrap_or(Node(0));
-    let mut request = Request { purpose, results: Vec::new(), stores: Vec::new(), cleared: Vec::new() };
+    let mut request = Request {
+        purpose,
+        results: Vec::new(),
+        stores: Vec::new(),
+        cleared: Vec::new(),
+    };
     let both = Dependence(Dependence::Q.0 | Dependence::P.0);
     match purpose {
         Purpose::Energy => request.results.push(h),
@@ -86,7 +93,9 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
         Purpose::TimeDerivative => {
             let adjoints = diff::gradient(&mut model.dag, h, Dependence::TIME);
             let zero = model.dag.integer(0);
-            request.results.push(adjoints.first().map_or(zero, |(_, value)| *value));
+            request
+                .results
+                .push(adjoints.first().map_or(zero, |(_, value)| *value));
         }
         Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
         Purpose::HessianVector => {
@@ -94,7 +103,10 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
             derivatives(model, along, both, false, &mut request);
         }
         Purpose::Observable(number) => {
-            request.results = model.observables.get(number as usize).map_or_else(Vec::new, |o| o.components.clone());
+            request.results = model
+                .observables
+                .get(number as usize)
+                .map_or_else(Vec::new, |o| o.components.clone());
         }
         Purpose::Flow => derivatives(model, h, both, true, &mut request),
         Purpose::Kick => derivatives(model, h, Dependence::Q, true, &mut request),
@@ -112,7 +124,14 @@ fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
             Shape::Scalar | Shape::Vector(_) => 1,
         };
         for column in 0..count {
-            all.push((Target::Phase { side, group: group as u16, column: column as u16 }, declaration.shape.clone()));
+            all.push((
+                Target::Phase {
+                    side,
+                    group: group as u16,
+                    column: column as u16,
+                },
+                declaration.shape.clone(),
+            ));
         }
     }
     all
@@ -120,20 +139,55 @@ fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
 
 /// Stores of ∂root/∂q and ∂root/∂p: overwriting, or accumulating c·∂root/∂p into coordinates and
 /// −c·∂root/∂q into momenta.
-fn derivatives(model: &mut Model, root: Node, what: Dependence, accumulate: bool, request: &mut Request) {
+fn derivatives(
+    model: &mut Model,
+    root: Node,
+    what: Dependence,
+    accumulate: bool,
+    request: &mut Request,
+) {
     let adjoints = diff::gradient(&mut model.dag, root, what);
     let mut stores = Vec::new();
     for (leaf, value) in adjoints {
-        let Kind::Element(Array::Phase { side, group, column }, row, _) = model.dag.kind(leaf).clone() else { continue };
-        let (side, value) = if accumulate { scaled(&mut model.dag, side, value) } else { (side, value) };
-        stores.push(Store { target: Target::Phase { side, group, column }, row, column: None, value, add: true });
+        let Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            _,
+        ) = model.dag.kind(leaf).clone()
+        else {
+            continue;
+        };
+        let (side, value) = if accumulate {
+            scaled(&mut model.dag, side, value)
+        } else {
+            (side, value)
+        };
+        stores.push(Store {
+            target: Target::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            column: None,
+            value,
+            add: true,
+        });
     }
     if accumulate {
         request.stores.append(&mut stores);
         return;
     }
     for side in [Side::Q, Side::P] {
-        if what.on(if side == Side::Q { Dependence::Q } else { Dependence::P }) {
+        if what.on(if side == Side::Q {
+            Dependence::Q
+        } else {
+            Dependence::P
+        }) {
             for (target, shape) in columns(model, side) {
                 overwrite(&mut model.dag, target, &shape, &mut stores, request);
             }
@@ -154,12 +208,29 @@ fn scaled(dag: &mut Dag, side: Side, value: Node) -> (Side, Node) {
 
 /// Makes an output column be overwritten: by one store where that covers it all, else by clearing
 /// and adding.
-fn overwrite(dag: &mut Dag, target: Target, shape: &Shape, stores: &mut Vec<Store>, request: &mut Request) {
-    let own: Vec<usize> = stores.iter().enumerate().filter(|(_, s)| s.target == target).map(|(at, _)| at).collect();
+fn overwrite(
+    dag: &mut Dag,
+    target: Target,
+    shape: &Shape,
+    stores: &mut Vec<Store>,
+    request: &mut Request,
+) {
+    let own: Vec<usize> = stores
+        .iter()
+        .enumerate()
+        .filter(|(_, s)| s.target == target)
+        .map(|(at, _)| at)
+        .collect();
     if *shape == Shape::Scalar {
         match own.first() {
             Some(&at) => stores[at].add = false,
-            None => stores.push(Store { target, row: Index::constant(0), column: None, value: dag.integer(0), add: false }),
+            None => stores.push(Store {
+                target,
+                row: Index::constant(0),
+                column: None,
+                value: dag.integer(0),
+                add: false,
+            }),
         }
         return;
     }
@@ -169,9 +240,16 @@ fn overwrite(dag: &mut Dag, target: Target, shape: &Shape, stores: &mut Vec<Stor
     };
     if let [at] = own.as_slice() {
         let store = &mut stores[*at];
-        if let ([(domain, 1)], None, [], 0) = (store.row.affine.loops.as_slice(), &store.row.modulo, store.row.affine.sizes.as_slice(), store.row.affine.constant) {
+        if let ([(domain, 1)], None, [], 0) = (
+            store.row.affine.loops.as_slice(),
+            &store.row.modulo,
+            store.row.affine.sizes.as_slice(),
+            store.row.affine.constant,
+        ) {
             let range = dag.range(*domain);
-            let whole = range.start.as_constant() == Some(0) && range.end == *rows && range.parent.is_none();
+            let whole = range.start.as_constant() == Some(0)
+                && range.end == *rows
+                && range.parent.is_none();
             if whole && dag.variables(store.value) & !(1u64 << domain.0) == 0 {
                 store.add = false;
                 return;
@@ -186,21 +264,40 @@ fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
     let mut stores: Map<Target, ()> = Map::default();
     for (leaf, value) in adjoints {
         let (target, row, column, add) = match model.dag.kind(leaf).clone() {
-            Kind::Scalar(parameter) => (Target::Parameter(parameter), Index::constant(0), None, false),
-            Kind::Element(Array::Parameter(parameter), row, column) => (Target::Parameter(parameter), row, column, true),
+            Kind::Scalar(parameter) => (
+                Target::Parameter(parameter),
+                Index::constant(0),
+                None,
+                false,
+            ),
+            Kind::Element(Array::Parameter(parameter), row, column) => {
+                (Target::Parameter(parameter), row, column, true)
+            }
             _ => continue,
         };
         if stores.insert(target, ()).is_none() && add {
             request.cleared.push(target);
         }
-        request.stores.push(Store { target, row, column, value, add });
+        request.stores.push(Store {
+            target,
+            row,
+            column,
+            value,
+            add,
+        });
     }
     for number in 0..model.parameters.len() {
         let target = Target::Parameter(crate::dag::Parameter(number as u16));
         if !stores.contains_key(&target) {
             if model.parameters[number].shape == Shape::Scalar {
                 let value = model.dag.integer(0);
-                request.stores.push(Store { target, row: Index::constant(0), column: None, value, add: false });
+                request.stores.push(Store {
+                    target,
+                    row: Index::constant(0),
+                    column: None,
+                    value,
+                    add: false,
+                });
             } else {
                 request.cleared.push(target);
             }

@@ -247,11 +247,19 @@ impl Program {
         for step in steps {
             match step {
                 Step::Let(value) => match self.instruction(*value) {
-                    Instruction::Add(..) | Instruction::Sub(..) | Instruction::Mul(..) => count.arithmetic += 1,
-                    Instruction::MulAdd(..) | Instruction::MulSub(..) | Instruction::NegMulAdd(..) => count.arithmetic += 2,
+                    Instruction::Add(..) | Instruction::Sub(..) | Instruction::Mul(..) => {
+                        count.arithmetic += 1
+                    }
+                    Instruction::MulAdd(..)
+                    | Instruction::MulSub(..)
+                    | Instruction::NegMulAdd(..) => count.arithmetic += 2,
                     Instruction::Div(..) | Instruction::Recip(..) => count.divisions += 1,
-                    Instruction::Call(op, _) if !matches!(op, Op::Abs | Op::Sign) => count.functions += 1,
-                    Instruction::Call2(op, ..) if !matches!(op, Op::Min | Op::Max) => count.functions += 1,
+                    Instruction::Call(op, _) if !matches!(op, Op::Abs | Op::Sign) => {
+                        count.functions += 1
+                    }
+                    Instruction::Call2(op, ..) if !matches!(op, Op::Min | Op::Max) => {
+                        count.functions += 1
+                    }
                     Instruction::PairedSin(_) | Instruction::External(..) => count.functions += 1,
                     _ => {}
                 },

@@ -70,7 +70,10 @@ impl Rational {
         }
         match (i64::try_from(n), i64::try_from(d)) {
             (Ok(n), Ok(d)) if n != i64::MIN => Rational(Form::Small(n, d)),
-            _ => Rational(Form::Big(Box::new(BigRational::new_raw(n.into(), d.into())))),
+            _ => Rational(Form::Big(Box::new(BigRational::new_raw(
+                n.into(),
+                d.into(),
+            )))),
         }
     }
 
@@ -92,9 +95,16 @@ impl Rational {
     #[must_use]
     pub fn add(&self, other: &Rational) -> Rational {
         match (&self.0, &other.0) {
-            (Form::Small(a, 1), Form::Small(b, 1)) => Rational::reduce(i128::from(*a) + i128::from(*b), 1),
+            (Form::Small(a, 1), Form::Small(b, 1)) => {
+                Rational::reduce(i128::from(*a) + i128::from(*b), 1)
+            }
             (Form::Small(a, b), Form::Small(c, d)) => {
-                let (a, b, c, d) = (i128::from(*a), i128::from(*b), i128::from(*c), i128::from(*d));
+                let (a, b, c, d) = (
+                    i128::from(*a),
+                    i128::from(*b),
+                    i128::from(*c),
+                    i128::from(*d),
+                );
                 match (a * d).checked_add(c * b) {
                     Some(n) => Rational::reduce(n, b * d),
                     None => Rational::from_big(self.big() + other.big()),
@@ -108,9 +118,10 @@ impl Rational {
     #[must_use]
     pub fn mul(&self, other: &Rational) -> Rational {
         match (&self.0, &other.0) {
-            (Form::Small(a, b), Form::Small(c, d)) => {
-                Rational::reduce(i128::from(*a) * i128::from(*c), i128::from(*b) * i128::from(*d))
-            }
+            (Form::Small(a, b), Form::Small(c, d)) => Rational::reduce(
+                i128::from(*a) * i128::from(*c),
+                i128::from(*b) * i128::from(*d),
+            ),
             _ => Rational::from_big(self.big() * other.big()),
         }
     }
@@ -149,13 +160,20 @@ impl Rational {
         if self.is_one() {
             return Some(Rational::ONE);
         }
-        let base = if exponent < 0 { self.recip()? } else { self.clone() };
+        let base = if exponent < 0 {
+            self.recip()?
+        } else {
+            self.clone()
+        };
         let value = base.big();
         let bits = value.numer().bits().max(value.denom().bits());
         if bits.saturating_mul(u64::from(exponent.unsigned_abs())) > 1 << 16 {
             return None;
         }
-        Some(Rational::from_big(num_traits::pow(value, exponent.unsigned_abs() as usize)))
+        Some(Rational::from_big(num_traits::pow(
+            value,
+            exponent.unsigned_abs() as usize,
+        )))
     }
 
     /// The exact square root, if it is rational.
@@ -166,7 +184,8 @@ impl Rational {
         }
         let value = self.big();
         let (n, d) = (value.numer().sqrt(), value.denom().sqrt());
-        (&n * &n == *value.numer() && &d * &d == *value.denom()).then(|| Rational::from_big(BigRational::new_raw(n, d)))
+        (&n * &n == *value.numer() && &d * &d == *value.denom())
+            .then(|| Rational::from_big(BigRational::new_raw(n, d)))
     }
 
     /// Whether this is 0.
@@ -190,7 +209,11 @@ impl Rational {
     /// The absolute value.
     #[must_use]
     pub fn abs(&self) -> Rational {
-        if self.is_negative() { self.neg() } else { self.clone() }
+        if self.is_negative() {
+            self.neg()
+        } else {
+            self.clone()
+        }
     }
     /// The value as an integer that fits `i32`, if it is one.
     #[must_use]
@@ -246,7 +269,9 @@ impl Rational {
                 for places in 1..=6usize {
                     let scale = 10i64.pow(places as u32);
                     if scale % d == 0 {
-                        let Some(scaled) = n.unsigned_abs().checked_mul((scale / d) as u64) else { break };
+                        let Some(scaled) = n.unsigned_abs().checked_mul((scale / d) as u64) else {
+                            break;
+                        };
                         let sign = if *n < 0 { "-" } else { "" };
                         let (whole, part) = (scaled / scale as u64, scaled % scale as u64);
                         return format!("{sign}{whole}.{part:0places$}");
@@ -256,10 +281,18 @@ impl Rational {
             }
             Form::Big(value) => {
                 let f = self.to_f64();
-                if f != 0.0 && f.is_finite() && BigRational::from_float(f).as_ref() != Some(value) && value.denom().bits() > 64 {
+                if f != 0.0
+                    && f.is_finite()
+                    && BigRational::from_float(f).as_ref() != Some(value)
+                    && value.denom().bits() > 64
+                {
                     return format!("{f:e}");
                 }
-                if value.denom().is_one() { value.numer().to_string() } else { value.to_string() }
+                if value.denom().is_one() {
+                    value.numer().to_string()
+                } else {
+                    value.to_string()
+                }
             }
         }
     }
@@ -284,15 +317,24 @@ fn round(value: &BigRational) -> f64 {
     let negative = value.numer().sign() == Sign::Minus;
     let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
     let shift = 64 - (n.bits() as i64 - d.bits() as i64);
-    let (n, d) = if shift >= 0 { (n << shift as u64, d.clone()) } else { (n.clone(), d << (-shift) as u64) };
+    let (n, d) = if shift >= 0 {
+        (n << shift as u64, d.clone())
+    } else {
+        (n.clone(), d << (-shift) as u64)
+    };
     let (quotient, remainder) = n.div_rem(&d);
-    let mut bits: u128 = quotient.to_u128().unwrap_or(u128::MAX) << 1 | u128::from(!remainder.is_zero());
+    let mut bits: u128 =
+        quotient.to_u128().unwrap_or(u128::MAX) << 1 | u128::from(!remainder.is_zero());
     // value = bits · 2^(−shift−1); the leading bit has this exponent:
     let exponent = 127 - i64::from(bits.leading_zeros()) - shift - 1;
     let unit = (exponent - 52).max(-1074);
     let drop = unit + shift + 1;
     let half = 1u128 << (drop - 1).clamp(0, 127);
-    let rest = if drop >= 128 { bits } else { bits & ((half << 1) - 1) };
+    let rest = if drop >= 128 {
+        bits
+    } else {
+        bits & ((half << 1) - 1)
+    };
     bits = if drop >= 128 { 0 } else { bits >> drop };
     if rest > half || (rest == half && bits & 1 == 1) {
         bits += 1;
@@ -321,12 +363,28 @@ mod tests {
     #[test]
     fn decimals_are_exact_and_round_once() {
         let tenth = Rational::decimal("1", -1).unwrap();
-        let sum = tenth.add(&Rational::decimal("2", -1).unwrap()).sub(&Rational::decimal("3", -1).unwrap());
+        let sum = tenth
+            .add(&Rational::decimal("2", -1).unwrap())
+            .sub(&Rational::decimal("3", -1).unwrap());
         assert!(sum.is_zero());
-        for text in ["0.1", "9.81", "1e-300", "4.9e-324", "2.2250738585072011e-308", "1.7976931348623157e308", "123456789012345678901234567890", "3e-324", "2e-324"] {
+        for text in [
+            "0.1",
+            "9.81",
+            "1e-300",
+            "4.9e-324",
+            "2.2250738585072011e-308",
+            "1.7976931348623157e308",
+            "123456789012345678901234567890",
+            "3e-324",
+            "2e-324",
+        ] {
             let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
             let places = mantissa.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-            let value = Rational::decimal(&mantissa.replace('.', ""), exponent.parse::<i64>().unwrap() - places).unwrap();
+            let value = Rational::decimal(
+                &mantissa.replace('.', ""),
+                exponent.parse::<i64>().unwrap() - places,
+            )
+            .unwrap();
             assert_eq!(value.to_f64(), text.parse::<f64>().unwrap(), "{text}");
         }
         assert_eq!(Rational::decimal("1", 400).unwrap().to_f64(), f64::INFINITY);
@@ -336,7 +394,8 @@ mod tests {
     fn two_words_hold_more_than_a_hundred_bits() {
         let third = Rational::new(1, 3);
         let (hi, lo) = third.to_words();
-        let error = BigRational::from_float(hi).unwrap() + BigRational::from_float(lo).unwrap() - third.big();
+        let error = BigRational::from_float(hi).unwrap() + BigRational::from_float(lo).unwrap()
+            - third.big();
         assert!(error.abs() < BigRational::new(1.into(), BigInt::one() << 107));
         assert_ne!(lo, 0.0);
     }

@@ -43,7 +43,11 @@ impl Request {
     /// All expressions of the request.
     #[must_use]
     pub fn roots(&self) -> Vec<Node> {
-        self.results.iter().copied().chain(self.stores.iter().map(|s| s.value)).collect()
+        self.results
+            .iter()
+            .copied()
+            .chain(self.stores.iter().map(|s| s.value))
+            .collect()
     }
     /// Puts other expressions in their places, in the order of [`Request::roots`].
     pub fn replace_roots(&mut self, roots: &[Node]) {
@@ -68,15 +72,42 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
     }
     wanted.sort_unstable();
     wanted.dedup();
-    let (prepare, prepared) = stage(dag, &mut program, Stage::Parameters, &wanted, &[], Map::default());
+    let (prepare, prepared) = stage(
+        dag,
+        &mut program,
+        Stage::Parameters,
+        &wanted,
+        &[],
+        Map::default(),
+    );
     program.prepare = prepare;
     program.prepared = wanted.iter().map(|n| prepared[n]).collect();
     for request in requests {
         let (coefficients, _) = frontier(dag, &request.roots(), Stage::Evaluation);
-        let (coefficient, carried) = stage(dag, &mut program, Stage::Coefficient, &coefficients, &[], prepared.clone());
-        let (evaluation, values) = stage(dag, &mut program, Stage::Evaluation, &request.results, &request.stores, carried);
+        let (coefficient, carried) = stage(
+            dag,
+            &mut program,
+            Stage::Coefficient,
+            &coefficients,
+            &[],
+            prepared.clone(),
+        );
+        let (evaluation, values) = stage(
+            dag,
+            &mut program,
+            Stage::Evaluation,
+            &request.results,
+            &request.stores,
+            carried,
+        );
         let results = request.results.iter().map(|n| values[n]).collect();
-        program.functions.push(Function { purpose: request.purpose, coefficient, evaluation, cleared: request.cleared.clone(), results });
+        program.functions.push(Function {
+            purpose: request.purpose,
+            coefficient,
+            evaluation,
+            cleared: request.cleared.clone(),
+            results,
+        });
     }
     program
 }
@@ -110,10 +141,28 @@ fn frontier(dag: &Dag, roots: &[Node], now: Stage) -> (Vec<Node>, Vec<Node>) {
 }
 
 /// The block of one stage, and the values known after it.
-fn stage(dag: &Dag, program: &mut Program, stage: Stage, wanted: &[Node], stores: &[Store], carried: Map<Node, Value>) -> (Vec<Step>, Map<Node, Value>) {
-    let roots: Vec<Node> = wanted.iter().copied().chain(stores.iter().map(|s| s.value)).collect();
+fn stage(
+    dag: &Dag,
+    program: &mut Program,
+    stage: Stage,
+    wanted: &[Node],
+    stores: &[Store],
+    carried: Map<Node, Value>,
+) -> (Vec<Step>, Map<Node, Value>) {
+    let roots: Vec<Node> = wanted
+        .iter()
+        .copied()
+        .chain(stores.iter().map(|s| s.value))
+        .collect();
     let uses = count_uses(dag, &roots, &dag.reachable(&roots));
-    let mut placer = Placer { dag, program, uses: &uses, stage, scopes: vec![carried], open: Vec::new() };
+    let mut placer = Placer {
+        dag,
+        program,
+        uses: &uses,
+        stage,
+        scopes: vec![carried],
+        open: Vec::new(),
+    };
     let stores: Vec<&Store> = stores.iter().collect();
     let steps = placer.block(None, wanted, &stores);
     let mut values = placer.scopes.pop().unwrap_or_default();
@@ -146,8 +195,17 @@ impl Placer<'_> {
 
     /// The value of a node that is already computed.
     pub(crate) fn value(&self, node: Node) -> Value {
-        let found = self.scopes.iter().rev().find_map(|scope| scope.get(&node)).copied();
-        debug_assert!(found.is_some(), "{node:?} is used before it is computed: {:?}", self.dag.kind(node));
+        let found = self
+            .scopes
+            .iter()
+            .rev()
+            .find_map(|scope| scope.get(&node))
+            .copied();
+        debug_assert!(
+            found.is_some(),
+            "{node:?} is used before it is computed: {:?}",
+            self.dag.kind(node)
+        );
         found.unwrap_or(Value(0))
     }
 
@@ -159,7 +217,9 @@ impl Placer<'_> {
     }
 
     fn home_of(&self, store: &Store) -> Option<Domain> {
-        let set = self.dag.variables(store.value) | store.row.variables() | store.column.as_ref().map_or(0, Index::variables);
+        let set = self.dag.variables(store.value)
+            | store.row.variables()
+            | store.column.as_ref().map_or(0, Index::variables);
         self.dag.deepest(set)
     }
 
@@ -174,7 +234,9 @@ impl Placer<'_> {
         let mut last = 0;
         for &node in &needed {
             let mut own = 0;
-            self.dag.for_children(node, |child| own = own.max(level.get(&child).copied().unwrap_or(0)));
+            self.dag.for_children(node, |child| {
+                own = own.max(level.get(&child).copied().unwrap_or(0))
+            });
             if self.dag.home(node) == here {
                 if let Kind::Reduce(domain, _) = self.dag.kind(node) {
                     own += 1;
@@ -192,7 +254,9 @@ impl Placer<'_> {
                 own_stores.push((own, store));
             } else {
                 let path = self.dag.path(home);
-                let Some(&next) = path.iter().find(|d| !self.open.contains(&Some(**d))) else { continue };
+                let Some(&next) = path.iter().find(|d| !self.open.contains(&Some(**d))) else {
+                    continue;
+                };
                 Nest::at(&mut nests, own + 1, next).stores.push(store);
                 last = last.max(own + 1);
             }
@@ -205,7 +269,8 @@ impl Placer<'_> {
                 steps.push(Step::Loop(step));
             }
             for &node in &needed {
-                if level[&node] == now && self.dag.home(node) == here && !fused.contains_key(&node) {
+                if level[&node] == now && self.dag.home(node) == here && !fused.contains_key(&node)
+                {
                     self.compute(&mut steps, node);
                 }
             }
@@ -221,9 +286,14 @@ impl Placer<'_> {
     fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
         let mut seen: Map<Node, ()> = Map::default();
         let mut list = Vec::new();
-        let mut pending: Vec<Node> = wanted.iter().copied().chain(stores.iter().map(|s| s.value)).collect();
+        let mut pending: Vec<Node> = wanted
+            .iter()
+            .copied()
+            .chain(stores.iter().map(|s| s.value))
+            .collect();
         while let Some(node) = pending.pop() {
-            if seen.contains_key(&node) || self.scopes.iter().any(|scope| scope.contains_key(&node)) {
+            if seen.contains_key(&node) || self.scopes.iter().any(|scope| scope.contains_key(&node))
+            {
                 continue;
             }
             seen.insert(node, ());
@@ -261,11 +331,23 @@ impl Placer<'_> {
             body.push(Step::Accumulate(*accumulator, term));
         }
         self.scopes.pop();
-        Loop { domain: nest.domain, start: range.start, end: range.end, accumulators, body }
+        Loop {
+            domain: nest.domain,
+            start: range.start,
+            end: range.end,
+            accumulators,
+            body,
+        }
     }
 
     /// Products that become part of one fused instruction of their only user.
-    fn fused(&self, here: Option<Domain>, needed: &[Node], wanted: &[Node], stores: &[&Store]) -> Map<Node, ()> {
+    fn fused(
+        &self,
+        here: Option<Domain>,
+        needed: &[Node],
+        wanted: &[Node],
+        stores: &[&Store],
+    ) -> Map<Node, ()> {
         let mut fused: Map<Node, ()> = Map::default();
         let open = |node: Node| self.stage_of(node) == self.stage && self.dag.home(node) == here;
         for &node in needed {
@@ -274,14 +356,23 @@ impl Placer<'_> {
             }
             if let Kind::Sum(c, terms) = self.dag.kind(node) {
                 for (at, (_, term)) in terms.iter().enumerate() {
-                    if open(*term) && self.can_fuse(*term) && crate::instruct::fuses(self.dag, c, terms, at, &|n| open(n) && self.can_fuse(n)) {
+                    if open(*term)
+                        && self.can_fuse(*term)
+                        && crate::instruct::fuses(self.dag, c, terms, at, &|n| {
+                            open(n) && self.can_fuse(n)
+                        })
+                    {
                         fused.insert(*term, ());
                     }
                 }
             }
         }
         for store in stores {
-            if store.add && open(store.value) && self.home_of(store) == here && self.can_fuse(store.value) {
+            if store.add
+                && open(store.value)
+                && self.home_of(store) == here
+                && self.can_fuse(store.value)
+            {
                 fused.insert(store.value, ());
             }
         }
@@ -295,7 +386,9 @@ impl Placer<'_> {
     pub(crate) fn can_fuse(&self, node: Node) -> bool {
         match self.dag.kind(node) {
             Kind::Product(_, factors) => {
-                self.uses.get(&node) == Some(&1) && factors.iter().all(|(_, n)| *n > 0) && factors.iter().map(|(_, n)| n).sum::<i32>() > 1
+                self.uses.get(&node) == Some(&1)
+                    && factors.iter().all(|(_, n)| *n > 0)
+                    && factors.iter().map(|(_, n)| n).sum::<i32>() > 1
             }
             _ => false,
         }
@@ -308,7 +401,11 @@ impl Placer<'_> {
 
     /// Computes a node whose children are computed.
     fn compute(&mut self, steps: &mut Vec<Step>, node: Node) {
-        if self.scopes.last().is_some_and(|scope| scope.contains_key(&node)) {
+        if self
+            .scopes
+            .last()
+            .is_some_and(|scope| scope.contains_key(&node))
+        {
             return;
         }
         let value = match self.dag.kind(node).clone() {
@@ -336,7 +433,9 @@ impl Placer<'_> {
 
     /// The other of sin and cos of the same angle, if this function needs it too.
     fn partner(&self, op: Op, angle: Node) -> Option<Node> {
-        self.dag.known(&Kind::Call(op, vec![angle])).filter(|n| self.uses.contains_key(n))
+        self.dag
+            .known(&Kind::Call(op, vec![angle]))
+            .filter(|n| self.uses.contains_key(n))
     }
 
     /// Notes a node's value.
@@ -348,14 +447,24 @@ impl Placer<'_> {
 
     fn store(&mut self, steps: &mut Vec<Step>, store: &Store, fused: &Map<Node, ()>) {
         let (negative, magnitude) = match self.dag.kind(store.value) {
-            Kind::Product(k, factors) if k.is_negative() && (fused.contains_key(&store.value) || matches!(factors.as_slice(), [(_, 1)])) => (true, store.value),
+            Kind::Product(k, factors)
+                if k.is_negative()
+                    && (fused.contains_key(&store.value)
+                        || matches!(factors.as_slice(), [(_, 1)])) =>
+            {
+                (true, store.value)
+            }
             _ => (false, store.value),
         };
         let update = if !store.add {
             Update::Set(self.value(store.value))
         } else if fused.contains_key(&store.value) {
             let (a, b) = self.split_product(steps, magnitude);
-            if negative { Update::SubProduct(a, b) } else { Update::AddProduct(a, b) }
+            if negative {
+                Update::SubProduct(a, b)
+            } else {
+                Update::AddProduct(a, b)
+            }
         } else {
             let value = self.value(store.value);
             match *self.program.instruction(value) {
@@ -363,7 +472,12 @@ impl Placer<'_> {
                 _ => Update::Add(value),
             }
         };
-        steps.push(Step::Store(store.target, store.row.clone(), store.column.clone(), update));
+        steps.push(Step::Store(
+            store.target,
+            store.row.clone(),
+            store.column.clone(),
+            update,
+        ));
     }
 }
 
@@ -377,10 +491,18 @@ struct Nest<'a> {
 
 impl<'a> Nest<'a> {
     fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: usize, domain: Domain) -> &'n mut Nest<'a> {
-        let at = match nests.iter().position(|n| n.level == level && n.domain == domain) {
+        let at = match nests
+            .iter()
+            .position(|n| n.level == level && n.domain == domain)
+        {
             Some(at) => at,
             None => {
-                nests.push(Nest { level, domain, sums: Vec::new(), stores: Vec::new() });
+                nests.push(Nest {
+                    level,
+                    domain,
+                    sums: Vec::new(),
+                    stores: Vec::new(),
+                });
                 nests.len() - 1
             }
         };

@@ -113,8 +113,14 @@ pub fn share(dag: &mut Dag, roots: &mut [Node]) {
                         }
                     }
                 }
-                let Kind::Sum(_, terms) = dag.kind(node) else { continue };
-                let plain = terms.iter().filter(|(k, n)| (k.is_one() || *k == Rational::MINUS_ONE) && !absorbed.contains_key(&(node, *n)) && !is_prepared(dag, *n));
+                let Kind::Sum(_, terms) = dag.kind(node) else {
+                    continue;
+                };
+                let plain = terms.iter().filter(|(k, n)| {
+                    (k.is_one() || *k == Rational::MINUS_ONE)
+                        && !absorbed.contains_key(&(node, *n))
+                        && !is_prepared(dag, *n)
+                });
                 sums.insert(node, plain.map(|(k, n)| (*n, k.is_negative())).collect());
             }
             _ => {}
@@ -146,13 +152,20 @@ pub fn share(dag: &mut Dag, roots: &mut [Node]) {
     let sum_lists = share_terms(&order, &sums, &mut sum_pairs);
 
     // Rebuild, children first.
-    let mut build = Build { shop: &shop, new: Map::default(), made: vec![None; shop.made.len()], terms: vec![None; sum_pairs.len()], sum_pairs: &sum_pairs };
+    let mut build = Build {
+        shop: &shop,
+        new: Map::default(),
+        made: vec![None; shop.made.len()],
+        terms: vec![None; sum_pairs.len()],
+        sum_pairs: &sum_pairs,
+    };
     for &node in &order {
         let image = if is_prepared(dag, node) {
             node
         } else if let Some(&at) = product_at.get(&node) {
             build.product(dag, &lists[at])
         } else if let Kind::Sum(c, terms) = dag.kind(node).clone() {
+            let (c, terms) = gathered(dag, c, terms);
             let mut list: Vec<(Rational, Node)> = Vec::with_capacity(terms.len());
             let mut shared = sum_lists.get(&node).cloned().unwrap_or_default();
             for (k, term) in terms {
@@ -162,7 +175,14 @@ pub fn share(dag: &mut Dag, roots: &mut [Node]) {
                 } else if let Some(pair) = shared.get_mut(&term) {
                     if let Some((at, negative)) = pair.take() {
                         let image = build.term(dag, at);
-                        list.push((if negative { Rational::MINUS_ONE } else { Rational::ONE }, image));
+                        list.push((
+                            if negative {
+                                Rational::MINUS_ONE
+                            } else {
+                                Rational::ONE
+                            },
+                            image,
+                        ));
                     }
                 } else {
                     list.push((k, build.new.get(&term).copied().unwrap_or(term)));
@@ -192,7 +212,11 @@ fn raw_sum(dag: &mut Dag, c: Rational, list: Vec<(Rational, Node)>) -> Node {
         if let Kind::Product(sign, factors) = dag.kind(node).clone() {
             if sign == Rational::MINUS_ONE {
                 k = k.neg();
-                node = if let [(single, 1)] = factors.as_slice() { *single } else { dag.intern(Kind::Product(Rational::ONE, factors)) };
+                node = if let [(single, 1)] = factors.as_slice() {
+                    *single
+                } else {
+                    dag.intern(Kind::Product(Rational::ONE, factors))
+                };
             }
         }
         match terms.iter_mut().find(|(_, n)| *n == node) {
@@ -211,21 +235,61 @@ fn raw_sum(dag: &mut Dag, c: Rational, list: Vec<(Rational, Node)>) -> Node {
     dag.intern(Kind::Sum(c, terms))
 }
 
+/// The prepared terms of a sum, its constant among them, as one prepared term where they first
+/// stand.
+fn gathered(
+    dag: &mut Dag,
+    c: Rational,
+    terms: Vec<(Rational, Node)>,
+) -> (Rational, Vec<(Rational, Node)>) {
+    let prepared: Vec<_> = terms
+        .iter()
+        .filter(|(_, n)| is_prepared(dag, *n))
+        .cloned()
+        .collect();
+    let Some(place) = terms.iter().position(|(_, n)| is_prepared(dag, *n)) else {
+        return (c, terms);
+    };
+    if prepared.len() == 1
+        && c.is_zero()
+        && (prepared[0].0.is_one() || prepared[0].0 == Rational::MINUS_ONE)
+    {
+        return (c, terms);
+    }
+    let sum = dag.linear(&c, &prepared);
+    let mut rest: Vec<_> = terms
+        .iter()
+        .filter(|(_, n)| !is_prepared(dag, *n))
+        .cloned()
+        .collect();
+    rest.insert(place.min(rest.len()), (Rational::ONE, sum));
+    (Rational::ZERO, rest)
+}
+
 /// A product's prepared factors and rational as one coefficient, its sign apart, negative powers
 /// as divisors.
 fn grouped(dag: &mut Dag, shop: &mut Workshop, k: Rational, factors: &[(Node, i32)]) -> Factors {
-    let (prepared, rest): (Vec<_>, Vec<_>) = factors.iter().partition(|(n, _)| is_prepared(dag, *n));
-    let mut list = Factors { negative: k.is_negative(), ..Factors::default() };
+    let (prepared, rest): (Vec<_>, Vec<_>) =
+        factors.iter().partition(|(n, _)| is_prepared(dag, *n));
+    let mut list = Factors {
+        negative: k.is_negative(),
+        ..Factors::default()
+    };
     let k = k.abs();
     if !prepared.is_empty() {
         let p = dag.product(&k, &prepared);
-        list.items.push((shop.coefficient(Rational::ONE, Some(p)), 1));
+        list.items
+            .push((shop.coefficient(Rational::ONE, Some(p)), 1));
     } else if !k.is_one() {
         list.items.push((shop.coefficient(k, None), 1));
     }
     for (node, n) in rest {
         let item = (Item::Node(node), n.unsigned_abs());
-        if n > 0 { list.items.push(item) } else { list.divisors.push(item) }
+        if n > 0 {
+            list.items.push(item)
+        } else {
+            list.divisors.push(item)
+        }
     }
     list
 }
@@ -253,10 +317,14 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) -> u
             };
             let power_of_root = |x: Item| {
                 let Item::Node(node) = x else { return None };
-                let root = dag.known(&Kind::Call(Op::Sqrt, vec![node])).map(Item::Node)?;
+                let root = dag
+                    .known(&Kind::Call(Op::Sqrt, vec![node]))
+                    .map(Item::Node)?;
                 occurrences.contains_key(&root).then_some(root)
             };
-            if let Some(x) = root.filter(|x| powers.iter().all(|n| *n == 3) && !occurrences.contains_key(x)) {
+            if let Some(x) =
+                root.filter(|x| powers.iter().all(|n| *n == 3) && !occurrences.contains_key(x))
+            {
                 let cube = shop.pair(x.min(item), x.max(item));
                 if powers.len() > 1 {
                     list.items.push((shop.reciprocal(cube), 1));
@@ -266,7 +334,10 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) -> u
                 }
             } else if let Some(root) = power_of_root(item) {
                 list.items.push((shop.reciprocal(root), 2 * n));
-            } else if powers.len() > 1 || n > 1 || root.is_some_and(|x| occurrences.contains_key(&x)) {
+            } else if powers.len() > 1
+                || n > 1
+                || root.is_some_and(|x| occurrences.contains_key(&x))
+            {
                 list.items.push((shop.reciprocal(item), n));
                 made += 1;
             } else {
@@ -289,8 +360,18 @@ fn share_invariant_factors(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]
         Item::Made(at) => depths[*at as usize],
     };
     for list in lists.iter_mut() {
-        let deepest = list.items.iter().map(|(item, _)| depth(item)).max().unwrap_or(0);
-        let mut outer: Vec<(usize, Item, u32)> = list.items.iter().map(|(i, n)| (depth(i), *i, *n)).filter(|(d, ..)| *d < deepest).collect();
+        let deepest = list
+            .items
+            .iter()
+            .map(|(item, _)| depth(item))
+            .max()
+            .unwrap_or(0);
+        let mut outer: Vec<(usize, Item, u32)> = list
+            .items
+            .iter()
+            .map(|(i, n)| (depth(i), *i, *n))
+            .filter(|(d, ..)| *d < deepest)
+            .collect();
         if outer.iter().map(|(.., n)| n).sum::<u32>() < 2 {
             continue;
         }
@@ -325,7 +406,10 @@ fn share_pairs(shop: &mut Workshop, lists: &mut [Factors]) {
     let mut counts: Map<(Item, Item), i64> = Map::default();
     let mut holders: Map<Item, Vec<usize>> = Map::default();
     let mut heap = BinaryHeap::new();
-    let tally = |list: &Factors, sign: i64, counts: &mut Map<(Item, Item), i64>, touched: &mut Vec<(Item, Item)>| {
+    let tally = |list: &Factors,
+                 sign: i64,
+                 counts: &mut Map<(Item, Item), i64>,
+                 touched: &mut Vec<(Item, Item)>| {
         if list.items.len() > LONGEST {
             return;
         }
@@ -348,7 +432,9 @@ fn share_pairs(shop: &mut Workshop, lists: &mut [Factors]) {
             holders.entry(*item).or_default().push(at);
         }
     }
-    let offer = |heap: &mut BinaryHeap<(i64, std::cmp::Reverse<(Item, Item)>)>, counts: &Map<(Item, Item), i64>, touched: &mut Vec<(Item, Item)>| {
+    let offer = |heap: &mut BinaryHeap<(i64, std::cmp::Reverse<(Item, Item)>)>,
+                 counts: &Map<(Item, Item), i64>,
+                 touched: &mut Vec<(Item, Item)>| {
         for key in touched.drain(..) {
             let count = counts[&key];
             if count > 1 {
@@ -364,13 +450,26 @@ fn share_pairs(shop: &mut Workshop, lists: &mut [Factors]) {
         let pair = shop.pair(a, b);
         for at in holders.get(&a).cloned().unwrap_or_default() {
             let list = &mut lists[at];
-            let power = |item: Item| list.items.iter().find(|(i, _)| *i == item).map_or(0, |(_, n)| *n);
-            let times = if a == b { power(a) / 2 } else { power(a).min(power(b)) };
+            let power = |item: Item| {
+                list.items
+                    .iter()
+                    .find(|(i, _)| *i == item)
+                    .map_or(0, |(_, n)| *n)
+            };
+            let times = if a == b {
+                power(a) / 2
+            } else {
+                power(a).min(power(b))
+            };
             if times == 0 || list.items.len() > LONGEST {
                 continue;
             }
             tally(list, -1, &mut counts, &mut touched);
-            let place = list.items.iter().position(|(i, _)| *i == a || *i == b).unwrap_or(0);
+            let place = list
+                .items
+                .iter()
+                .position(|(i, _)| *i == a || *i == b)
+                .unwrap_or(0);
             for (item, n) in &mut list.items {
                 if *item == a {
                     *n -= times * if a == b { 2 } else { 1 };
@@ -401,11 +500,17 @@ type TermPairs = Map<Node, Map<Node, Option<(usize, bool)>>>;
 
 /// Pairs of plain terms that several sums have in common, up to a common sign. One round: a pair
 /// shared by two sums saves one addition.
-fn share_terms(order: &[Node], sums: &Map<Node, Vec<(Node, bool)>>, pairs: &mut Vec<(Node, bool, Node, bool)>) -> TermPairs {
+fn share_terms(
+    order: &[Node],
+    sums: &Map<Node, Vec<(Node, bool)>>,
+    pairs: &mut Vec<(Node, bool, Node, bool)>,
+) -> TermPairs {
     let mut counts: Map<(Node, Node, bool), Vec<Node>> = Map::default();
     let mut keys = Vec::new();
     for node in order {
-        let Some(terms) = sums.get(node) else { continue };
+        let Some(terms) = sums.get(node) else {
+            continue;
+        };
         if terms.len() < 2 || terms.len() > LONGEST {
             continue;
         }
@@ -428,20 +533,32 @@ fn share_terms(order: &[Node], sums: &Map<Node, Vec<(Node, bool)>>, pairs: &mut 
         let free: Vec<Node> = counts[&key]
             .iter()
             .copied()
-            .filter(|sum| result.get(sum).is_none_or(|taken| !taken.contains_key(&a) && !taken.contains_key(&b)))
+            .filter(|sum| {
+                result
+                    .get(sum)
+                    .is_none_or(|taken| !taken.contains_key(&a) && !taken.contains_key(&b))
+            })
             .collect();
         if free.len() < 2 {
             continue;
         }
         // The pair is written as it stands in the first sum, led by its positive term.
-        let sign_of = |sum: &Node, node: Node| sums[sum].iter().find(|(n, _)| *n == node).is_some_and(|(_, s)| *s);
+        let sign_of = |sum: &Node, node: Node| {
+            sums[sum]
+                .iter()
+                .find(|(n, _)| *n == node)
+                .is_some_and(|(_, s)| *s)
+        };
         let a_first = !opposite || !sign_of(&free[0], a);
         let (x, y) = if a_first { (a, b) } else { (b, a) };
         pairs.push((x, false, y, opposite));
         for sum in free {
             let negative = sign_of(&sum, x);
             let taken = result.entry(sum).or_default();
-            let first = sums[&sum].iter().find(|(n, _)| *n == a || *n == b).map_or(a, |(n, _)| *n);
+            let first = sums[&sum]
+                .iter()
+                .find(|(n, _)| *n == a || *n == b)
+                .map_or(a, |(n, _)| *n);
             taken.insert(first, Some((pairs.len() - 1, negative)));
             taken.insert(if first == a { b } else { a }, None);
         }
@@ -487,8 +604,12 @@ impl Build<'_> {
                     }
                 },
                 Made::Pair(a, b) => match (ready(self, a), ready(self, b)) {
-                    (Some(a), Some(b)) if a == b => Some(dag.intern(Kind::Product(Rational::ONE, vec![(a, 2)]))),
-                    (Some(a), Some(b)) => Some(dag.intern(Kind::Product(Rational::ONE, vec![(a, 1), (b, 1)]))),
+                    (Some(a), Some(b)) if a == b => {
+                        Some(dag.intern(Kind::Product(Rational::ONE, vec![(a, 2)])))
+                    }
+                    (Some(a), Some(b)) => {
+                        Some(dag.intern(Kind::Product(Rational::ONE, vec![(a, 1), (b, 1)])))
+                    }
                     (None, _) => {
                         pending.push(a);
                         None
@@ -511,16 +632,28 @@ impl Build<'_> {
     }
 
     fn product(&mut self, dag: &mut Dag, list: &Factors) -> Node {
-        let mut factors: Vec<(Node, i32)> = Vec::with_capacity(list.items.len() + list.divisors.len());
-        let all = list.items.iter().map(|(i, n)| (*i, *n as i32)).chain(list.divisors.iter().map(|(i, n)| (*i, -(*n as i32))));
+        let mut factors: Vec<(Node, i32)> =
+            Vec::with_capacity(list.items.len() + list.divisors.len());
+        let all = list
+            .items
+            .iter()
+            .map(|(i, n)| (*i, *n as i32))
+            .chain(list.divisors.iter().map(|(i, n)| (*i, -(*n as i32))));
         for (item, n) in all {
             let node = self.item(dag, item);
-            match factors.iter_mut().find(|(other, e)| *other == node && e.signum() == n.signum()) {
+            match factors
+                .iter_mut()
+                .find(|(other, e)| *other == node && e.signum() == n.signum())
+            {
                 Some(entry) => entry.1 += n,
                 None => factors.push((node, n)),
             }
         }
-        let sign = if list.negative { Rational::MINUS_ONE } else { Rational::ONE };
+        let sign = if list.negative {
+            Rational::MINUS_ONE
+        } else {
+            Rational::ONE
+        };
         match factors.as_slice() {
             [(node, 1)] if !list.negative => *node,
             _ => dag.intern(Kind::Product(sign, factors)),
@@ -532,7 +665,13 @@ impl Build<'_> {
             return node;
         }
         let (a, sa, b, sb) = self.sum_pairs[at];
-        let sign = |negative: bool| if negative { Rational::MINUS_ONE } else { Rational::ONE };
+        let sign = |negative: bool| {
+            if negative {
+                Rational::MINUS_ONE
+            } else {
+                Rational::ONE
+            }
+        };
         let list = vec![(sign(sa), self.new[&a]), (sign(sb), self.new[&b])];
         let node = raw_sum(dag, Rational::ZERO, list);
         self.terms[at] = Some(node);

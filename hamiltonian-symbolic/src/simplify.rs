@@ -115,9 +115,38 @@ impl Dag {
         let terms: Vec<_> = nodes.iter().map(|n| (Rational::ONE, *n)).collect();
         self.linear(&Rational::ZERO, &terms)
     }
+    /// The sum, a rational factor that all terms have in common up to sign put in front, where it
+    /// can meet another: ½(a + b)·2x is (a + b)·x.
+    pub(crate) fn add_with_content(&mut self, nodes: &[Node]) -> Node {
+        let sum = self.add(nodes);
+        let Kind::Sum(c, terms) = self.kind(sum) else {
+            return sum;
+        };
+        let content = terms[0].0.abs();
+        if content.is_one()
+            || !(c.is_zero() || c.abs() == content)
+            || terms.iter().any(|(k, _)| k.abs() != content)
+        {
+            return sum;
+        }
+        let sign = |k: &Rational| {
+            if k.is_negative() {
+                Rational::MINUS_ONE
+            } else {
+                Rational::ONE
+            }
+        };
+        let constant = if c.is_zero() { Rational::ZERO } else { sign(c) };
+        let terms: Vec<_> = terms.iter().map(|(k, n)| (sign(k), *n)).collect();
+        let sum = self.collected(&constant, &terms, false);
+        self.scale(&content, sum)
+    }
     /// The difference.
     pub fn sub(&mut self, a: Node, b: Node) -> Node {
-        self.linear(&Rational::ZERO, &[(Rational::ONE, a), (Rational::MINUS_ONE, b)])
+        self.linear(
+            &Rational::ZERO,
+            &[(Rational::ONE, a), (Rational::MINUS_ONE, b)],
+        )
     }
     /// The negative.
     pub fn neg(&mut self, node: Node) -> Node {
@@ -148,17 +177,23 @@ impl Dag {
     }
 
     /// [`Dag::linear`], where a first operand that is a sum is continued only if asked.
-    pub(crate) fn collected(&mut self, constant: &Rational, operands: &[(Rational, Node)], continued: bool) -> Node {
+    pub(crate) fn collected(
+        &mut self,
+        constant: &Rational,
+        operands: &[(Rational, Node)],
+        continued: bool,
+    ) -> Node {
         let mut constant = constant.clone();
         let mut terms: Vec<(Rational, Node)> = Vec::with_capacity(operands.len());
         let mut place: Map<Node, usize> = Map::default();
-        let mut push = |terms: &mut Vec<(Rational, Node)>, k: Rational, node: Node| match place.get(&node) {
-            Some(&at) => terms[at].0 = terms[at].0.add(&k),
-            None => {
-                place.insert(node, terms.len());
-                terms.push((k, node));
-            }
-        };
+        let mut push =
+            |terms: &mut Vec<(Rational, Node)>, k: Rational, node: Node| match place.get(&node) {
+                Some(&at) => terms[at].0 = terms[at].0.add(&k),
+                None => {
+                    place.insert(node, terms.len());
+                    terms.push((k, node));
+                }
+            };
         for (at, (k, node)) in operands.iter().enumerate() {
             if k.is_zero() {
                 continue;
@@ -253,7 +288,9 @@ impl Dag {
     fn settle_roots(&mut self, factors: &mut Vec<(Node, i32)>) {
         for at in 0..factors.len() {
             let (node, n) = factors[at];
-            let Kind::Call(op, arguments) = self.kind(node) else { continue };
+            let Kind::Call(op, arguments) = self.kind(node) else {
+                continue;
+            };
             let inner = arguments[0];
             if *op == Op::Abs && n % 2 == 0 {
                 factors[at].1 = 0;
@@ -342,10 +379,18 @@ impl Dag {
             if parity != Parity::None && self.is_negated(x) {
                 let flipped = self.neg(x);
                 let value = self.call(op, &[flipped]);
-                return if parity == Parity::Odd { self.neg(value) } else { value };
+                return if parity == Parity::Odd {
+                    self.neg(value)
+                } else {
+                    value
+                };
             }
             if let (Op::Abs | Op::Sign, Some(value)) = (op, self.as_constant(x)) {
-                let value = if op == Op::Abs { value.abs() } else { Rational::ONE };
+                let value = if op == Op::Abs {
+                    value.abs()
+                } else {
+                    Rational::ONE
+                };
                 return self.constant(value);
             }
         }
@@ -372,7 +417,11 @@ impl Dag {
                 let mut halves = Vec::with_capacity(factors.len());
                 for (node, n) in factors {
                     let half = n / 2;
-                    let base = if half % 2 == 0 { node } else { self.call(Op::Abs, &[node]) };
+                    let base = if half % 2 == 0 {
+                        node
+                    } else {
+                        self.call(Op::Abs, &[node])
+                    };
                     halves.push((base, half));
                 }
                 Some(self.product(&root, &halves))
@@ -389,7 +438,10 @@ impl Dag {
     }
     /// `Σ x²`.
     pub fn sum_of_squares(&mut self, nodes: &[Node]) -> Node {
-        let squares: Vec<_> = nodes.iter().map(|n| (Rational::ONE, self.powi(*n, 2))).collect();
+        let squares: Vec<_> = nodes
+            .iter()
+            .map(|n| (Rational::ONE, self.powi(*n, 2)))
+            .collect();
         self.linear(&Rational::ZERO, &squares)
     }
 
@@ -418,11 +470,19 @@ impl Dag {
     }
     /// The condition `a and b`.
     pub fn and(&mut self, a: Node, b: Node) -> Node {
-        if a == b { a } else { self.intern(Kind::And(a, b)) }
+        if a == b {
+            a
+        } else {
+            self.intern(Kind::And(a, b))
+        }
     }
     /// The condition `a or b`.
     pub fn or(&mut self, a: Node, b: Node) -> Node {
-        if a == b { a } else { self.intern(Kind::Or(a, b)) }
+        if a == b {
+            a
+        } else {
+            self.intern(Kind::Or(a, b))
+        }
     }
     /// `yes` where the condition holds, `no` elsewhere.
     pub fn select(&mut self, condition: Node, yes: Node, no: Node) -> Node {
@@ -468,7 +528,9 @@ impl Dag {
         }
         if let Kind::Product(k, factors) = self.kind(body) {
             let (k, factors) = (k.clone(), factors.clone());
-            let (inside, mut outside): (Vec<_>, Vec<_>) = factors.iter().partition(|(n, _)| self.variables(*n) & bit != 0);
+            let (inside, mut outside): (Vec<_>, Vec<_>) = factors
+                .iter()
+                .partition(|(n, _)| self.variables(*n) & bit != 0);
             if !outside.is_empty() || !k.is_one() {
                 let inside = self.product(&Rational::ONE, &inside);
                 let sum = self.reduce(domain, inside);
@@ -529,7 +591,11 @@ impl Dag {
 
     /// The expression with some nodes replaced: `leaf` gives a node's replacement, or `None` to
     /// rebuild it from its children.
-    pub fn substitute(&mut self, root: Node, mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>) -> Node {
+    pub fn substitute(
+        &mut self,
+        root: Node,
+        mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>,
+    ) -> Node {
         let mut new: Map<Node, Node> = Map::default();
         for node in self.reachable(&[root]) {
             let image = match leaf(self, node) {
@@ -540,7 +606,11 @@ impl Dag {
                         self.for_children(node, |child| changed |= new[&child] != child);
                         changed
                     };
-                    if changed { self.rebuild(node, &|child| new[&child]) } else { node }
+                    if changed {
+                        self.rebuild(node, &|child| new[&child])
+                    } else {
+                        node
+                    }
                 }
             };
             new.insert(node, image);
@@ -609,14 +679,24 @@ impl Dag {
     fn mentions(&self, node: Node, variable: Domain) -> bool {
         let set = match self.kind(node) {
             Kind::Variable(d) | Kind::Reduce(d, _) | Kind::Count(d) => 1u64 << d.0,
-            Kind::Element(_, row, column) => row.variables() | column.as_ref().map_or(0, Index::variables),
+            Kind::Element(_, row, column) => {
+                row.variables() | column.as_ref().map_or(0, Index::variables)
+            }
             _ => 0,
         };
-        (0..64).filter(|d| set >> d & 1 == 1).any(|d| self.path(Some(Domain(d))).contains(&variable))
+        (0..64)
+            .filter(|d| set >> d & 1 == 1)
+            .any(|d| self.path(Some(Domain(d))).contains(&variable))
     }
 
     /// The image of a loop when `variable` is replaced.
-    fn moved(&mut self, domain: Domain, variable: Domain, by: &Affine, moved: &mut Map<Domain, Domain>) -> Domain {
+    fn moved(
+        &mut self,
+        domain: Domain,
+        variable: Domain,
+        by: &Affine,
+        moved: &mut Map<Domain, Domain>,
+    ) -> Domain {
         if !self.path(Some(domain)).contains(&variable) || domain == variable {
             return domain;
         }
@@ -635,7 +715,11 @@ impl Dag {
         let chain = self.path(Some(domain));
         let mut targets: Map<Domain, Affine> = Map::default();
         for &d in &chain[..chain.len() - 1] {
-            let target = if d == variable { by.clone() } else { Affine::variable(self.moved(d, variable, by, moved)) };
+            let target = if d == variable {
+                by.clone()
+            } else {
+                Affine::variable(self.moved(d, variable, by, moved))
+            };
             targets.insert(d, target);
         }
         let image = |affine: &Affine| affine.substitute(&|d| targets[&d].clone());

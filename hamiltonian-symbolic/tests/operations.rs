@@ -6,7 +6,7 @@
 //! denominators, whose range is smaller than theirs; the dipole's writes the gradient of 1/r³ by
 //! the vector μ × r, which has no counterpart component by component.
 
-mod common;
+mod expressions;
 
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Operations, Purpose};
@@ -103,7 +103,7 @@ const CASES: &[Case] = &[
 fn value_and_gradient_of_the_eight_expressions() {
     let mut failed = Vec::new();
     for case in CASES {
-        let mut model = common::model(case.q, case.p, case.h);
+        let mut model = expressions::model(case.q, case.p, case.h);
         let program = derive(&mut model, &[Purpose::EnergyAndGradient]).unwrap();
         let Operations {
             arithmetic,

@@ -1,139 +1,414 @@
-//! Models from text, for tests: scalar coordinates, parameters by name.
+//! A small reader of the language, so that tests are written in the notation they are about.
+//!
+//! Input: declarations and expressions as text. Output: a [`Model`] and nodes of its arena. It
+//! panics on what it does not know; the real front end is the macro's.
 #![allow(dead_code)]
 
-use hamiltonian_symbolic::dag::{Node, Side};
-use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};
+use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+use hamiltonian_symbolic::model::{External, Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
 
-/// A model with scalar coordinates `q`, momenta `p`, all other names parameters (`t` is time).
-pub fn model(q: &[&str], p: &[&str], text: &str) -> Model {
-    let mut model = Model { name: "Test".into(), ..Model::default() };
-    for (q, p) in q.iter().zip(p) {
-        model.groups.push(Group { coordinate: (*q).into(), momentum: (*p).into(), shape: Shape::Scalar });
+/// A model from a signature like `q[n][3], s; p[n][3], u; t`, names of sizes, and parameters like
+/// `G m[n] a`. Sizes named `f/2` in `externals` are Rust functions with their arity.
+pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
+    let mut model = Model {
+        name: "Test".into(),
+        ..Model::default()
+    };
+    model.sizes = sizes.split_whitespace().map(str::to_owned).collect();
+    for declaration in parameters.split_whitespace() {
+        if let Some((name, arity)) = declaration.split_once('/') {
+            model.externals.push(External {
+                name: name.into(),
+                arity: arity.parse().unwrap(),
+                second: true,
+            });
+            continue;
+        }
+        let (name, shape) = declared(&model, declaration);
+        model.parameters.push(ParameterDeclaration { name, shape });
     }
-    let h = parse(&mut model, text);
-    model.hamiltonian = Some(h);
+    let mut parts = signature.split(';');
+    let (q, p) = (parts.next().unwrap(), parts.next().unwrap());
+    model.time = parts.next().map(|t| t.trim().to_owned());
+    for (q, p) in q.split(',').zip(p.split(',')) {
+        let (coordinate, shape) = declared(&model, q.trim());
+        let (momentum, _) = declared(&model, p.trim());
+        model.groups.push(Group {
+            coordinate,
+            momentum,
+            shape,
+        });
+    }
     model
 }
 
-/// An expression over a model; unknown names become parameters.
+/// A model with its H.
+pub fn system(signature: &str, sizes: &str, parameters: &str, h: &str) -> Model {
+    let mut model = model(signature, sizes, parameters);
+    let node = parse(&mut model, h);
+    model.hamiltonian = Some(node);
+    model
+}
+
+fn declared(model: &Model, text: &str) -> (String, Shape) {
+    let mut pieces = text.split('[');
+    let name = pieces.next().unwrap().to_owned();
+    let extents: Vec<Affine> = pieces
+        .map(|extent| {
+            let extent = extent.trim_end_matches(']');
+            match extent.parse() {
+                Ok(n) => Affine::constant(n),
+                Err(_) => Affine::size(Size(
+                    model.sizes.iter().position(|s| s == extent).unwrap() as u16
+                )),
+            }
+        })
+        .collect();
+    let mut extents = extents.into_iter();
+    let shape = match (extents.next(), extents.next()) {
+        (None, _) => Shape::Scalar,
+        (Some(rows), None) => Shape::Vector(rows),
+        (Some(rows), Some(columns)) => Shape::Matrix(rows, columns),
+    };
+    (name, shape)
+}
+
+/// An expression.
 pub fn parse(model: &mut Model, text: &str) -> Node {
-    let mut parser = Parser { model, text: text.as_bytes(), at: 0 };
+    let tokens = tokens(text);
+    let mut parser = Parser {
+        model,
+        tokens,
+        at: 0,
+        scopes: Vec::new(),
+    };
     let node = parser.expression(0);
-    parser.skip();
-    assert_eq!(parser.at, text.len(), "unparsed: {}", &text[parser.at..]);
+    assert_eq!(
+        parser.at,
+        parser.tokens.len(),
+        "unread: {:?}",
+        &parser.tokens[parser.at..]
+    );
     node
+}
+
+fn tokens(text: &str) -> Vec<String> {
+    let chars: Vec<char> = text.chars().collect();
+    let mut tokens = Vec::new();
+    let mut at = 0;
+    while at < chars.len() {
+        let c = chars[at];
+        let start = at;
+        at += 1;
+        if c.is_whitespace() {
+            continue;
+        }
+        if c.is_alphabetic() || c == '_' {
+            while at < chars.len() && (chars[at].is_alphanumeric() || chars[at] == '_') {
+                at += 1;
+            }
+        } else if c.is_ascii_digit() {
+            while at < chars.len()
+                && (chars[at].is_ascii_digit()
+                    || (chars[at] == '.' && chars.get(at + 1).is_some_and(char::is_ascii_digit)))
+            {
+                at += 1;
+            }
+            if at + 1 < chars.len() && chars[at] == 'e' {
+                at += 2;
+                while at < chars.len() && chars[at].is_ascii_digit() {
+                    at += 1;
+                }
+            }
+        } else if at < chars.len()
+            && ["..", "<=", ">=", "==", "!=", "&&", "||"]
+                .contains(&format!("{c}{}", chars[at]).as_str())
+        {
+            at += 1;
+        }
+        tokens.push(chars[start..at].iter().collect());
+    }
+    tokens
 }
 
 struct Parser<'a> {
     model: &'a mut Model,
-    text: &'a [u8],
+    tokens: Vec<String>,
     at: usize,
+    scopes: Vec<(String, Domain)>,
 }
 
 impl Parser<'_> {
-    fn skip(&mut self) {
-        while self.text.get(self.at).is_some_and(u8::is_ascii_whitespace) {
-            self.at += 1;
-        }
+    fn peek(&self) -> &str {
+        self.tokens.get(self.at).map_or("", String::as_str)
     }
-    fn peek(&mut self) -> u8 {
-        self.skip();
-        self.text.get(self.at).copied().unwrap_or(0)
-    }
-    fn eat(&mut self, c: u8) {
-        assert_eq!(self.peek(), c, "at {}", self.at);
+    fn next(&mut self) -> String {
         self.at += 1;
+        self.tokens[self.at - 1].clone()
     }
-    fn expression(&mut self, power: u8) -> Node {
+    fn expect(&mut self, token: &str) {
+        let found = self.next();
+        assert_eq!(found, token, "in {:?}", self.tokens);
+    }
+
+    fn expression(&mut self, least: u8) -> Node {
         let mut left = match self.peek() {
-            b'-' => {
-                self.at += 1;
-                let x = self.expression(5);
-                self.model.dag.neg(x)
+            "-" => {
+                self.next();
+                let operand = self.expression(60);
+                self.model.dag.neg(operand)
             }
-            b'(' => {
-                self.at += 1;
-                let x = self.expression(0);
-                self.eat(b')');
-                x
+            "!" => {
+                self.next();
+                let operand = self.expression(60);
+                self.model.dag.not(operand)
             }
-            c if c.is_ascii_digit() => self.number(),
-            _ => self.name(),
+            _ => self.primary(),
         };
         loop {
-            let (op, binding) = match self.peek() {
-                c @ (b'+' | b'-') => (c, 1),
-                b'*' if self.text.get(self.at + 1) == Some(&b'*') => (b'^', 7),
-                c @ (b'*' | b'/') => (c, 3),
-                b'^' => (b'^', 7),
+            let (binding, right) = match self.peek() {
+                "||" => (10, 11),
+                "&&" => (20, 21),
+                "<" | "<=" | ">" | ">=" | "==" | "!=" => (30, 31),
+                "+" | "-" => (40, 41),
+                "*" | "/" => (50, 51),
+                "^" => (71, 60),
                 _ => return left,
             };
-            if binding < power {
+            if binding < least {
                 return left;
             }
-            self.at += if self.text[self.at] == b'*' && op == b'^' { 2 } else { 1 };
-            let right = self.expression(if op == b'^' { 6 } else { binding + 1 });
-            let dag = &mut self.model.dag;
-            left = match op {
-                b'+' => dag.add(&[left, right]),
-                b'-' => dag.sub(left, right),
-                b'*' => dag.mul(&[left, right]),
-                b'/' => dag.div(left, right),
-                _ => dag.pow(left, right),
+            let op = self.next();
+            let b = self.expression(right);
+            let (a, dag) = (left, &mut self.model.dag);
+            left = match op.as_str() {
+                "||" => dag.or(a, b),
+                "&&" => dag.and(a, b),
+                "<" => dag.less(a, b),
+                "<=" => dag.less_equal(a, b),
+                ">" => dag.less(b, a),
+                ">=" => dag.less_equal(b, a),
+                "==" => dag.equal(a, b),
+                "!=" => {
+                    let equal = dag.equal(a, b);
+                    dag.not(equal)
+                }
+                "+" => dag.add(&[a, b]),
+                "-" => dag.sub(a, b),
+                "*" => dag.mul(&[a, b]),
+                "/" => dag.div(a, b),
+                _ => dag.pow(a, b),
             };
         }
     }
-    fn number(&mut self) -> Node {
-        let start = self.at;
-        while self.text.get(self.at).is_some_and(|c| c.is_ascii_digit() || *c == b'.') {
-            self.at += 1;
+
+    fn primary(&mut self) -> Node {
+        let token = self.next();
+        let first = token.chars().next().unwrap();
+        if token == "(" {
+            let inner = self.expression(0);
+            self.expect(")");
+            return inner;
         }
-        let text = std::str::from_utf8(&self.text[start..self.at]).unwrap();
-        let places = text.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-        let value = Rational::decimal(&text.replace('.', ""), -places).unwrap();
-        self.model.dag.constant(value)
-    }
-    fn name(&mut self) -> Node {
-        let start = self.at;
-        while self.text.get(self.at).is_some_and(|c| c.is_ascii_alphanumeric() || *c == b'_') {
-            self.at += 1;
+        if first.is_ascii_digit() {
+            let (mantissa, exponent) = token.split_once('e').unwrap_or((&token, "0"));
+            let places = mantissa.split_once('.').map_or(0, |(_, p)| p.len() as i64);
+            let value = Rational::decimal(
+                &mantissa.replace('.', ""),
+                exponent.parse::<i64>().unwrap() - places,
+            )
+            .unwrap();
+            return self.model.dag.constant(value);
         }
-        let name = std::str::from_utf8(&self.text[start..self.at]).unwrap().to_string();
-        assert!(!name.is_empty(), "at {start}");
-        if self.peek() == b'(' {
-            let op = Op::named(&name).unwrap_or_else(|| panic!("no function {name}"));
-            let mut arguments = Vec::new();
-            loop {
-                self.at += 1;
-                arguments.push(self.expression(0));
-                if self.peek() != b',' {
-                    break;
+        match token.as_str() {
+            "sum" => return self.sum(),
+            "if" => {
+                let condition = self.expression(0);
+                let mut branches = Vec::new();
+                for _ in 0..2 {
+                    self.expect("{");
+                    branches.push(self.expression(0));
+                    self.expect("}");
+                    if branches.len() == 1 {
+                        self.expect("else");
+                    }
                 }
+                return self.model.dag.select(condition, branches[0], branches[1]);
             }
-            self.eat(b')');
+            "pi" => return self.model.dag.pi(),
+            _ => {}
+        }
+        if self.peek() == "(" {
+            self.next();
+            let mut arguments = vec![self.expression(0)];
+            while self.peek() == "," {
+                self.next();
+                arguments.push(self.expression(0));
+            }
+            self.expect(")");
+            if let Some(function) = self.model.externals.iter().position(|e| e.name == token) {
+                return self.model.dag.external(
+                    function as u16,
+                    hamiltonian_symbolic::dag::Part::Value,
+                    &arguments,
+                );
+            }
+            let op = Op::named(&token).unwrap_or_else(|| panic!("no function {token}"));
             return self.model.dag.call(op, &arguments);
         }
-        if name == "pi" {
-            return self.model.dag.pi();
+        let mut indices = Vec::new();
+        while self.peek() == "[" {
+            self.next();
+            let affine = self.affine();
+            let index = if self.peek() == "%" {
+                self.next();
+                let modulo = self.affine();
+                Index::wrapped(affine, modulo)
+            } else {
+                Index::plain(affine)
+            };
+            indices.push(index);
+            self.expect("]");
         }
-        if name == "t" {
-            self.model.time = Some("t".into());
+        self.named(&token, indices)
+    }
+
+    fn named(&mut self, name: &str, mut indices: Vec<Index>) -> Node {
+        if let Some((_, domain)) = self.scopes.iter().rev().find(|(n, _)| n == name) {
+            return self.model.dag.variable(*domain);
+        }
+        for side in [Side::Q, Side::P] {
+            let found = self.model.groups.iter().position(|g| {
+                name == if side == Side::Q {
+                    &g.coordinate
+                } else {
+                    &g.momentum
+                }
+            });
+            if let Some(group) = found {
+                let column = if indices.len() == 2 {
+                    indices[1].affine.as_constant().unwrap() as u16
+                } else {
+                    0
+                };
+                let row = if indices.is_empty() {
+                    Index::constant(0)
+                } else {
+                    indices.remove(0)
+                };
+                return self.model.dag.element(
+                    Array::Phase {
+                        side,
+                        group: group as u16,
+                        column,
+                    },
+                    row,
+                    None,
+                );
+            }
+        }
+        if let Some(at) = self.model.parameters.iter().position(|p| p.name == name) {
+            let parameter = Parameter(at as u16);
+            let mut indices = indices.into_iter();
+            return match indices.next() {
+                None => self.model.dag.parameter(parameter),
+                Some(row) => {
+                    self.model
+                        .dag
+                        .element(Array::Parameter(parameter), row, indices.next())
+                }
+            };
+        }
+        if let Some(at) = self.model.sizes.iter().position(|s| s == name) {
+            return self.model.dag.extent(Size(at as u16));
+        }
+        if self.model.time.as_deref() == Some(name) {
             return self.model.dag.time();
         }
-        for at in 0..self.model.groups.len() {
-            if self.model.groups[at].coordinate == name {
-                return self.model.scalar(Side::Q, at);
-            }
-            if self.model.groups[at].momentum == name {
-                return self.model.scalar(Side::P, at);
+        panic!("no name {name}")
+    }
+
+    fn sum(&mut self) -> Node {
+        let mut domains = Vec::new();
+        self.expect("(");
+        loop {
+            let name = self.next();
+            self.expect("in");
+            let start = self.affine();
+            self.expect("..");
+            let end = self.affine();
+            let domain = self
+                .model
+                .dag
+                .domain(self.scopes.last().map(|s| s.1), start, end);
+            self.scopes.push((name, domain));
+            domains.push(domain);
+            if self.next() == ")" {
+                break;
             }
         }
-        if self.model.parameter_named(&name).is_none() {
-            self.model.parameters.push(ParameterDeclaration { name: name.clone(), shape: Shape::Scalar });
+        self.expect("{");
+        let mut body = self.expression(0);
+        self.expect("}");
+        for domain in domains.into_iter().rev() {
+            self.scopes.pop();
+            body = self.model.dag.reduce(domain, body);
         }
-        let parameter = self.model.parameter_named(&name).unwrap();
-        self.model.dag.parameter(parameter)
+        body
+    }
+
+    fn affine(&mut self) -> Affine {
+        let mut sum = Affine::default();
+        let mut sign = 1;
+        loop {
+            if self.peek() == "-" {
+                self.next();
+                sign = -sign;
+            }
+            let term = self.affine_factor();
+            let term = if self.peek() == "*" {
+                self.next();
+                let other = self.affine_factor();
+                match (term.as_constant(), other.as_constant()) {
+                    (Some(k), _) => Affine::default().plus(k, &other),
+                    (_, Some(k)) => Affine::default().plus(k, &term),
+                    _ => panic!("not affine"),
+                }
+            } else {
+                term
+            };
+            sum = sum.plus(sign, &term);
+            match self.peek() {
+                "+" => sign = 1,
+                "-" => sign = -1,
+                _ => return sum,
+            }
+            self.next();
+        }
+    }
+
+    fn affine_factor(&mut self) -> Affine {
+        let token = self.next();
+        if token == "(" {
+            let inner = self.affine();
+            self.expect(")");
+            return inner;
+        }
+        if let Ok(n) = token.parse() {
+            return Affine::constant(n);
+        }
+        if let Some((_, domain)) = self.scopes.iter().rev().find(|(n, _)| *n == token) {
+            return Affine::variable(*domain);
+        }
+        let size = self
+            .model
+            .sizes
+            .iter()
+            .position(|s| *s == token)
+            .unwrap_or_else(|| panic!("no size {token}"));
+        Affine::size(Size(size as u16))
     }
 }

@@ -1,0 +1,392 @@
+//! LaTeX.
+//!
+//! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
+//! Greek letters become the letters, what follows `_` or trailing digits become subscripts.
+
+use super::layout::{Level, Piece, Writer, fraction, negated_sum};
+use crate::dag::{Dag, Kind, Node, Part, Relation};
+use crate::index::Affine;
+use crate::op::Op;
+use crate::rational::Rational;
+
+const GREEK: &[&str] = &[
+    "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
+    "lambda", "mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi",
+    "omega", "Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi",
+    "Omega",
+];
+
+/// A declared name: `theta` is θ, `p_x` and `q1` have subscripts, longer words are upright.
+pub(super) fn symbol(name: &str) -> String {
+    indexed(name, &[])
+}
+
+/// A declared name with indices.
+pub(super) fn indexed(name: &str, indices: &[String]) -> String {
+    let mut parts = name.split('_').filter(|part| !part.is_empty());
+    let Some(head) = parts.next() else {
+        return format!("\\mathrm{{{}}}", name.replace('_', "\\_"));
+    };
+    let mut subscripts = Vec::new();
+    let (head, digits) = trailing_digits(head);
+    subscripts.extend(digits);
+    for part in parts {
+        let (word, digits) = trailing_digits(part);
+        subscripts.push(format!("{}{}", letter(word), digits.unwrap_or_default()));
+    }
+    subscripts.extend(indices.iter().cloned());
+    let head = letter(head);
+    if subscripts.is_empty() {
+        head
+    } else {
+        format!("{head}_{{{}}}", subscripts.join(","))
+    }
+}
+
+/// `q1` is `q` and `1`; a number by itself stays.
+fn trailing_digits(word: &str) -> (&str, Option<String>) {
+    let stem = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    if stem.is_empty() || stem.len() == word.len() {
+        (word, None)
+    } else {
+        (stem, Some(word[stem.len()..].to_owned()))
+    }
+}
+
+fn letter(word: &str) -> String {
+    if GREEK.contains(&word) {
+        format!("\\{word}")
+    } else if word.chars().count() > 1 && !word.chars().all(|c| c.is_ascii_digit()) {
+        format!("\\mathrm{{{word}}}")
+    } else {
+        word.to_owned()
+    }
+}
+
+/// Whether a number is written as a fraction.
+pub(super) fn is_fraction(value: &Rational) -> bool {
+    match value.to_small() {
+        Some((_, 1)) => false,
+        Some((_, d)) if d <= 9 => true,
+        _ => value.to_text().contains('/'),
+    }
+}
+
+/// A number.
+pub(super) fn number(value: &Rational) -> String {
+    if is_fraction(value) {
+        let sign = if value.is_negative() { "-" } else { "" };
+        let (n, d) = parts(&value.abs());
+        return format!("{sign}\\frac{{{n}}}{{{d}}}");
+    }
+    decimal(&value.to_text())
+}
+
+fn decimal(text: &str) -> String {
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => format!("{mantissa} \\cdot 10^{{{exponent}}}"),
+        None => text.to_owned(),
+    }
+}
+
+/// Numerator and denominator of a fraction.
+fn parts(value: &Rational) -> (String, String) {
+    match value.to_small() {
+        Some((n, d)) => (n.to_string(), d.to_string()),
+        None => {
+            let text = value.to_text();
+            text.split_once('/').map_or_else(
+                || (decimal(&text), "1".to_owned()),
+                |(n, d)| (n.to_owned(), d.to_owned()),
+            )
+        }
+    }
+}
+
+/// How tightly a call holds together.
+pub(super) fn call_level(op: Op, _arguments: &[Node]) -> Level {
+    if matches!(op, Op::Pow | Op::Exp) {
+        Level::Power
+    } else {
+        Level::Atom
+    }
+}
+
+/// Whether a power of this is written between the function's name and its argument, or under the
+/// root, so that it is closed.
+pub(super) fn holds_power_inside(dag: &Dag, base: Node) -> bool {
+    matches!(dag.kind(base), Kind::Call(op, _) if takes_power(*op))
+}
+
+fn takes_power(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Sin | Op::Cos | Op::Tan | Op::Sinh | Op::Cosh | Op::Tanh
+    )
+}
+
+/// `\sum_{i=0}^{N-1} `
+pub(super) fn loop_head(name: &str, start: &str, last: &str) -> String {
+    format!("\\sum_{{{name}={start}}}^{{{last}}} ")
+}
+
+/// A node without parentheses around it.
+pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
+    let dag = writer.dag();
+    match dag.kind(node) {
+        Kind::Constant(value) => vec![Piece::Owned(number(value))],
+        Kind::Pi => vec![Piece::Static("\\pi")],
+        Kind::Scalar(parameter) => vec![Piece::Owned(symbol(&writer.parameter(*parameter)))],
+        Kind::Time => vec![Piece::Owned(symbol(
+            writer.model.time.as_deref().unwrap_or("t"),
+        ))],
+        Kind::Coefficient => vec![Piece::Static("h")],
+        Kind::Variable(domain) => vec![Piece::Owned(writer.variable(*domain))],
+        Kind::Extent(size) => vec![Piece::Owned(symbol(&writer.size(*size)))],
+        Kind::Element(array, row, column) => {
+            let (name, indices) = writer.indices(*array, row, column.as_ref());
+            vec![Piece::Owned(indexed(&name, &indices))]
+        }
+        Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
+        Kind::Product(k, factors) => {
+            if let Some(sum) = negated_sum(dag, node) {
+                return vec![Piece::Terms(sum, 0, true)];
+            }
+            let mut pieces = Vec::new();
+            if k.is_negative() {
+                pieces.push(Piece::Static("-"));
+            }
+            pieces.push(Piece::Product(k.abs(), factors.clone()));
+            pieces
+        }
+        Kind::Call(op, arguments) => call(dag, *op, arguments, None),
+        Kind::External(function, part, arguments) => {
+            let name = writer
+                .model
+                .externals
+                .get(usize::from(*function))
+                .map_or_else(|| format!("f{function}"), |e| e.name.clone());
+            let derivative = match part {
+                Part::Value => String::new(),
+                Part::First(i) => format!("\\partial_{{{}}} ", i + 1),
+                Part::Second(i, j) => format!("\\partial_{{{}}} \\partial_{{{}}} ", i + 1, j + 1),
+            };
+            listed(format!("{derivative}{}", symbol(&name)), arguments)
+        }
+        Kind::Reduce(domain, body) => vec![
+            Piece::Open(*domain),
+            Piece::Node(*body, Level::Product),
+            Piece::Close,
+        ],
+        Kind::Count(domain) => {
+            let range = dag.range(*domain);
+            if range.start == Affine::constant(0) {
+                vec![Piece::Owned(writer.affine(&range.end))]
+            } else {
+                vec![Piece::Open(*domain), Piece::Close, Piece::Static("1")]
+            }
+        }
+        Kind::Compare(relation, a, b) => compare(
+            match relation {
+                Relation::Less => " < ",
+                Relation::LessEqual => " \\le ",
+                Relation::Equal => " = ",
+            },
+            *a,
+            *b,
+        ),
+        Kind::Not(inner) => match dag.kind(*inner) {
+            Kind::Compare(relation, a, b) => compare(
+                match relation {
+                    Relation::Less => " \\ge ",
+                    Relation::LessEqual => " > ",
+                    Relation::Equal => " \\ne ",
+                },
+                *a,
+                *b,
+            ),
+            _ => vec![Piece::Static("\\lnot "), Piece::Node(*inner, Level::Atom)],
+        },
+        Kind::And(a, b) => vec![
+            Piece::Node(*a, Level::And),
+            Piece::Static(" \\land "),
+            Piece::Node(*b, Level::And),
+        ],
+        Kind::Or(a, b) => vec![
+            Piece::Node(*a, Level::Loose),
+            Piece::Static(" \\lor "),
+            Piece::Node(*b, Level::Loose),
+        ],
+        Kind::Select(c, yes, no) => vec![
+            Piece::Static("\\begin{cases} "),
+            Piece::Node(*yes, Level::Loose),
+            Piece::Static(" & \\text{if } "),
+            Piece::Node(*c, Level::Loose),
+            Piece::Static(" \\\\ "),
+            Piece::Node(*no, Level::Loose),
+            Piece::Static(" & \\text{otherwise} \\end{cases}"),
+        ],
+    }
+}
+
+fn compare(relation: &'static str, a: Node, b: Node) -> Vec<Piece> {
+    vec![
+        Piece::Node(a, Level::Sum),
+        Piece::Static(relation),
+        Piece::Node(b, Level::Sum),
+    ]
+}
+
+/// A function, to a power that stands after its name.
+fn call(dag: &Dag, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
+    match op {
+        Op::Pow => vec![
+            Piece::Node(x[0], Level::Atom),
+            Piece::Static("^{"),
+            Piece::Node(x[1], Level::Loose),
+            Piece::Static("}"),
+        ],
+        Op::Exp => vec![
+            Piece::Static("e^{"),
+            Piece::Node(x[0], Level::Loose),
+            Piece::Static("}"),
+        ],
+        Op::Sqrt => vec![
+            Piece::Static("\\sqrt{"),
+            Piece::Node(x[0], Level::Loose),
+            Piece::Static("}"),
+        ],
+        Op::Cbrt => vec![
+            Piece::Static("\\sqrt[3]{"),
+            Piece::Node(x[0], Level::Loose),
+            Piece::Static("}"),
+        ],
+        Op::Abs => vec![
+            Piece::Static("\\left|"),
+            Piece::Node(x[0], Level::Loose),
+            Piece::Static("\\right|"),
+        ],
+        _ => {
+            let name = op.row().latex;
+            let name = power.map_or_else(|| name.to_owned(), |n| format!("{name}^{{{n}}}"));
+            if let ([argument], true) = (x, x.first().is_some_and(|x| is_name(dag, *x))) {
+                return vec![
+                    Piece::Owned(name),
+                    Piece::Static("("),
+                    Piece::Node(*argument, Level::Loose),
+                    Piece::Static(")"),
+                ];
+            }
+            listed(name, x)
+        }
+    }
+}
+
+fn is_name(dag: &Dag, node: Node) -> bool {
+    matches!(
+        dag.kind(node),
+        Kind::Scalar(_) | Kind::Time | Kind::Element(..) | Kind::Pi | Kind::Variable(_)
+    )
+}
+
+fn listed(name: String, arguments: &[Node]) -> Vec<Piece> {
+    let mut pieces = vec![Piece::Owned(name), Piece::Static("\\left(")];
+    for (at, argument) in arguments.iter().enumerate() {
+        if at > 0 {
+            pieces.push(Piece::Static(", "));
+        }
+        pieces.push(Piece::Node(*argument, Level::Loose));
+    }
+    pieces.push(Piece::Static("\\right)"));
+    pieces
+}
+
+/// `k·Π` with k ≥ 0: one fraction, unless a sum stands above the line beside numbers only below
+/// it.
+pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+    let (above, below) = fraction(factors);
+    let (n, d) =
+        if is_fraction(k) || !below.is_empty() && k.to_small().is_some_and(|(_, d)| d <= 64) {
+            parts(k)
+        } else {
+            (number(k), "1".to_owned())
+        };
+    let is_large = |node: Node| {
+        matches!(
+            dag.kind(node),
+            Kind::Sum(..) | Kind::Reduce(..) | Kind::Select(..)
+        )
+    };
+    let mut pieces = Vec::new();
+    if below.is_empty() && d == "1" {
+        line(dag, &n, &above, false, &mut pieces);
+    } else if below.is_empty() && above.iter().any(|(node, _)| is_large(*node)) {
+        pieces.push(Piece::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
+        line(dag, "1", &above, false, &mut pieces);
+    } else {
+        pieces.push(Piece::Static("\\frac{"));
+        line(dag, &n, &above, true, &mut pieces);
+        pieces.push(Piece::Static("}{"));
+        line(dag, &d, &below, true, &mut pieces);
+        pieces.push(Piece::Static("}"));
+    }
+    pieces
+}
+
+/// One side of a fraction, or all of a product without one. Sums over loops go last, where they
+/// need no parentheses; a sum needs none where it is alone and `enclosed` by the fraction.
+fn line(dag: &Dag, number: &str, factors: &[(Node, i32)], enclosed: bool, pieces: &mut Vec<Piece>) {
+    let mut any = false;
+    if number != "1" || factors.is_empty() {
+        pieces.push(Piece::Owned(number.to_owned()));
+        any = true;
+    }
+    let is_loop = |(node, n): &(Node, i32)| *n == 1 && matches!(dag.kind(*node), Kind::Reduce(..));
+    let (loops, others): (Vec<_>, Vec<_>) = factors.iter().partition(|factor| is_loop(factor));
+    let count = others.len() + loops.len();
+    for (at, (node, n)) in others.into_iter().chain(loops).enumerate() {
+        if any {
+            pieces.push(Piece::Static(if starts_with_digit(dag, node) {
+                " \\cdot "
+            } else {
+                " "
+            }));
+        }
+        any = true;
+        match dag.kind(node) {
+            Kind::Call(Op::Sqrt, x) if n > 1 => {
+                pieces.push(Piece::Node(x[0], Level::Atom));
+                pieces.push(Piece::Owned(if n % 2 == 0 {
+                    format!("^{{{}}}", n / 2)
+                } else {
+                    format!("^{{{n}/2}}")
+                }));
+            }
+            Kind::Call(op, x) if n > 1 && takes_power(*op) => {
+                pieces.append(&mut call(dag, *op, x, Some(n)))
+            }
+            Kind::Reduce(..) if n == 1 && at + 1 == count => {
+                pieces.push(Piece::Node(node, Level::Sum))
+            }
+            _ if n == 1 => {
+                let alone = enclosed && count == 1 && number == "1";
+                pieces.push(Piece::Node(
+                    node,
+                    if alone { Level::Sum } else { Level::Unary },
+                ));
+            }
+            _ => {
+                pieces.push(Piece::Node(node, Level::Atom));
+                pieces.push(Piece::Owned(format!("^{{{n}}}")));
+            }
+        }
+    }
+}
+
+fn starts_with_digit(dag: &Dag, node: Node) -> bool {
+    match dag.kind(node) {
+        Kind::Constant(_) => true,
+        Kind::Call(Op::Pow, x) => matches!(dag.kind(x[0]), Kind::Constant(_)),
+        _ => false,
+    }
+}

@@ -1,0 +1,466 @@
+//! What both notations have in common: the order of pieces, parentheses, signs, the parts of a
+//! product, the loops around a place.
+//!
+//! Input: a node. Output: pieces, written one after another from an explicit stack, so that depth
+//! costs no stack and length is bounded. Invariant: parentheses stand exactly where precedence
+//! needs them.
+
+use super::names::Scope;
+use super::{Notation, latex, text};
+use crate::dag::{Array, Dag, Kind, Node, Parameter, Side};
+use crate::index::{Affine, Domain, Index};
+use crate::model::{Model, Shape};
+use crate::rational::Rational;
+
+/// What is left of an expression past this many bytes is written as an ellipsis.
+const LONGEST: usize = 16_384;
+
+/// How tightly an expression holds together, loosest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Level {
+    /// `if`, `||`
+    Loose,
+    /// `&&`
+    And,
+    /// A comparison.
+    Comparison,
+    /// A sum.
+    Sum,
+    /// A product or quotient.
+    Product,
+    /// `-x`, `!x`, a sum over a loop: fine as a factor, not as a base.
+    Unary,
+    /// A power.
+    Power,
+    /// A name, a number, a call.
+    Atom,
+}
+
+/// What the writer has on its stack.
+#[derive(Clone, Debug)]
+pub(super) enum Piece {
+    /// As it stands.
+    Static(&'static str),
+    /// As it stands.
+    Owned(String),
+    /// A node, in parentheses if it holds together less tightly.
+    Node(Node, Level),
+    /// A product: `k·Π`, without its sign.
+    Product(Rational, Vec<(Node, i32)>),
+    /// The terms of a sum from this one on, negated if the flag says so.
+    Terms(Node, usize, bool),
+    /// The head of a sum over a loop; the loop is entered.
+    Open(Domain),
+    /// The loop is left.
+    Close,
+}
+
+/// Writes one expression.
+#[derive(Debug)]
+pub(super) struct Writer<'a> {
+    pub(super) model: &'a Model,
+    pub(super) notation: Notation,
+    scope: Scope<'a>,
+    out: String,
+    stack: Vec<Piece>,
+}
+
+impl<'a> Writer<'a> {
+    pub(super) fn new(
+        model: &'a Model,
+        notation: Notation,
+        bound: &[(Domain, &str)],
+    ) -> Writer<'a> {
+        Writer {
+            model,
+            notation,
+            scope: Scope::new(model, bound),
+            out: String::new(),
+            stack: Vec::new(),
+        }
+    }
+
+    pub(super) fn dag(&self) -> &'a Dag {
+        &self.model.dag
+    }
+
+    /// The expression as text.
+    pub(super) fn write(mut self, root: Node) -> String {
+        self.stack.push(Piece::Node(root, Level::Loose));
+        while let Some(piece) = self.stack.pop() {
+            match piece {
+                Piece::Static(text) => self.out.push_str(text),
+                Piece::Owned(text) => self.out.push_str(&text),
+                Piece::Node(..) if self.is_long() => self.out.push_str(self.ellipsis()),
+                Piece::Node(node, level) => self.node(node, level),
+                Piece::Product(k, factors) => {
+                    let pieces = match self.notation {
+                        Notation::Text => text::product(self.dag(), &k, &factors),
+                        Notation::Latex => latex::product(self.dag(), &k, &factors),
+                    };
+                    self.push(pieces);
+                }
+                Piece::Terms(node, at, negated) => self.terms(node, at, negated),
+                Piece::Open(domain) => {
+                    // The bounds stand outside the loop they bound.
+                    let range = self.dag().range(domain);
+                    let (start, end) = (self.affine(&range.start), range.end.clone());
+                    let head = match self.notation {
+                        Notation::Text => {
+                            let end = self.affine(&end);
+                            self.scope.enter(domain);
+                            text::loop_head(&self.scope.name(domain), &start, &end)
+                        }
+                        Notation::Latex => {
+                            let last = self.affine(&end.plus(-1, &Affine::constant(1)));
+                            self.scope.enter(domain);
+                            latex::loop_head(&self.scope.name(domain), &start, &last)
+                        }
+                    };
+                    self.out.push_str(&head);
+                }
+                Piece::Close => self.scope.leave(),
+            }
+        }
+        self.out
+    }
+
+    fn is_long(&self) -> bool {
+        self.out.len() > LONGEST
+    }
+
+    fn ellipsis(&self) -> &'static str {
+        match self.notation {
+            Notation::Text => "…",
+            Notation::Latex => "\\dots",
+        }
+    }
+
+    /// Pieces to be written next, in order.
+    fn push(&mut self, pieces: Vec<Piece>) {
+        self.stack.extend(pieces.into_iter().rev());
+    }
+
+    fn node(&mut self, node: Node, level: Level) {
+        let mut pieces = match self.notation {
+            Notation::Text => text::pieces(self, node),
+            Notation::Latex => latex::pieces(self, node),
+        };
+        if self.level(node) < level {
+            let (open, close) = match self.notation {
+                Notation::Text => ("(", ")"),
+                Notation::Latex => ("\\left(", "\\right)"),
+            };
+            pieces.insert(0, Piece::Static(open));
+            pieces.push(Piece::Static(close));
+        }
+        self.push(pieces);
+    }
+
+    /// How tightly a node holds together as it is written.
+    pub(super) fn level(&self, node: Node) -> Level {
+        match self.dag().kind(node) {
+            Kind::Constant(value) if value.is_negative() => Level::Unary,
+            Kind::Constant(value) => match self.notation {
+                Notation::Text if value.to_text().contains('/') => Level::Product,
+                Notation::Latex if latex::is_fraction(value) => Level::Product,
+                _ => Level::Atom,
+            },
+            Kind::Sum(..) => Level::Sum,
+            Kind::Product(..) if negated_sum(self.dag(), node).is_some() => Level::Sum,
+            Kind::Product(k, factors) => match factors.as_slice() {
+                _ if k.is_negative() => Level::Product,
+                [(_, 1)] if k.is_one() => Level::Product,
+                [(base, n)] if k.is_one() && *n > 1 => {
+                    if self.notation == Notation::Latex
+                        && latex::holds_power_inside(self.dag(), *base)
+                    {
+                        Level::Atom
+                    } else {
+                        Level::Power
+                    }
+                }
+                _ => Level::Product,
+            },
+            Kind::Call(op, arguments) => match self.notation {
+                Notation::Text => text::call_level(*op),
+                Notation::Latex => latex::call_level(*op, arguments),
+            },
+            Kind::Reduce(..) => match self.notation {
+                Notation::Text => Level::Unary,
+                Notation::Latex => Level::Sum,
+            },
+            Kind::Count(domain) => {
+                let range = self.dag().range(*domain);
+                if range.start == Affine::constant(0) {
+                    self.affine_level(&range.end)
+                } else {
+                    Level::Unary
+                }
+            }
+            Kind::Select(..) | Kind::Or(..) => Level::Loose,
+            Kind::And(..) => Level::And,
+            Kind::Compare(..) => Level::Comparison,
+            Kind::Not(inner) => match self.dag().kind(*inner) {
+                Kind::Compare(..) => Level::Comparison,
+                _ => Level::Unary,
+            },
+            Kind::External(..)
+            | Kind::Pi
+            | Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Element(..) => Level::Atom,
+        }
+    }
+
+    /// The terms of a sum: the first with its sign as a prefix, the others with theirs between.
+    fn terms(&mut self, node: Node, at: usize, negated: bool) {
+        let dag = self.dag();
+        let Kind::Sum(constant, terms) = dag.kind(node) else {
+            return;
+        };
+        // A negative first term would read badly where the constant is positive: `1 - x`.
+        let first = constant_stands_first(constant, terms, negated);
+        let count = terms.len() + usize::from(!constant.is_zero());
+        if at >= count {
+            return;
+        }
+        if at > 0 && self.is_long() {
+            self.out.push_str(" + ");
+            self.out.push_str(self.ellipsis());
+            return;
+        }
+        let term = if first {
+            at.checked_sub(1)
+        } else {
+            Some(at).filter(|at| *at < terms.len())
+        };
+        let (negative, piece) = match term {
+            None => (constant.is_negative(), self.number(&constant.abs())),
+            Some(term) => {
+                let (k, child) = &terms[term];
+                (k.is_negative(), vec![self.scaled(&k.abs(), *child)])
+            }
+        };
+        match (at, negative != negated) {
+            (0, false) => {}
+            (0, true) => self.out.push('-'),
+            (_, false) => self.out.push_str(" + "),
+            (_, true) => self.out.push_str(" - "),
+        }
+        let mut pieces = piece;
+        pieces.push(Piece::Terms(node, at + 1, negated));
+        self.push(pieces);
+    }
+
+    fn number(&self, value: &Rational) -> Vec<Piece> {
+        match self.notation {
+            Notation::Text => vec![Piece::Owned(value.to_text())],
+            Notation::Latex => vec![Piece::Owned(latex::number(value))],
+        }
+    }
+
+    /// `k·node` as one product, k ≥ 0.
+    pub(super) fn scaled(&self, k: &Rational, node: Node) -> Piece {
+        match self.dag().kind(node) {
+            Kind::Product(c, factors) => Piece::Product(k.mul(c), factors.clone()),
+            _ if k.is_one() => Piece::Node(node, Level::Product),
+            _ => Piece::Product(k.clone(), vec![(node, 1)]),
+        }
+    }
+
+    /// The name of a loop variable.
+    pub(super) fn variable(&self, domain: Domain) -> String {
+        self.scope.name(domain)
+    }
+
+    /// The name of a size.
+    pub(super) fn size(&self, size: crate::index::Size) -> String {
+        self.model
+            .sizes
+            .get(size.0 as usize)
+            .cloned()
+            .unwrap_or_else(|| format!("size{}", size.0))
+    }
+
+    /// The name and shape of an array.
+    pub(super) fn array(&self, array: Array) -> (String, &'a Shape, u16) {
+        let of_group = |side: Side, group: u16| {
+            let group = &self.model.groups[usize::from(group)];
+            (
+                if side == Side::Q {
+                    &group.coordinate
+                } else {
+                    &group.momentum
+                },
+                &group.shape,
+            )
+        };
+        match array {
+            Array::Phase {
+                side,
+                group,
+                column,
+            } => {
+                let (name, shape) = of_group(side, group);
+                (name.clone(), shape, column)
+            }
+            Array::Direction {
+                side,
+                group,
+                column,
+            } => {
+                let (name, shape) = of_group(side, group);
+                (format!("v_{name}"), shape, column)
+            }
+            Array::Parameter(parameter) => (
+                self.parameter(parameter),
+                &self.model.parameters[usize::from(parameter.0)].shape,
+                0,
+            ),
+        }
+    }
+
+    /// The name of a parameter.
+    pub(super) fn parameter(&self, parameter: Parameter) -> String {
+        self.model.parameters[usize::from(parameter.0)].name.clone()
+    }
+
+    /// The indices of an element as text: none of a scalar, a row, a row and a column.
+    pub(super) fn indices(
+        &self,
+        array: Array,
+        row: &Index,
+        column: Option<&Index>,
+    ) -> (String, Vec<String>) {
+        let (name, shape, fixed) = self.array(array);
+        let indices = match (shape, column) {
+            (Shape::Scalar, _) => Vec::new(),
+            (Shape::Vector(_), _) => vec![self.index(row)],
+            (Shape::Matrix(..), Some(column)) => vec![self.index(row), self.index(column)],
+            (Shape::Matrix(..), None) => vec![self.index(row), fixed.to_string()],
+        };
+        (name, indices)
+    }
+
+    /// An index.
+    pub(super) fn index(&self, index: &Index) -> String {
+        let inner = self.affine(&index.affine);
+        let Some(modulo) = &index.modulo else {
+            return inner;
+        };
+        let part = |affine: &Affine, text: String| {
+            if self.affine_level(affine) >= Level::Product {
+                text
+            } else {
+                format!("({text})")
+            }
+        };
+        let (inner, modulo) = (
+            part(&index.affine, inner),
+            if self.affine_level(modulo) == Level::Atom {
+                self.affine(modulo)
+            } else {
+                format!("({})", self.affine(modulo))
+            },
+        );
+        match self.notation {
+            Notation::Text => format!("{inner} % {modulo}"),
+            Notation::Latex => format!("{inner} \\bmod {modulo}"),
+        }
+    }
+
+    fn affine_level(&self, affine: &Affine) -> Level {
+        let terms: Vec<i64> = affine
+            .loops
+            .iter()
+            .map(|e| e.1)
+            .chain(affine.sizes.iter().map(|e| e.1))
+            .collect();
+        match (terms.as_slice(), affine.constant) {
+            ([], c) if c >= 0 => Level::Atom,
+            ([1], 0) => Level::Atom,
+            ([k], 0) if *k > 0 => Level::Product,
+            _ => Level::Sum,
+        }
+    }
+
+    /// An affine index or bound; a positive term first where there is one.
+    pub(super) fn affine(&self, affine: &Affine) -> String {
+        let mut terms: Vec<(i64, String)> = Vec::new();
+        for &(domain, k) in &affine.loops {
+            terms.push((k, self.variable(domain)));
+        }
+        for &(size, k) in &affine.sizes {
+            terms.push((k, self.named(&self.size(size))));
+        }
+        if affine.constant != 0 || terms.is_empty() {
+            terms.push((affine.constant, String::new()));
+        }
+        if terms[0].0 < 0 {
+            if let Some(positive) = terms.iter().position(|(k, _)| *k > 0) {
+                let term = terms.remove(positive);
+                terms.insert(0, term);
+            }
+        }
+        let mut text = String::new();
+        for (at, (k, name)) in terms.iter().enumerate() {
+            match (at, *k < 0) {
+                (0, true) => text.push('-'),
+                (0, false) => {}
+                (_, negative) => text.push_str(if negative { " - " } else { " + " }),
+            }
+            let size = k.unsigned_abs();
+            match self.notation {
+                _ if name.is_empty() => text.push_str(&size.to_string()),
+                _ if size == 1 => text.push_str(name),
+                Notation::Text => text.push_str(&format!("{size}*{name}")),
+                Notation::Latex => text.push_str(&format!("{size} {name}")),
+            }
+        }
+        text
+    }
+
+    /// A declared name as this notation writes it.
+    pub(super) fn named(&self, name: &str) -> String {
+        match self.notation {
+            Notation::Text => name.to_owned(),
+            Notation::Latex => latex::symbol(name),
+        }
+    }
+}
+
+/// Whether a sum reads better with its constant first: where it is positive and the first term is
+/// not.
+fn constant_stands_first(constant: &Rational, terms: &[(Rational, Node)], negated: bool) -> bool {
+    !constant.is_zero()
+        && constant.is_negative() == negated
+        && terms
+            .first()
+            .is_some_and(|(k, _)| k.is_negative() != negated)
+}
+
+/// The sum that a node is the negative of: `-(1 - x)` is written `x - 1`.
+pub(super) fn negated_sum(dag: &Dag, node: Node) -> Option<Node> {
+    match dag.kind(node) {
+        Kind::Product(k, factors) if *k == Rational::MINUS_ONE => match factors.as_slice() {
+            [(sum, 1)] if matches!(dag.kind(*sum), Kind::Sum(..)) => Some(*sum),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The factors above and below the line.
+pub(super) fn fraction(factors: &[(Node, i32)]) -> (Vec<(Node, i32)>, Vec<(Node, i32)>) {
+    let above = factors.iter().filter(|(_, n)| *n > 0).copied().collect();
+    let below = factors
+        .iter()
+        .filter(|(_, n)| *n < 0)
+        .map(|(node, n)| (*node, n.saturating_neg()))
+        .collect();
+    (above, below)
+}

@@ -1,0 +1,59 @@
+//! Expressions as people read them: text in the language's own notation, and LaTeX.
+//!
+//! Input: a model and a node of its arena. Output: text. Invariant: [`text`] of an expression the
+//! language can say is what the language reads back as the same expression (up to the order of
+//! evaluation); sums and products keep the order they were written in.
+
+mod latex;
+mod layout;
+mod names;
+mod text;
+
+use crate::dag::Node;
+use crate::index::{Affine, Domain};
+use crate::model::Model;
+
+/// Which notation to write.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Notation {
+    /// The language's own: `p^2/(2*m) + k*x^2/2`.
+    Text,
+    /// LaTeX, without the dollar signs.
+    Latex,
+}
+
+/// A node in the language's own notation. Past some 16 000 characters what is left is written `…`.
+#[must_use]
+pub fn text(model: &Model, node: Node) -> String {
+    write(model, node, Notation::Text)
+}
+
+/// A node in LaTeX, without the dollar signs. Past some 16 000 characters what is left is written
+/// `\dots`.
+#[must_use]
+pub fn latex(model: &Model, node: Node) -> String {
+    write(model, node, Notation::Latex)
+}
+
+/// A node in either notation.
+#[must_use]
+pub fn write(model: &Model, node: Node, notation: Notation) -> String {
+    write_within(model, node, notation, &[])
+}
+
+/// A node that stands inside loops whose variables have names already.
+#[must_use]
+pub(crate) fn write_within(
+    model: &Model,
+    node: Node,
+    notation: Notation,
+    bound: &[(Domain, &str)],
+) -> String {
+    layout::Writer::new(model, notation, bound).write(node)
+}
+
+/// An affine index or bound as text, inside loops whose variables have names already.
+#[must_use]
+pub(crate) fn affine(model: &Model, affine: &Affine, bound: &[(Domain, &str)]) -> String {
+    layout::Writer::new(model, Notation::Text, bound).affine(affine)
+}

@@ -1,0 +1,233 @@
+//! The language's own notation.
+//!
+//! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
+
+use super::layout::{Level, Piece, Writer, fraction, negated_sum};
+use crate::dag::{Dag, Kind, Node, Part, Relation};
+use crate::index::Affine;
+use crate::op::Op;
+use crate::rational::Rational;
+
+/// A number.
+pub(super) fn number(value: &Rational) -> String {
+    value.to_text()
+}
+
+/// How tightly a call holds together.
+pub(super) fn call_level(op: Op) -> Level {
+    if op == Op::Pow {
+        Level::Power
+    } else {
+        Level::Atom
+    }
+}
+
+/// `sum(i in 0..N) { `
+pub(super) fn loop_head(name: &str, start: &str, end: &str) -> String {
+    format!("sum({name} in {start}..{end}) {{ ")
+}
+
+/// A node without parentheses around it.
+pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
+    let dag = writer.dag();
+    match dag.kind(node) {
+        Kind::Constant(value) => vec![Piece::Owned(number(value))],
+        Kind::Pi => vec![Piece::Static("pi")],
+        Kind::Scalar(parameter) => vec![Piece::Owned(writer.parameter(*parameter))],
+        Kind::Time => vec![Piece::Owned(
+            writer.model.time.clone().unwrap_or_else(|| "t".to_owned()),
+        )],
+        Kind::Coefficient => vec![Piece::Static("h")],
+        Kind::Variable(domain) => vec![Piece::Owned(writer.variable(*domain))],
+        Kind::Extent(size) => vec![Piece::Owned(writer.size(*size))],
+        Kind::Element(array, row, column) => {
+            let (mut name, indices) = writer.indices(*array, row, column.as_ref());
+            for index in indices {
+                name.push_str(&format!("[{index}]"));
+            }
+            vec![Piece::Owned(name)]
+        }
+        Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
+        Kind::Product(k, factors) => {
+            if let Some(sum) = negated_sum(dag, node) {
+                return vec![Piece::Terms(sum, 0, true)];
+            }
+            let mut pieces = Vec::new();
+            if k.is_negative() {
+                pieces.push(Piece::Static("-"));
+            }
+            pieces.push(Piece::Product(k.abs(), factors.clone()));
+            pieces
+        }
+        Kind::Call(Op::Pow, x) => vec![
+            Piece::Node(x[0], Level::Atom),
+            Piece::Static("^"),
+            exponent(dag, x[1]),
+        ],
+        Kind::Call(op, arguments) => call(op.row().name.to_owned(), arguments),
+        Kind::External(function, part, arguments) => {
+            let name = writer
+                .model
+                .externals
+                .get(usize::from(*function))
+                .map_or_else(|| format!("f{function}"), |e| e.name.clone());
+            // The language has no way to say a derivative of a Rust function; arguments count
+            // from 1, as in D₁f.
+            let name = match part {
+                Part::Value => name,
+                Part::First(i) => format!("D{}_{name}", i + 1),
+                Part::Second(i, j) => format!("D{}D{}_{name}", i + 1, j + 1),
+            };
+            call(name, arguments)
+        }
+        Kind::Reduce(domain, body) => vec![
+            Piece::Open(*domain),
+            Piece::Node(*body, Level::Loose),
+            Piece::Close,
+            Piece::Static(" }"),
+        ],
+        Kind::Count(domain) => {
+            let range = dag.range(*domain);
+            if range.start == Affine::constant(0) {
+                vec![Piece::Owned(writer.affine(&range.end))]
+            } else {
+                vec![Piece::Open(*domain), Piece::Close, Piece::Static("1 }")]
+            }
+        }
+        Kind::Compare(relation, a, b) => compare(
+            match relation {
+                Relation::Less => " < ",
+                Relation::LessEqual => " <= ",
+                Relation::Equal => " == ",
+            },
+            *a,
+            *b,
+        ),
+        Kind::Not(inner) => match dag.kind(*inner) {
+            Kind::Compare(relation, a, b) => compare(
+                match relation {
+                    Relation::Less => " >= ",
+                    Relation::LessEqual => " > ",
+                    Relation::Equal => " != ",
+                },
+                *a,
+                *b,
+            ),
+            _ => vec![Piece::Static("!"), Piece::Node(*inner, Level::Atom)],
+        },
+        Kind::And(a, b) => vec![
+            Piece::Node(*a, Level::And),
+            Piece::Static(" && "),
+            Piece::Node(*b, Level::And),
+        ],
+        Kind::Or(a, b) => vec![
+            Piece::Node(*a, Level::Loose),
+            Piece::Static(" || "),
+            Piece::Node(*b, Level::Loose),
+        ],
+        Kind::Select(c, yes, no) => vec![
+            Piece::Static("if "),
+            Piece::Node(*c, Level::Loose),
+            Piece::Static(" { "),
+            Piece::Node(*yes, Level::Loose),
+            Piece::Static(" } else { "),
+            Piece::Node(*no, Level::Loose),
+            Piece::Static(" }"),
+        ],
+    }
+}
+
+fn compare(relation: &'static str, a: Node, b: Node) -> Vec<Piece> {
+    vec![
+        Piece::Node(a, Level::Sum),
+        Piece::Static(relation),
+        Piece::Node(b, Level::Sum),
+    ]
+}
+
+fn call(name: String, arguments: &[Node]) -> Vec<Piece> {
+    let mut pieces = vec![Piece::Owned(name), Piece::Static("(")];
+    for (at, argument) in arguments.iter().enumerate() {
+        if at > 0 {
+            pieces.push(Piece::Static(", "));
+        }
+        pieces.push(Piece::Node(*argument, Level::Loose));
+    }
+    pieces.push(Piece::Static(")"));
+    pieces
+}
+
+/// The right of `^` takes a sign and further powers.
+fn exponent(dag: &Dag, node: Node) -> Piece {
+    match dag.kind(node) {
+        Kind::Constant(value) if !value.to_text().contains('/') => Piece::Owned(number(value)),
+        _ => Piece::Node(node, Level::Power),
+    }
+}
+
+/// `k·Π` with k ≥ 0: `0.5*q^2*p^2`, `p^2/2`, `p^2/(2*m*l^2)`.
+pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+    let (above, below) = fraction(factors);
+    let text = number(k);
+    let is_decimal = !text.contains('/');
+    let (numerator, denominator) = match k.to_small() {
+        Some((n, 1)) => (n.to_string(), String::new()),
+        // A decimal reads better than a fraction of large numbers, a fraction than a long decimal.
+        Some((n, d)) => {
+            let is_short = match (above.len(), below.len()) {
+                (_, 1..) => d <= 9,
+                (0 | 1, 0) => n == 1 && d <= 64 && d % 10 != 0,
+                (_, 0) => text.len() > 6,
+            };
+            if is_short || !is_decimal {
+                (n.to_string(), d.to_string())
+            } else {
+                (text, String::new())
+            }
+        }
+        None => match text.split_once('/') {
+            Some((n, d)) => (n.to_owned(), d.to_owned()),
+            None => (text, String::new()),
+        },
+    };
+    let mut pieces = Vec::new();
+    if numerator != "1" || above.is_empty() {
+        pieces.push(Piece::Owned(numerator));
+    }
+    factors_of(dag, &above, &mut pieces);
+    if below.is_empty() && denominator.is_empty() {
+        return pieces;
+    }
+    let count = below.len() + usize::from(!denominator.is_empty());
+    pieces.push(Piece::Static(if count > 1 { "/(" } else { "/" }));
+    let mut divisor = Vec::new();
+    if !denominator.is_empty() {
+        divisor.push(Piece::Owned(denominator));
+    }
+    factors_of(dag, &below, &mut divisor);
+    pieces.append(&mut divisor);
+    if count > 1 {
+        pieces.push(Piece::Static(")"));
+    }
+    pieces
+}
+
+fn factors_of(dag: &Dag, factors: &[(Node, i32)], pieces: &mut Vec<Piece>) {
+    for &(node, n) in factors {
+        if !pieces.is_empty() {
+            pieces.push(Piece::Static("*"));
+        }
+        if n == 1 {
+            // A number here is one the constructors could not multiply in.
+            let level = if matches!(dag.kind(node), Kind::Constant(_)) {
+                Level::Atom
+            } else {
+                Level::Unary
+            };
+            pieces.push(Piece::Node(node, level));
+        } else {
+            pieces.push(Piece::Node(node, Level::Atom));
+            pieces.push(Piece::Owned(format!("^{n}")));
+        }
+    }
+}

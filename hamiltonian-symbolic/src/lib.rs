@@ -5,8 +5,9 @@ pub mod dag;
 pub mod diff;
 pub mod eval;
 pub mod factor;
-mod instruct;
 pub mod index;
+mod instruct;
+pub mod loops;
 pub mod model;
 pub mod op;
 pub mod pipeline;
@@ -16,6 +17,7 @@ pub mod rational;
 pub mod schedule;
 pub mod share;
 pub mod simplify;
+pub mod structure;
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

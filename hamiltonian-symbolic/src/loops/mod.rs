@@ -1,0 +1,12 @@
+//! Loops taken apart: a walk over an expression with its loops run at given sizes, numbers at
+//! sample points, and the same system written out term by term.
+//!
+//! Input: a model and sizes. Output: values or another model. Invariant: what is found at sizes
+//! chosen here may refute a statement about all sizes, never prove one.
+
+pub mod numeric;
+pub mod unroll;
+mod walk;
+
+pub use numeric::{Point, Sample, Sampled, sample};
+pub use unroll::{unroll, unroll_nodes};

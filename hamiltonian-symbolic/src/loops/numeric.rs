@@ -1,0 +1,380 @@
+//! Numbers at sample points, each with a bound of its rounding error.
+//!
+//! Input: a model, nodes, sizes, a seed. Output: [`Sampled`] values and the point they were taken
+//! at. Invariant: the same seed gives the same point on every machine; |value| beyond its error
+//! means that the expression is not identically zero.
+
+use super::walk::{Meaning, Place, walk};
+use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Part, Relation, Side};
+use crate::model::{Model, Shape};
+use crate::op::Op;
+use crate::rational::Rational;
+use std::hash::{Hash, Hasher};
+
+/// A number and a bound of its error.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sampled {
+    /// The value; NaN outside the expression's domain or on the edge of a condition.
+    pub value: f64,
+    /// How far it may be from the exact one.
+    pub error: f64,
+}
+
+impl Sampled {
+    /// Whether the exact value is certainly not 0.
+    #[must_use]
+    pub fn is_nonzero(self) -> bool {
+        self.value.is_finite() && self.value.abs() > 16.0 * self.error
+    }
+    /// Whether there is a value, and it is 0 as far as can be told.
+    #[must_use]
+    pub fn looks_zero(self) -> bool {
+        self.value.is_finite() && self.error.is_finite() && !self.is_nonzero()
+    }
+}
+
+/// How a sample point is chosen.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sample {
+    /// Different seeds give different points.
+    pub seed: u64,
+    /// Another seed for coordinates.
+    pub q: u64,
+    /// Another seed for momenta.
+    pub p: u64,
+    /// Whether coordinates and momenta may be negative; parameters are always positive.
+    pub signed: bool,
+}
+
+/// A sample point: names with their values, in order of first use.
+pub type Point = Vec<(String, f64)>;
+
+/// The values of some nodes at a sample point, and the point; `None` if a loop runs too long.
+/// Some elements may be given values of their own.
+#[must_use]
+pub fn sample(
+    model: &Model,
+    roots: &[Node],
+    sizes: &[i64],
+    how: Sample,
+    given: &[(Node, f64)],
+) -> Option<(Vec<Sampled>, Point)> {
+    let given = given
+        .iter()
+        .filter_map(|(node, value)| match model.dag.kind(*node) {
+            Kind::Element(array, row, None) => {
+                Some(((*array, row.affine.as_constant()?, 0), *value))
+            }
+            _ => None,
+        })
+        .collect();
+    let meaning = Numbers {
+        model,
+        how,
+        given,
+        read: Map::default(),
+        point: Vec::new(),
+        visits: 0,
+    };
+    let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
+    Some((values?, numbers.point))
+}
+
+/// The most nodes a sample may visit.
+const LONGEST: usize = 1 << 20;
+
+struct Numbers<'a> {
+    model: &'a Model,
+    how: Sample,
+    given: Map<(Array, i64, i64), f64>,
+    read: Map<(Array, i64, i64), ()>,
+    point: Point,
+    visits: usize,
+}
+
+impl Numbers<'_> {
+    /// A multiple of 1/64 between 1/4 and 9/4, of either sign where asked.
+    fn leaf(&self, key: &impl Hash, salt: u64, signed: bool) -> f64 {
+        let mut hasher = Mixer::default();
+        key.hash(&mut hasher);
+        self.how.seed.hash(&mut hasher);
+        salt.hash(&mut hasher);
+        // The finaliser of SplitMix64.
+        let mut bits = hasher.finish().wrapping_add(0x9E37_79B9_7F4A_7C15);
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        bits ^= bits >> 31;
+        let size = (16 + bits % 128) as f64 / 64.0;
+        if signed && bits >> 32 & 1 == 1 {
+            -size
+        } else {
+            size
+        }
+    }
+
+    fn element(&mut self, array: Array, row: i64, column: i64) -> f64 {
+        let key = (array, row, column);
+        let value = match (self.given.get(&key), array) {
+            (Some(value), _) => *value,
+            (None, Array::Phase { side: Side::Q, .. }) => {
+                self.leaf(&key, self.how.q, self.how.signed)
+            }
+            (None, Array::Phase { side: Side::P, .. }) => {
+                self.leaf(&key, self.how.p, self.how.signed)
+            }
+            (None, Array::Direction { .. }) => self.leaf(&key, 0, self.how.signed),
+            (None, Array::Parameter(_)) => self.leaf(&key, 0, false),
+        };
+        if self.read.insert(key, ()).is_none() {
+            let group = |side: Side, group: u16| {
+                let group = &self.model.groups[usize::from(group)];
+                (
+                    if side == Side::Q {
+                        &group.coordinate
+                    } else {
+                        &group.momentum
+                    },
+                    &group.shape,
+                )
+            };
+            let name = match array {
+                Array::Phase {
+                    side,
+                    group: g,
+                    column,
+                } => {
+                    let (name, shape) = group(side, g);
+                    element_name(name, shape, row, i64::from(column))
+                }
+                Array::Direction {
+                    side,
+                    group: g,
+                    column,
+                } => {
+                    let (name, shape) = group(side, g);
+                    element_name(&format!("v_{name}"), shape, row, i64::from(column))
+                }
+                Array::Parameter(parameter) => {
+                    let declared = &self.model.parameters[usize::from(parameter.0)];
+                    element_name(&declared.name, &declared.shape, row, column)
+                }
+            };
+            self.point.push((name, value));
+        }
+        value
+    }
+
+    fn named(&mut self, name: &str, value: f64) -> f64 {
+        if !self.point.iter().any(|(n, _)| n == name) {
+            self.point.push((name.to_owned(), value));
+        }
+        value
+    }
+}
+
+/// `q`, `q[2]`, `q[2][0]`
+pub(crate) fn element_name(name: &str, shape: &Shape, row: i64, column: i64) -> String {
+    match shape {
+        Shape::Scalar => name.to_owned(),
+        Shape::Vector(_) => format!("{name}[{row}]"),
+        Shape::Matrix(..) => format!("{name}[{row}][{column}]"),
+    }
+}
+
+const UNIT: f64 = f64::EPSILON / 2.0;
+
+fn exact(value: f64) -> Sampled {
+    Sampled { value, error: 0.0 }
+}
+
+fn number(value: &Rational) -> Sampled {
+    let (hi, lo) = value.to_words();
+    Sampled {
+        value: hi,
+        error: lo.abs() * (1.0 + f64::EPSILON),
+    }
+}
+
+fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
+    let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
+    for part in parts {
+        value += part.value;
+        error += part.error;
+        size += part.value.abs();
+        count += 1.0;
+    }
+    Sampled {
+        value,
+        error: error + count * UNIT * size,
+    }
+}
+
+fn product(a: Sampled, b: Sampled) -> Sampled {
+    let value = a.value * b.value;
+    Sampled {
+        value,
+        error: a.value.abs() * b.error
+            + b.value.abs() * a.error
+            + a.error * b.error
+            + UNIT * value.abs(),
+    }
+}
+
+/// A function of one number: its error is how much the argument's error moves it.
+fn through(x: Sampled, f: impl Fn(f64) -> f64) -> Sampled {
+    let value = f(x.value);
+    let by = x.error.max(UNIT * x.value.abs());
+    let moved = (f(x.value + by) - value)
+        .abs()
+        .max((f(x.value - by) - value).abs());
+    Sampled {
+        value,
+        error: if x.error == 0.0 { 0.0 } else { 2.0 * moved } + 8.0 * UNIT * value.abs(),
+    }
+}
+
+fn power(x: Sampled, n: i32) -> Sampled {
+    let value = x.value.powi(n);
+    let relative = f64::from(n.unsigned_abs()) * (x.error / x.value.abs() + UNIT);
+    if x.value == 0.0 && x.error == 0.0 {
+        return exact(value);
+    }
+    Sampled {
+        value,
+        error: 2.0 * relative * value.abs(),
+    }
+}
+
+impl Meaning for Numbers<'_> {
+    type Value = Sampled;
+
+    fn value(
+        &mut self,
+        dag: &Dag,
+        node: Node,
+        place: &Place,
+        child: &dyn Fn(Node) -> Sampled,
+    ) -> Sampled {
+        self.visits += 1;
+        let truth = |flag: bool| exact(f64::from(u8::from(flag)));
+        match dag.kind(node) {
+            Kind::Constant(value) => number(value),
+            Kind::Pi => Sampled {
+                value: std::f64::consts::PI,
+                error: crate::PI_LOW,
+            },
+            Kind::Scalar(parameter) => {
+                let name = self.model.parameters[usize::from(parameter.0)].name.clone();
+                let value = self.leaf(&(1u8, parameter), 0, false);
+                exact(self.named(&name, value))
+            }
+            Kind::Time => {
+                let name = self.model.time.clone().unwrap_or_else(|| "t".to_owned());
+                let value = self.leaf(&2u8, 0, false);
+                exact(self.named(&name, value))
+            }
+            Kind::Coefficient => exact(self.leaf(&3u8, 0, false)),
+            Kind::Variable(domain) => exact(place.variable(*domain) as f64),
+            Kind::Extent(size) => exact(place.size(*size) as f64),
+            Kind::Count(domain) => exact(place.count(dag, *domain) as f64),
+            Kind::Element(array, row, column) => {
+                let (row, column) = (
+                    place.index(row),
+                    column.as_ref().map_or(0, |c| place.index(c)),
+                );
+                exact(self.element(*array, row, column))
+            }
+            Kind::Sum(c, terms) => {
+                let parts = terms.iter().map(|(k, n)| {
+                    if k.is_one() {
+                        child(*n)
+                    } else {
+                        product(number(k), child(*n))
+                    }
+                });
+                sum(std::iter::once(number(c))
+                    .filter(|c| c.value != 0.0)
+                    .chain(parts))
+            }
+            Kind::Product(k, factors) => factors.iter().fold(number(k), |value, &(n, exponent)| {
+                let factor = if exponent == 1 {
+                    child(n)
+                } else {
+                    power(child(n), exponent)
+                };
+                product(value, factor)
+            }),
+            Kind::Call(op, x) => match x.as_slice() {
+                [x] => through(child(*x), |x| op.eval(&[x])),
+                [x, y] => {
+                    let (x, y) = (child(*x), child(*y));
+                    if matches!(op, Op::Min | Op::Max) {
+                        let first = (*op == Op::Min) == (x.value <= y.value);
+                        return if first { x } else { y };
+                    }
+                    let (a, b) = (
+                        through(x, |x| op.eval(&[x, y.value])),
+                        through(y, |y| op.eval(&[x.value, y])),
+                    );
+                    Sampled {
+                        value: a.value,
+                        error: a.error + b.error,
+                    }
+                }
+                _ => exact(f64::NAN),
+            },
+            Kind::External(function, part, arguments) => {
+                // Any smooth function will do: sin(w·x + 1), with its own derivatives.
+                let weight = |i: usize| 0.625 + 0.25 * i as f64 + 0.375 * f64::from(*function);
+                let angle = sum(std::iter::once(exact(1.0)).chain(
+                    arguments
+                        .iter()
+                        .enumerate()
+                        .map(|(i, x)| product(exact(weight(i)), child(*x))),
+                ));
+                let scaled =
+                    |factor: f64, f: fn(f64) -> f64| product(exact(factor), through(angle, f));
+                match part {
+                    Part::Value => scaled(1.0, f64::sin),
+                    Part::First(i) => scaled(weight(usize::from(*i)), f64::cos),
+                    Part::Second(i, j) => {
+                        scaled(-weight(usize::from(*i)) * weight(usize::from(*j)), f64::sin)
+                    }
+                }
+            }
+            Kind::Compare(relation, a, b) => {
+                let (a, b) = (child(*a), child(*b));
+                let distance = (a.value - b.value).abs();
+                let error = a.error + b.error;
+                if !(distance > error || error == 0.0) {
+                    return exact(f64::NAN);
+                }
+                truth(match relation {
+                    Relation::Less => a.value < b.value,
+                    Relation::LessEqual => a.value <= b.value,
+                    Relation::Equal => a.value == b.value,
+                })
+            }
+            Kind::Not(a) => exact(1.0 - child(*a).value),
+            Kind::And(a, b) => exact(child(*a).value * child(*b).value),
+            Kind::Or(a, b) => {
+                let (a, b) = (child(*a).value, child(*b).value);
+                exact(a + b - a * b)
+            }
+            Kind::Select(c, yes, no) => match child(*c).value {
+                c if c.is_nan() => exact(f64::NAN),
+                c => child(if c == 1.0 { *yes } else { *no }),
+            },
+            // The walk runs loops itself.
+            Kind::Reduce(..) => exact(f64::NAN),
+        }
+    }
+
+    fn total(&mut self, parts: Vec<Sampled>) -> Sampled {
+        sum(parts.into_iter())
+    }
+
+    fn is_done(&self) -> bool {
+        self.visits > LONGEST
+    }
+}

@@ -1,0 +1,185 @@
+//! A walk over an expression that runs its loops.
+//!
+//! Input: an arena, roots, sizes, and what nodes mean ([`Meaning`]). Output: the meaning of the
+//! roots. Invariant: a node is visited once for each iteration of the innermost loop it depends
+//! on, children first; the walk recurses only into nested loops.
+
+use crate::dag::{Dag, Kind, Map, Node};
+use crate::index::{Affine, Domain, Index, Size};
+use std::rc::Rc;
+
+/// What nodes mean to a walk.
+pub(crate) trait Meaning {
+    /// What a node becomes.
+    type Value: Clone;
+    /// The meaning of a node that is not a loop, given its children's.
+    fn value(
+        &mut self,
+        dag: &Dag,
+        node: Node,
+        place: &Place,
+        child: &dyn Fn(Node) -> Self::Value,
+    ) -> Self::Value;
+    /// The meaning of a sum over a loop, given its iterations'.
+    fn total(&mut self, parts: Vec<Self::Value>) -> Self::Value;
+    /// Whether to stop: what has not been visited gets no meaning.
+    fn is_done(&self) -> bool;
+}
+
+/// Where a walk stands: the values of sizes and loop variables.
+#[derive(Clone, Debug)]
+pub(crate) struct Place {
+    sizes: Vec<i64>,
+    variables: Vec<i64>,
+}
+
+impl Place {
+    /// Outside all loops.
+    pub(crate) fn new(sizes: &[i64]) -> Place {
+        Place {
+            sizes: sizes.to_vec(),
+            variables: vec![0; 64],
+        }
+    }
+    /// The value of an affine index.
+    pub(crate) fn affine(&self, affine: &Affine) -> i64 {
+        affine.value(&|d: Domain| self.variable(d), &|s: Size| self.size(s))
+    }
+    /// The value of an index.
+    pub(crate) fn index(&self, index: &Index) -> i64 {
+        index.value(&|d: Domain| self.variable(d), &|s: Size| self.size(s))
+    }
+    /// The value of a loop variable.
+    pub(crate) fn variable(&self, domain: Domain) -> i64 {
+        self.variables.get(domain.0 as usize).copied().unwrap_or(0)
+    }
+    /// The value of a size.
+    pub(crate) fn size(&self, size: Size) -> i64 {
+        self.sizes.get(usize::from(size.0)).copied().unwrap_or(0)
+    }
+    /// How often a loop runs from here.
+    pub(crate) fn count(&self, dag: &Dag, domain: Domain) -> i64 {
+        let range = dag.range(domain);
+        (self.affine(&range.end) - self.affine(&range.start)).max(0)
+    }
+}
+
+struct Walk<'a, M: Meaning> {
+    dag: &'a Dag,
+    meaning: M,
+    place: Place,
+    values: Map<Node, M::Value>,
+    blocks: Map<Node, Rc<[Node]>>,
+}
+
+/// The meanings of the roots, and the meaning itself with what it gathered; `None` where the walk
+/// was stopped.
+pub(crate) fn walk<M: Meaning>(
+    dag: &Dag,
+    roots: &[Node],
+    sizes: &[i64],
+    meaning: M,
+) -> (Option<Vec<M::Value>>, M) {
+    let order = dag.reachable(roots);
+    let homes: Map<Node, Domain> = order
+        .iter()
+        .filter_map(|n| dag.home(*n).map(|d| (*n, d)))
+        .collect();
+    let mut blocks: Map<Node, Rc<[Node]>> = Map::default();
+    for &node in &order {
+        if let Kind::Reduce(domain, body) = dag.kind(node) {
+            blocks.insert(node, block(dag, *body, *domain, &homes).into());
+        }
+    }
+    let outside: Vec<Node> = order
+        .into_iter()
+        .filter(|n| dag.variables(*n) == 0)
+        .collect();
+    let mut walk = Walk {
+        dag,
+        meaning,
+        place: Place::new(sizes),
+        values: Map::default(),
+        blocks,
+    };
+    walk.run(&outside);
+    let values = roots
+        .iter()
+        .map(|root| walk.values.get(root).cloned())
+        .collect();
+    (
+        if walk.meaning.is_done() { None } else { values },
+        walk.meaning,
+    )
+}
+
+/// The nodes a loop's body needs that are computed in each iteration of this loop, but not of one
+/// inside it.
+fn block(dag: &Dag, body: Node, domain: Domain, homes: &Map<Node, Domain>) -> Vec<Node> {
+    let bit = 1u64 << domain.0;
+    let mut found = Vec::new();
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut stack = vec![body];
+    while let Some(node) = stack.pop() {
+        if dag.variables(node) & bit == 0 || seen.insert(node, ()).is_some() {
+            continue;
+        }
+        if homes.get(&node) == Some(&domain) {
+            found.push(node);
+        }
+        dag.for_children(node, |child| stack.push(child));
+    }
+    found.sort_unstable();
+    found
+}
+
+impl<M: Meaning> Walk<'_, M> {
+    fn run(&mut self, block: &[Node]) {
+        for &node in block {
+            if self.meaning.is_done() {
+                return;
+            }
+            let value = match self.dag.kind(node) {
+                Kind::Reduce(domain, body) => self.run_loop(node, *domain, *body),
+                _ => {
+                    let values = &self.values;
+                    let dag = self.dag;
+                    // Children come first in the arena, so a missing one means a stopped walk.
+                    let complete = {
+                        let mut complete = true;
+                        dag.for_children(node, |child| complete &= values.contains_key(&child));
+                        complete
+                    };
+                    complete.then(|| {
+                        self.meaning
+                            .value(dag, node, &self.place, &|child| values[&child].clone())
+                    })
+                }
+            };
+            if let Some(value) = value {
+                self.values.insert(node, value);
+            }
+        }
+    }
+
+    fn run_loop(&mut self, node: Node, domain: Domain, body: Node) -> Option<M::Value> {
+        let range = self.dag.range(domain);
+        let (start, end) = (
+            self.place.affine(&range.start),
+            self.place.affine(&range.end),
+        );
+        let block = Rc::clone(self.blocks.get(&node)?);
+        let outer = self.place.variable(domain);
+        let mut parts = Vec::new();
+        for at in start..end {
+            self.place.variables[domain.0 as usize] = at;
+            self.run(&block);
+            if self.meaning.is_done() {
+                return None;
+            }
+            parts.push(self.values.get(&body)?.clone());
+        }
+        self.place.variables[domain.0 as usize] = outer;
+        Some(self.meaning.total(parts))
+    }
+}

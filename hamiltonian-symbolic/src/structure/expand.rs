@@ -1,0 +1,204 @@
+//! Products of sums multiplied out, without any other rule.
+//!
+//! Input: a node. Output: [`Term`]s that add up to it. Invariant: terms stand in order of first
+//! appearance, factors in the order they were written in; like terms are one.
+
+use crate::dag::{Dag, Kind, Map, Node};
+use crate::rational::Rational;
+use std::rc::Rc;
+
+/// The most terms an expansion may have.
+const MOST: usize = 4096;
+
+/// `k·Π node^n`
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Term {
+    /// The number.
+    pub coefficient: Rational,
+    /// The factors, none of them a sum unless below a fraction line or inside a function.
+    pub factors: Vec<(Node, i32)>,
+}
+
+impl Term {
+    /// The term as a node.
+    pub fn node(&self, dag: &mut Dag) -> Node {
+        dag.product(&self.coefficient, &self.factors)
+    }
+}
+
+/// The terms of a node multiplied out; `None` where there are more than 4096 of them.
+#[must_use]
+pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
+    let mut expansions: Map<Node, Rc<Vec<Term>>> = Map::default();
+    for node in spine(dag, root) {
+        let kind = dag.kind(node).clone();
+        let terms = match kind {
+            Kind::Constant(value) if value.is_zero() => Vec::new(),
+            Kind::Constant(value) => vec![Term {
+                coefficient: value,
+                factors: Vec::new(),
+            }],
+            Kind::Sum(c, terms) => {
+                let mut sum = Collected::default();
+                for (k, child) in terms {
+                    for term in expansions.get(&child)?.iter() {
+                        sum.add(Term {
+                            coefficient: term.coefficient.mul(&k),
+                            factors: term.factors.clone(),
+                        });
+                    }
+                }
+                sum.add(Term {
+                    coefficient: c,
+                    factors: Vec::new(),
+                });
+                sum.terms()
+            }
+            Kind::Product(k, factors) => {
+                let mut product = vec![Term {
+                    coefficient: k,
+                    factors: Vec::new(),
+                }];
+                for (child, n) in factors {
+                    match expansions.get(&child) {
+                        Some(terms) if n > 0 && terms.len() > 1 => {
+                            for _ in 0..n {
+                                product = multiply(&product, terms)?;
+                            }
+                        }
+                        Some(terms) if terms.len() == 1 => {
+                            let power = terms[0].coefficient.pow(n)?;
+                            let factors = terms[0]
+                                .factors
+                                .iter()
+                                .map(|(f, m)| Some((*f, m.checked_mul(n)?)));
+                            let term = Term {
+                                coefficient: power,
+                                factors: factors.collect::<Option<_>>()?,
+                            };
+                            product = multiply(&product, &[term])?;
+                        }
+                        _ => {
+                            product = multiply(
+                                &product,
+                                &[Term {
+                                    coefficient: Rational::ONE,
+                                    factors: vec![(child, n)],
+                                }],
+                            )?
+                        }
+                    }
+                }
+                product
+            }
+            Kind::Reduce(domain, body) => {
+                let mut sum = Collected::default();
+                for term in expansions.get(&body)?.iter() {
+                    let body = term.node(dag);
+                    let (coefficient, factors) = match dag.reduce(domain, body) {
+                        reduced if dag.is_zero(reduced) => continue,
+                        reduced => match dag.kind(reduced) {
+                            Kind::Product(k, factors) => (k.clone(), factors.clone()),
+                            Kind::Constant(value) => (value.clone(), Vec::new()),
+                            _ => (Rational::ONE, vec![(reduced, 1)]),
+                        },
+                    };
+                    sum.add(Term {
+                        coefficient,
+                        factors,
+                    });
+                }
+                sum.terms()
+            }
+            _ => vec![Term {
+                coefficient: Rational::ONE,
+                factors: vec![(node, 1)],
+            }],
+        };
+        if terms.len() > MOST {
+            return None;
+        }
+        expansions.insert(node, Rc::new(terms));
+    }
+    expansions.get(&root).map(|terms| terms.as_ref().clone())
+}
+
+/// The nodes of a root that are multiplied out, children first: what stands inside functions and
+/// below fraction lines does not.
+fn spine(dag: &Dag, root: Node) -> Vec<Node> {
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut found = Vec::new();
+    let mut stack = vec![root];
+    while let Some(node) = stack.pop() {
+        if seen.insert(node, ()).is_some() {
+            continue;
+        }
+        found.push(node);
+        match dag.kind(node) {
+            Kind::Sum(_, terms) => stack.extend(terms.iter().map(|(_, n)| *n)),
+            Kind::Product(_, factors) => stack.extend(
+                factors
+                    .iter()
+                    .filter(|(_, n)| *n > 0)
+                    .map(|(node, _)| *node),
+            ),
+            Kind::Reduce(_, body) => stack.push(*body),
+            _ => {}
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
+    if a.len().saturating_mul(b.len()) > 16 * MOST {
+        return None;
+    }
+    let mut sum = Collected::default();
+    for x in a {
+        for y in b {
+            let mut factors = x.factors.clone();
+            for &(node, n) in &y.factors {
+                match factors.iter_mut().find(|(other, _)| *other == node) {
+                    Some(entry) => entry.1 = entry.1.checked_add(n)?,
+                    None => factors.push((node, n)),
+                }
+            }
+            factors.retain(|(_, n)| *n != 0);
+            sum.add(Term {
+                coefficient: x.coefficient.mul(&y.coefficient),
+                factors,
+            });
+        }
+    }
+    let terms = sum.terms();
+    (terms.len() <= MOST).then_some(terms)
+}
+
+/// Like terms added up.
+#[derive(Default)]
+struct Collected {
+    terms: Vec<Term>,
+    place: Map<Vec<(Node, i32)>, usize>,
+}
+
+impl Collected {
+    fn add(&mut self, term: Term) {
+        let mut key = term.factors.clone();
+        key.sort_unstable();
+        match self.place.get(&key) {
+            Some(&at) => {
+                self.terms[at].coefficient = self.terms[at].coefficient.add(&term.coefficient)
+            }
+            None => {
+                self.place.insert(key, self.terms.len());
+                self.terms.push(term);
+            }
+        }
+    }
+
+    fn terms(mut self) -> Vec<Term> {
+        self.terms.retain(|term| !term.coefficient.is_zero());
+        self.terms
+    }
+}

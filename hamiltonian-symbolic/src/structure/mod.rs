@@ -1,0 +1,252 @@
+//! What a Hamiltonian's form promises: separable or not, quadratic in its momenta, autonomous,
+//! cyclic coordinates.
+//!
+//! Input: a model with its H. Output: [`Structure`], each negative answer with the part of H that
+//! is the reason, in the user's notation. Invariant: a positive answer is proven; parts of a split
+//! keep the grouping of the source wherever the source already separates term by term.
+
+mod expand;
+mod separate;
+
+pub use expand::{Term, expand};
+
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::model::{Model, Shape};
+use crate::print;
+
+/// H = T(p, t) + V(q, t).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Split {
+    /// T: everything that depends on momenta.
+    pub kinetic: Node,
+    /// V: everything else, terms of time and parameters alone included.
+    pub potential: Node,
+}
+
+/// Why H is not separable.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Coupling {
+    /// The first term of H, multiplied out, that depends on coordinates and momenta.
+    pub term: Node,
+    /// The term as text.
+    pub text: String,
+}
+
+/// A coordinate that H does not depend on: its momentum is conserved.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Cyclic {
+    /// The group of the coordinate.
+    pub group: u16,
+    /// The row, where only a row of literal number is meant; otherwise all rows.
+    pub row: Option<u32>,
+    /// The column, of a rank-2 group.
+    pub column: u16,
+    /// The coordinate as text: `phi`, `q[2]`, `q[i][0]` for all i.
+    pub coordinate: String,
+    /// Its momentum as text.
+    pub momentum: String,
+}
+
+/// What is known of a Hamiltonian.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Structure {
+    /// T and V, or the first coupling term.
+    pub separable: Result<Split, Coupling>,
+    /// Whether T = ½pᵀM⁻¹p with M of parameters only; otherwise the reason, a sentence without a
+    /// full stop.
+    pub quadratic_kinetic: Result<(), String>,
+    /// Whether H does not depend on time; otherwise the reason.
+    pub autonomous: Result<(), String>,
+    /// Coordinates H does not depend on.
+    pub cyclic: Vec<Cyclic>,
+}
+
+/// The structure of the model's H (0 where there is none).
+pub fn analyse(model: &mut Model) -> Structure {
+    let h = match model.hamiltonian {
+        Some(h) => h,
+        None => model.dag.integer(0),
+    };
+    let separable = separate::split(model, h);
+    let quadratic_kinetic = match &separable {
+        Ok(split) => is_quadratic(model, split.kinetic),
+        Err(coupling) => Err(format!(
+            "H is not separable: the term `{}` couples coordinates and momenta",
+            coupling.text
+        )),
+    };
+    Structure {
+        separable,
+        quadratic_kinetic,
+        autonomous: is_autonomous(model, h),
+        cyclic: cyclic(model, h),
+    }
+}
+
+fn is_autonomous(model: &Model, h: Node) -> Result<(), String> {
+    match term_with(&model.dag, h, |dag, node| {
+        dag.dependence(node).on(Dependence::TIME)
+    }) {
+        None => Ok(()),
+        Some(term) => {
+            let time = model.time.as_deref().unwrap_or("t");
+            Err(format!(
+                "the term `{}` depends on `{time}`",
+                print::text(model, term)
+            ))
+        }
+    }
+}
+
+/// The first term of a node, down through its sums, with a property.
+fn term_with(dag: &Dag, root: Node, has: impl Fn(&Dag, Node) -> bool) -> Option<Node> {
+    if !has(dag, root) {
+        return None;
+    }
+    let mut at = root;
+    while let Kind::Sum(_, terms) = dag.kind(at) {
+        match terms.iter().find(|(_, n)| has(dag, *n)) {
+            Some((_, term)) => at = *term,
+            None => break,
+        }
+    }
+    Some(at)
+}
+
+/// Whether T is a quadratic form in the momenta with coefficients of parameters only.
+fn is_quadratic(model: &mut Model, kinetic: Node) -> Result<(), String> {
+    if let Some(term) = term_with(&model.dag, kinetic, |dag, node| {
+        dag.dependence(node).on(Dependence::TIME)
+    }) {
+        return Err(format!(
+            "the term `{}` depends on time",
+            print::text(model, term)
+        ));
+    }
+    if !model.dag.dependence(kinetic).on(Dependence::P) {
+        return Err("no term depends on momenta".to_owned());
+    }
+    if degree(&model.dag, kinetic) == Some(2) {
+        return Ok(());
+    }
+    // The source's grouping may hide it: p*(p + 1) - p.
+    let terms = expand(&mut model.dag, kinetic).unwrap_or_default();
+    let mut nodes = Vec::with_capacity(terms.len());
+    for term in &terms {
+        nodes.push(term.node(&mut model.dag));
+    }
+    let wrong = nodes.iter().copied().find(|node| {
+        model.dag.dependence(*node).on(Dependence::P) && degree(&model.dag, *node) != Some(2)
+    });
+    match wrong {
+        None if !nodes.is_empty() => Ok(()),
+        wrong => {
+            let term = wrong.unwrap_or(kinetic);
+            let how = match degree(&model.dag, term) {
+                Some(1) => "is linear in the momenta",
+                _ => "is not quadratic in the momenta",
+            };
+            Err(format!("the term `{}` {how}", print::text(model, term)))
+        }
+    }
+}
+
+/// The degree in the momenta of a homogeneous polynomial in them; `None` for anything else.
+fn degree(dag: &Dag, root: Node) -> Option<u32> {
+    let mut degrees: Map<Node, u32> = Map::default();
+    for node in dag.reachable(&[root]) {
+        if !dag.dependence(node).on(Dependence::P) {
+            degrees.insert(node, 0);
+            continue;
+        }
+        let degree = match dag.kind(node) {
+            Kind::Element(..) => Some(1),
+            Kind::Sum(c, terms) if c.is_zero() => {
+                let first = terms.first().and_then(|(_, n)| degrees.get(n).copied());
+                first.filter(|first| terms.iter().all(|(_, n)| degrees.get(n) == Some(first)))
+            }
+            Kind::Product(_, factors) => {
+                factors
+                    .iter()
+                    .try_fold(0u32, |sum, (n, power)| match (degrees.get(n)?, *power) {
+                        (0, _) => Some(sum),
+                        (degree, power) => {
+                            sum.checked_add(degree.checked_mul(u32::try_from(power).ok()?)?)
+                        }
+                    })
+            }
+            Kind::Reduce(_, body) => degrees.get(body).copied(),
+            Kind::Select(c, a, b) if !dag.dependence(*c).on(Dependence::P) => degrees
+                .get(a)
+                .copied()
+                .filter(|a| degrees.get(b) == Some(a)),
+            _ => None,
+        };
+        if let Some(degree) = degree {
+            degrees.insert(node, degree);
+        }
+    }
+    degrees.get(&root).copied()
+}
+
+/// The coordinates that do not occur in H.
+fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
+    let mut read: Map<(u16, u16), Vec<Option<i64>>> = Map::default();
+    for node in model.dag.reachable(&[h]) {
+        if let Kind::Element(
+            Array::Phase {
+                side: Side::Q,
+                group,
+                column,
+            },
+            row,
+            _,
+        ) = model.dag.kind(node)
+        {
+            let row = if row.modulo.is_none() {
+                row.affine.as_constant()
+            } else {
+                None
+            };
+            read.entry((*group, *column)).or_default().push(row);
+        }
+    }
+    let mut found = Vec::new();
+    for (number, group) in model.groups.iter().enumerate() {
+        let (rows, columns) = match &group.shape {
+            Shape::Scalar => (None, 1),
+            Shape::Vector(rows) => (Some(rows), 1),
+            Shape::Matrix(rows, columns) => (Some(rows), columns.as_constant().unwrap_or(0)),
+        };
+        for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
+            let mut push = |row: Option<i64>| {
+                let name = |name: &str| match (&group.shape, row) {
+                    (Shape::Scalar, _) => name.to_owned(),
+                    (Shape::Vector(_), Some(row)) => format!("{name}[{row}]"),
+                    (Shape::Vector(_), None) => format!("{name}[i]"),
+                    (Shape::Matrix(..), Some(row)) => format!("{name}[{row}][{column}]"),
+                    (Shape::Matrix(..), None) => format!("{name}[i][{column}]"),
+                };
+                found.push(Cyclic {
+                    group: number as u16,
+                    row: row.and_then(|row| u32::try_from(row).ok()),
+                    column,
+                    coordinate: name(&group.coordinate),
+                    momentum: name(&group.momentum),
+                });
+            };
+            match read.get(&(number as u16, column)) {
+                None => push(None),
+                // Rows can be told apart where all are named by number.
+                Some(used) if used.iter().all(Option::is_some) => {
+                    let literal = rows.and_then(|rows| rows.as_constant()).unwrap_or(0);
+                    (0..literal.min(1024))
+                        .filter(|row| !used.contains(&Some(*row)))
+                        .for_each(|row| push(Some(row)));
+                }
+                Some(_) => {}
+            }
+        }
+    }
+    found
+}

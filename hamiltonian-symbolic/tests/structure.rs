@@ -1,0 +1,217 @@
+//! Structure is proven, and refused with the reason in the user's notation.
+
+mod common;
+
+use common::system;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::print::text;
+use hamiltonian_symbolic::structure::{Structure, analyse};
+
+fn scalar(h: &str) -> (Model, Structure) {
+    let mut model = system("q, x; p, u; t", "", "a m k G", h);
+    let structure = analyse(&mut model);
+    (model, structure)
+}
+
+fn parts(h: &str) -> (String, String) {
+    let (model, structure) = scalar(h);
+    let split = structure
+        .separable
+        .unwrap_or_else(|c| panic!("{h}: {}", c.text));
+    (text(&model, split.kinetic), text(&model, split.potential))
+}
+
+fn coupling(h: &str) -> String {
+    scalar(h).1.separable.expect_err(h).text
+}
+
+#[test]
+fn the_source_grouping_is_kept() {
+    for (h, kinetic, potential) in [
+        ("p^2/(2*m) + k*q^2/2", "p^2/(2*m)", "0.5*k*q^2"),
+        (
+            "p^2/2 + u^2/2 + (q^2 + x^2)/2 + q^2*x - x^3/3",
+            "p^2/2 + u^2/2",
+            "(q^2 + x^2)/2 + q^2*x - x^3/3",
+        ),
+        (
+            "(p + u)^2*a - (q - x)^4 + 1",
+            "(p + u)^2*a",
+            "1 - (q - x)^4",
+        ),
+        ("m*(p^2 + q^2)", "m*p^2", "m*q^2"),
+        (
+            "m*(k*(p^2 + q^2) - cos(q))",
+            "m*k*p^2",
+            "m*(k*q^2 - cos(q))",
+        ),
+        ("p^2/2 - q*cos(t) + a*t", "p^2/2", "-q*cos(t) + a*t"),
+        ("p*t + q", "p*t", "q"),
+        (
+            "sqrt(1 + p^2) - cos(q) + q^4/10",
+            "sqrt(p^2 + 1)",
+            "-cos(q) + 0.1*q^4",
+        ),
+        (
+            "if a < 1 { p^2 + q } else { p^2 - q }",
+            "p^2",
+            "if a < 1 { q } else { -q }",
+        ),
+        ("p^2", "p^2", "0"),
+        ("q", "0", "q"),
+    ] {
+        assert_eq!(parts(h), (kinetic.to_owned(), potential.to_owned()), "{h}");
+    }
+}
+
+#[test]
+fn products_are_multiplied_out_only_where_they_must_be() {
+    assert_eq!(
+        parts("(q + p)^2 - 2*q*p"),
+        ("p^2".to_owned(), "q^2".to_owned())
+    );
+    assert_eq!(
+        parts("(p - q)*(p + q)"),
+        ("p^2".to_owned(), "-q^2".to_owned())
+    );
+    assert_eq!(coupling("0.5*(q^2 + 1)*(p^2 + 1)"), "0.5*q^2*p^2");
+    assert_eq!(coupling("(q^2 + 1)*(p^2 + 1)/2"), "0.5*q^2*p^2");
+    assert_eq!(coupling("p^2/2 + a*q*p - cos(q)"), "a*q*p");
+    assert_eq!(coupling("(p - a*x)^2/2 + q^2"), "-p*a*x");
+    assert_eq!(coupling("p^2/(2*(1 + q^2))"), "p^2/(2*(q^2 + 1))");
+    assert_eq!(coupling("cos(q - p)"), "cos(q - p)");
+    assert_eq!(coupling("m*(p^2 + k*(q*u + 1))"), "m*k*q*u");
+    assert_eq!(coupling("(p^2*cos(x) + q)*(1 + a)"), "p^2*cos(x)*a");
+    assert_eq!(
+        coupling("if q < 0 { p^2 } else { 2*p^2 }"),
+        "if q < 0 { p^2 } else { 2*p^2 }"
+    );
+}
+
+#[test]
+fn a_quadratic_kinetic_part_is_recognised() {
+    for h in [
+        "p^2/2 + q",
+        "p^2/(2*m) - u^2*a + q^2",
+        "(p + u)^2*m/2 + cos(q)",
+        "p*u",
+        "p*(p + 1) - p + q",
+        "if a < m { p^2 } else { u^2 }",
+    ] {
+        assert_eq!(scalar(h).1.quadratic_kinetic, Ok(()), "{h}");
+    }
+    for (h, reason) in [
+        ("p^4 + q", "the term `p^4` is not quadratic in the momenta"),
+        ("p^2/2 + a*p + q", "the term `a*p` is linear in the momenta"),
+        (
+            "sqrt(1 + p^2) + q",
+            "the term `sqrt(p^2 + 1)` is not quadratic in the momenta",
+        ),
+        ("p^2*t + q", "the term `p^2*t` depends on time"),
+        ("(p + 1)^2/2 + q", "the term `p` is linear in the momenta"),
+        (
+            "p^2*q",
+            "H is not separable: the term `p^2*q` couples coordinates and momenta",
+        ),
+        ("q^2", "no term depends on momenta"),
+    ] {
+        assert_eq!(scalar(h).1.quadratic_kinetic, Err(reason.to_owned()), "{h}");
+    }
+}
+
+#[test]
+fn time_and_cyclic_coordinates_are_reported() {
+    assert_eq!(scalar("p^2 + q").1.autonomous, Ok(()));
+    assert_eq!(
+        scalar("p^2 + (x - q*cos(t))").1.autonomous,
+        Err("the term `q*cos(t)` depends on `t`".to_owned())
+    );
+    let names = |h: &str| {
+        scalar(h)
+            .1
+            .cyclic
+            .into_iter()
+            .map(|c| (c.coordinate, c.momentum))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(names("p^2 + q + u^2"), [("x".to_owned(), "u".to_owned())]);
+    assert_eq!(names("p^2 + q*x"), []);
+    let mut model = system(
+        "q[N][3], s[3], c[N]; p[N][3], r[3], w[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { p[i][0]^2 + q[i][1] } + s[0]*s[2]",
+    );
+    let cyclic = analyse(&mut model).cyclic;
+    let found: Vec<_> = cyclic
+        .iter()
+        .map(|c| (c.coordinate.as_str(), c.row, c.column))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("q[i][0]", None, 0),
+            ("q[i][2]", None, 2),
+            ("s[1]", Some(1), 0),
+            ("c[i]", None, 0)
+        ]
+    );
+    assert_eq!(cyclic[2].momentum, "r[1]");
+}
+
+#[test]
+fn loops_are_split_body_by_body() {
+    let mut toda = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) }",
+    );
+    let structure = analyse(&mut toda);
+    assert_eq!(structure.quadratic_kinetic, Ok(()));
+    let split = structure.separable.unwrap();
+    assert_eq!(text(&toda, split.kinetic), "sum(i in 0..N) { p[i]^2 }/2");
+    assert_eq!(
+        text(&toda, split.potential),
+        "sum(i in 0..N) { exp(q[i] - q[(i + 1) % N]) }"
+    );
+
+    let mut gravity = system(
+        "q[n][2]; p[n][2]",
+        "n",
+        "G m[n]",
+        "sum(i in 0..n) { (p[i][0]^2 + p[i][1]^2)/(2*m[i]) } - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/sqrt((q[i][0] - q[j][0])^2 + (q[i][1] - q[j][1])^2) }",
+    );
+    let structure = analyse(&mut gravity);
+    assert_eq!(structure.quadratic_kinetic, Ok(()));
+    assert!(structure.separable.is_ok());
+
+    let mut lattice = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { (p[i]^2 + 1)*(q[i]^2 + 1) }",
+    );
+    assert_eq!(
+        analyse(&mut lattice).separable.unwrap_err().text,
+        "sum(i in 0..N) { p[i]^2*q[i]^2 }"
+    );
+    let mut mixed = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sqrt(1 + sum(i in 0..N) { p[i]^2 + q[i]^2 })",
+    );
+    assert_eq!(
+        analyse(&mut mixed).separable.unwrap_err().text,
+        "sqrt(sum(i in 0..N) { p[i]^2 + q[i]^2 } + 1)"
+    );
+    let mut hidden = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { (p[i] + q[i])^2 - 2*q[i]*p[i] }",
+    );
+    let split = analyse(&mut hidden).separable.unwrap();
+    assert_eq!(text(&hidden, split.kinetic), "sum(i in 0..N) { p[i]^2 }");
+}

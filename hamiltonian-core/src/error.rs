@@ -69,9 +69,9 @@ pub enum Error {
     OffGrid {
         /// The time asked for.
         target: f64,
-        /// The last reachable time that is not beyond it.
+        /// The last reachable time that is not beyond it; the present time if it lies behind.
         before: f64,
-        /// The first reachable time beyond it.
+        /// The first reachable time beyond it; the present time if it lies behind.
         after: f64,
     },
 }

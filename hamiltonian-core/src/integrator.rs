@@ -178,8 +178,10 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S,
     /// [`Error::OffGrid`] with the reachable times on both sides; those of
     /// [`advance`](Integrator::advance).
     pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
+        /// Numbers of steps up to here are exact in `f64`.
+        const MOST: f64 = (1_u64 << 53) as f64;
         let count = ((t - self.clock.start) / self.clock.interval).to_f64();
-        let nearest = (count.max(0.0) + 0.5) as u64;
+        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
         let reached = self.clock.at(nearest);
         // t, the start and the interval are each off by half an ulp at most, and so are the
         // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
@@ -187,20 +189,14 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S,
         let size =
             t.magnitude() + self.clock.start.magnitude() + (reached - self.clock.start).magnitude();
         let rounding = T::epsilon().max(f64::EPSILON) * size;
-        if nearest < self.steps || !((reached - t).magnitude() <= rounding) {
-            let below = if count.is_nan() {
-                0
-            } else {
-                (count.max(0.0) as u64).max(self.steps)
-            };
-            let after = if count < self.steps as f64 {
-                below
-            } else {
-                below + 1
-            };
+        let meets = t.is_finite() && count < MOST && (reached - t).magnitude() <= rounding;
+        if !meets || nearest < self.steps {
+            let behind = count < self.steps as f64;
+            let before = (count.clamp(0.0, MOST) as u64).max(self.steps);
+            let after = if behind { before } else { before + 1 };
             return Err(Error::OffGrid {
                 target: t.to_f64(),
-                before: self.clock.at(below).to_f64(),
+                before: self.clock.at(before).to_f64(),
                 after: self.clock.at(after).to_f64(),
             });
         }

@@ -207,8 +207,8 @@ impl<T: Real> Deviation<T> {
         let change = (value - self.start).to_f64();
         let size = if change < 0.0 { -change } else { change };
         self.count += 1;
-        // A NaN stays.
-        if !(size <= self.max) {
+        // A NaN stays, which `f64::max` would drop.
+        if size > self.max || size.is_nan() {
             self.max = size;
         }
         self.sum_of_sizes += size;

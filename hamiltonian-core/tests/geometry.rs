@@ -53,7 +53,7 @@ fn on_systems_that_are_not_separable() {
 #[test]
 fn of_the_synchronised_copies() {
     let system = Hand(DoublePendulum);
-    let start = lifted(&system, &[0.8, -0.4], &[0.3, 0.2]);
+    let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
     for scheme in [Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst] {
         let columns = copies_tangent(&system, &scheme, &start, 0.05);
         let (worst, size) = defect(&columns, uncrossed(2));
@@ -66,17 +66,17 @@ fn of_the_synchronised_copies() {
 fn negative_controls() {
     let system = Hand(Paper34);
     let (q, p) = ([-3.0], [0.5]);
-    let (state, dual) = (plain(&system, &q, &p), lifted(&system, &q, &p));
+    let start = start(&system, &q, &p);
     // What is seen of (29) after three steps is no symplectic map of the start.
-    let columns = visible_tangent(&system, &Pihajoki::default(), &state, 0.05, 3);
+    let columns = visible_tangent(&system, &Pihajoki::default(), &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));
     assert!(worst > 1e-10 * size, "(29): {worst:e} of {size:e}");
     // Two points, each with its own momentum.
     let scheme = IntersectingSubTrajectories::default();
-    let columns = carried_tangent(&system, &scheme, &dual, 0.05, 1);
+    let columns = carried_tangent(&system, &scheme, &start, 0.05, 1);
     let (worst, size) = defect(&columns, uncrossed(1));
     assert!(worst > 1e-10 * size, "(33): {worst:e} of {size:e}");
-    let columns = carried_tangent(&system, &TwoStepMidpoint::default(), &dual, 0.05, 1);
+    let columns = carried_tangent(&system, &TwoStepMidpoint::default(), &start, 0.05, 1);
     let (worst, size) = defect(&columns, uncrossed(1));
     assert!(worst > 1e-10 * size, "(25): {worst:e} of {size:e}");
 }

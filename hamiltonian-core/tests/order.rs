@@ -3,13 +3,19 @@
 
 mod common;
 
-use common::checks::{Order, plain};
+use common::checks::{self, Order};
 use common::systems::*;
-use hamiltonian_core::System;
 use hamiltonian_core::schemes::{catalogue, visit_any, visit_separable};
+use hamiltonian_core::{DoubleDouble, System};
 
-fn order<S: System<f64>>(system: S, q: &[f64], p: &[f64], span: f64, coarsest: f64) -> Order<S> {
-    let start = plain(&system, q, p).at(0.3);
+fn order<S: System<DoubleDouble>>(
+    system: S,
+    q: &[f64],
+    p: &[f64],
+    span: f64,
+    coarsest: f64,
+) -> Order<S> {
+    let start = checks::start(&system, q, p);
     Order {
         system,
         start,

@@ -116,7 +116,7 @@ macro_rules! entries {
 /// ```
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of the last two points, not dq∧dp of one. The start asks for
-/// z[−1], made by [`Start`]. No term of its derivation needs H separable; what limits it is its
+/// `z[−1]`, made by [`Start`]. No term of its derivation needs H separable; what limits it is its
 /// parasitic root −1.
 ///
 /// Source: the paper, eqs. 25a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
@@ -134,7 +134,7 @@ macro_rules! entries {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
-    /// How z[−1] is made.
+    /// How `z[−1]` is made.
     pub start: Start,
 }
 
@@ -152,7 +152,7 @@ entries!(TwoStepMidpoint, "25", 1);
 /// plots against kh and so sees twice as many oscillations.) With half the step it is
 /// [`IntersectingSubTrajectories`].
 ///
-/// Preserves dq_a∧dp_b + dq_b∧dp_a of z[n] and z[n−½]. The start asks for z[−½], made by
+/// Preserves dq_a∧dp_b + dq_b∧dp_a of `z[n]` and `z[n−½]`. The start asks for `z[−½]`, made by
 /// [`Start`].
 ///
 /// Source: the paper, eqs. 26a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
@@ -172,7 +172,7 @@ entries!(TwoStepMidpoint, "25", 1);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
-    /// How z[−½] is made.
+    /// How `z[−½]` is made.
     pub start: Start,
 }
 
@@ -185,9 +185,9 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 /// z[n+½] = z[n−½] + h J∇H(z[n], t[n]);   z[n+1] = z[n] + h J∇H(z[n+½], t[n+½])
 /// ```
 ///
-/// With [`Start::HalfEuler`] it is [`Pihajoki`](super::Pihajoki)'s (29): z[n] is the copy (q̃, p).
+/// With [`Start::HalfEuler`] it is [`Pihajoki`](super::Pihajoki)'s (29): `z[n]` is the copy (q̃, p).
 ///
-/// Preserves dq_a∧dp_b + dq_b∧dp_a of z[n] and z[n−½]. The start asks for z[−½], made by
+/// Preserves dq_a∧dp_b + dq_b∧dp_a of `z[n]` and `z[n−½]`. The start asks for `z[−½]`, made by
 /// [`Start`].
 ///
 /// Source: the paper, eqs. 33a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
@@ -205,7 +205,7 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {
-    /// How z[−½] is made.
+    /// How `z[−½]` is made.
     pub start: Start,
 }
 
@@ -293,7 +293,7 @@ impl<V: Vector, F: Flow<V>> Stepper for TwoStep<V, F> {
 
     #[inline(always)]
     fn synchronise(&mut self, made: u64, q: &mut V, p: &mut V) {
-        let last = if made % 2 == 0 {
+        let last = if made.is_multiple_of(2) {
             &self.carried.y
         } else {
             &self.carried.x
@@ -317,8 +317,8 @@ impl<T: Real, S: System<T>> Scheme<T, S> for IntersectingSubTrajectories {
     }
 }
 
-/// The stepper of [`ConsecutiveSubTrajectories`] and [`IntersectingSubTrajectories`]: y is z[n],
-/// x is z[n−½].
+/// The stepper of [`ConsecutiveSubTrajectories`] and [`IntersectingSubTrajectories`]: y is `z[n]`,
+/// x is `z[n−½]`.
 #[derive(Debug, Clone)]
 pub struct Interleaved<V: Vector, F: Flow<V>> {
     splitting: Splitting<Point<V>, Point<V>, Flowing<F>, Flowing<F>, 1>,

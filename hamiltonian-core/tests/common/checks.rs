@@ -3,7 +3,8 @@
 use super::reference::{difference, solution};
 use hamiltonian_core::schemes::Visitor;
 use hamiltonian_core::{
-    Copies, Dual, Entry, Form, Integrator, Real, Scheme, State, Stepper, System, Vector,
+    Copies, DoubleDouble, Dual, Entry, Form, Integrator, Real, Scheme, State, Stepper, System,
+    Vector,
 };
 
 /// The exponent of the error against the step, by least squares over all points.
@@ -22,8 +23,9 @@ pub fn slope(points: &[(f64, f64)]) -> f64 {
 /// The order of every visited scheme: errors at eight times up to `span` against the reference,
 /// with `coarsest`, and four halvings of it.
 ///
-/// The maximum over several times keeps a zero of the leading error term from passing for order.
-pub struct Order<S: System<f64>> {
+/// The maximum over several times keeps a zero of the leading error term from passing for order;
+/// double-double keeps rounding out of the errors.
+pub struct Order<S: System<DoubleDouble>> {
     pub system: S,
     pub start: State<S::Vector>,
     pub span: f64,
@@ -31,30 +33,28 @@ pub struct Order<S: System<f64>> {
     pub measured: Vec<(&'static Entry, f64)>,
 }
 
-impl<S: System<f64>> Visitor<f64, S> for Order<S> {
-    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
-        const TIMES: u64 = 8;
-        let exact: Vec<_> = (1..=TIMES)
-            .map(|i| {
-                let t = self.start.t + self.span * i as f64 / TIMES as f64;
-                solution(&self.system, &self.start, t)
-            })
-            .collect();
+impl<S: System<DoubleDouble>> Visitor<DoubleDouble, S> for Order<S> {
+    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
+        const TIMES: u32 = 8;
+        let between = DoubleDouble::from(self.span) / DoubleDouble::from(f64::from(TIMES));
+        let mut exact = vec![self.start.clone()];
+        for _ in 0..TIMES {
+            let last = exact.last().expect("the start");
+            exact.push(solution(&self.system, last, last.t + between));
+        }
         let mut points = Vec::new();
         for halving in 0..5 {
-            // A whole number of steps to each time, also where a step advances two of them.
-            let steps =
-                2 * (self.span / TIMES as f64 / self.coarsest / 2.0).ceil() as u64 * (1 << halving);
-            let h = self.span / (TIMES * steps) as f64;
+            // An even number of steps to each time: some schemes advance by two of them.
+            let steps = 2 * (between.to_f64() / self.coarsest / 2.0).ceil() as u32 * (1 << halving);
+            let h = between / DoubleDouble::from(f64::from(steps));
             let run = Integrator::new(&self.system, scheme.clone(), self.start.clone(), h);
             let mut run = run.expect("a good start");
-            let every = steps / u64::from(scheme.entry().duration);
             let error = run
-                .states(every)
-                .zip(&exact)
+                .states(u64::from(steps / scheme.entry().duration))
+                .zip(&exact[1..])
                 .map(|(state, exact)| difference(&state.expect("a good step"), exact))
                 .fold(0.0, f64::max);
-            points.push((h, error));
+            points.push((h.to_f64(), error));
         }
         let slope = slope(&points);
         let entry = scheme.entry();
@@ -124,31 +124,25 @@ pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
     }
 }
 
-/// The tangent of what is seen over the step after the first `made`, by dual numbers.
+/// The tangent of what is seen after `steps` steps, by dual numbers.
 pub fn visible_tangent<S, M>(
     system: &S,
     scheme: &M,
-    start: &State<<S as System<f64>>::Vector>,
+    start: &State<<S as System<Dual<f64>>>::Vector>,
     h: f64,
     steps: u64,
 ) -> Vec<Vec<f64>>
 where
-    S: System<f64> + System<Dual<f64>>,
+    S: System<Dual<f64>>,
     M: Scheme<Dual<f64>, S>,
 {
     let n = start.q.len();
     (0..2 * n)
         .map(|seed| {
-            let mut dual = State {
-                t: Dual::fixed(start.t),
-                q: <S as System<Dual<f64>>>::zeros(system),
-                p: <S as System<Dual<f64>>>::zeros(system),
-            };
-            for i in 0..n {
-                *dual.q.component_mut(i) = seeded(start.q.component(i), i == seed);
-                *dual.p.component_mut(i) = seeded(start.p.component(i), i + n == seed);
-            }
-            let run = Integrator::new(system, scheme.clone(), dual, Dual::fixed(h));
+            let mut start = start.clone();
+            let moved = if seed < n { &mut start.q } else { &mut start.p };
+            moved.component_mut(seed % n).eps = 1.0;
+            let run = Integrator::new(system, scheme.clone(), start, Dual::fixed(h));
             let mut run = run.expect("a good start");
             let end = run.advance(steps).expect("good steps");
             end.q
@@ -240,30 +234,16 @@ fn seeded(value: f64, seed: bool) -> Dual<f64> {
     }
 }
 
-/// A start in duals.
-pub fn lifted<S: System<Dual<f64>>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+/// A start at t = 0.3 in any scalar.
+pub fn start<T: Real, S: System<T>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
     let mut state = State {
-        t: Dual::fixed(0.0),
+        t: T::constant(0.3, 0.0),
         q: system.zeros(),
         p: system.zeros(),
     };
     for (i, (q, p)) in q.iter().zip(p).enumerate() {
-        *state.q.component_mut(i) = Dual::fixed(*q);
-        *state.p.component_mut(i) = Dual::fixed(*p);
-    }
-    state
-}
-
-/// A start in doubles.
-pub fn plain<S: System<f64>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
-    let mut state = State {
-        t: 0.0,
-        q: system.zeros(),
-        p: system.zeros(),
-    };
-    for (i, (q, p)) in q.iter().zip(p).enumerate() {
-        *state.q.component_mut(i) = *q;
-        *state.p.component_mut(i) = *p;
+        *state.q.component_mut(i) = T::constant(*q, 0.0);
+        *state.p.component_mut(i) = T::constant(*p, 0.0);
     }
     state
 }
@@ -277,32 +257,26 @@ pub struct Geometry<S> {
     pub measured: Vec<(&'static Entry, f64)>,
 }
 
-impl<S: System<f64> + System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
+impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
     fn visit<M: Scheme<Dual<f64>, S>>(&mut self, scheme: M) {
         // Exact up to the rounding of the tangents themselves: entries of M are sums of a few
         // products, wrong by some ulps of ‖M‖, and enter twice.
         const BOUND: f64 = 1e-13;
         let entry = scheme.entry();
         let n = self.q.len();
-        let state = plain::<S>(&self.system, &self.q, &self.p);
-        let dual = lifted::<S>(&self.system, &self.q, &self.p);
+        let start = start::<Dual<f64>, S>(&self.system, &self.q, &self.p);
         for made in 0..3 {
             let (worst, size) = match entry.preserves {
                 Form::TwoPoint => defect(
-                    &carried_tangent(&self.system, &scheme, &dual, self.h, made),
+                    &carried_tangent(&self.system, &scheme, &start, self.h, made),
                     crossed(n),
                 ),
                 Form::OnePoint | Form::Nothing => defect(
-                    &visible_tangent(&self.system, &scheme, &state, self.h, made + 1),
+                    &visible_tangent(&self.system, &scheme, &start, self.h, made + 1),
                     one_point(n),
                 ),
             };
-            let name = format!(
-                "{} {} on {}",
-                entry.name,
-                entry.variant,
-                <S as System<f64>>::NAME
-            );
+            let name = format!("{} {} on {}", entry.name, entry.variant, S::NAME);
             match entry.preserves {
                 Form::Nothing => {
                     assert!(worst > 1e3 * BOUND * size, "{name}: {worst:e} of {size:e}");

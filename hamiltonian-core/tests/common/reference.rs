@@ -3,18 +3,17 @@
 use hamiltonian_core::{Dynamics, Real, State, System, Vector};
 
 /// z(t) by extrapolation of the modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966) with
-/// sequences 2, 4, …, 2·ROWS: order 2·ROWS, over steps of at most 1/16.
+/// sequences 2, 4, …, 2·ROWS: order 2·ROWS, over steps of at most 1/64.
 ///
 /// E. Hairer, S. Nørsett, G. Wanner, Solving Ordinary Differential Equations I (1993), II.9.
 pub fn solution<T: Real, S: System<T>>(
     system: &S,
     start: &State<S::Vector>,
-    t: f64,
+    t: T,
 ) -> State<S::Vector> {
     const ROWS: usize = 8;
-    let span = t - start.t.to_f64();
-    let steps = (span.abs() * 16.0).ceil().max(1.0);
-    let big = T::constant(span, 0.0) / T::constant(steps, 0.0);
+    let steps = (((t - start.t).to_f64()).abs() * 64.0).ceil().max(1.0);
+    let big = (t - start.t) / T::constant(steps, 0.0);
     let prepared = system.prepare();
     let mut state = start.clone();
     for k in 0..steps as u64 {
@@ -25,14 +24,14 @@ pub fn solution<T: Real, S: System<T>>(
             let mut new = midpoint(&prepared, &state, big, n);
             // Neville's scheme in (H/n)².
             let mut previous = Vec::new();
-            for column in 0..row {
-                let ratio = n as f64 / (2 * (row - column)) as f64;
-                let factor = T::one() / T::constant(ratio * ratio - 1.0, 0.0);
+            for (column, old) in rows.iter().enumerate() {
+                let ratio =
+                    T::constant(n as f64, 0.0) / T::constant((2 * (row - column)) as f64, 0.0);
+                let factor = T::one() / (ratio * ratio - T::one());
                 let mut next = new.clone();
-                for (next, (new, old)) in [
-                    (&mut next.q, (&new.q, &rows[column].q)),
-                    (&mut next.p, (&new.p, &rows[column].p)),
-                ] {
+                for (next, new, old) in
+                    [(&mut next.q, &new.q, &old.q), (&mut next.p, &new.p, &old.p)]
+                {
                     next.accumulate(factor, new);
                     next.accumulate(-factor, old);
                 }
@@ -46,7 +45,7 @@ pub fn solution<T: Real, S: System<T>>(
         state.q = last.q;
         state.p = last.p;
     }
-    state.t = T::constant(t, 0.0);
+    state.t = t;
     state
 }
 

@@ -65,10 +65,7 @@ impl<T: Real, H: Formula<N>, const N: usize> System<T> for Hand<H, N> {
     }
 }
 
-impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N>
-where
-    Ready<H, N>: Clone,
-{
+impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N> {
     type Vector = SVector<T, N>;
     type Flow = Scaled<H, T, N>;
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
@@ -497,7 +494,7 @@ impl<T: Real> Dynamics<T> for Chain {
         dq: &mut DVector<T>,
         dp: &mut DVector<T>,
     ) -> T {
-        self.gradient(t, q, p, dq, dp);
+        Dynamics::gradient(self, t, q, p, dq, dp);
         Dynamics::energy(self, t, q, p)
     }
     fn time_derivative(&self, _: T, _: &DVector<T>, _: &DVector<T>) -> T {

@@ -1,0 +1,92 @@
+//! Nothing allocates in a step: counted, for every scheme, with sizes set at compile and at run
+//! time, observed and not.
+
+mod common;
+
+use common::systems::*;
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
+use hamiltonian_core::{Scheme, Vector};
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::cell::Cell;
+
+/// The heap, counting the calls of each thread.
+struct Counting;
+
+thread_local! {
+    static CALLS: Cell<u64> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is passed on to the heap unchanged; the counter is a thread-local `Cell`
+// with a constant initial value and no destructor, so touching it allocates nothing.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        CALLS.set(CALLS.get() + 1);
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Heap.dealloc(pointer, layout) }
+    }
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        CALLS.set(CALLS.get() + 1);
+        unsafe { Heap.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+fn allocations(work: impl FnOnce()) -> u64 {
+    let before = CALLS.get();
+    work();
+    CALLS.get() - before
+}
+
+struct NoAllocations<S>(S);
+
+impl<S: System<f64>> Visitor<f64, S> for NoAllocations<S> {
+    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+        let mut start = State {
+            t: 0.0,
+            q: self.0.zeros(),
+            p: self.0.zeros(),
+        };
+        for i in 0..start.q.len() {
+            *start.q.component_mut(i) = 0.1 + 0.01 * i as f64;
+        }
+        let name = scheme.entry().name;
+        let new = || Integrator::new(&self.0, scheme.clone(), start.clone(), 0.01).unwrap();
+        let mut run = new();
+        let count = allocations(|| {
+            run.advance(3000).unwrap();
+            run.advance(1).unwrap();
+            run.advance_to(run.time() + run.interval() * 10.0).unwrap();
+        });
+        assert_eq!(count, 0, "{name} on {}", S::NAME);
+        let observers = (
+            EnergyDrift::new(),
+            every(10, (Monitors::new(), Recorder::with_capacity(101))),
+        );
+        let mut run = new().observe(observers);
+        let count = allocations(|| {
+            run.advance(1000).unwrap();
+        });
+        assert_eq!(count, 0, "{name} on {}, observed", S::NAME);
+        assert_eq!(run.observer().1.inner.1.rows(), 101);
+    }
+}
+
+#[test]
+fn no_step_allocates() {
+    assert_eq!(
+        allocations(|| drop(Vec::<u8>::with_capacity(1))),
+        1,
+        "the counter counts"
+    );
+    let mut chain = NoAllocations(Chain { n: 17 });
+    visit_any::<f64, _>(&mut chain);
+    visit_separable::<f64, _>(&mut chain);
+    let mut pendulum = NoAllocations(pendulum(true));
+    visit_any::<f64, _>(&mut pendulum);
+    visit_separable::<f64, _>(&mut pendulum);
+}

@@ -1,0 +1,249 @@
+//! What observers see and what is written.
+
+mod common;
+
+use common::systems::*;
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::{DVector, Group, SVector};
+use hamiltonian_core::{Dynamics, Observer, Pair, Vector, View};
+
+type One = SVector<f64, 1>;
+
+fn run() -> Integrator<f64, Hand<Pendulum, 1>, StormerVerlet> {
+    let start = State::new([0.7], [0.0]);
+    Integrator::new(&pendulum(true), StormerVerlet::default(), start, 0.01).unwrap()
+}
+
+/// The steps at which it is shown a state.
+#[derive(Default)]
+struct Steps(Vec<u64>);
+
+impl<S: System<f64>> Observer<f64, S> for Steps {
+    fn observe(&mut self, view: &View<'_, f64, S>) {
+        self.0.push(view.step);
+    }
+}
+
+#[test]
+fn the_start_and_every_multiple_are_seen_on_every_path() {
+    let seen = |drive: &dyn Fn(&mut Integrator<_, _, _, _>)| {
+        let mut run = run().observe((every(4, Steps::default()), every(6, Steps::default())));
+        drive(&mut run);
+        let (fours, sixes) = run.into_observer();
+        (fours.inner.0, sixes.inner.0)
+    };
+    let expected = (vec![0, 4, 8, 12, 16], vec![0, 6, 12]);
+    assert_eq!(
+        seen(&|run| assert_eq!(run.advance(17).unwrap().t, 0.17)),
+        expected
+    );
+    assert_eq!(
+        seen(&|run| assert_eq!(run.advance_to(0.17).unwrap().t, 0.17)),
+        expected
+    );
+    assert_eq!(
+        seen(&|run| assert_eq!(run.states(1).take(17).count(), 17)),
+        expected
+    );
+    assert_eq!(
+        seen(&|run| {
+            for n in [3, 5, 0, 9] {
+                run.advance(n).unwrap();
+            }
+        }),
+        expected
+    );
+    // Attached late: the present state, then multiples.
+    let mut late = run();
+    late.advance(5).unwrap();
+    let mut late = late.observe(every(4, Steps::default()));
+    late.advance(8).unwrap();
+    assert_eq!(late.observer().inner.0, [5, 8, 12]);
+}
+
+#[test]
+fn drifts_are_those_of_the_states() {
+    let mut energies = Vec::new();
+    let mut heights = Vec::new();
+    let mut plain = run();
+    let prepared = System::<f64>::prepare(&pendulum(true));
+    let mut record = |state: &State<One>| {
+        energies.push(prepared.energy(state.t, &state.q, &state.p));
+        heights.push(-10.0 * state.q[0].cos());
+    };
+    record(plain.state());
+    for state in plain.states(1).take(500) {
+        record(&state.unwrap());
+    }
+    let mut drift = EnergyDrift::new();
+    let mut monitors = Monitors::new();
+    run()
+        .observe((&mut drift, &mut monitors))
+        .advance(500)
+        .unwrap();
+    let worst = energies
+        .iter()
+        .map(|h| (h - energies[0]).abs())
+        .fold(0.0, f64::max);
+    assert_eq!(drift.max_relative(), worst / energies[0]);
+    let sum: f64 = energies.iter().map(|h| (h - energies[0]).abs()).sum();
+    assert_eq!(drift.mean_relative(), sum / 501.0 / energies[0]);
+    // Two ways to add 501 numbers.
+    let mean = energies.iter().sum::<f64>() / 501.0;
+    assert!((drift.mean() / mean - 1.0).abs() <= 501.0 * f64::EPSILON);
+    assert_eq!(drift.drift().unwrap().count(), 501);
+    let height = monitors.get("height").unwrap();
+    assert_eq!(height.start(), heights[0]);
+    let worst = heights
+        .iter()
+        .map(|h| (h - heights[0]).abs())
+        .fold(0.0, f64::max);
+    assert_eq!(height.max_absolute(), worst);
+    assert!(monitors.get("depth").is_none());
+}
+
+#[test]
+fn csv_reads_back_to_the_same_bits() {
+    let mut run = run().observe(every(100, Recorder::new()));
+    run.advance(300).unwrap();
+    let recorder = &run.observer().inner;
+    let mut csv = Vec::new();
+    recorder.write_csv(&mut csv).unwrap();
+    let csv = String::from_utf8(csv).unwrap();
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("t,theta,p,height"));
+    let rows: Vec<Vec<f64>> = lines
+        .map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect())
+        .collect();
+    assert_eq!(rows.len(), 4);
+    assert!(recorder.iter().eq(rows.iter().map(Vec::as_slice)));
+    let last = run.state();
+    assert_eq!(
+        rows[3],
+        [last.t, last.q[0], last.p[0], -10.0 * last.q[0].cos()]
+    );
+}
+
+#[test]
+fn names_of_a_chain() {
+    let start = State::new(vec![0.1, 0.2], vec![0.0, 0.3]);
+    let run = Integrator::new(&Chain { n: 2 }, StormerVerlet::default(), start, 0.1).unwrap();
+    let run = run.observe(Recorder::new());
+    assert_eq!(
+        run.observer().columns(),
+        ["t", "q[0]", "q[1]", "p[0]", "p[1]"]
+    );
+    assert_eq!(run.observer().row(0), Some(&[0.0, 0.1, 0.2, 0.0, 0.3][..]));
+}
+
+/// Two bodies in space and an angle: rank 2 is stored by columns and named by rows.
+#[test]
+fn names_of_mixed_shapes() {
+    #[derive(Debug, Clone)]
+    struct Mixed;
+    type V = Pair<Matrix3, One>;
+    type Matrix3 = hamiltonian_core::private::SMatrix<f64, 2, 3>;
+    impl System<f64> for Mixed {
+        type Vector = V;
+        type Prepared = Mixed;
+        const NAME: &'static str = "Mixed";
+        const GROUPS: &'static [Group] = &[
+            Group {
+                coordinate: "x",
+                momentum: "u",
+                rank: 2,
+                part: 0,
+                offset: 0,
+                columns: 3,
+            },
+            Group {
+                coordinate: "a",
+                momentum: "l",
+                rank: 0,
+                part: 1,
+                offset: 0,
+                columns: 1,
+            },
+        ];
+        const OBSERVABLES: &'static [hamiltonian_core::Observable] = &[];
+        fn prepare(&self) -> Mixed {
+            Mixed
+        }
+        fn zeros(&self) -> V {
+            Pair {
+                x: Matrix3::zeros(),
+                y: One::zeros(),
+            }
+        }
+    }
+    impl Dynamics<f64> for Mixed {
+        type Vector = V;
+        type Flow = hamiltonian_core::private::Never;
+        fn energy(&self, _: f64, _: &V, _: &V) -> f64 {
+            0.0
+        }
+        fn gradient_q(&self, _: f64, _: &V, _: &V, _: &mut V) {}
+        fn gradient_p(&self, _: f64, _: &V, _: &V, _: &mut V) {}
+        fn gradient(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) {}
+        fn energy_and_gradient(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) -> f64 {
+            0.0
+        }
+        fn time_derivative(&self, _: f64, _: &V, _: &V) -> f64 {
+            0.0
+        }
+        fn hessian_vector(&self, _: f64, _: &V, _: &V, _: &V, _: &V, _: &mut V, _: &mut V) {}
+        fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 {
+            0.0
+        }
+        fn flow(&self, _: f64) -> hamiltonian_core::private::Never {
+            unreachable!("nothing is stepped here")
+        }
+    }
+    let q = Pair {
+        x: Matrix3::from_row_slice(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]),
+        y: One::new(7.0),
+    };
+    let state = State::new(q.clone(), q);
+    let mut recorder = Recorder::new();
+    let view = View::<f64, Mixed> {
+        step: 0,
+        state: &state,
+        prepared: &Mixed,
+    };
+    recorder.attach(&view);
+    let columns = recorder.columns();
+    assert_eq!(
+        columns[..5],
+        ["t", "x[0][0]", "x[0][1]", "x[0][2]", "x[1][0]"]
+    );
+    assert_eq!(columns[7..9], ["a", "u[0][0]"]);
+    assert_eq!(
+        recorder.row(0).unwrap()[..8],
+        [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
+    );
+}
+
+#[test]
+fn vectors_by_flat_index() {
+    let q = Pair {
+        x: One::new(3.0),
+        y: DVector::from_vec(vec![4.0, -6.0]),
+    };
+    assert_eq!((q.len(), q.component(0), q.component(2)), (3, 3.0, -6.0));
+    assert_eq!(q.magnitude(), 6.0);
+    assert_eq!(q.components().collect::<Vec<_>>(), [3.0, 4.0, -6.0]);
+    let mut sum = q.clone();
+    sum.accumulate(0.5, &q);
+    sum.scale(2.0);
+    assert_eq!(sum.components().collect::<Vec<_>>(), [9.0, 12.0, -18.0]);
+    assert_eq!(sum.distance(&q), 12.0);
+    *sum.component_mut(1) = f64::NAN;
+    assert!(!sum.is_finite() && sum.magnitude().is_nan() && sum.distance(&q).is_nan());
+    sum.set_zero();
+    assert_eq!(sum, q.zeros_like());
+    let longer = Pair {
+        x: One::new(3.0),
+        y: DVector::from_vec(vec![4.0; 3]),
+    };
+    assert!(q.same_shape(&sum) && !q.same_shape(&longer));
+}

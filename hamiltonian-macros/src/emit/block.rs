@@ -1,0 +1,491 @@
+//! Steps as source text: one `let` an instruction, loops as loops.
+//!
+//! Input: steps of a program. Output: Rust statements over a scalar type `T`. Invariants: value
+//! `n` is called `_n`; numbers stand where they are used; an index modulo a size is no operation
+//! of a loop body: the loop runs in segments in which nothing wraps.
+
+use super::index::{Indices, variable};
+use super::layout::{Layout, Slice};
+use super::number;
+use super::scan::is_number;
+use hamiltonian_symbolic::dag::{Array, Part, Relation};
+use hamiltonian_symbolic::index::{Domain, Index};
+use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
+use std::fmt::Write;
+
+/// What every body of a system is written from.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// The mathematics.
+    pub model: &'a Model,
+    /// The instructions.
+    pub program: &'a Program,
+    /// How coordinates are stored.
+    pub layout: Layout,
+    /// The names of sizes inside bodies.
+    pub indices: Indices<'a>,
+    /// Which sizes are set at run time.
+    pub is_run_time: &'a [bool],
+}
+
+/// The name of a value.
+pub fn name(value: Value) -> String {
+    format!("_{}", value.0)
+}
+
+/// The name of a function written in Rust, or of a derivative of it.
+pub fn external(number: u16, part: Part) -> String {
+    match part {
+        Part::Value => format!("__f{number}"),
+        Part::First(i) => format!("__f{number}_{i}"),
+        Part::Second(i, j) => format!("__f{number}_{i}_{j}"),
+    }
+}
+
+/// A value where it is used.
+pub fn operand(program: &Program, value: Value) -> String {
+    match program.instruction(value) {
+        Instruction::Constant(number) => number::constant(number),
+        Instruction::Pi => number::pi(),
+        _ => name(value),
+    }
+}
+
+/// Writes steps. `scalar` is how a scalar parameter is read.
+pub fn write(out: &mut String, context: Context, scalar: &dyn Fn(u16) -> String, steps: &[Step]) {
+    let mut writer = Writer {
+        context,
+        scalar,
+        out,
+        indices: Vec::new(),
+        slices: Vec::new(),
+    };
+    writer.steps(steps);
+}
+
+struct Writer<'a> {
+    context: Context<'a>,
+    scalar: &'a dyn Fn(u16) -> String,
+    out: &'a mut String,
+    /// Wrapped indices of open loops and the text they are reached by.
+    indices: Vec<(Index, String)>,
+    /// Elements of open loops that are reached through a slice cut to the segment.
+    slices: Vec<(Slice, Index, String)>,
+}
+
+macro_rules! line {
+    ($writer:expr, $($text:tt)*) => {{
+        // Writing to a string does not fail.
+        let _ = writeln!($writer.out, $($text)*);
+    }};
+}
+
+impl<'a> Writer<'a> {
+    fn steps(&mut self, steps: &[Step]) {
+        for step in steps {
+            match step {
+                Step::Let(value) => self.compute(*value),
+                Step::Accumulate(to, value) => {
+                    let value = self.operand(*value);
+                    line!(self, "{} += {value};", name(*to));
+                }
+                Step::Store(target, row, column, update) => {
+                    let place = self.target(*target, row, column.as_ref());
+                    self.update(&place, update);
+                }
+                Step::Loop(inner) => self.nest(inner),
+            }
+        }
+    }
+
+    fn operand(&self, value: Value) -> String {
+        operand(self.context.program, value)
+    }
+
+    fn compute(&mut self, value: Value) {
+        let program = self.context.program;
+        let instruction = program.instruction(value);
+        if is_number(instruction) {
+            return;
+        }
+        if let Instruction::PairedSin(angle) = instruction {
+            // The cosine is the value that names this one; it was made right after.
+            let cosine = (value.0 as usize + 1..program.instructions.len())
+                .find(|at| program.instructions[*at] == Instruction::PairedCos(value));
+            let (angle, sine) = (self.operand(*angle), name(value));
+            match cosine {
+                Some(cosine) => line!(self, "let ({sine}, _{cosine}) = {angle}.sin_cos();"),
+                None => line!(self, "let {sine} = {angle}.sin();"),
+            }
+            return;
+        }
+        if matches!(instruction, Instruction::PairedCos(_)) {
+            return;
+        }
+        let text = self.instruction(instruction);
+        line!(self, "let {} = {text};", name(value));
+    }
+
+    fn instruction(&self, instruction: &Instruction) -> String {
+        let v = |value: &Value| self.operand(*value);
+        match instruction {
+            Instruction::Constant(value) => number::constant(value),
+            Instruction::Pi => number::pi(),
+            Instruction::Scalar(parameter) => (self.scalar)(parameter.0),
+            Instruction::Time => "_t".into(),
+            Instruction::Coefficient => "_c".into(),
+            Instruction::Variable(domain) => real(&variable(*domain)),
+            Instruction::Extent(size) => real(self.context.indices.size(*size)),
+            Instruction::Count(start, end) => {
+                let length = end.plus(-1, start);
+                real(&format!("({})", self.context.indices.saturating(&length)))
+            }
+            Instruction::Load(array, row, column) => self.element(*array, row, column.as_ref()),
+            Instruction::Accumulator => "T::constant(0.0, 0.0)".into(),
+            Instruction::Neg(a) => format!("-{}", v(a)),
+            Instruction::Add(a, b) => format!("{} + {}", v(a), v(b)),
+            Instruction::Sub(a, b) => format!("{} - {}", v(a), v(b)),
+            Instruction::Mul(a, b) => format!("{} * {}", v(a), v(b)),
+            Instruction::MulAdd(a, b, c) => format!("{}.fma({}, {})", v(a), v(b), v(c)),
+            Instruction::MulSub(a, b, c) => format!("{}.fma({}, -{})", v(a), v(b), v(c)),
+            Instruction::NegMulAdd(a, b, c) => format!("(-{}).fma({}, {})", v(a), v(b), v(c)),
+            Instruction::Div(a, b) => format!("{} / {}", v(a), v(b)),
+            Instruction::Recip(a) => format!("{}.recip()", v(a)),
+            Instruction::Call(op, a) => format!("{}.{}()", v(a), op.row().name),
+            Instruction::Call2(op, a, b) => format!("{}.{}({})", v(a), op.row().name, v(b)),
+            Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
+            Instruction::PairedCos(a) => v(a),
+            Instruction::External(function, part, arguments) => {
+                let arguments: Vec<String> = arguments.iter().map(v).collect();
+                format!("{}({})", external(*function, *part), arguments.join(", "))
+            }
+            Instruction::Compare(relation, a, b) => {
+                let method = match relation {
+                    Relation::Less => "lt",
+                    Relation::LessEqual => "le",
+                    Relation::Equal => "equals",
+                };
+                format!("{}.{method}({})", v(a), v(b))
+            }
+            Instruction::Not(a) => format!("!{}", v(a)),
+            Instruction::And(a, b) => format!("{} & {}", v(a), v(b)),
+            Instruction::Or(a, b) => format!("{} | {}", v(a), v(b)),
+            Instruction::Select(c, a, b) => format!("T::select({}, {}, {})", v(c), v(a), v(b)),
+        }
+    }
+
+    fn update(&mut self, place: &str, update: &Update) {
+        let v = |value: &Value| self.operand(*value);
+        let text = match update {
+            Update::Set(a) => format!("{place} = {};", v(a)),
+            Update::Add(a) => format!("{place} += {};", v(a)),
+            Update::Sub(a) => format!("{place} -= {};", v(a)),
+            Update::AddProduct(a, b) => format!("{place} = {}.fma({}, {place});", v(a), v(b)),
+            Update::SubProduct(a, b) => format!("{place} = (-{}).fma({}, {place});", v(a), v(b)),
+        };
+        line!(self, "{text}");
+    }
+
+    /// An index where it is used: of a loop's segment, or computed on the spot.
+    fn index(&self, index: &Index) -> String {
+        match self.indices.iter().find(|(known, _)| known == index) {
+            Some((_, text)) => text.clone(),
+            None => self.context.indices.index(index),
+        }
+    }
+
+    fn element(&self, array: Array, row: &Index, column: Option<&Index>) -> String {
+        let slice = Slice::read(self.context.layout, array);
+        match array {
+            Array::Phase { group, .. } | Array::Direction { group, .. } => {
+                self.place(slice, Some(group), row)
+            }
+            Array::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
+        }
+    }
+
+    fn target(&self, target: Target, row: &Index, column: Option<&Index>) -> String {
+        let slice = Slice::write(self.context.layout, target);
+        match target {
+            Target::Phase { group, .. } => self.place(slice, Some(group), row),
+            Target::Parameter(parameter) => {
+                match self.context.model.parameters[usize::from(parameter.0)].shape {
+                    Shape::Scalar => format!("*{}", slice.name()),
+                    _ => self.entry(slice, parameter.0, row, column),
+                }
+            }
+        }
+    }
+
+    /// An element of a column.
+    fn place(&self, slice: Slice, group: Option<u16>, row: &Index) -> String {
+        match (self.context.layout, group) {
+            (Layout::Scalars, Some(group)) => format!("{}[{group}]", slice.name()),
+            _ => match self
+                .slices
+                .iter()
+                .find(|(s, index, _)| *s == slice && index == row)
+            {
+                Some((_, _, text)) => text.clone(),
+                None => format!("{}[{}]", slice.name(), self.index(row)),
+            },
+        }
+    }
+
+    /// An element of a parameter array.
+    fn entry(&self, slice: Slice, parameter: u16, row: &Index, column: Option<&Index>) -> String {
+        let Some(column) = column else {
+            return self.place(slice, None, row);
+        };
+        let rows = match &self.context.model.parameters[usize::from(parameter)].shape {
+            Shape::Matrix(rows, _) | Shape::Vector(rows) => self.context.indices.modulus(rows),
+            Shape::Scalar => "0".into(),
+        };
+        let (row, column) = (self.index(row), self.index(column));
+        format!("{}[{row} + {rows} * ({column})]", slice.name())
+    }
+
+    /// A loop: whole where no index wraps, in segments otherwise.
+    fn nest(&mut self, inner: &Loop) {
+        for accumulator in &inner.accumulators {
+            line!(
+                self,
+                "let mut {} = T::constant(0.0, 0.0);",
+                name(*accumulator)
+            );
+        }
+        let found = Accesses::of(self.context, inner);
+        let (known_indices, known_slices) = (self.indices.len(), self.slices.len());
+        let d = inner.domain.0;
+        let start = self.context.indices.start(&inner.start);
+        let end = self.context.indices.saturating(&inner.end);
+        if found.wrapped.is_empty() && found.cuts.is_empty() {
+            line!(self, "for _i{d} in {start}..{end} {{");
+            self.steps(&inner.body);
+            line!(self, "}}");
+            return;
+        }
+        if found.wrapped.is_empty() {
+            line!(self, "let (_s{d}, _e{d}) = ({start}, {end});");
+            line!(self, "if _s{d} < _e{d} {{");
+            line!(self, "let _l{d} = _e{d} - _s{d};");
+        } else {
+            line!(self, "let (mut _s{d}, _e{d}) = ({start}, {end});");
+            line!(self, "while _s{d} < _e{d} {{");
+            line!(self, "let mut _l{d} = _e{d} - _s{d};");
+        }
+        self.wrap(inner.domain, &found.wrapped);
+        self.cut(inner.domain, &found.cuts);
+        line!(self, "for _k{d} in 0.._l{d} {{");
+        line!(self, "let _i{d} = _s{d} + _k{d};");
+        self.steps(&inner.body);
+        line!(self, "}}");
+        if !found.wrapped.is_empty() {
+            line!(self, "_s{d} += _l{d};");
+        }
+        line!(self, "}}");
+        self.indices.truncate(known_indices);
+        self.slices.truncate(known_slices);
+    }
+
+    /// Where the wrapped indices start in a segment, and how long it is until one of them wraps.
+    fn wrap(&mut self, domain: Domain, wrapped: &[(Index, i64)]) {
+        let d = domain.0;
+        let here = format!("_s{d}");
+        for (at, (index, factor)) in wrapped.iter().enumerate() {
+            let Some(modulo) = &index.modulo else {
+                continue;
+            };
+            let start = self
+                .context
+                .indices
+                .wrapped(&index.affine, modulo, Some((domain, &here)));
+            let room = if *factor > 0 {
+                format!("{} - _w{d}_{at}", self.context.indices.modulus(modulo))
+            } else {
+                format!("_w{d}_{at} + 1")
+            };
+            line!(self, "let _w{d}_{at} = {start};");
+            line!(self, "if {room} < _l{d} {{ _l{d} = {room}; }}");
+            let sign = if *factor > 0 { '+' } else { '-' };
+            self.indices
+                .push((index.clone(), format!("_w{d}_{at} {sign} _k{d}")));
+        }
+    }
+
+    /// The slices of a segment, as long as the segment, so that no element needs a check.
+    fn cut(&mut self, domain: Domain, cuts: &[(Slice, Index)]) {
+        let d = domain.0;
+        let here = format!("_s{d}");
+        for (at, (slice, index)) in cuts.iter().enumerate() {
+            let start = match self.indices.iter().position(|(known, _)| known == index) {
+                Some(known) => {
+                    let text = &self.indices[known].1;
+                    text.split(' ').next().unwrap_or_default().to_owned()
+                }
+                None => self
+                    .context
+                    .indices
+                    .plain(&index.affine, Some((domain, &here))),
+            };
+            let mutable = if matches!(slice, Slice::Output(..) | Slice::Derivative(_)) {
+                "mut "
+            } else {
+                ""
+            };
+            line!(
+                self,
+                "let _x{d}_{at} = &{mutable}{}[{start}..][.._l{d}];",
+                slice.name()
+            );
+            self.slices
+                .push((*slice, index.clone(), format!("_x{d}_{at}[_k{d}]")));
+        }
+    }
+}
+
+/// A `usize` expression as a scalar.
+fn real(text: &str) -> String {
+    format!("T::constant({text} as __h::core::primitive::f64, 0.0)")
+}
+
+/// How a loop's body reaches into arrays with the loop's own variable.
+#[derive(Default)]
+struct Accesses {
+    /// Indices that wrap as the variable moves by one, with its factor 1 or −1.
+    wrapped: Vec<(Index, i64)>,
+    /// Columns read, or written at this one index only, that run along with the variable.
+    cuts: Vec<(Slice, Index)>,
+}
+
+impl Accesses {
+    fn of(context: Context, inner: &Loop) -> Accesses {
+        let mut finder = Finder {
+            context,
+            domain: inner.domain,
+            accesses: Accesses::default(),
+            stores: Vec::new(),
+        };
+        finder.walk(&inner.body, 0);
+        let mut accesses = finder.accesses;
+        for (slice, index, along) in finder.stores {
+            if along == Along::Step && !accesses.cuts.contains(&(slice, index.clone())) {
+                accesses.cuts.push((slice, index));
+            }
+        }
+        accesses
+    }
+}
+
+/// How an index moves with a loop variable.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Along {
+    /// By one, in the body of this very loop.
+    Step,
+    /// Otherwise.
+    Other,
+}
+
+struct Finder<'a> {
+    context: Context<'a>,
+    domain: Domain,
+    accesses: Accesses,
+    /// Columns written, each with its index; `Other` once a second index was met.
+    stores: Vec<(Slice, Index, Along)>,
+}
+
+impl Finder<'_> {
+    fn walk(&mut self, steps: &[Step], inner: u64) {
+        for step in steps {
+            match step {
+                Step::Let(value) => {
+                    let program = self.context.program;
+                    if let Instruction::Load(array, row, column) = program.instruction(*value) {
+                        let slice = Slice::read(self.context.layout, *array);
+                        let along = self.index(row, inner);
+                        if let Some(column) = column {
+                            self.index(column, inner);
+                        } else if along == Along::Step
+                            && !self.accesses.cuts.contains(&(slice, row.clone()))
+                        {
+                            self.accesses.cuts.push((slice, row.clone()));
+                        }
+                    }
+                }
+                Step::Store(target, row, column, _) => {
+                    let slice = Slice::write(self.context.layout, *target);
+                    let along = self.index(row, inner);
+                    let along = match column {
+                        Some(column) => {
+                            self.index(column, inner);
+                            Along::Other
+                        }
+                        None => along,
+                    };
+                    match self.stores.iter_mut().find(|(s, ..)| *s == slice) {
+                        Some((_, index, known)) if index != row || along == Along::Other => {
+                            *known = Along::Other;
+                        }
+                        Some(_) => {}
+                        None => self.stores.push((slice, row.clone(), along)),
+                    }
+                }
+                Step::Accumulate(..) => {}
+                Step::Loop(l) => self.walk(&l.body, inner | 1 << l.domain.0),
+            }
+        }
+    }
+
+    /// Notes an index that wraps in this loop, and says how it moves.
+    fn index(&mut self, index: &Index, inner: u64) -> Along {
+        let variables = index.variables();
+        if variables & inner != 0 || variables & 1 << self.domain.0 == 0 {
+            return Along::Other;
+        }
+        let factor = index.affine.factor(self.domain);
+        if let Some(modulo) = &index.modulo {
+            if factor.abs() != 1 || modulo.factor(self.domain) != 0 {
+                return Along::Other;
+            }
+            if !self
+                .accesses
+                .wrapped
+                .iter()
+                .any(|(known, _)| known == index)
+            {
+                self.accesses.wrapped.push((index.clone(), factor));
+            }
+        }
+        if factor == 1 {
+            Along::Step
+        } else {
+            Along::Other
+        }
+    }
+}
+
+/// Sets output columns to 0.
+pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
+    for target in targets {
+        let slice = Slice::write(context.layout, *target);
+        let _ = match target {
+            Target::Phase { group, .. } if context.layout == Layout::Scalars => {
+                writeln!(out, "{}[{group}] = T::constant(0.0, 0.0);", slice.name())
+            }
+            Target::Phase { .. } => writeln!(out, "{}.fill(T::constant(0.0, 0.0));", slice.name()),
+            // Derivatives with respect to parameters start at 0.
+            Target::Parameter(_) => Ok(()),
+        };
+    }
+}
+
+/// The slices that clearing writes.
+pub fn cleared(context: Context, targets: &[Target]) -> Vec<Slice> {
+    let phase = targets
+        .iter()
+        .filter(|target| matches!(target, Target::Phase { .. }));
+    phase
+        .map(|target| Slice::write(context.layout, *target))
+        .collect()
+}

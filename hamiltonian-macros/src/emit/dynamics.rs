@@ -1,0 +1,519 @@
+//! The implementations of `System`, `Dynamics` and `Flow`, and of `Separable` where it was proven.
+//!
+//! Input: a definition. Output: the text of the implementations and of the structs that hold
+//! prepared values. Invariant: every method a trait asks for is there; one whose program is
+//! missing is a compile error where it is first used.
+
+use super::block::Context;
+use super::function::{Bodies, Body, results};
+use super::generics::Generics;
+use super::holder::{Holder, Receiver};
+use super::layout::{self, Layout, Slice};
+use super::mixed;
+use super::scan::scan;
+use super::{Definition, Form, observables};
+use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::program::{Function, Purpose};
+use std::fmt::Write;
+
+/// The type of coordinates and of momenta over `scalar`; paths begin with `root`.
+pub fn vector(context: Context, generics: &Generics, scalar: &str, root: &str) -> String {
+    match context.layout {
+        Layout::Scalars => format!("{root}::SVector<{scalar}, {}>", context.model.groups.len()),
+        Layout::Array => {
+            let shape = &context.model.groups[0].shape;
+            layout::storage(shape, scalar, context.indices, context.is_run_time, root)
+        }
+        Layout::Mixed => mixed::ty(generics, scalar),
+    }
+}
+
+/// The expression of the zero vector, where run-time sizes are called as in bodies.
+fn zeros(context: Context, generics: &Generics) -> String {
+    let filled = |shape: &Shape| {
+        layout::filled(
+            shape,
+            "T::constant(0.0, 0.0)",
+            context.indices,
+            context.is_run_time,
+            "__h",
+        )
+    };
+    match context.layout {
+        Layout::Scalars => {
+            let n = context.model.groups.len();
+            format!("__h::SVector::<T, {n}>::from_element(T::constant(0.0, 0.0))")
+        }
+        Layout::Array => filled(&context.model.groups[0].shape),
+        Layout::Mixed => {
+            let fields: Vec<String> = context
+                .model
+                .groups
+                .iter()
+                .map(|g| format!("{}: {}", g.coordinate, filled(&g.shape)))
+                .collect();
+            format!("{} {{ {} }}", mixed::name(generics), fields.join(", "))
+        }
+    }
+}
+
+/// Everything a definition implements that is the same in both forms.
+pub fn implementations(definition: &Definition, context: Context, generics: &Generics) -> String {
+    let mut emission = Emission {
+        definition,
+        context,
+        generics,
+        prepared: prepared(context),
+        bodies: Bodies {
+            context,
+            generics,
+            pieces: String::new(),
+        },
+        vector: vector(context, generics, "T", "__h"),
+        out: String::new(),
+    };
+    emission.system();
+    emission
+        .prepared
+        .declare(&mut emission.out, context, generics);
+    emission.dynamics();
+    emission.flow(Purpose::Flow);
+    if definition.structure.separable.is_ok() {
+        emission.flow(Purpose::Kick);
+        emission.flow(Purpose::Drift);
+        emission.separable();
+    }
+    emission.extras();
+    emission.out + &emission.bodies.pieces
+}
+
+/// What preparation holds: the values it computes and the parameter arrays that functions read.
+fn prepared(context: Context) -> Holder {
+    let program = context.program;
+    let mut arrays = Vec::new();
+    for function in &program.functions {
+        for steps in [&function.coefficient, &function.evaluation] {
+            for slice in scan(program, context.layout, steps, &[]).slices {
+                if let Slice::Parameter(array) = slice {
+                    arrays.push(array);
+                }
+            }
+        }
+    }
+    arrays.sort_unstable();
+    arrays.dedup();
+    Holder::new(context, "__Prepared", &program.prepared, arrays)
+}
+
+struct Emission<'a> {
+    definition: &'a Definition<'a>,
+    context: Context<'a>,
+    generics: &'a Generics,
+    prepared: Holder,
+    bodies: Bodies<'a>,
+    vector: String,
+    out: String,
+}
+
+macro_rules! line {
+    ($emission:expr, $($text:tt)*) => {{
+        // Writing to a string does not fail.
+        let _ = writeln!($emission.out, $($text)*);
+    }};
+}
+
+impl<'a> Emission<'a> {
+    fn system(&mut self) {
+        let (context, generics) = (self.context, self.generics);
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{} __h::System<T> for {} {{\n\
+             type Vector = {};\ntype Prepared = __Prepared{};\n\
+             const NAME: &'static __h::core::primitive::str = {:?};\n\
+             const GROUPS: &'static [__h::Group] = &[{}];\n\
+             const OBSERVABLES: &'static [__h::Observable] = &[{}];",
+            generics.declaration_with_scalar(),
+            generics.system_type(),
+            self.vector,
+            generics.holder_arguments(),
+            context.model.name,
+            groups(context.model, context.layout),
+            observables::entries(context.model),
+        );
+        line!(
+            self,
+            "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{\nlet _self = self;"
+        );
+        let results: Vec<_> = self.prepared.values().collect();
+        let body = Body {
+            name: "prepare",
+            receiver: Receiver::System,
+            arguments: &[],
+            steps: &context.program.prepare,
+            cleared: &[],
+            results: &results,
+            arrays: &self.prepared.arrays,
+        };
+        self.bodies.write(&mut self.out, body);
+        let fill = self.prepared.fill(context, |array| format!("_b{array}"));
+        line!(self, "{fill}\n}}");
+        line!(
+            self,
+            "#[inline]\nfn zeros(&self) -> Self::Vector {{\nlet _self = self;"
+        );
+        for (size, run_time) in context.is_run_time.iter().enumerate() {
+            if *run_time {
+                Receiver::System.bind_size(&mut self.out, generics, size);
+            }
+        }
+        line!(self, "{}\n}}\n}}", zeros(context, generics));
+    }
+
+    fn dynamics(&mut self) {
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{} __h::Dynamics<T> for __Prepared{} {{\n\
+             type Vector = {};\ntype Flow = __Flow{};",
+            self.generics.holder_declaration(),
+            self.generics.holder_arguments(),
+            self.vector,
+            self.generics.holder_arguments(),
+        );
+        self.method("energy", Purpose::Energy, &[], true);
+        self.method("gradient_q", Purpose::GradientQ, &["_oq"], false);
+        self.method("gradient_p", Purpose::GradientP, &["_op"], false);
+        self.method("gradient", Purpose::Gradient, &["_oq", "_op"], false);
+        self.method(
+            "energy_and_gradient",
+            Purpose::EnergyAndGradient,
+            &["_oq", "_op"],
+            true,
+        );
+        self.method("time_derivative", Purpose::TimeDerivative, &[], true);
+        self.method(
+            "hessian_vector",
+            Purpose::HessianVector,
+            &["_vq", "_vp", "_oq", "_op"],
+            false,
+        );
+        line!(
+            self,
+            "#[inline]\nfn observable(&self, _index: __h::core::primitive::usize, _t: T, _q: &Self::Vector, \
+             _p: &Self::Vector) -> T {{\n{}\n}}",
+            observables::dispatch(self.context.model),
+        );
+        line!(
+            self,
+            "#[inline(always)]\nfn flow(&self, _c: T) -> Self::Flow {{\nlet _self = self;"
+        );
+        self.coefficients(Purpose::Flow, "__Flow");
+        line!(self, "}}\n}}");
+    }
+
+    /// The arguments of an evaluation: t, q, p and vectors that are read or written.
+    fn arguments(&self, more: &[&'static str]) -> Vec<(&'static str, String)> {
+        let mut arguments = vec![("_t", "T".to_owned())];
+        for name in ["_q", "_p"].iter().chain(more) {
+            let mutable = if name.starts_with("_o") { "mut " } else { "" };
+            arguments.push((name, format!("&{mutable}{}", self.vector)));
+        }
+        arguments
+    }
+
+    /// A method of prepared systems.
+    fn method(&mut self, name: &str, purpose: Purpose, more: &[&'static str], returns: bool) {
+        let arguments = self.arguments(more);
+        let list: Vec<String> = arguments
+            .iter()
+            .map(|(name, ty)| format!("{name}: {ty}"))
+            .collect();
+        let result = if returns { " -> T" } else { "" };
+        line!(
+            self,
+            "#[inline(always)]\nfn {name}(&self, {}){result} {{",
+            list.join(", ")
+        );
+        let receiver = Receiver::Holder(&self.prepared);
+        match self.context.program.function(purpose) {
+            Some(function) => {
+                let text = evaluation(&mut self.bodies, name, receiver, &arguments, function);
+                let results = if returns {
+                    results(self.context, &function.results)
+                } else {
+                    String::new()
+                };
+                line!(self, "let _self = self;\n{text}{results}");
+            }
+            None => line!(
+                self,
+                "const {{ __h::core::panic!({:?}) }}",
+                missing(purpose)
+            ),
+        }
+        line!(self, "}}");
+    }
+
+    /// What a function reads from its own holder, in the order it reads it.
+    fn holder(&self, purpose: Purpose, name: &'static str) -> Option<Holder> {
+        let function = self.context.program.function(purpose)?;
+        let scan = scan(
+            self.context.program,
+            self.context.layout,
+            &function.evaluation,
+            &function.results,
+        );
+        let arrays = scan.slices.iter().filter_map(|slice| match slice {
+            Slice::Parameter(array) => Some(*array),
+            _ => None,
+        });
+        Some(Holder::new(
+            self.context,
+            name,
+            &scan.reads,
+            arrays.collect(),
+        ))
+    }
+
+    /// The body that makes the holder of a function from prepared values and the coefficient.
+    fn coefficients(&mut self, purpose: Purpose, name: &'static str) {
+        let Some(function) = self.context.program.function(purpose) else {
+            line!(
+                self,
+                "const {{ __h::core::panic!({:?}) }}",
+                missing(purpose)
+            );
+            return;
+        };
+        let Some(holder) = self.holder(purpose, name) else {
+            return;
+        };
+        let results: Vec<_> = holder.values().collect();
+        let mut text = String::new();
+        let piece = format!("prepare{name}");
+        let body = Body {
+            name: &piece,
+            receiver: Receiver::Holder(&self.prepared),
+            arguments: &[("_c", "T".to_owned())],
+            steps: &function.coefficient,
+            cleared: &[],
+            results: &results,
+            arrays: &[],
+        };
+        self.bodies.write(&mut text, body);
+        let fill = holder.fill(self.context, |array| format!("_self.a{array}.clone()"));
+        line!(self, "{text}{fill}");
+    }
+
+    /// The holder of a flow, kick or drift with its evaluation.
+    fn flow(&mut self, purpose: Purpose) {
+        let (name, method, inputs, outputs): (_, _, &[&str], &[&str]) = match purpose {
+            Purpose::Kick => ("__Kick", "kick", &["_q"], &["_op"]),
+            Purpose::Drift => ("__Drift", "drift", &["_p"], &["_oq"]),
+            _ => ("__Flow", "flow", &["_q", "_p"], &["_oq", "_op"]),
+        };
+        let generics = self.generics;
+        let holder = self.holder(purpose, name);
+        let holder = holder.unwrap_or_else(|| Holder::new(self.context, name, &[], Vec::new()));
+        holder.declare(&mut self.out, self.context, generics);
+        let mut arguments = vec![("_t", "T".to_owned())];
+        for name in inputs.iter().chain(outputs).copied() {
+            let mutable = if name.starts_with("_o") { "mut " } else { "" };
+            arguments.push((name, format!("&{mutable}{}", self.vector)));
+        }
+        let list: Vec<String> = arguments
+            .iter()
+            .map(|(name, ty)| format!("{name}: {ty}"))
+            .collect();
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{} __h::{}<{}> for {name}{} {{\n\
+             #[inline(always)]\nfn {method}(&self, {}) {{",
+            generics.holder_declaration(),
+            name.trim_start_matches('_'),
+            self.vector,
+            generics.holder_arguments(),
+            list.join(", "),
+        );
+        match self.context.program.function(purpose) {
+            Some(function) => {
+                let receiver = Receiver::Holder(&holder);
+                let text = evaluation(&mut self.bodies, method, receiver, &arguments, function);
+                line!(self, "let _self = self;\n{text}");
+            }
+            None => line!(
+                self,
+                "const {{ __h::core::panic!({:?}) }}",
+                missing(purpose)
+            ),
+        }
+        line!(self, "}}\n}}");
+    }
+
+    fn separable(&mut self) {
+        let generics = self.generics;
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{} __h::Separable<T> for {} {{\n\
+             type Kick = __Kick{arguments};\ntype Drift = __Drift{arguments};",
+            generics.declaration_with_scalar(),
+            generics.system_type(),
+            arguments = generics.holder_arguments(),
+        );
+        for (purpose, name, method) in [
+            (Purpose::Kick, "__Kick", "kick"),
+            (Purpose::Drift, "__Drift", "drift"),
+        ] {
+            line!(
+                self,
+                "#[inline(always)]\nfn {method}(_self: &Self::Prepared, _c: T) -> Self::{} {{",
+                name.trim_start_matches('_')
+            );
+            self.coefficients(purpose, name);
+            line!(self, "}}");
+        }
+        line!(self, "}}");
+    }
+
+    /// Inherent methods of prepared systems: observables, and derivatives by parameters.
+    fn extras(&mut self) {
+        line!(
+            self,
+            "impl{} __Prepared{} {{",
+            self.generics.holder_declaration(),
+            self.generics.holder_arguments()
+        );
+        for (at, observable) in self.context.model.observables.iter().enumerate() {
+            let Some(function) = self
+                .context
+                .program
+                .function(Purpose::Observable(at as u16))
+            else {
+                continue;
+            };
+            let arguments = self.arguments(&[]);
+            let list: Vec<String> = arguments
+                .iter()
+                .map(|(name, ty)| format!("{name}: {ty}"))
+                .collect();
+            let name = format!("o{at}");
+            let receiver = Receiver::Holder(&self.prepared);
+            let text = evaluation(&mut self.bodies, &name, receiver, &arguments, function);
+            line!(
+                self,
+                "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\nlet _self = self;\n{text}[{}]\n}}",
+                list.join(", "),
+                observable.components.len(),
+                results(self.context, &function.results),
+            );
+        }
+        if let Some(function) = self.parameter_gradient() {
+            let ty = self.generics.system_type_over(&["T".to_owned()]);
+            let mut arguments = self.arguments(&[]);
+            let list: Vec<String> = arguments
+                .iter()
+                .map(|(name, ty)| format!("{name}: {ty}"))
+                .collect();
+            arguments.push(("_d", format!("&mut {ty}")));
+            let receiver = Receiver::Holder(&self.prepared);
+            let text = evaluation(
+                &mut self.bodies,
+                "parameters",
+                receiver,
+                &arguments,
+                function,
+            );
+            let mut sizes = String::new();
+            let mut fields = String::new();
+            for (size, run_time) in self.context.is_run_time.iter().enumerate() {
+                if *run_time {
+                    receiver.bind_size(&mut sizes, self.generics, size);
+                    let _ = write!(fields, "{}: _n{size}, ", self.generics.sizes[size]);
+                }
+            }
+            for (at, parameter) in self.context.model.parameters.iter().enumerate() {
+                let zero = layout::filled(
+                    &parameter.shape,
+                    "T::constant(0.0, 0.0)",
+                    self.context.indices,
+                    self.context.is_run_time,
+                    "__h",
+                );
+                let _ = write!(fields, "{}: {zero}, ", self.generics.field(at as u16));
+            }
+            line!(
+                self,
+                "#[inline]\nfn parameters(&self, {}) -> {ty} {{\nlet _self = self;\n{sizes}\
+                 let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result\n}}",
+                list.join(", "),
+                self.generics.name,
+            );
+        }
+        line!(self, "}}");
+    }
+
+    /// ∂H/∂(parameters), where they have one scalar: the result is the user's type over it.
+    fn parameter_gradient(&self) -> Option<&'a Function> {
+        match &self.definition.form {
+            Form::Item(item) if !item.parameters.is_empty() => {
+                self.context.program.function(Purpose::ParameterGradient)
+            }
+            _ => None,
+        }
+    }
+}
+
+fn evaluation(
+    bodies: &mut Bodies,
+    name: &str,
+    receiver: Receiver,
+    arguments: &[(&'static str, String)],
+    function: &Function,
+) -> String {
+    let mut text = String::new();
+    let body = Body {
+        name,
+        receiver,
+        arguments,
+        steps: &function.evaluation,
+        cleared: &function.cleared,
+        results: &function.results,
+        arrays: &[],
+    };
+    bodies.write(&mut text, body);
+    text
+}
+
+/// What rustc says where a function is used that could not be made.
+fn missing(purpose: Purpose) -> String {
+    match purpose {
+        Purpose::HessianVector => {
+            "second derivatives of H are needed here, but a function of the system was declared without them: \
+             give them after the first, `fn f(x) = f, (df), (ddf)`"
+                .into()
+        }
+        _ => format!("{purpose:?} of this system could not be derived"),
+    }
+}
+
+/// The entries of `System::GROUPS`.
+fn groups(model: &Model, layout: Layout) -> String {
+    let mut out = String::new();
+    for (at, group) in model.groups.iter().enumerate() {
+        let (rank, columns) = match &group.shape {
+            Shape::Scalar => (0, 1),
+            Shape::Vector(_) => (1, 1),
+            Shape::Matrix(..) => (2, layout::columns(&group.shape)),
+        };
+        let (part, offset) = match layout {
+            Layout::Scalars => (0, at),
+            Layout::Array => (0, 0),
+            Layout::Mixed => (at, 0),
+        };
+        let _ = write!(
+            out,
+            "__h::Group {{ coordinate: {:?}, momentum: {:?}, rank: {rank}, part: {part}, offset: {offset}, columns: {columns} }}, ",
+            group.coordinate, group.momentum
+        );
+    }
+    out
+}

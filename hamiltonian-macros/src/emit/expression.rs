@@ -1,0 +1,79 @@
+//! Expression form: a block whose value is the system.
+//!
+//! Input: a definition and the names it captures. Output: `{ struct …; impl …; Value { … } }`.
+//! Invariant: the captured names are the only tokens of the user's in it, and they stand in the
+//! one expression at its end.
+
+use super::block::Context;
+use super::generics::Generics;
+use super::{Definition, dynamics, externals, item, layout, lex, markers, mixed, observables};
+use proc_macro2::{Ident, TokenStream};
+use quote::quote;
+
+/// The tokens of a value.
+pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
+    let generics = Generics::of(definition);
+    let parts = item::Parts::of(definition, &generics);
+    let context = parts.context(definition);
+    let root = &definition.root;
+    let name = &generics.name;
+    let fields: String = generics
+        .scalars
+        .iter()
+        .enumerate()
+        .map(|(at, scalar)| format!("c{at}: {scalar}, "))
+        .collect();
+    let scalars = if captures.is_empty() {
+        String::new()
+    } else {
+        format!("<{}>", generics.scalars.join(", "))
+    };
+    let mut text = format!(
+        "#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\nstruct {name}{scalars} {{ {fields} }}\n"
+    );
+    if context.layout == layout::Layout::Mixed {
+        text.push_str("#[derive(__h::core::clone::Clone, __h::core::fmt::Debug, __h::core::cmp::PartialEq)]\n");
+        text.push_str(&mixed::declaration(context, &generics, "", "__h"));
+        text.push_str(&mixed::implementations(context, &generics, "pub"));
+    }
+    text.push_str(&dynamics::implementations(definition, context, &generics));
+    text.push_str(&markers::implementations(&definition.structure, &generics));
+    text.push_str(&item::display(definition, &generics));
+    let implementations = lex(&text);
+    let externals = externals::wrappers(definition);
+    let inherent = inherent(definition, context, &generics);
+    let value = lex(name);
+    let names = (0..captures.len()).map(|at| lex(&format!("c{at}")));
+    quote! {
+        {
+            #[allow(unused_imports)]
+            use #root::private as __h;
+            #externals
+            #implementations
+            #inherent
+            #value { #(#names: #captures),* }
+        }
+    }
+}
+
+/// Observables as methods, and the way to coordinates of mixed shape, whose type has no name
+/// outside.
+fn inherent(definition: &Definition, context: Context, generics: &Generics) -> TokenStream {
+    let visibility = quote! { pub };
+    let methods = observables::methods(definition, context, generics, &visibility);
+    let mixed = context.layout == layout::Layout::Mixed;
+    if methods.is_empty() && !mixed {
+        return TokenStream::new();
+    }
+    let header = lex(&format!(
+        "impl{} {}",
+        generics.declaration(),
+        generics.system_type()
+    ));
+    let vector = if mixed {
+        lex(&mixed::constructor(context, generics))
+    } else {
+        TokenStream::new()
+    };
+    quote! { #header { #methods #vector } }
+}

@@ -1,0 +1,42 @@
+//! Functions written in Rust, as emitted bodies call them.
+//!
+//! Input: the user's paths. Output: one wrapper a path. Invariant: a path stands in one place only,
+//! a function generic over the scalar, so that what rustc says of it points at the path.
+
+use super::block;
+use super::{Definition, lex};
+use hamiltonian_symbolic::dag::Part;
+use proc_macro2::TokenStream;
+use quote::quote;
+
+/// The wrappers of all functions.
+pub fn wrappers(definition: &Definition) -> TokenStream {
+    let mut out = TokenStream::new();
+    for (number, (external, declared)) in definition
+        .externals
+        .iter()
+        .zip(&definition.model.externals)
+        .enumerate()
+    {
+        let (number, arity) = (number as u16, declared.arity);
+        let mut wrap = |part: Part, path: &TokenStream| {
+            let name = lex(&block::external(number, part));
+            let arguments: Vec<TokenStream> =
+                (0..arity).map(|at| lex(&format!("_x{at}"))).collect();
+            out.extend(quote! {
+                #[inline(always)]
+                #[allow(dead_code)]
+                fn #name<T: __h::Real>(#(#arguments: T),*) -> T { #path(#(#arguments),*) }
+            });
+        };
+        wrap(Part::Value, &external.value);
+        for (i, path) in external.first.iter().enumerate() {
+            wrap(Part::First(i as u16), path);
+        }
+        let pairs = (0..arity).flat_map(|i| (i..arity).map(move |j| (i, j)));
+        for ((i, j), path) in pairs.zip(external.second.iter().flatten()) {
+            wrap(Part::Second(i, j), path);
+        }
+    }
+    out
+}

@@ -1,0 +1,172 @@
+//! The structs that carry prepared values into evaluations, and how a body reads from what it is
+//! a method of.
+//!
+//! Input: the values, masks and parameter arrays that functions read. Output: struct declarations
+//! and the expressions that fill and read them. Invariant: a holder has what its functions read
+//! and nothing else, but all run-time sizes.
+
+use super::block::{Context, name};
+use super::generics::Generics;
+use super::layout;
+use super::scan::is_mask;
+use hamiltonian_symbolic::program::Value;
+use std::fmt::Write;
+
+/// A struct of values computed before an evaluation.
+#[derive(Debug)]
+pub struct Holder {
+    /// Its name.
+    pub name: &'static str,
+    values: Vec<Value>,
+    masks: Vec<Value>,
+    /// Parameter arrays, lifted to the state's scalar.
+    pub arrays: Vec<u16>,
+}
+
+impl Holder {
+    /// A holder of these values.
+    pub fn new(context: Context, name: &'static str, values: &[Value], arrays: Vec<u16>) -> Holder {
+        let is_mask = |value: &Value| is_mask(context.program.instruction(*value));
+        let (masks, values) = values.iter().copied().partition(is_mask);
+        Holder {
+            name,
+            values,
+            masks,
+            arrays,
+        }
+    }
+
+    /// The declaration.
+    pub fn declare(&self, out: &mut String, context: Context, generics: &Generics) {
+        let _ = write!(
+            out,
+            "#[doc(hidden)]\n#[allow(dead_code)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
+             pub struct {}{} {{\nv: [T; {}],\n",
+            self.name,
+            generics.holder_declaration(),
+            self.values.len()
+        );
+        if !self.masks.is_empty() {
+            let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", self.masks.len());
+        }
+        for (size, run_time) in context.is_run_time.iter().enumerate() {
+            if *run_time {
+                let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
+            }
+        }
+        for &array in &self.arrays {
+            let shape = &context.model.parameters[usize::from(array)].shape;
+            let ty = layout::storage(shape, "T", context.indices, context.is_run_time, "__h");
+            let _ = writeln!(out, "a{array}: {ty},");
+        }
+        out.push_str("}\n");
+    }
+
+    /// The expression that makes one where all its values are in scope; `array` says how an array
+    /// is had.
+    pub fn fill(&self, context: Context, array: impl Fn(u16) -> String) -> String {
+        let list = |values: &[Value]| {
+            values
+                .iter()
+                .map(|v| name(*v))
+                .collect::<Vec<_>>()
+                .join(", ")
+        };
+        let mut out = format!("{} {{ v: [{}], ", self.name, list(&self.values));
+        if !self.masks.is_empty() {
+            let _ = write!(out, "m: [{}], ", list(&self.masks));
+        }
+        for (size, run_time) in context.is_run_time.iter().enumerate() {
+            if *run_time {
+                let _ = write!(out, "n{size}: _n{size}, ");
+            }
+        }
+        for &number in &self.arrays {
+            let _ = write!(out, "a{number}: {}, ", array(number));
+        }
+        out.push('}');
+        out
+    }
+
+    /// All values, in the order they are filled.
+    pub fn values(&self) -> impl Iterator<Item = Value> + '_ {
+        self.values.iter().chain(&self.masks).copied()
+    }
+
+    fn read(&self, value: Value) -> Option<String> {
+        if let Some(at) = self.values.iter().position(|v| *v == value) {
+            return Some(format!("_self.v[{at}]"));
+        }
+        let at = self.masks.iter().position(|v| *v == value)?;
+        Some(format!("_self.m[{at}]"))
+    }
+}
+
+/// What a body is a method of; the body calls it `_self`.
+#[derive(Debug, Clone, Copy)]
+pub enum Receiver<'a> {
+    /// The user's type.
+    System,
+    /// A holder.
+    Holder(&'a Holder),
+}
+
+impl Receiver<'_> {
+    /// Its type.
+    pub fn ty(self, generics: &Generics) -> String {
+        match self {
+            Receiver::System => generics.system_type(),
+            Receiver::Holder(holder) => format!("{}{}", holder.name, generics.holder_arguments()),
+        }
+    }
+
+    /// The generics of a free function over it.
+    pub fn declaration(self, generics: &Generics) -> String {
+        match self {
+            Receiver::System => generics.declaration_with_scalar(),
+            Receiver::Holder(_) => generics.holder_declaration(),
+        }
+    }
+
+    /// How a value computed earlier is read.
+    pub fn read(self, value: Value) -> Option<String> {
+        match self {
+            Receiver::System => None,
+            Receiver::Holder(holder) => holder.read(value),
+        }
+    }
+
+    /// How a scalar parameter is read.
+    pub fn scalar(self, generics: &Generics, parameter: u16) -> String {
+        match self {
+            Receiver::System => generics.lifted(parameter),
+            // Scalars are leaves of preparation; nothing later reads them.
+            Receiver::Holder(_) => "T::constant(0.0, 0.0)".into(),
+        }
+    }
+
+    /// The `let` of a run-time size.
+    pub fn bind_size(self, out: &mut String, generics: &Generics, size: usize) {
+        let field = match self {
+            Receiver::System => generics.sizes[size].clone(),
+            Receiver::Holder(_) => format!("n{size}"),
+        };
+        let _ = writeln!(out, "let _n{size} = _self.{field};");
+    }
+
+    /// The `let` of a parameter array as a slice.
+    pub fn bind_array(self, out: &mut String, generics: &Generics, array: u16) {
+        match self {
+            Receiver::System => {
+                let _ = writeln!(
+                    out,
+                    "let _b{array} = {};\nlet _a{array} = _b{array}.as_slice();",
+                    generics.lifted_array(array)
+                );
+            }
+            Receiver::Holder(_) => {
+                let _ = writeln!(out, "let _a{array} = _self.a{array}.as_slice();");
+            }
+        }
+    }
+}

@@ -1,0 +1,162 @@
+//! Index arithmetic as source text, in `usize`.
+//!
+//! Input: affine indices and bounds. Output: expressions over `_i0` (loop variables), `N0` (const
+//! generics) and `_n0` (run-time sizes). Invariant: positive terms are added before negative ones
+//! are subtracted, so that no index that is in range overflows on its way.
+
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+
+/// How sizes and loop variables are called in the function being written.
+#[derive(Debug, Clone, Copy)]
+pub struct Indices<'a> {
+    /// The name of each size.
+    pub sizes: &'a [String],
+}
+
+/// The name of a loop variable.
+pub fn variable(domain: Domain) -> String {
+    format!("_i{}", domain.0)
+}
+
+impl Indices<'_> {
+    /// The name of a size.
+    pub fn size(&self, size: Size) -> &str {
+        &self.sizes[usize::from(size.0)]
+    }
+
+    /// The positive and the negated negative terms; either may be empty. Loop variable `at.0` is
+    /// called `at.1`.
+    fn halves(&self, affine: &Affine, at: Option<(Domain, &str)>) -> (Vec<String>, Vec<String>) {
+        let (mut plus, mut minus) = (Vec::new(), Vec::new());
+        let mut push = |factor: i64, name: String| {
+            let term = match factor.unsigned_abs() {
+                1 => name,
+                k => format!("{k} * {name}"),
+            };
+            if factor < 0 {
+                minus.push(term)
+            } else {
+                plus.push(term)
+            }
+        };
+        for &(domain, factor) in &affine.loops {
+            let name = match at {
+                Some((d, name)) if d == domain => name.to_owned(),
+                _ => variable(domain),
+            };
+            push(factor, name);
+        }
+        for &(size, factor) in &affine.sizes {
+            push(factor, self.size(size).to_owned());
+        }
+        if affine.constant != 0 {
+            push(
+                affine.constant.signum(),
+                format!("{}usize", affine.constant.unsigned_abs()),
+            );
+        }
+        (plus, minus)
+    }
+
+    fn joined(&self, affine: &Affine, at: Option<(Domain, &str)>) -> (String, String) {
+        let (plus, minus) = self.halves(affine, at);
+        let plus = if plus.is_empty() {
+            "0usize".to_owned()
+        } else {
+            plus.join(" + ")
+        };
+        (plus, minus.join(" + "))
+    }
+
+    /// An index, or a bound that is not negative.
+    pub fn plain(&self, affine: &Affine, at: Option<(Domain, &str)>) -> String {
+        let (plus, minus) = self.halves(affine, at);
+        let mut text = if plus.is_empty() {
+            "0usize".to_owned()
+        } else {
+            plus.join(" + ")
+        };
+        for term in minus {
+            text.push_str(" - ");
+            text.push_str(&term);
+        }
+        text
+    }
+
+    /// The value, or 0 where it is negative.
+    pub fn saturating(&self, affine: &Affine) -> String {
+        let (plus, minus) = self.joined(affine, None);
+        if minus.is_empty() {
+            plus
+        } else {
+            format!("({plus}).saturating_sub({minus})")
+        }
+    }
+
+    /// The first value of a loop; nothing is in range where it is negative.
+    pub fn start(&self, affine: &Affine) -> String {
+        let (plus, minus) = self.joined(affine, None);
+        if minus.is_empty() {
+            plus
+        } else {
+            format!("({plus}).checked_sub({minus}).expect(\"a sum starts at a negative index\")")
+        }
+    }
+
+    /// `affine % modulo`, Euclidean.
+    pub fn wrapped(&self, affine: &Affine, modulo: &Affine, at: Option<(Domain, &str)>) -> String {
+        let (plus, minus) = self.joined(affine, at);
+        let n = self.modulus(modulo);
+        if minus.is_empty() {
+            format!("({plus}) % {n}")
+        } else {
+            format!("(({plus}) % {n} + ({n} - ({minus}) % {n})) % {n}")
+        }
+    }
+
+    /// The modulus, ready to stand in a product.
+    pub fn modulus(&self, modulo: &Affine) -> String {
+        let text = self.plain(modulo, None);
+        if text.contains(' ') {
+            format!("({text})")
+        } else {
+            text
+        }
+    }
+
+    /// An index wherever it stands.
+    pub fn index(&self, index: &Index) -> String {
+        match &index.modulo {
+            Some(modulo) => self.wrapped(&index.affine, modulo, None),
+            None => self.plain(&index.affine, None),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positive_terms_come_first() {
+        let sizes = vec!["N0".to_owned()];
+        let indices = Indices { sizes: &sizes };
+        let i = Affine::variable(Domain(2));
+        let n = Affine::size(Size(0));
+        let below = Affine::constant(-1).plus(1, &i);
+        assert_eq!(indices.plain(&below, None), "_i2 - 1usize");
+        assert_eq!(indices.plain(&n.plus(-2, &i), None), "N0 - 2 * _i2");
+        assert_eq!(
+            indices.saturating(&Affine::constant(-2).plus(1, &n)),
+            "(N0).saturating_sub(2usize)"
+        );
+        assert_eq!(
+            indices.wrapped(&i, &n, Some((Domain(2), "_s2"))),
+            "(_s2) % N0"
+        );
+        assert_eq!(
+            indices.wrapped(&below, &n, None),
+            "((_i2) % N0 + (N0 - (1usize) % N0)) % N0"
+        );
+    }
+}

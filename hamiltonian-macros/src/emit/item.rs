@@ -1,0 +1,518 @@
+//! Item form: the struct with its docs, constructors, `Default` and `Display`.
+//!
+//! Input: a definition and its header. Output: its tokens. Invariant: fields are public where they
+//! can be anything; sizes set at run time and the arrays that depend on them are private, so that
+//! lengths that `new` checked stay right.
+
+use super::block::Context;
+use super::generics::Generics;
+use super::index::Indices;
+use super::layout::{self, Layout, layout};
+use super::number::float;
+use super::{
+    Definition, Field, Form, Item, allowances, dynamics, externals, lex, markers, mixed,
+    observables,
+};
+use hamiltonian_symbolic::model::Shape;
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::fmt::Write;
+
+/// What a [`Context`] borrows.
+#[derive(Debug)]
+pub struct Parts {
+    sizes: Vec<String>,
+    is_run_time: Vec<bool>,
+}
+
+impl Parts {
+    /// The names of sizes inside bodies.
+    pub fn of(definition: &Definition, generics: &Generics) -> Parts {
+        let is_run_time: Vec<bool> = match &definition.form {
+            Form::Item(item) => item.sizes.iter().map(|size| size.run_time).collect(),
+            Form::Expression(_) => Vec::new(),
+        };
+        let mut constants = generics.constants.iter();
+        let sizes = is_run_time.iter().enumerate().map(|(at, run_time)| {
+            if *run_time {
+                format!("_n{at}")
+            } else {
+                constants.next().cloned().unwrap_or_default()
+            }
+        });
+        Parts {
+            sizes: sizes.collect(),
+            is_run_time,
+        }
+    }
+
+    /// What bodies are written from.
+    pub fn context<'a>(&'a self, definition: &Definition<'a>) -> Context<'a> {
+        Context {
+            model: definition.model,
+            program: definition.program,
+            layout: layout(&definition.model.groups),
+            indices: Indices { sizes: &self.sizes },
+            is_run_time: &self.is_run_time,
+        }
+    }
+}
+
+/// The tokens of a type.
+pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
+    let generics = Generics::of(definition);
+    let parts = Parts::of(definition, &generics);
+    let context = parts.context(definition);
+    let root = &definition.root;
+    let declaration = declaration(definition, item, context, &generics);
+    let mut text = dynamics::implementations(definition, context, &generics);
+    text.push_str(&markers::implementations(&definition.structure, &generics));
+    text.push_str(&display(definition, &generics));
+    if context.layout == Layout::Mixed {
+        text.push_str(&mixed::implementations(
+            context,
+            &generics,
+            &item.visibility.to_string(),
+        ));
+    }
+    text.push_str(&default(item, context, &generics));
+    let implementations = lex(&text);
+    let externals = externals::wrappers(definition);
+    let inherent = inherent(definition, item, context, &generics);
+    quote! {
+        #declaration
+        const _: () = {
+            use #root::private as __h;
+            #externals
+            #implementations
+            #inherent
+        };
+    }
+}
+
+/// The struct, and that of its coordinates where it has one.
+fn declaration(
+    definition: &Definition,
+    item: &Item,
+    context: Context,
+    generics: &Generics,
+) -> TokenStream {
+    let root = &definition.root;
+    let (visibility, name) = (&item.visibility, &item.name);
+    let constants = item
+        .sizes
+        .iter()
+        .filter(|size| !size.run_time)
+        .map(|size| &size.name);
+    let scalar = match generics.scalars.first() {
+        Some(scalar) => {
+            let scalar = user_scalar(item, scalar);
+            let scalar = lex(&scalar);
+            quote! { #scalar = #root::private::core::primitive::f64 }
+        }
+        None => TokenStream::new(),
+    };
+    let parameters =
+        quote! { < #(const #constants: #root::private::core::primitive::usize,)* #scalar > };
+    let parameters = if item.sizes.iter().all(|size| size.run_time) && scalar.is_empty() {
+        TokenStream::new()
+    } else {
+        parameters
+    };
+    let fields = item
+        .fields
+        .iter()
+        .map(|field| struct_field(definition, item, context, generics, *field));
+    let attributes = &item.attributes;
+    let docs = docs(definition, item, context);
+    let names: Vec<_> = item
+        .sizes
+        .iter()
+        .map(|s| &s.name)
+        .chain(item.parameters.iter().map(|p| &p.name))
+        .collect();
+    let allow = allowances(&names);
+    let vector = if context.layout == Layout::Mixed {
+        let doc = format!(" Coordinates, or momenta, of [`{name}`].");
+        let text = mixed::declaration(context, generics, &visibility.to_string(), "__ROOT__");
+        let text = with_root(lex(&text), root);
+        quote! {
+            #[doc = #doc]
+            #[derive(
+                #root::private::core::clone::Clone,
+                #root::private::core::fmt::Debug,
+                #root::private::core::cmp::PartialEq,
+            )]
+            #visibility #text
+        }
+    } else {
+        TokenStream::new()
+    };
+    quote! {
+        #(#attributes)*
+        #docs
+        #allow
+        #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
+        #visibility struct #name #parameters { #(#fields)* }
+        #vector
+    }
+}
+
+/// The scalar of the parameters as readers see it: `P`, unless a const generic has the name.
+fn user_scalar(item: &Item, scalar: &str) -> String {
+    let mut name = scalar.to_owned();
+    while item
+        .sizes
+        .iter()
+        .any(|size| !size.run_time && size.name == name)
+    {
+        name.push('_');
+    }
+    name
+}
+
+fn struct_field(
+    definition: &Definition,
+    item: &Item,
+    context: Context,
+    generics: &Generics,
+    field: Field,
+) -> TokenStream {
+    let root = &definition.root;
+    let visibility = &item.visibility;
+    match field {
+        Field::Size(number) => {
+            let size = &item.sizes[number];
+            let (name, attributes) = (&size.name, &size.attributes);
+            quote! { #(#attributes)* #name: #root::private::core::primitive::usize, }
+        }
+        Field::Parameter(number) => {
+            let parameter = &item.parameters[number];
+            let (name, attributes) = (&parameter.name, &parameter.attributes);
+            let shape = &context.model.parameters[number].shape;
+            let scalar = user_scalar(item, generics.scalars.first().map_or("P", String::as_str));
+            // Const generics have the user's names here.
+            let sizes: Vec<String> = item
+                .sizes
+                .iter()
+                .map(|size| size.name.to_string())
+                .collect();
+            let ty = layout::storage(
+                shape,
+                &scalar,
+                Indices { sizes: &sizes },
+                context.is_run_time,
+                "__ROOT__",
+            );
+            let ty = with_root(lex(&ty), root);
+            let docs = if attributes.is_empty() {
+                let text = format!(" Parameter `{name}` of H.");
+                quote! { #[doc = #text] }
+            } else {
+                quote! { #(#attributes)* }
+            };
+            if layout::is_dynamic(shape, context.is_run_time) {
+                quote! { #docs #name: #ty, }
+            } else {
+                quote! { #docs #visibility #name: #ty, }
+            }
+        }
+    }
+}
+
+/// `__ROOT__` replaced by the private module of the facade.
+fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
+    use proc_macro2::{Group, TokenTree};
+    let mut out = TokenStream::new();
+    for token in tokens {
+        match token {
+            TokenTree::Ident(ident) if ident == "__ROOT__" => out.extend(quote! { #root::private }),
+            TokenTree::Group(group) => {
+                let inner = with_root(group.stream(), root);
+                out.extend([TokenTree::Group(Group::new(group.delimiter(), inner))]);
+            }
+            token => out.extend([token]),
+        }
+    }
+    out
+}
+
+/// H and Hamilton's equations, as docs.
+fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
+    let text = &definition.text;
+    let mut doc = String::new();
+    if item.attributes.is_empty() {
+        let _ = writeln!(doc, "The Hamiltonian system `{}`.\n", item.name);
+    }
+    let _ = write!(
+        doc,
+        "\n# Hamiltonian\n\n```text\n{}\n```\n",
+        text.hamiltonian
+    );
+    for fact in &text.facts {
+        let _ = write!(doc, "\n{fact}\n");
+    }
+    if !text.equations.is_empty() {
+        let _ = write!(
+            doc,
+            "\n# Equations of motion\n\n```text\n{}\n```\n",
+            text.equations.join("\n")
+        );
+    }
+    if !text.latex.is_empty() {
+        let _ = write!(doc, "\n# LaTeX\n\n```text\n{}\n", text.latex);
+        for line in &text.latex_equations {
+            let _ = writeln!(doc, "{line}");
+        }
+        doc.push_str("```\n");
+    }
+    if context.is_run_time.contains(&true) {
+        doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system; runs check it once.\n");
+    }
+    quote! { #[doc = #doc] }
+}
+
+/// `Display`: the formula of H.
+pub fn display(definition: &Definition, generics: &Generics) -> String {
+    format!(
+        "#[automatically_derived]\nimpl{} __h::core::fmt::Display for {} {{\n\
+         fn fmt(&self, _f: &mut __h::core::fmt::Formatter<'_>) -> __h::core::fmt::Result {{ _f.write_str({:?}) }}\n}}\n",
+        generics.declaration_without_bounds(),
+        generics.system_type(),
+        definition.text.hamiltonian,
+    )
+}
+
+/// `Default`, over f64 only, where every parameter has a default.
+fn default(item: &Item, context: Context, generics: &Generics) -> String {
+    if context.is_run_time.contains(&true) || item.parameters.iter().any(|p| p.default.is_none()) {
+        return String::new();
+    }
+    let scalar: Vec<String> = generics
+        .scalars
+        .iter()
+        .map(|_| "__h::core::primitive::f64".to_owned())
+        .collect();
+    let mut fields = String::new();
+    for parameter in &item.parameters {
+        if let Some(value) = &parameter.default {
+            let _ = write!(fields, "{}: {}, ", parameter.name, float(value.to_f64()));
+        }
+    }
+    let constants = generics
+        .constants
+        .iter()
+        .map(|name| format!("const {name}: __h::core::primitive::usize"));
+    let constants: Vec<String> = constants.collect();
+    let declaration = if constants.is_empty() {
+        String::new()
+    } else {
+        format!("<{}>", constants.join(", "))
+    };
+    format!(
+        "#[automatically_derived]\nimpl{declaration} __h::core::default::Default for {} {{\n\
+         fn default() -> Self {{ Self {{ {fields} }} }}\n}}\n",
+        generics.system_type_over(&scalar),
+    )
+}
+
+/// Constants, `new`, the getters of private fields, observables, derivatives by parameters.
+fn inherent(
+    definition: &Definition,
+    item: &Item,
+    context: Context,
+    generics: &Generics,
+) -> TokenStream {
+    let header = lex(&format!(
+        "impl{} {}",
+        generics.declaration(),
+        generics.system_type()
+    ));
+    let visibility = &item.visibility;
+    let methods = observables::methods(definition, context, generics, visibility);
+    let new = new(item, context, generics);
+    let getters = getters(item, context, generics);
+    let derivatives = if item.parameters.is_empty() {
+        TokenStream::new()
+    } else {
+        let bound = lex(&generics.state_bound());
+        let state = lex(&dynamics::vector(context, generics, "T", "__h"));
+        let result = lex(&generics.system_type_over(&["T".to_owned()]));
+        quote! {
+            /// ∂H/∂(each parameter) at a state, in the fields of the same type.
+            #[must_use]
+            #visibility fn parameter_gradient<T: #bound>(&self, _state: &__h::State<#state>) -> #result {
+                <Self as __h::System<T>>::prepare(self).parameters(_state.t, &_state.q, &_state.p)
+            }
+        }
+    };
+    let latex = &definition.text.latex;
+    let equations = definition.text.latex_equations.join("\n");
+    quote! {
+        #header {
+            /// H in LaTeX.
+            #visibility const LATEX: &'static __h::core::primitive::str = #latex;
+            /// Hamilton's equations in LaTeX, one a line.
+            #visibility const LATEX_EQUATIONS: &'static __h::core::primitive::str = #equations;
+            #new
+            #getters
+            #methods
+            #derivatives
+        }
+    }
+}
+
+/// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
+fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
+    let scalar = generics.scalars.first().map_or("P", String::as_str);
+    let (mut kinds, mut arguments, mut lets) =
+        (TokenStream::new(), TokenStream::new(), TokenStream::new());
+    let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());
+    for field in &item.fields {
+        if let Field::Size(number) = field {
+            let name = &item.sizes[*number].name;
+            let local = lex(&format!("_n{number}"));
+            arguments.extend(quote! { #name: __h::core::primitive::usize, });
+            lets.extend(quote! { let #local = #name; });
+            names.push(name);
+            let _ = write!(fields, "{name}: _n{number}, ");
+        }
+    }
+    for field in &item.fields {
+        let Field::Parameter(number) = field else {
+            continue;
+        };
+        let parameter = &item.parameters[*number];
+        let name = &parameter.name;
+        let shape = &context.model.parameters[*number].shape;
+        if let Some(value) = &parameter.default {
+            let (hi, lo) = value.to_words();
+            let _ = write!(
+                fields,
+                "{name}: {scalar}::constant({}, {}), ",
+                float(hi),
+                float(lo)
+            );
+            continue;
+        }
+        names.push(name);
+        let _ = write!(fields, "{name}: _a{number}, ");
+        let local = lex(&format!("_a{number}"));
+        let ty = lex(&layout::storage(
+            shape,
+            scalar,
+            context.indices,
+            context.is_run_time,
+            "__h",
+        ));
+        // A matrix with columns set at run time is no vector of coordinates.
+        if *shape == Shape::Scalar || layout::has_dynamic_columns(shape, context.is_run_time) {
+            arguments.extend(quote! { #name: #ty, });
+            lets.extend(quote! { let #local = #name; });
+        } else {
+            let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
+            kinds.extend(quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, });
+            arguments.extend(quote! { #name: #from, });
+            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#name); });
+        }
+        if layout::is_dynamic(shape, context.is_run_time) {
+            let (rows, columns) = layout::extents(shape, context.indices);
+            let _ = writeln!(
+                checks,
+                "if _a{number}.nrows() != {rows} || _a{number}.ncols() != {columns} {{\n\
+                 return __h::core::result::Result::Err(__h::Error::Shape {{ name: {:?}, \
+                 expected: ({rows}) * ({columns}), found: _a{number}.len() }});\n}}",
+                name.to_string(),
+            );
+        }
+    }
+    if names.is_empty() {
+        return TokenStream::new();
+    }
+    let allow = allowances(&names);
+    let visibility = &item.visibility;
+    let checks = lex(&checks);
+    let system = lex(&format!("Self {{ {fields} }}"));
+    let kinds = if kinds.is_empty() {
+        kinds
+    } else {
+        quote! { < #kinds > }
+    };
+    if context.is_run_time.contains(&true) {
+        quote! {
+            /// The system of these sizes with these parameters; those with a default get it.
+            ///
+            /// # Errors
+            /// `Error::Shape` if an array does not have the number of components that its sizes say.
+            #allow
+            #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
+                #lets
+                #checks
+                __h::core::result::Result::Ok(#system)
+            }
+        }
+    } else {
+        quote! {
+            /// The system with these parameters; those with a default get it.
+            #allow
+            #[must_use]
+            #visibility fn new #kinds (#arguments) -> Self {
+                #lets
+                #system
+            }
+        }
+    }
+}
+
+/// The fields that only `new` sets.
+fn getters(item: &Item, context: Context, generics: &Generics) -> TokenStream {
+    let visibility = &item.visibility;
+    let mut out = TokenStream::new();
+    for field in &item.fields {
+        match field {
+            Field::Size(number) => {
+                let size = &item.sizes[*number];
+                let (name, allow) = (&size.name, allowances(&[&size.name]));
+                let docs = if size.attributes.is_empty() {
+                    let text = format!(" The size `{name}`.");
+                    quote! { #[doc = #text] }
+                } else {
+                    let attributes = &size.attributes;
+                    quote! { #(#attributes)* }
+                };
+                out.extend(quote! {
+                    #docs #allow #[must_use]
+                    #visibility fn #name(&self) -> __h::core::primitive::usize { self.#name }
+                });
+            }
+            Field::Parameter(number) => {
+                let shape = &context.model.parameters[*number].shape;
+                if !layout::is_dynamic(shape, context.is_run_time) {
+                    continue;
+                }
+                let parameter = &item.parameters[*number];
+                let (name, allow) = (&parameter.name, allowances(&[&parameter.name]));
+                let scalar = generics.scalars.first().map_or("P", String::as_str);
+                let ty = lex(&layout::storage(
+                    shape,
+                    scalar,
+                    context.indices,
+                    context.is_run_time,
+                    "__h",
+                ));
+                let text = format!(" Parameter `{name}`.");
+                let attributes = &parameter.attributes;
+                let docs = if attributes.is_empty() {
+                    quote! { #[doc = #text] }
+                } else {
+                    quote! { #(#attributes)* }
+                };
+                out.extend(quote! {
+                    #docs #allow #[must_use]
+                    #visibility fn #name(&self) -> &#ty { &self.#name }
+                });
+            }
+        }
+    }
+    out
+}

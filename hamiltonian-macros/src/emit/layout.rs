@@ -1,0 +1,283 @@
+//! How coordinates and parameter arrays are stored, and how function bodies get at the numbers.
+//!
+//! Input: the groups and shapes of a model. Output: types as text, and the bindings of slices at
+//! the top of a function body. Invariant: element (row, column) of a column-major array is `row`
+//! of the slice of its column; scalar coordinates share one vector, in the order of their groups.
+
+use super::index::Indices;
+use hamiltonian_symbolic::dag::{Array, Parameter, Side};
+use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::model::{Group, Model, Shape};
+use hamiltonian_symbolic::program::Target;
+
+/// How the coordinates of a system are stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Layout {
+    /// Scalars only: one static vector.
+    Scalars,
+    /// One group with extents: one vector or matrix.
+    Array,
+    /// Anything else: a generated struct with one part a group.
+    Mixed,
+}
+
+/// The storage of a group.
+pub fn layout(groups: &[Group]) -> Layout {
+    if groups.iter().all(|group| group.shape == Shape::Scalar) {
+        Layout::Scalars
+    } else if groups.len() == 1 {
+        Layout::Array
+    } else {
+        Layout::Mixed
+    }
+}
+
+/// The size of an extent, if it is set at run time.
+fn run_time(extent: &Affine, is_run_time: &[bool]) -> bool {
+    extent
+        .sizes
+        .iter()
+        .any(|(size, _)| is_run_time[usize::from(size.0)])
+}
+
+/// Whether any extent of a shape is set at run time.
+pub fn is_dynamic(shape: &Shape, is_run_time: &[bool]) -> bool {
+    match shape {
+        Shape::Scalar => false,
+        Shape::Vector(rows) => run_time(rows, is_run_time),
+        Shape::Matrix(rows, columns) => {
+            run_time(rows, is_run_time) || run_time(columns, is_run_time)
+        }
+    }
+}
+
+/// Whether the number of columns is set at run time.
+pub fn has_dynamic_columns(shape: &Shape, is_run_time: &[bool]) -> bool {
+    matches!(shape, Shape::Matrix(_, columns) if run_time(columns, is_run_time))
+}
+
+/// Rows and columns as expressions.
+pub fn extents(shape: &Shape, indices: Indices) -> (String, String) {
+    match shape {
+        Shape::Scalar => ("1usize".into(), "1usize".into()),
+        Shape::Vector(rows) => (indices.plain(rows, None), "1usize".into()),
+        Shape::Matrix(rows, columns) => (indices.plain(rows, None), indices.plain(columns, None)),
+    }
+}
+
+/// The type of an array of `scalar`s; paths begin with `root`.
+pub fn storage(
+    shape: &Shape,
+    scalar: &str,
+    indices: Indices,
+    is_run_time: &[bool],
+    root: &str,
+) -> String {
+    let dimension = |extent: &Affine| {
+        if run_time(extent, is_run_time) {
+            format!("{root}::Dyn")
+        } else {
+            format!("{root}::Const<{}>", extent_text(extent, indices))
+        }
+    };
+    match shape {
+        Shape::Scalar => scalar.to_owned(),
+        Shape::Vector(_) if is_dynamic(shape, is_run_time) => format!("{root}::DVector<{scalar}>"),
+        Shape::Vector(rows) => format!("{root}::SVector<{scalar}, {}>", extent_text(rows, indices)),
+        Shape::Matrix(rows, columns) if is_dynamic(shape, is_run_time) => {
+            let (rows, columns) = (dimension(rows), dimension(columns));
+            format!(
+                "{root}::Matrix<{scalar}, {rows}, {columns}, {root}::VecStorage<{scalar}, {rows}, {columns}>>"
+            )
+        }
+        Shape::Matrix(rows, columns) => {
+            format!(
+                "{root}::SMatrix<{scalar}, {}, {}>",
+                extent_text(rows, indices),
+                extent_text(columns, indices)
+            )
+        }
+    }
+}
+
+/// An extent where a const generic argument is due: a literal or a name.
+pub fn extent_text(extent: &Affine, indices: Indices) -> String {
+    match extent.as_constant() {
+        Some(value) => value.to_string(),
+        None => indices.plain(extent, None),
+    }
+}
+
+/// The expression of an array of that shape filled with `value`.
+pub fn filled(
+    shape: &Shape,
+    value: &str,
+    indices: Indices,
+    is_run_time: &[bool],
+    root: &str,
+) -> String {
+    let dimension = |extent: &Affine| {
+        if run_time(extent, is_run_time) {
+            format!("{root}::Dyn({})", indices.plain(extent, None))
+        } else {
+            format!("{root}::Const::<{}>", extent_text(extent, indices))
+        }
+    };
+    let (rows, columns) = match shape {
+        Shape::Scalar => return value.to_owned(),
+        Shape::Vector(rows) => (dimension(rows), format!("{root}::Const::<1>")),
+        Shape::Matrix(rows, columns) => (dimension(rows), dimension(columns)),
+    };
+    format!("{root}::Matrix::from_element_generic({rows}, {columns}, {value})")
+}
+
+/// How many columns a group has.
+pub fn columns(shape: &Shape) -> i64 {
+    match shape {
+        Shape::Scalar | Shape::Vector(_) => 1,
+        Shape::Matrix(_, columns) => columns.as_constant().unwrap_or(1),
+    }
+}
+
+/// A slice that a function body reads or writes: a column of a group, a parameter array.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Slice {
+    /// Coordinates or momenta.
+    Input(Side, u16, u16),
+    /// The direction of a Hessian product.
+    Direction(Side, u16, u16),
+    /// A parameter array.
+    Parameter(u16),
+    /// An output vector.
+    Output(Side, u16, u16),
+    /// The derivative with respect to a parameter.
+    Derivative(u16),
+}
+
+impl Slice {
+    /// The slice an array's elements are read from.
+    pub fn read(layout: Layout, array: Array) -> Slice {
+        let flat = layout == Layout::Scalars;
+        match array {
+            Array::Phase {
+                side,
+                group,
+                column,
+            } => Slice::Input(side, if flat { 0 } else { group }, column),
+            Array::Direction {
+                side,
+                group,
+                column,
+            } => Slice::Direction(side, if flat { 0 } else { group }, column),
+            Array::Parameter(Parameter(number)) => Slice::Parameter(number),
+        }
+    }
+
+    /// The slice a target's elements are written to.
+    pub fn write(layout: Layout, target: Target) -> Slice {
+        match target {
+            Target::Phase {
+                side,
+                group,
+                column,
+            } => Slice::Output(
+                side,
+                if layout == Layout::Scalars { 0 } else { group },
+                column,
+            ),
+            Target::Parameter(Parameter(number)) => Slice::Derivative(number),
+        }
+    }
+
+    /// Its name in a function body.
+    pub fn name(self) -> String {
+        let letter = |side| if side == Side::Q { 'q' } else { 'p' };
+        match self {
+            Slice::Input(side, group, column) => format!("_{}{group}_{column}", letter(side)),
+            Slice::Direction(side, group, column) => format!("_v{}{group}_{column}", letter(side)),
+            Slice::Parameter(number) => format!("_a{number}"),
+            Slice::Output(side, group, column) => format!("_o{}{group}_{column}", letter(side)),
+            Slice::Derivative(number) => format!("_d{number}"),
+        }
+    }
+
+    /// The name of the vector it is a part of.
+    fn vector(self) -> &'static str {
+        match self {
+            Slice::Input(Side::Q, ..) => "_q",
+            Slice::Input(Side::P, ..) => "_p",
+            Slice::Direction(Side::Q, ..) => "_vq",
+            Slice::Direction(Side::P, ..) => "_vp",
+            Slice::Output(Side::Q, ..) => "_oq",
+            Slice::Output(Side::P, ..) => "_op",
+            Slice::Parameter(_) | Slice::Derivative(_) => "",
+        }
+    }
+}
+
+/// The `let`s that bind the slices at the top of a body. `slices` is sorted.
+pub fn bind(
+    out: &mut String,
+    slices: &[Slice],
+    model: &Model,
+    layout: Layout,
+    indices: Indices,
+    is_run_time: &[bool],
+) {
+    for run in slices.chunk_by(|a, b| a.vector() == b.vector() && part_of(*a) == part_of(*b)) {
+        let Some((mutable, group)) = part_of(run[0]) else {
+            continue;
+        };
+        let (vector, part) = (
+            run[0].vector(),
+            if layout == Layout::Mixed { group } else { 0 },
+        );
+        let access = if mutable { "part_mut" } else { "part" };
+        let whole = format!("__h::Vector::{access}({vector}, {part})");
+        let shape = &model.groups[usize::from(group)].shape;
+        if layout == Layout::Scalars || *shape == Shape::Scalar {
+            out.push_str(&format!("let {} = {whole};\n", run[0].name()));
+            continue;
+        }
+        let rows = match shape {
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => indices.plain(rows, None),
+            Shape::Scalar => String::new(),
+        };
+        let dynamic = is_dynamic(shape, is_run_time);
+        let columns = columns(shape);
+        out.push_str(&format!("let _x = {whole};\n"));
+        if dynamic {
+            out.push_str(&format!(
+                "__h::core::assert!(_x.len() == {columns} * {rows}, \"the state does not have the shape of the system\");\n"
+            ));
+        }
+        if columns == 1 {
+            out.push_str(&format!("let {} = _x;\n", run[0].name()));
+            continue;
+        }
+        let split = if mutable { "split_at_mut" } else { "split_at" };
+        for column in 0..columns {
+            let wanted = run.iter().find(|slice| column_of(**slice) == column);
+            let name = wanted.map_or_else(|| "_".to_owned(), |slice| slice.name());
+            out.push_str(&format!("let ({name}, _x) = _x.{split}({rows});\n"));
+        }
+    }
+}
+
+fn column_of(slice: Slice) -> i64 {
+    match slice {
+        Slice::Input(_, _, column)
+        | Slice::Direction(_, _, column)
+        | Slice::Output(_, _, column) => i64::from(column),
+        Slice::Parameter(_) | Slice::Derivative(_) => 0,
+    }
+}
+
+/// Whether it is written, and the group of which it is a column; `None` for parameters.
+fn part_of(slice: Slice) -> Option<(bool, u16)> {
+    match slice {
+        Slice::Input(_, group, _) | Slice::Direction(_, group, _) => Some((false, group)),
+        Slice::Output(_, group, _) => Some((true, group)),
+        Slice::Parameter(_) | Slice::Derivative(_) => None,
+    }
+}

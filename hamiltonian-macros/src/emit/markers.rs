@@ -1,0 +1,92 @@
+//! What was proven about H, as types, and what was not, with the reason.
+//!
+//! Input: the verdicts. Output: text of the markers' implementations. Invariant: every marker is
+//! implemented for every system; one that does not hold asks for a bound that nothing satisfies,
+//! whose message is the reason, so that a scheme that needs it says what couples what.
+
+use super::Structure;
+use super::generics::Generics;
+use std::fmt::Write;
+
+/// `Separable` where it does not hold, `QuadraticKinetic`, `Autonomous` and `Cyclic`.
+pub fn implementations(structure: &Structure, generics: &Generics) -> String {
+    let mut out = String::new();
+    let system = generics.system_type();
+    if let Err(reason) = &structure.separable {
+        reason_trait(
+            &mut out,
+            "__NotSeparable",
+            reason,
+            "fn never() -> __h::Never;",
+        );
+        let _ = write!(
+            out,
+            "#[automatically_derived]\n\
+             impl{generics} __h::Separable<T> for {system} where for<'a> {system}: __NotSeparable<'a> {{\n\
+             type Kick = __h::Never;\ntype Drift = __h::Never;\n\
+             fn kick(_: &Self::Prepared, _: T) -> __h::Never {{ <Self as __NotSeparable<'_>>::never() }}\n\
+             fn drift(_: &Self::Prepared, _: T) -> __h::Never {{ <Self as __NotSeparable<'_>>::never() }}\n}}\n",
+            generics = generics.declaration_with_scalar(),
+        );
+    }
+    marker(
+        &mut out,
+        "QuadraticKinetic",
+        "__NotQuadratic",
+        &structure.quadratic_kinetic,
+        generics,
+    );
+    marker(
+        &mut out,
+        "Autonomous",
+        "__NotAutonomous",
+        &structure.autonomous,
+        generics,
+    );
+    let _ = write!(
+        out,
+        "#[automatically_derived]\nimpl{} __h::Cyclic for {system} {{\n\
+         const CYCLIC: &'static [&'static __h::core::primitive::str] = &{:?};\n}}\n",
+        generics.declaration_without_bounds(),
+        structure.cyclic,
+    );
+    out
+}
+
+/// A marker without items.
+fn marker(
+    out: &mut String,
+    name: &str,
+    bound: &str,
+    verdict: &Result<(), super::Reason>,
+    generics: &Generics,
+) {
+    let system = generics.system_type();
+    let condition = match verdict {
+        Ok(()) => String::new(),
+        Err(reason) => {
+            reason_trait(out, bound, reason, "");
+            format!(" where for<'a> {system}: {bound}<'a>")
+        }
+    };
+    let _ = write!(
+        out,
+        "#[automatically_derived]\nimpl{} __h::{name} for {system}{condition} {{}}\n",
+        generics.declaration_without_bounds(),
+    );
+}
+
+/// A trait nothing implements. Its lifetime keeps rustc from deciding the bound where it is
+/// written, so that the message comes where the marker is asked for.
+fn reason_trait(out: &mut String, name: &str, reason: &super::Reason, items: &str) {
+    // Braces are placeholders in these texts.
+    let escape = |text: &str| text.replace('{', "{{").replace('}', "}}");
+    let _ = write!(
+        out,
+        "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?})]\n\
+         #[doc(hidden)]\npub trait {name}<'a> {{ {items} }}\n",
+        escape(&reason.message),
+        escape(&reason.label),
+        escape(&reason.note),
+    );
+}

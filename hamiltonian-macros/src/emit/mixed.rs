@@ -1,0 +1,162 @@
+//! Coordinates of mixed shape: a generated struct with one field a group.
+//!
+//! Input: the groups. Output: text of the struct, its constructor and its `Vector`. Invariant: a
+//! group is one part, in declaration order.
+
+use super::block::Context;
+use super::generics::Generics;
+use super::layout;
+use hamiltonian_symbolic::model::Shape;
+use std::fmt::Write;
+
+/// The name of the struct.
+pub fn name(generics: &Generics) -> String {
+    format!("{}Vector", generics.name)
+}
+
+/// The type over a scalar.
+pub fn ty(generics: &Generics, scalar: &str) -> String {
+    let arguments: Vec<&str> = generics
+        .constants
+        .iter()
+        .map(String::as_str)
+        .chain([scalar])
+        .collect();
+    format!("{}<{}>", name(generics), arguments.join(", "))
+}
+
+/// The declaration without visibility, attributes and docs: `struct NameVector<T> { … }`, paths
+/// beginning with `root`.
+pub fn declaration(context: Context, generics: &Generics, visibility: &str, root: &str) -> String {
+    let mut parameters: Vec<String> = generics
+        .constants
+        .iter()
+        .map(|name| format!("const {name}: {root}::core::primitive::usize"))
+        .collect();
+    parameters.push("T".into());
+    let mut fields = String::new();
+    for group in &context.model.groups {
+        let ty = layout::storage(
+            &group.shape,
+            "T",
+            context.indices,
+            context.is_run_time,
+            root,
+        );
+        let doc = format!(
+            " `{}` of coordinates, `{}` of momenta.",
+            group.coordinate, group.momentum
+        );
+        let _ = writeln!(
+            fields,
+            "#[doc = {doc:?}]\n{visibility} {}: {ty},",
+            group.coordinate
+        );
+    }
+    format!(
+        "struct {}<{}> {{\n{fields}}}",
+        name(generics),
+        parameters.join(", ")
+    )
+}
+
+/// What a constructor takes, an array in any form `IntoVector` takes.
+struct Arguments {
+    /// Generic parameters, with their brackets.
+    kinds: String,
+    /// Arguments with their types.
+    arguments: String,
+    /// The fields of the struct.
+    fields: String,
+}
+
+fn arguments(context: Context) -> Arguments {
+    let (mut kinds, mut arguments, mut fields) = (Vec::new(), Vec::new(), Vec::new());
+    for (at, group) in context.model.groups.iter().enumerate() {
+        let field = &group.coordinate;
+        if group.shape == Shape::Scalar {
+            arguments.push(format!("_{at}: T"));
+            fields.push(format!("{field}: _{at}"));
+        } else {
+            let storage = layout::storage(
+                &group.shape,
+                "T",
+                context.indices,
+                context.is_run_time,
+                "__h",
+            );
+            kinds.push(format!(
+                "K{at}, V{at}: __h::IntoVector<K{at}, Vector = {storage}>"
+            ));
+            arguments.push(format!("_{at}: V{at}"));
+            fields.push(format!("{field}: __h::IntoVector::into_vector(_{at})"));
+        }
+    }
+    Arguments {
+        kinds: kinds.join(", "),
+        arguments: arguments.join(", "),
+        fields: fields.join(", "),
+    }
+}
+
+/// A method that makes coordinates, for expression form, where the struct has no name outside.
+pub fn constructor(context: Context, generics: &Generics) -> String {
+    let Arguments {
+        kinds,
+        arguments,
+        fields,
+    } = arguments(context);
+    format!(
+        "pub fn vector<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
+        ty(generics, "T"),
+        name(generics),
+    )
+}
+
+/// The implementations.
+pub fn implementations(context: Context, generics: &Generics, visibility: &str) -> String {
+    let ty = ty(generics, "T");
+    let declaration = generics.holder_declaration();
+    let groups = &context.model.groups;
+    let Arguments {
+        kinds,
+        arguments,
+        fields,
+    } = arguments(context);
+    let (mut parts, mut parts_mut, mut zeros) = (String::new(), String::new(), String::new());
+    for (at, group) in groups.iter().enumerate() {
+        let field = &group.coordinate;
+        // The last part serves every further number: there is none.
+        let pattern = if at + 1 == groups.len() {
+            "_".to_owned()
+        } else {
+            at.to_string()
+        };
+        if group.shape == Shape::Scalar {
+            let _ = writeln!(
+                parts,
+                "{pattern} => __h::core::slice::from_ref(&self.{field}),"
+            );
+            let _ = writeln!(
+                parts_mut,
+                "{pattern} => __h::core::slice::from_mut(&mut self.{field}),"
+            );
+            let _ = write!(zeros, "{field}: T::constant(0.0, 0.0), ");
+        } else {
+            let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");
+            let _ = writeln!(parts_mut, "{pattern} => self.{field}.as_mut_slice(),");
+            let _ = write!(zeros, "{field}: __h::Vector::zeros_like(&self.{field}), ");
+        }
+    }
+    format!(
+        "#[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
+         type Scalar = T;\nconst PARTS: __h::core::primitive::usize = {};\n\
+         #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
+         #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
+         fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n}}\n\
+         impl{declaration} {ty} {{\n\
+         /// The groups in declaration order, arrays in any form `IntoVector` takes.\n\
+         #[must_use]\n{visibility} fn new<{kinds}>({arguments}) -> Self {{ Self {{ {fields} }} }}\n}}\n",
+        groups.len(),
+    )
+}

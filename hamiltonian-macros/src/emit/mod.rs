@@ -1,0 +1,200 @@
+//! From a scheduled program to tokens.
+//!
+//! Input: [`Definition`]: a model, its program, what was proven about it, and the tokens the user
+//! wrote. Output: the tokens of the type (or the value), of everything it implements, and of its
+//! documentation. Invariants:
+//!
+//! - Emitted code names nothing of the user's but what the user wrote: paths begin with the
+//!   private module of the facade, which is called `__h` inside; locals begin with an underscore,
+//!   so that no constant of the user's can turn a binding into a pattern.
+//! - Bodies are written as text and lexed once, which costs a tenth of building them token by
+//!   token; what the user wrote (names, attributes, paths) keeps its own tokens and spans.
+//! - The same definition gives the same tokens.
+
+mod block;
+mod dynamics;
+mod expression;
+mod externals;
+mod function;
+mod generics;
+mod holder;
+mod index;
+mod item;
+mod layout;
+mod markers;
+mod mixed;
+mod number;
+mod observables;
+mod scan;
+
+#[cfg(test)]
+mod tests;
+
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::program::Program;
+use hamiltonian_symbolic::rational::Rational;
+use proc_macro2::{Ident, Span, TokenStream};
+
+/// All that emission reads.
+#[derive(Debug)]
+pub struct Definition<'a> {
+    /// The path of the facade: `$crate`.
+    pub root: TokenStream,
+    /// The mathematics.
+    pub model: &'a Model,
+    /// The instructions.
+    pub program: &'a Program,
+    /// What the user's tokens say.
+    pub form: Form,
+    /// What was proven.
+    pub structure: Structure,
+    /// What is printed.
+    pub text: Text,
+    /// Functions written in Rust, in the model's order.
+    pub externals: Vec<External>,
+    /// Monitors, invariants and events, in the model's order.
+    pub observables: Vec<ObservableItem>,
+}
+
+/// Item form or expression form.
+#[derive(Debug)]
+pub enum Form {
+    /// `pub struct Name { … }`
+    Item(Item),
+    /// A value; the names it captures are the parameters of the model.
+    Expression(Vec<Ident>),
+}
+
+/// The header of item form.
+#[derive(Debug)]
+pub struct Item {
+    /// Attributes and docs that pass through.
+    pub attributes: Vec<TokenStream>,
+    /// `pub`, `pub(crate)` or nothing.
+    pub visibility: TokenStream,
+    /// The name of the type.
+    pub name: Ident,
+    /// Sizes in the model's order: const generics first.
+    pub sizes: Vec<SizeItem>,
+    /// Parameters in the model's order.
+    pub parameters: Vec<ParameterItem>,
+    /// Run-time sizes and parameters in the order of the fields.
+    pub fields: Vec<Field>,
+}
+
+/// A size.
+#[derive(Debug)]
+pub struct SizeItem {
+    /// Its name.
+    pub name: Ident,
+    /// A field set at run time; a const generic otherwise.
+    pub run_time: bool,
+    /// Docs.
+    pub attributes: Vec<TokenStream>,
+}
+
+/// A parameter.
+#[derive(Debug)]
+pub struct ParameterItem {
+    /// Its name.
+    pub name: Ident,
+    /// Docs.
+    pub attributes: Vec<TokenStream>,
+    /// The default of a scalar.
+    pub default: Option<Rational>,
+}
+
+/// A field of the struct.
+#[derive(Debug, Clone, Copy)]
+pub enum Field {
+    /// A run-time size, by its number in the model.
+    Size(usize),
+    /// A parameter, by its number in the model.
+    Parameter(usize),
+}
+
+/// A monitor, an invariant or an event.
+#[derive(Debug)]
+pub struct ObservableItem {
+    /// Its name.
+    pub name: Ident,
+    /// Docs.
+    pub attributes: Vec<TokenStream>,
+}
+
+/// The paths of a function written in Rust.
+#[derive(Debug)]
+pub struct External {
+    /// The function.
+    pub value: TokenStream,
+    /// Its partial derivatives.
+    pub first: Vec<TokenStream>,
+    /// Its second partials: the upper triangle row by row.
+    pub second: Option<Vec<TokenStream>>,
+}
+
+/// What was proven about H.
+#[derive(Debug)]
+pub struct Structure {
+    /// H = T(p, t) + V(q, t)
+    pub separable: Result<(), Reason>,
+    /// T = ½ pᵀM⁻¹p with constant M
+    pub quadratic_kinetic: Result<(), Reason>,
+    /// H does not depend on t
+    pub autonomous: Result<(), Reason>,
+    /// Coordinates that do not appear in H.
+    pub cyclic: Vec<String>,
+}
+
+/// Why a structure is not there, as rustc says it where a scheme asks for it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Reason {
+    /// What is wrong.
+    pub message: String,
+    /// What would be needed.
+    pub label: String,
+    /// What to use instead.
+    pub note: String,
+}
+
+/// H and Hamilton's equations as people read them.
+#[derive(Debug, Default)]
+pub struct Text {
+    /// `H(q; p) = …`
+    pub hamiltonian: String,
+    /// Hamilton's equations, one a line.
+    pub equations: Vec<String>,
+    /// H in LaTeX.
+    pub latex: String,
+    /// Hamilton's equations in LaTeX, one a line.
+    pub latex_equations: Vec<String>,
+    /// What is known about H, one sentence a line.
+    pub facts: Vec<String>,
+}
+
+/// The tokens of a definition.
+pub fn generate(definition: &Definition) -> TokenStream {
+    match &definition.form {
+        Form::Item(item) => item::generate(definition, item),
+        Form::Expression(captures) => expression::generate(definition, captures),
+    }
+}
+
+/// Text as tokens. All text that is emitted is made here, so it lexes; if it did not, the error
+/// says so where the macro was called.
+fn lex(text: &str) -> TokenStream {
+    text.parse().unwrap_or_else(|_| {
+        let message = "the emitted code does not lex; this is a fault of `hamiltonian!`";
+        quote::quote_spanned!(Span::call_site()=> ::core::compile_error! { #message })
+    })
+}
+
+/// Attributes that allow what the user's own names may do to lints.
+fn allowances(names: &[&Ident]) -> TokenStream {
+    let snake = |name: &&Ident| name.to_string().chars().all(|c| !c.is_uppercase());
+    if names.iter().all(snake) {
+        TokenStream::new()
+    } else {
+        quote::quote! { #[allow(non_snake_case)] }
+    }
+}

@@ -1,0 +1,63 @@
+//! Numbers as source text.
+//!
+//! Input: exact rationals. Output: text that rustc reads back to the same bits. Invariant: a
+//! number is rounded here and nowhere else.
+
+use hamiltonian_symbolic::rational::Rational;
+
+/// π in two words.
+const PI: (f64, f64) = (core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
+
+/// A float as an expression of type `f64`: the shortest decimal that reads back exactly.
+pub fn float(value: f64) -> String {
+    if value.is_nan() {
+        "__h::core::f64::NAN".into()
+    } else if value.is_infinite() {
+        let sign = if value < 0.0 { "-" } else { "" };
+        format!("{sign}__h::core::f64::INFINITY")
+    } else {
+        format!("{value:?}")
+    }
+}
+
+/// A number as an expression of the scalar type `T`.
+pub fn constant(value: &Rational) -> String {
+    two_words(value.to_words())
+}
+
+/// π as an expression of the scalar type `T`.
+pub fn pi() -> String {
+    two_words(PI)
+}
+
+fn two_words((hi, lo): (f64, f64)) -> String {
+    // What is left of a number that overflowed, or of one below the normal range, says nothing.
+    let lo = if hi.is_finite() { lo } else { 0.0 };
+    format!("T::constant({}, {})", float(hi), float(lo))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_reads_back_to_the_same_bits() {
+        for value in [
+            0.1,
+            -9.81,
+            1e-300,
+            4.9e-324,
+            1.797e308,
+            1.0 / 3.0,
+            123_456_789.0,
+            1e22,
+        ] {
+            assert_eq!(
+                float(value).parse::<f64>().unwrap().to_bits(),
+                value.to_bits()
+            );
+        }
+        assert_eq!(constant(&Rational::new(1, 2)), "T::constant(0.5, 0.0)");
+        assert_eq!(float(f64::NEG_INFINITY), "-__h::core::f64::INFINITY");
+    }
+}

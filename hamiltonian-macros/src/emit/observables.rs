@@ -1,0 +1,107 @@
+//! Monitors, invariants and events: entries of the system's list, and methods of the type.
+//!
+//! Input: a definition. Output: text of the entries and of their dispatch, tokens of the methods.
+//! Invariant: a vector-valued observable is one entry a component, in order.
+
+use super::block::Context;
+use super::dynamics::vector;
+use super::generics::Generics;
+use super::{Definition, allowances, lex};
+use hamiltonian_symbolic::model::{Model, ObservableKind};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::fmt::Write;
+
+/// The entries of `System::OBSERVABLES`.
+pub fn entries(model: &Model) -> String {
+    let mut out = String::new();
+    for observable in &model.observables {
+        let kind = match observable.kind {
+            ObservableKind::Monitor => "Monitor",
+            ObservableKind::Invariant => "Invariant",
+            ObservableKind::Event => "Event",
+        };
+        for component in 0..observable.components.len() {
+            let name = if observable.components.len() == 1 {
+                observable.name.clone()
+            } else {
+                format!("{}[{component}]", observable.name)
+            };
+            let _ = write!(
+                out,
+                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind} }}, "
+            );
+        }
+    }
+    out
+}
+
+/// The body of `Dynamics::observable`.
+pub fn dispatch(model: &Model) -> String {
+    let mut out = "match _index {\n".to_owned();
+    let mut index = 0;
+    for (at, observable) in model.observables.iter().enumerate() {
+        for component in 0..observable.components.len() {
+            let _ = writeln!(out, "{index} => self.o{at}(_t, _q, _p)[{component}],");
+            index += 1;
+        }
+    }
+    let _ = write!(
+        out,
+        "_ => __h::core::panic!(\"observable {{}} of {{}}\", _index, {index}),\n}}"
+    );
+    out
+}
+
+/// The methods of the type.
+pub fn methods(
+    definition: &Definition,
+    context: Context,
+    generics: &Generics,
+    visibility: &TokenStream,
+) -> TokenStream {
+    let bound = lex(&generics.state_bound());
+    let state = lex(&vector(context, generics, "T", "__h"));
+    let mut out = TokenStream::new();
+    for ((at, observable), item) in context
+        .model
+        .observables
+        .iter()
+        .enumerate()
+        .zip(&definition.observables)
+    {
+        let (name, attributes) = (&item.name, &item.attributes);
+        let allow = allowances(&[name]);
+        let components = observable.components.len();
+        let call = format!(
+            "<Self as __h::System<T>>::prepare(self).o{at}(_state.t, &_state.q, &_state.p)"
+        );
+        let (result, body) = if components == 1 {
+            ("T".to_owned(), format!("let [_value] = {call}; _value"))
+        } else {
+            (
+                format!("__h::SVector<T, {components}>"),
+                format!("__h::Matrix::from_array_storage(__h::ArrayStorage([{call}]))"),
+            )
+        };
+        let (result, body) = (lex(&result), lex(&body));
+        let docs = if attributes.is_empty() {
+            let kind = match observable.kind {
+                ObservableKind::Monitor => "Monitor",
+                ObservableKind::Invariant => "Invariant",
+                ObservableKind::Event => "Event",
+            };
+            let text = format!(" {kind} `{}` at a state.", observable.name);
+            quote! { #[doc = #text] }
+        } else {
+            quote! { #(#attributes)* }
+        };
+        out.extend(quote! {
+            #docs
+            #allow
+            #[must_use]
+            #visibility fn #name<T: #bound>(&self, _state: &__h::State<#state>) -> #result { #body }
+        });
+    }
+    out
+}

@@ -16,9 +16,11 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A whole definition.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Ast {
-    /// The header of item form; `None` in expression form.
+    /// It began like an item.
+    pub is_item: bool,
+    /// The header of item form, as soon as its name was read; `None` in expression form.
     pub item: Option<Item>,
     /// The statements in source order.
     pub statements: Vec<Statement>,
@@ -246,8 +248,8 @@ pub struct Expr {
     pub kind: ExprKind,
     /// From its first to its last token, parentheses around it included.
     pub spans: Spans,
-    /// The narrowest token that stands for it: its operator, its name, its number.
-    pub at: Span,
+    /// The narrowest piece that stands for it: its operator, its name, its number.
+    pub at: Spans,
 }
 
 /// What an expression node is.
@@ -288,7 +290,7 @@ pub enum ExprKind {
     /// `sum(i in a..b, j in c..d) { body }`
     Sum {
         /// Its loop variables, outermost first.
-        scopes: Range<u32>,
+        scopes: Vec<ScopeId>,
         /// What is added.
         body: ExprId,
     },
@@ -468,7 +470,7 @@ pub struct ScopeId(pub u32);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Symbol(pub u32);
 
-/// All names of a definition.
+/// All names of a definition, those that are only declared too.
 #[derive(Debug, Default)]
 pub struct Symbols {
     names: Vec<String>,
@@ -485,6 +487,11 @@ impl Symbols {
         self.names.push(name.to_owned());
         self.index.insert(name.to_owned(), symbol);
         symbol
+    }
+
+    /// The symbol of a name that occurs.
+    pub fn find(&self, name: &str) -> Option<Symbol> {
+        self.index.get(name).copied()
     }
 
     /// The name of a symbol.

@@ -286,8 +286,8 @@ pub struct Node {
     pub ty: Type,
     /// From its first to its last token.
     pub spans: Spans,
-    /// The narrowest token that stands for it: its operator, its name, its number.
-    pub at: Span,
+    /// The narrowest piece that stands for it: its operator, its name, its number.
+    pub at: Spans,
 }
 
 /// What a node is. S is a scalar, V a vector, M a matrix, X any of the three, B a condition.
@@ -367,6 +367,52 @@ pub enum Kind {
         /// The value where it does not.
         otherwise: NodeId,
     },
+}
+
+impl Kind {
+    /// Calls `visit` with every child, in the order they are written.
+    pub fn for_each_child(&self, mut visit: impl FnMut(NodeId)) {
+        match self {
+            Kind::Number(_)
+            | Kind::Pi
+            | Kind::Coordinate(_)
+            | Kind::Momentum(_)
+            | Kind::Velocity(_)
+            | Kind::Time
+            | Kind::Parameter(_)
+            | Kind::Capture(_)
+            | Kind::Size(_)
+            | Kind::Loop(_)
+            | Kind::Hamiltonian => {}
+            Kind::Neg(a) | Kind::Not(a) => visit(*a),
+            Kind::Add(a, b)
+            | Kind::Sub(a, b)
+            | Kind::Mul(a, b)
+            | Kind::Div(a, b)
+            | Kind::Pow(a, b)
+            | Kind::Compare(_, a, b)
+            | Kind::And(a, b)
+            | Kind::Or(a, b)
+            | Kind::Bracket(a, b) => {
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Index { base, .. } => visit(*base),
+            Kind::Vector(items) | Kind::Call(_, items) | Kind::Function(_, items) => {
+                items.iter().copied().for_each(visit);
+            }
+            Kind::Sum { body, .. } => visit(*body),
+            Kind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                visit(*condition);
+                visit(*then);
+                visit(*otherwise);
+            }
+        }
+    }
 }
 
 macro_rules! ids {

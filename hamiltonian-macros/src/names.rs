@@ -141,7 +141,148 @@ const RESERVED: &[&str] = &[
     "on",
 ];
 
+/// Other names people know functions and constants by.
+const SYNONYMS: &[(&str, &str)] = &[
+    ("log", "ln"),
+    ("log10", "ln(x)/ln(10)"),
+    ("log2", "ln(x)/ln(2)"),
+    ("log1p", "ln_1p"),
+    ("expm1", "exp_m1"),
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("arctan2", "atan2"),
+    ("arsinh", "asinh"),
+    ("arcsinh", "asinh"),
+    ("arcosh", "acosh"),
+    ("arccosh", "acosh"),
+    ("artanh", "atanh"),
+    ("arctanh", "atanh"),
+    ("tg", "tan"),
+    ("sh", "sinh"),
+    ("ch", "cosh"),
+    ("th", "tanh"),
+    ("fabs", "abs"),
+    ("sgn", "sign"),
+    ("signum", "sign"),
+    ("power", "pow"),
+    ("powi", "pow"),
+    ("powf", "pow"),
+    ("root", "sqrt"),
+    ("length", "norm"),
+    ("magnitude", "norm"),
+    ("norm2", "norm_squared"),
+    ("inner", "dot"),
+    ("poisson", "bracket"),
+    ("PI", "pi"),
+    ("Pi", "pi"),
+    ("π", "pi"),
+];
+
+/// Keywords of Rust, which can name neither fields nor variables of the code that is made.
+#[rustfmt::skip]
+const RUST_KEYWORDS: &[&str] = &[
+    "as", "async", "await", "break", "const", "continue", "crate", "dyn", "else", "enum", "extern", "false", "fn",
+    "for", "gen", "if", "impl", "in", "let", "loop", "match", "mod", "move", "mut", "pub", "ref", "return", "self",
+    "Self", "static", "struct", "super", "trait", "true", "type", "unsafe", "use", "where", "while", "abstract",
+    "become", "box", "do", "final", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
+];
+
+/// Methods every system has, which an observable would hide.
+#[rustfmt::skip]
+const METHODS: &[&str] = &[
+    "energy", "gradient", "prepare", "zeros", "new", "default", "clone", "fmt", "velocity", "conjugate_momentum",
+    "observable", "flow", "kick", "drift", "hessian_vector", "time_derivative",
+];
+
 /// The function of a name.
 pub fn function(name: &str) -> Option<&'static Entry> {
     FUNCTIONS.iter().find(|entry| entry.name == name)
+}
+
+/// What the language means by a word that nothing else may be called.
+pub fn meaning(name: &str) -> Option<&'static str> {
+    if name == "H" {
+        Some("the Hamiltonian")
+    } else if function(name).is_some() {
+        Some("a function of the language")
+    } else if CONSTANTS.contains(&name) {
+        Some("a constant of the language")
+    } else if RESERVED.contains(&name) {
+        Some("a word of the language")
+    } else {
+        None
+    }
+}
+
+/// Whether a word begins a statement.
+pub fn is_statement_word(name: &str) -> bool {
+    STATEMENTS.contains(&name)
+}
+
+/// Whether Rust keeps a word to itself.
+pub fn is_rust_keyword(name: &str) -> bool {
+    RUST_KEYWORDS.contains(&name)
+}
+
+/// Whether every system has a method of this name.
+pub fn is_method(name: &str) -> bool {
+    METHODS.contains(&name)
+}
+
+/// What the language calls what others call `name`.
+pub fn synonym(name: &str) -> Option<&'static str> {
+    SYNONYMS
+        .iter()
+        .find(|(other, _)| *other == name)
+        .map(|(_, known)| *known)
+}
+
+/// The candidate nearest to a name, if one is near: the same but for case, or at most one edit in
+/// three letters away. The first of several equally near.
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let letters: Vec<char> = name.chars().collect();
+    let allowed = if letters.len() < 2 {
+        0
+    } else {
+        (letters.len() / 3).max(1)
+    };
+    let mut best: Option<(usize, &str)> = None;
+    for candidate in candidates {
+        if candidate == name {
+            continue;
+        }
+        let distance = if candidate.to_lowercase() == name.to_lowercase() {
+            0
+        } else {
+            let other: Vec<char> = candidate.chars().collect();
+            if other.len().abs_diff(letters.len()) > allowed || letters.len() > 64 {
+                continue;
+            }
+            edits(&letters, &other)
+        };
+        if distance <= allowed && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours between two words.
+fn edits(a: &[char], b: &[char]) -> usize {
+    let mut before: Vec<usize> = Vec::new();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for i in 1..=a.len() {
+        let mut next = vec![i];
+        for j in 1..=b.len() {
+            let replaced = row[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+            let mut least = replaced.min(row[j] + 1).min(next[j - 1] + 1);
+            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                least = least.min(before[j - 2] + 1);
+            }
+            next.push(least);
+        }
+        before = std::mem::replace(&mut row, next);
+    }
+    row[b.len()]
 }

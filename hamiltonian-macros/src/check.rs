@@ -1,0 +1,330 @@
+//! Statements as written → names resolved, shapes checked.
+//!
+//! Input: an [`Ast`] without parse errors. Output: [`Checked`], which means something only if
+//! nothing was reported. Invariants: a mistake is reported once, at the narrowest token; what
+//! depends on a mistake is silent (an erroneous value is `None` and says nothing further); every
+//! pass over expressions is a forward loop.
+
+mod affine;
+mod builtin;
+mod chart;
+mod declare;
+mod expr;
+mod lookup;
+mod statement;
+
+use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
+use crate::checked::{
+    Affine, Checked, Definition, Extent, FunctionId, GroupId, Kind, LoopId, NodeId, ParameterId,
+    SizeId, Type,
+};
+use crate::report::Report;
+use proc_macro2::{Ident, Span};
+
+/// Resolves and checks a definition.
+pub fn check(ast: &Ast, report: &mut Report) -> Checked {
+    let mut checker = Checker::new(ast, report);
+    if checker.header() && checker.signature() {
+        checker.values();
+        checker.claims();
+        checker.occurs();
+    }
+    checker.out
+}
+
+/// What a name stands for.
+#[derive(Debug, Clone, Copy)]
+enum Binding {
+    Coordinate(GroupId),
+    Momentum(GroupId),
+    Velocity(GroupId),
+    Time,
+    Parameter(ParameterId),
+    Size(SizeId),
+    /// `None` if its value is erroneous.
+    Value(Option<NodeId>),
+    /// Index into [`Checker::lets`].
+    LetFunction(usize),
+    Function(FunctionId),
+    /// Its declaration is erroneous.
+    Erroneous,
+}
+
+/// A `let` function.
+struct LetFunction<'a> {
+    arguments: Vec<Symbol>,
+    body: &'a Expression,
+    /// `f(x, y)`
+    shown: String,
+    /// An error in the body was reported where it stands.
+    erroneous: bool,
+}
+
+/// Where H and L stand, and which statement is being read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Place {
+    /// A `let` above the definition.
+    Before,
+    /// The right side of H or L.
+    Within,
+    /// Anything that the definition does not depend on.
+    After,
+}
+
+struct Checker<'a> {
+    ast: &'a Ast,
+    report: &'a mut Report,
+    out: Checked,
+    /// By symbol.
+    bindings: Vec<Option<Binding>>,
+    /// Symbols that only a later statement defines, by symbol.
+    later: Vec<bool>,
+    /// Symbols of loop variables, by symbol.
+    loop_symbols: Vec<bool>,
+    /// Symbols whose being unknown was reported, by symbol.
+    unknown: Vec<bool>,
+    /// Sizes whose being unknown was reported.
+    unknown_sizes: Vec<String>,
+    /// The statement that is being read defines this.
+    defining: Option<Symbol>,
+    place: Place,
+    lets: Vec<LetFunction<'a>>,
+    /// The affine form of nodes that have one, by node.
+    affines: Vec<Option<Affine>>,
+    /// By scope: the loop it stands for at present.
+    scope_loops: Vec<Option<LoopId>>,
+    /// Loops in whose body the cursor is, outermost first.
+    active: Vec<LoopId>,
+    /// By raw node: an error was reported for it.
+    reported: Vec<bool>,
+    call_depth: u32,
+    /// Nodes made by calls of `let` functions.
+    instantiated: usize,
+}
+
+impl<'a> Checker<'a> {
+    fn new(ast: &'a Ast, report: &'a mut Report) -> Self {
+        let symbols = ast.symbols.len();
+        let mut loop_symbols = vec![false; symbols];
+        for scope in &ast.scopes {
+            loop_symbols[scope.symbol.0 as usize] = true;
+        }
+        Checker {
+            ast,
+            report,
+            out: Checked {
+                item: None,
+                sizes: Vec::new(),
+                parameters: Vec::new(),
+                captures: Vec::new(),
+                groups: Vec::new(),
+                time: None,
+                definition: Definition::Hamiltonian(NodeId(0)),
+                lets: Vec::new(),
+                functions: Vec::new(),
+                observables: Vec::new(),
+                split: Vec::new(),
+                force: Vec::new(),
+                time_factor: None,
+                charts: Vec::new(),
+                loops: Vec::new(),
+                nodes: Vec::new(),
+            },
+            bindings: vec![None; symbols],
+            later: vec![false; symbols],
+            loop_symbols,
+            unknown: vec![false; symbols],
+            unknown_sizes: Vec::new(),
+            defining: None,
+            place: Place::Before,
+            lets: Vec::new(),
+            affines: Vec::new(),
+            scope_loops: vec![None; ast.scopes.len()],
+            active: Vec::new(),
+            reported: vec![false; ast.nodes.len()],
+            call_depth: 0,
+            instantiated: 0,
+        }
+    }
+
+    /// The symbol of a name, if it occurs in any expression.
+    fn symbol(&self, name: &Ident) -> Option<Symbol> {
+        self.ast.symbols.find(&name.to_string())
+    }
+
+    /// What kind of thing a name already is, in words.
+    fn described(&self, binding: Binding) -> &'static str {
+        match binding {
+            Binding::Coordinate(_) => "a coordinate",
+            Binding::Momentum(_) => "a momentum",
+            Binding::Velocity(_) => "a velocity",
+            Binding::Time => "time",
+            Binding::Parameter(_) => "a parameter",
+            Binding::Size(_) => "a size",
+            Binding::Value(_) => "a `let`",
+            Binding::LetFunction(_) | Binding::Function(_) => "a function",
+            Binding::Erroneous => "declared",
+        }
+    }
+
+    /// `(q, r; p, s; t)` of the definition as it would be written with time.
+    fn signature_with_time(&self) -> String {
+        let shown = |name: &Ident, ty: Type| format!("{name}{}", self.extents_shown(ty));
+        let list = |names: Vec<String>| names.join(", ");
+        let coordinates = list(
+            self.out
+                .groups
+                .iter()
+                .map(|group| shown(&group.coordinate, group.ty))
+                .collect(),
+        );
+        let partners = self
+            .out
+            .groups
+            .iter()
+            .map(|group| shown(group.velocity.as_ref().unwrap_or(&group.momentum), group.ty));
+        let word = if self.is_lagrangian() { "L" } else { "H" };
+        format!("{word}({coordinates}; {}; t)", list(partners.collect()))
+    }
+
+    fn is_lagrangian(&self) -> bool {
+        self.out
+            .groups
+            .first()
+            .is_some_and(|group| group.velocity.is_some())
+    }
+
+    fn extent_shown(&self, extent: Extent) -> String {
+        match extent {
+            Extent::Literal(value) => value.to_string(),
+            Extent::Size(size) => self.out.sizes[size.0 as usize].name.to_string(),
+        }
+    }
+
+    /// `[n][3]`
+    fn extents_shown(&self, ty: Type) -> String {
+        match ty {
+            Type::Bool | Type::Scalar => String::new(),
+            Type::Vector(extent) => format!("[{}]", self.extent_shown(extent)),
+            Type::Matrix(rows, columns) => {
+                format!(
+                    "[{}][{}]",
+                    self.extent_shown(rows),
+                    self.extent_shown(columns)
+                )
+            }
+        }
+    }
+
+    /// A type in words.
+    fn type_shown(&self, ty: Type) -> String {
+        match ty {
+            Type::Bool => "a condition".into(),
+            Type::Scalar => "a scalar".into(),
+            Type::Vector(_) => format!("a vector `{}`", self.extents_shown(ty)),
+            Type::Matrix(..) => format!("a matrix `{}`", self.extents_shown(ty)),
+        }
+    }
+
+    fn type_of(&self, node: NodeId) -> Type {
+        self.out.nodes[node.0 as usize].ty
+    }
+
+    /// The extent that a size stands for.
+    fn extent(&mut self, size: &Size) -> Option<Extent> {
+        let name = match size {
+            Size::Literal(value, _) => return Some(Extent::Literal(*value)),
+            Size::Name(name) => name,
+        };
+        let text = name.to_string();
+        if let Some(index) = self.out.sizes.iter().position(|size| size.name == *name) {
+            return Some(Extent::Size(SizeId(index as u32)));
+        }
+        let sizes = self.out.sizes.iter().map(|size| size.name.to_string());
+        let sizes: Vec<String> = sizes.collect();
+        if self.unknown_sizes.contains(&text) {
+            return None;
+        }
+        let nearest = crate::names::nearest(&text, sizes.iter().map(String::as_str));
+        let help = match (nearest, &self.ast.item) {
+            _ if self
+                .out
+                .parameters
+                .iter()
+                .any(|parameter| parameter.name == *name) =>
+            {
+                format!("declare it as a size: `{text}: usize`")
+            }
+            (Some(known), _) => format!("the nearest size is `{known}`"),
+            (None, Some(item)) => format!(
+                "declare it: `struct {}<const {text}: usize>`, or `{text}: usize` among the parameters",
+                item.name
+            ),
+            (None, None) => {
+                "write a number; named sizes need the item form, `struct Name<const N: usize>`"
+                    .into()
+            }
+        };
+        self.report
+            .error(name.span(), format!("unknown size `{text}`"), help);
+        self.unknown_sizes.push(text);
+        None
+    }
+
+    /// Some momentum (velocity) occurs in the definition.
+    fn occurs(&mut self) {
+        if !self.report.is_empty() {
+            return;
+        }
+        let (root, what, example) = match self.out.definition {
+            Definition::Hamiltonian(root) => (root, "momentum", "p^2/2"),
+            Definition::Lagrangian(root) => (root, "velocity", "v^2/2"),
+        };
+        let mut reached = vec![false; root.0 as usize + 1];
+        reached[root.0 as usize] = true;
+        for id in (0..reached.len()).rev() {
+            if !reached[id] {
+                continue;
+            }
+            let node = &self.out.nodes[id];
+            if matches!(node.kind, Kind::Momentum(_) | Kind::Velocity(_)) {
+                return;
+            }
+            node.kind
+                .for_each_child(|child| reached[child.0 as usize] = true);
+        }
+        let names: Vec<String> = self
+            .out
+            .groups
+            .iter()
+            .map(|group| format!("`{}`", group.velocity.as_ref().unwrap_or(&group.momentum)))
+            .collect();
+        let word = if what == "momentum" { "H" } else { "L" };
+        let help = match self.out.captures.first() {
+            Some(capture) if what == "momentum" => format!(
+                "`{capture}` is taken from the scope around; name the momenta in the signature: \
+                 `H(x; p_x) = …`"
+            ),
+            _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),
+        };
+        let message = format!(
+            "`{word}` depends on no {what}: {} does not occur",
+            names.join(", ")
+        );
+        self.report.error(self.definition_span(), message, help);
+    }
+
+    /// The first word of the definition.
+    fn definition_span(&self) -> Span {
+        self.ast
+            .statements
+            .iter()
+            .find(|statement| {
+                matches!(
+                    statement.kind,
+                    StatementKind::Hamiltonian { .. } | StatementKind::Lagrangian { .. }
+                )
+            })
+            .map_or_else(Span::call_site, |statement| statement.keyword)
+    }
+}

@@ -1,0 +1,291 @@
+//! Calls: functions of the language, `let` functions, Rust functions.
+//!
+//! Input: a name with arguments. Output: a node. Invariant: arity is checked before shapes, and a
+//! wrong call shows how the function is written.
+
+use super::expr::Frame;
+use super::lookup::Found;
+use super::{Binding, Checker};
+use crate::ast::{ExprId, ExprKind, ScopeId, Symbol};
+use crate::checked::{Extent, Kind, NodeId, Type};
+use crate::names::{self, Builtin, Domain, Entry};
+
+impl Checker<'_> {
+    pub(super) fn call(
+        &mut self,
+        raw: ExprId,
+        symbol: Symbol,
+        scope: Option<ScopeId>,
+        arguments: &[ExprId],
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        let ast = self.ast;
+        let name = ast.symbols.name(symbol);
+        let at = ast.nodes[raw.0 as usize].at;
+        match self.find(symbol, scope, frame) {
+            Some(Found::Declared(Binding::LetFunction(index))) => {
+                let arity = self.lets[index].arguments.len();
+                let shown = self.lets[index].shown.clone();
+                self.arity(raw, arity, arguments.len(), &shown)?;
+                let mut values = Vec::with_capacity(arity);
+                for argument in arguments {
+                    values.push(self.number(*argument, frame).map(|(value, _)| value));
+                }
+                self.instantiate(raw, index, values)
+            }
+            Some(Found::Declared(binding @ Binding::Function(id))) => {
+                let arity = self.out.functions[id.0 as usize].arity;
+                let shown = self.function_shown(binding);
+                self.arity(raw, arity, arguments.len(), &shown)?;
+                let values = self.scalars(name, arguments, frame)?;
+                self.push(raw, Kind::Function(id, values), Type::Scalar)
+            }
+            Some(Found::Declared(Binding::Erroneous)) => None,
+            Some(found) => {
+                let what = match found {
+                    Found::Loop(_) => "a loop variable",
+                    Found::Argument(_) => "an argument",
+                    Found::Declared(binding) => self.described(binding),
+                };
+                let message = format!("`{name}` is {what}, not a function");
+                self.error(
+                    raw,
+                    at,
+                    &message,
+                    &format!("write `{name}*(…)` for a product"),
+                );
+                None
+            }
+            None => match names::function(name) {
+                Some(entry) => self.builtin(raw, entry, arguments, frame),
+                None => {
+                    self.unknown_function(raw, symbol);
+                    None
+                }
+            },
+        }
+    }
+
+    fn unknown_function(&mut self, raw: ExprId, symbol: Symbol) {
+        let ast = self.ast;
+        let name = ast.symbols.name(symbol);
+        let at = ast.nodes[raw.0 as usize].at;
+        if name == "H" {
+            self.error(raw, at, "`H` is a value here, not a function", "write `H`");
+        } else if name == "pi" {
+            self.error(
+                raw,
+                at,
+                "`pi` is a constant, not a function",
+                "write `pi*(…)` for a product",
+            );
+        } else if names::meaning(name).is_some() {
+            let message = format!("`{name}` is a word of the language, not a function");
+            self.error(raw, at, &message, "choose another name");
+        } else if self.defining == Some(symbol) {
+            let message = format!("`{name}` is defined by itself");
+            self.error(raw, at, &message, "a `let` uses only what stands above it");
+        } else if self.later[symbol.0 as usize] {
+            let message = format!("`{name}` is used above its definition");
+            let help = format!("move the definition of `{name}` above this statement");
+            self.error(raw, at, &message, &help);
+        } else if !std::mem::replace(&mut self.unknown[symbol.0 as usize], true) {
+            let help = if let Some(known) = names::synonym(name) {
+                if known.contains('(') || names::function(known).is_none() {
+                    format!("write `{known}`")
+                } else {
+                    names::function(known)
+                        .map_or_else(String::new, |f| format!("write `{}`", f.signature()))
+                }
+            } else {
+                let known = self.known_names(true);
+                match names::nearest(name, known.iter().map(String::as_str)) {
+                    Some(nearest) => format!("the nearest known function is `{nearest}`"),
+                    None => format!(
+                        "define it, `let {name}(x) = …;`, or write `{name}*(…)` for a product"
+                    ),
+                }
+            };
+            self.error(raw, at, &format!("unknown function `{name}`"), &help);
+        }
+    }
+
+    /// The number of arguments.
+    fn arity(&mut self, raw: ExprId, due: usize, given: usize, shown: &str) -> Option<()> {
+        if due == given {
+            return Some(());
+        }
+        let name = shown.split('(').next().unwrap_or(shown);
+        let arguments = if due == 1 { "argument" } else { "arguments" };
+        let message = format!("`{name}` takes {due} {arguments}, not {given}");
+        let at = self.ast.nodes[raw.0 as usize].at;
+        self.error(raw, at, &message, &format!("write `{shown}`"));
+        None
+    }
+
+    /// Arguments that are scalars.
+    fn scalars(&mut self, name: &str, arguments: &[ExprId], frame: &Frame) -> Option<Vec<NodeId>> {
+        let mut values = Vec::with_capacity(arguments.len());
+        for argument in arguments {
+            let Some((value, ty)) = self.number(*argument, frame) else {
+                continue;
+            };
+            if ty == Type::Scalar {
+                values.push(value);
+                continue;
+            }
+            let shown = self.written(*argument);
+            let message = format!(
+                "`{name}` takes scalars, but {shown} is {}",
+                self.type_shown(ty)
+            );
+            let help = match (name, ty) {
+                ("abs", _) => "write `norm(…)` for the length of a vector".into(),
+                (_, Type::Vector(extent)) => {
+                    let extent = self.extent_shown(extent);
+                    format!("write a component, or `sum(i in 0..{extent}) {{ {name}(…[i]) }}`")
+                }
+                _ => "write a component".into(),
+            };
+            self.error(
+                *argument,
+                self.ast.nodes[argument.0 as usize].spans,
+                &message,
+                &help,
+            );
+        }
+        (values.len() == arguments.len()).then_some(values)
+    }
+
+    /// A node for messages: its name if it is one.
+    fn written(&self, raw: ExprId) -> String {
+        match &self.ast.nodes[raw.0 as usize].kind {
+            ExprKind::Name(symbol, _) => format!("`{}`", self.ast.symbols.name(*symbol)),
+            _ => "this".into(),
+        }
+    }
+
+    fn builtin(
+        &mut self,
+        raw: ExprId,
+        entry: &Entry,
+        arguments: &[ExprId],
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        self.arity(
+            raw,
+            entry.arguments.len(),
+            arguments.len(),
+            &entry.signature(),
+        )?;
+        match entry.domain {
+            Domain::Scalars => {
+                let values = self.scalars(entry.name, arguments, frame)?;
+                let kind = match (entry.function, values.as_slice()) {
+                    (Builtin::Pow, [base, exponent]) => Kind::Pow(*base, *exponent),
+                    (Builtin::Bracket, [a, b]) => {
+                        if !self.active.is_empty() {
+                            self.error(
+                                raw,
+                                self.ast.nodes[raw.0 as usize].at,
+                                "`bracket` does not stand inside a `sum`",
+                                "take the bracket of the whole sums: `bracket(sum(…) { … }, b)`",
+                            );
+                            return None;
+                        }
+                        Kind::Bracket(*a, *b)
+                    }
+                    (function, _) => Kind::Call(function, values),
+                };
+                self.push(raw, kind, Type::Scalar)
+            }
+            Domain::Vectors => {
+                let values = self.vectors(entry, arguments, frame)?;
+                self.equal_extents(raw, entry, &values)?;
+                self.push(raw, Kind::Call(entry.function, values), Type::Scalar)
+            }
+            Domain::Space => {
+                let values = self.vectors(entry, arguments, frame)?;
+                let space = Type::Vector(Extent::Literal(3));
+                for (value, argument) in values.iter().zip(arguments) {
+                    let ty = self.type_of(*value);
+                    if ty != space {
+                        let message = format!(
+                            "`{}` needs vectors `[3]`, but this is {}",
+                            entry.name,
+                            self.type_shown(ty)
+                        );
+                        let at = self.ast.nodes[argument.0 as usize].spans;
+                        self.error(
+                            *argument,
+                            at,
+                            &message,
+                            "in the plane write `a[0]*b[1] - a[1]*b[0]`",
+                        );
+                        return None;
+                    }
+                }
+                self.push(raw, Kind::Call(entry.function, values), space)
+            }
+        }
+    }
+
+    /// Arguments that are vectors.
+    fn vectors(
+        &mut self,
+        entry: &Entry,
+        arguments: &[ExprId],
+        frame: &Frame,
+    ) -> Option<Vec<NodeId>> {
+        let mut values = Vec::with_capacity(arguments.len());
+        for argument in arguments {
+            let Some((value, ty)) = self.number(*argument, frame) else {
+                continue;
+            };
+            if matches!(ty, Type::Vector(_)) {
+                values.push(value);
+                continue;
+            }
+            let name = entry.name;
+            let shown = self.written(*argument);
+            let message = format!(
+                "`{name}` takes vectors, but {shown} is {}",
+                self.type_shown(ty)
+            );
+            let help = match (entry.function, ty) {
+                (Builtin::Norm, Type::Scalar) => "write `abs(…)`".into(),
+                (Builtin::NormSquared, Type::Scalar) => "write `(…)^2`".into(),
+                (Builtin::Dot, Type::Scalar) => "write a product, `a*b`".into(),
+                (_, Type::Matrix(rows, _)) => {
+                    let rows = self.extent_shown(rows);
+                    format!("write a row, `q[i]`, inside `sum(i in 0..{rows}) {{ … }}`")
+                }
+                _ => format!("write `{}` of vectors", entry.signature()),
+            };
+            self.error(
+                *argument,
+                self.ast.nodes[argument.0 as usize].spans,
+                &message,
+                &help,
+            );
+        }
+        (values.len() == arguments.len()).then_some(values)
+    }
+
+    fn equal_extents(&mut self, raw: ExprId, entry: &Entry, values: &[NodeId]) -> Option<()> {
+        if let [a, b] = values
+            && self.type_of(*a) != self.type_of(*b)
+        {
+            let message = format!(
+                "`{}` needs vectors of equal extent, but these are {} and {}",
+                entry.name,
+                self.type_shown(self.type_of(*a)),
+                self.type_shown(self.type_of(*b))
+            );
+            let at = self.ast.nodes[raw.0 as usize].at;
+            self.error(raw, at, &message, "both need the same number of components");
+            return None;
+        }
+        Some(())
+    }
+}

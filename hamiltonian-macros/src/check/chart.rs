@@ -1,0 +1,173 @@
+//! Canonical changes of coordinates.
+//!
+//! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: what a chart replaces are
+//! coordinates of the definition, each once, of the shape the chart is for.
+
+use super::Checker;
+use crate::checked::{Chart, ChartKind, Component, Extent, GroupId, ParameterId, Type};
+use crate::names;
+use crate::report::Spans;
+use proc_macro2::Ident;
+
+const CHARTS: &[&str] = &["polar", "spherical", "jacobi", "heliocentric"];
+
+impl Checker<'_> {
+    pub(super) fn chart(&mut self, name: &Ident, arguments: &[Ident]) {
+        let word = name.to_string();
+        if !CHARTS.contains(&word.as_str()) {
+            let help = match names::nearest(&word, CHARTS.iter().copied()) {
+                Some(known) => format!("write `{known}`"),
+                None => format!("known are `{}`", CHARTS.join("`, `")),
+            };
+            self.report
+                .error(name.span(), format!("unknown coordinates `{word}`"), help);
+            return;
+        }
+        if self.out.charts.iter().any(|chart| chart.name == *name) {
+            self.report.error(
+                name.span(),
+                format!("`coordinates {word}` stands twice"),
+                "keep one",
+            );
+            return;
+        }
+        let kind = match word.as_str() {
+            "polar" => self.cartesian(name, arguments).map(ChartKind::Polar),
+            "spherical" => self.cartesian(name, arguments).map(ChartKind::Spherical),
+            _ => self.bodies(name, arguments).map(|(group, masses)| {
+                if word == "jacobi" {
+                    ChartKind::Jacobi(group, masses)
+                } else {
+                    ChartKind::Heliocentric(group, masses)
+                }
+            }),
+        };
+        if let Some(kind) = kind {
+            self.out.charts.push(Chart {
+                name: name.clone(),
+                kind,
+            });
+        }
+    }
+
+    /// D scalar coordinates, or one vector of extent D.
+    fn cartesian<const D: usize>(
+        &mut self,
+        chart: &Ident,
+        arguments: &[Ident],
+    ) -> Option<[Component; D]> {
+        let mut groups = Vec::new();
+        for argument in arguments {
+            groups.push(self.coordinate(argument)?);
+        }
+        let ty = |checker: &Self, group: GroupId| checker.out.groups[group.0 as usize].ty;
+        if let [group] = groups[..]
+            && ty(self, group) == Type::Vector(Extent::Literal(D as u64))
+        {
+            return Some(std::array::from_fn(|index| Component {
+                group,
+                index: Some(index as u64),
+            }));
+        }
+        let form = if D == 2 {
+            "polar(x, y)"
+        } else {
+            "spherical(x, y, z)"
+        };
+        for (group, argument) in groups.iter().zip(arguments) {
+            if ty(self, *group) != Type::Scalar {
+                let message = format!("`{argument}` is {}", self.type_shown(ty(self, *group)));
+                let help = format!("write `{form}` with scalars, or one vector `[{D}]`");
+                self.report.error(argument.span(), message, help);
+                return None;
+            }
+        }
+        if groups.len() != D {
+            let message = format!("`{chart}` replaces {D} coordinates, not {}", groups.len());
+            self.report
+                .error(chart.span(), message, format!("write `{form}`"));
+            return None;
+        }
+        let components = |index: usize| Component {
+            group: groups[index],
+            index: None,
+        };
+        for (index, argument) in arguments.iter().enumerate() {
+            if groups[..index].contains(&groups[index]) {
+                let message = format!("the coordinate `{argument}` stands twice");
+                self.report
+                    .error(argument.span(), message, format!("write `{form}`"));
+                return None;
+            }
+        }
+        Some(std::array::from_fn(components))
+    }
+
+    fn coordinate(&mut self, name: &Ident) -> Option<GroupId> {
+        let found = self
+            .out
+            .groups
+            .iter()
+            .position(|group| group.coordinate == *name);
+        if found.is_none() {
+            let known: Vec<String> = self
+                .out
+                .groups
+                .iter()
+                .map(|group| format!("`{}`", group.coordinate))
+                .collect();
+            let message = format!("`{name}` is not a coordinate");
+            self.report.error(
+                name.span(),
+                message,
+                format!("the coordinates are {}", known.join(", ")),
+            );
+        }
+        found.map(|index| GroupId(index as u32))
+    }
+
+    /// Positions and masses of as many bodies.
+    fn bodies(&mut self, chart: &Ident, arguments: &[Ident]) -> Option<(GroupId, ParameterId)> {
+        let form =
+            format!("write `coordinates {chart}(q, m)` with positions `[n][3]` and masses `[n]`");
+        let [positions, masses] = arguments else {
+            let message = format!("`{chart}` needs positions and masses");
+            self.report.error(chart.span(), message, form);
+            return None;
+        };
+        let group = self.coordinate(positions)?;
+        let Some(parameter) = self
+            .out
+            .parameters
+            .iter()
+            .position(|parameter| parameter.name == *masses)
+        else {
+            self.report.error(
+                masses.span(),
+                format!("`{masses}` is not a parameter"),
+                form,
+            );
+            return None;
+        };
+        let extents = match self.out.groups[group.0 as usize].ty {
+            Type::Vector(bodies) | Type::Matrix(bodies, _) => Some(bodies),
+            Type::Scalar | Type::Bool => None,
+        };
+        let ty = self.out.parameters[parameter].ty;
+        if extents.is_none_or(|bodies| ty != Type::Vector(bodies)) {
+            let message = format!(
+                "`{positions}` and `{masses}` are not positions and masses of as many bodies"
+            );
+            self.report.error(
+                Spans {
+                    start: positions.span(),
+                    end: masses.span(),
+                },
+                message,
+                form,
+            );
+            return None;
+        }
+        Some((group, ParameterId(parameter as u32)))
+    }
+}

@@ -1,0 +1,575 @@
+//! Expressions: what every node stands for and what its shape is.
+//!
+//! Input: the nodes of one expression, in post-order. Output: nodes of [`Checked`]. Invariants:
+//! one forward loop; a node whose operands are erroneous is silently erroneous; a call of a `let`
+//! function is this pass over the function's body with the nodes of its arguments.
+//!
+//! [`Checked`]: crate::checked::Checked
+
+use super::Checker;
+use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, ScopeId, Symbol, UnaryOp};
+use crate::checked::{
+    Affine, Extent, Index, IndexVariable, Kind, Loop, LoopId, Node, NodeId, Type,
+};
+use crate::parse::MAX_DEPTH;
+use crate::report::Spans;
+
+/// How many nodes the calls of `let` functions may make in all.
+const MAX_INSTANTIATED: usize = 1 << 19;
+
+/// The values of the nodes of one expression.
+pub(super) struct Frame {
+    first: u32,
+    values: Vec<Option<NodeId>>,
+    /// Of the `let` function whose body this is.
+    pub(super) arguments: Vec<(Symbol, Option<NodeId>)>,
+}
+
+impl Frame {
+    /// What a node of the expression became; `None` if it is erroneous.
+    pub(super) fn value(&self, raw: ExprId) -> Option<NodeId> {
+        self.values[(raw.0 - self.first) as usize]
+    }
+}
+
+impl Checker<'_> {
+    /// A whole right side.
+    pub(super) fn expression(&mut self, expression: &Expression) -> Option<NodeId> {
+        self.visit(expression, Vec::new(), None)
+            .value(expression.root)
+    }
+
+    /// A right side that is a scalar.
+    pub(super) fn scalar_expression(
+        &mut self,
+        expression: &Expression,
+        what: &str,
+    ) -> Option<NodeId> {
+        let value = self.expression(expression)?;
+        let ty = self.type_of(value);
+        if ty == Type::Scalar {
+            return Some(value);
+        }
+        let raw = expression.root;
+        if ty == Type::Bool {
+            self.condition_as_number(raw);
+        } else {
+            let message = format!("{what} is a scalar, but this is {}", self.type_shown(ty));
+            let help = "write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`";
+            self.error(raw, self.ast.nodes[raw.0 as usize].spans, &message, help);
+        }
+        None
+    }
+
+    /// Visits all nodes of an expression but `skipped`.
+    pub(super) fn visit(
+        &mut self,
+        expression: &Expression,
+        arguments: Vec<(Symbol, Option<NodeId>)>,
+        skipped: Option<ExprId>,
+    ) -> Frame {
+        let values = Vec::with_capacity(expression.nodes.len());
+        let mut frame = Frame {
+            first: expression.nodes.start,
+            values,
+            arguments,
+        };
+        let outer = self.active.len();
+        for index in expression.nodes.clone() {
+            let id = ExprId(index);
+            let value = if skipped == Some(id) {
+                None
+            } else {
+                self.node(id, &frame)
+            };
+            frame.values.push(value);
+        }
+        self.active.truncate(outer);
+        frame
+    }
+
+    /// Reports an error for a raw node once, however often its function is called.
+    pub(super) fn error(&mut self, raw: ExprId, at: Spans, message: &str, help: &str) {
+        if !std::mem::replace(&mut self.reported[raw.0 as usize], true) {
+            self.report.error(at, message, help);
+        }
+    }
+
+    pub(super) fn push(&mut self, raw: ExprId, kind: Kind, ty: Type) -> Option<NodeId> {
+        self.push_affine(raw, kind, ty, None)
+    }
+
+    pub(super) fn push_affine(
+        &mut self,
+        raw: ExprId,
+        kind: Kind,
+        ty: Type,
+        affine: Option<Affine>,
+    ) -> Option<NodeId> {
+        let id = NodeId(self.out.nodes.len() as u32);
+        let written = &self.ast.nodes[raw.0 as usize];
+        self.out.nodes.push(Node {
+            kind,
+            ty,
+            spans: written.spans,
+            at: written.at,
+        });
+        self.affines.push(affine);
+        Some(id)
+    }
+
+    fn node(&mut self, raw: ExprId, frame: &Frame) -> Option<NodeId> {
+        let ast = self.ast;
+        match &ast.nodes[raw.0 as usize].kind {
+            ExprKind::Error => None,
+            ExprKind::Number(number) => {
+                let affine = number.to_integer().map(Affine::constant);
+                self.push_affine(raw, Kind::Number(number.clone()), Type::Scalar, affine)
+            }
+            ExprKind::Name(symbol, scope) => self.name(raw, *symbol, *scope, frame),
+            ExprKind::Unary(op, operand) => self.unary(raw, *op, *operand, frame),
+            ExprKind::Binary(op, left, right) => self.binary(raw, *op, *left, *right, frame),
+            ExprKind::Call(symbol, scope, arguments) => {
+                self.call(raw, *symbol, *scope, arguments, frame)
+            }
+            ExprKind::Index {
+                base,
+                index,
+                modulo,
+            } => self.index(raw, *base, (*index, *modulo), frame),
+            ExprKind::Vector(items) => self.vector(raw, items, frame),
+            ExprKind::Bind {
+                scope,
+                lower,
+                upper,
+            } => {
+                self.bind(raw, *scope, (*lower, *upper), frame);
+                None
+            }
+            ExprKind::Sum { scopes, body } => self.sum(raw, scopes, *body, frame),
+            ExprKind::If {
+                condition,
+                then,
+                otherwise,
+            } => self.conditional(raw, *condition, [*then, *otherwise], frame),
+        }
+    }
+
+    fn unary(
+        &mut self,
+        raw: ExprId,
+        op: UnaryOp,
+        operand: ExprId,
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        match op {
+            UnaryOp::Neg => {
+                let (value, ty) = self.number(operand, frame)?;
+                let affine = self.affines[value.0 as usize]
+                    .as_ref()
+                    .and_then(|a| a.times(-1));
+                self.push_affine(raw, Kind::Neg(value), ty, affine)
+            }
+            UnaryOp::Not => {
+                let value = self.condition(operand, frame)?;
+                self.push(raw, Kind::Not(value), Type::Bool)
+            }
+        }
+    }
+
+    fn binary(
+        &mut self,
+        raw: ExprId,
+        op: BinaryOp,
+        left: ExprId,
+        right: ExprId,
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        if matches!(op, BinaryOp::And | BinaryOp::Or) {
+            let (a, b) = (self.condition(left, frame), self.condition(right, frame));
+            let (a, b) = (a?, b?);
+            let kind = if op == BinaryOp::And {
+                Kind::And(a, b)
+            } else {
+                Kind::Or(a, b)
+            };
+            return self.push(raw, kind, Type::Bool);
+        }
+        let (a, b) = (self.number(left, frame), self.number(right, frame));
+        let ((a, left_type), (b, right_type)) = (a?, b?);
+        let scalars = left_type == Type::Scalar && right_type == Type::Scalar;
+        let forms = (&self.affines[a.0 as usize], &self.affines[b.0 as usize]);
+        let affine = match (op, forms) {
+            (BinaryOp::Add, (Some(x), Some(y))) => x.plus(1, y),
+            (BinaryOp::Sub, (Some(x), Some(y))) => x.plus(-1, y),
+            (BinaryOp::Mul, (Some(x), Some(y))) => match (x.to_constant(), y.to_constant()) {
+                (Some(factor), _) => y.times(factor),
+                (_, Some(factor)) => x.times(factor),
+                _ => None,
+            },
+            _ => None,
+        };
+        let (kind, ty) = match op {
+            BinaryOp::Add if left_type == right_type => (Kind::Add(a, b), left_type),
+            BinaryOp::Sub if left_type == right_type => (Kind::Sub(a, b), left_type),
+            BinaryOp::Mul if left_type == Type::Scalar => (Kind::Mul(a, b), right_type),
+            BinaryOp::Mul if right_type == Type::Scalar => (Kind::Mul(a, b), left_type),
+            BinaryOp::Mul => match (left_type, right_type) {
+                (Type::Matrix(rows, columns), Type::Vector(extent))
+                    if columns == extent
+                        && matches!(self.out.nodes[a.0 as usize].kind, Kind::Parameter(_)) =>
+                {
+                    (Kind::Mul(a, b), Type::Vector(rows))
+                }
+                _ => return self.shapes_differ(raw, op, left_type, right_type),
+            },
+            BinaryOp::Div if right_type == Type::Scalar => (Kind::Div(a, b), left_type),
+            BinaryOp::Pow if scalars => (Kind::Pow(a, b), Type::Scalar),
+            BinaryOp::Compare(comparison) if scalars => {
+                (Kind::Compare(comparison, a, b), Type::Bool)
+            }
+            _ => return self.shapes_differ(raw, op, left_type, right_type),
+        };
+        self.push_affine(raw, kind, ty, affine)
+    }
+
+    /// Two operands whose shapes an operator does not join.
+    fn shapes_differ(
+        &mut self,
+        raw: ExprId,
+        op: BinaryOp,
+        left: Type,
+        right: Type,
+    ) -> Option<NodeId> {
+        let (a, b) = (self.type_shown(left), self.type_shown(right));
+        let both_vectors = matches!((left, right), (Type::Vector(x), Type::Vector(y)) if x == y);
+        let (message, help) = match op {
+            BinaryOp::Add | BinaryOp::Sub => {
+                let done = if op == BinaryOp::Add {
+                    "added to"
+                } else {
+                    "subtracted from"
+                };
+                let (a, b) = if op == BinaryOp::Add { (a, b) } else { (b, a) };
+                let help = if left == Type::Scalar || right == Type::Scalar {
+                    "write a component, `q[i]`, or a length, `norm(q)`"
+                } else {
+                    "both sides need the same extents"
+                };
+                (format!("{a} cannot be {done} {b}"), help)
+            }
+            BinaryOp::Mul if both_vectors => (
+                format!("{a} times {b} has no meaning"),
+                "write `dot(a, b)` or `cross(a, b)`",
+            ),
+            BinaryOp::Mul if matches!((left, right), (Type::Matrix(_, x), Type::Vector(y)) if x == y) => {
+                (
+                    "only a matrix parameter multiplies a vector".into(),
+                    "write `sum(i in 0..N) { q[i]*v[i] }`",
+                )
+            }
+            BinaryOp::Mul => (
+                format!("{a} times {b} has no meaning"),
+                "a matrix parameter `[r][c]` multiplies a vector `[c]` from the left",
+            ),
+            BinaryOp::Div => (
+                format!("nothing can be divided by {b}"),
+                "divide by its `norm(…)`",
+            ),
+            BinaryOp::Pow if right == Type::Scalar => (
+                format!("{a} has no powers"),
+                "write `norm_squared(a)`, or the power of a component",
+            ),
+            BinaryOp::Pow => (format!("the exponent is {b}"), "write a scalar exponent"),
+            _ => (
+                format!("{a} cannot be compared with {b}"),
+                "compare scalars, such as `norm(a)`",
+            ),
+        };
+        self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, help);
+        None
+    }
+
+    /// An operand that is a scalar, vector or matrix.
+    pub(super) fn number(&mut self, raw: ExprId, frame: &Frame) -> Option<(NodeId, Type)> {
+        let value = frame.value(raw)?;
+        let ty = self.type_of(value);
+        if ty == Type::Bool {
+            self.condition_as_number(raw);
+            return None;
+        }
+        Some((value, ty))
+    }
+
+    pub(super) fn condition_as_number(&mut self, raw: ExprId) {
+        let node = &self.ast.nodes[raw.0 as usize];
+        let (message, op) = match node.kind {
+            ExprKind::Binary(op, ..) => (
+                format!("`{0}` makes a condition where a number is due", op.symbol()),
+                op.symbol(),
+            ),
+            _ => ("a condition stands where a number is due".into(), "<"),
+        };
+        self.error(
+            raw,
+            node.at,
+            &message,
+            &format!("write `if a {op} b {{ … }} else {{ … }}`"),
+        );
+    }
+
+    fn condition(&mut self, raw: ExprId, frame: &Frame) -> Option<NodeId> {
+        let value = frame.value(raw)?;
+        let ty = self.type_of(value);
+        if ty == Type::Bool {
+            return Some(value);
+        }
+        let message = format!("{} stands where a condition is due", self.type_shown(ty));
+        self.error(
+            raw,
+            self.ast.nodes[raw.0 as usize].at,
+            &message,
+            "compare it: `x > 0`",
+        );
+        None
+    }
+
+    fn index(
+        &mut self,
+        raw: ExprId,
+        base: ExprId,
+        index: (ExprId, Option<ExprId>),
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        let (value, ty) = self.number(base, frame)?;
+        let (extent, ty) = match ty {
+            Type::Vector(extent) => (extent, Type::Scalar),
+            Type::Matrix(rows, columns) => (rows, Type::Vector(columns)),
+            Type::Scalar | Type::Bool => {
+                let node = &self.ast.nodes[base.0 as usize];
+                let message = match &node.kind {
+                    ExprKind::Name(symbol, _) => {
+                        format!(
+                            "`{}` is a scalar and has no components",
+                            self.ast.symbols.name(*symbol)
+                        )
+                    }
+                    _ => "a scalar has no components".into(),
+                };
+                let help = match self.out.nodes[value.0 as usize].kind {
+                    Kind::Capture(_) => {
+                        "captured names are scalars: write a parameter `name: [N]` in item form"
+                    }
+                    Kind::Parameter(_) => "declare it as an array: `name: [N]`",
+                    Kind::Coordinate(_) | Kind::Momentum(_) => {
+                        "declare it with its extent: `H(q[N]; p[N])`"
+                    }
+                    _ => "remove the index",
+                };
+                self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, help);
+                return None;
+            }
+        };
+        let index: Index = self.checked_index(index, frame, extent)?;
+        self.push(raw, Kind::Index { base: value, index }, ty)
+    }
+
+    fn vector(&mut self, raw: ExprId, items: &[ExprId], frame: &Frame) -> Option<NodeId> {
+        let mut values = Vec::with_capacity(items.len());
+        for item in items {
+            let Some((value, ty)) = self.number(*item, frame) else {
+                continue;
+            };
+            if ty == Type::Scalar {
+                values.push(value);
+                continue;
+            }
+            let message = format!(
+                "the components of a vector are scalars, but this is {}",
+                self.type_shown(ty)
+            );
+            let at = self.ast.nodes[item.0 as usize].spans;
+            self.error(*item, at, &message, "write each component: `[q[0], q[1]]`");
+        }
+        if values.len() != items.len() {
+            return None;
+        }
+        let ty = Type::Vector(Extent::Literal(values.len() as u64));
+        self.push(raw, Kind::Vector(values), ty)
+    }
+
+    /// `i in lower..upper`: from here on the loop variable stands for a new loop.
+    fn bind(&mut self, raw: ExprId, scope: ScopeId, bounds: (ExprId, ExprId), frame: &Frame) {
+        let name = &self.ast.scopes[scope.0 as usize].name;
+        let symbol = self.ast.scopes[scope.0 as usize].symbol;
+        self.loop_name_is_new(raw, scope, symbol, frame);
+        let (lower, upper) = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
+        if lower.is_none() || upper.is_none() {
+            // Not a loop to reason about, but the name is known.
+            self.scope_loops[scope.0 as usize] = None;
+            return;
+        }
+        let id = LoopId(self.out.loops.len() as u32);
+        self.out.loops.push(Loop {
+            name: name.clone(),
+            lower: lower.unwrap_or_default(),
+            upper: upper.unwrap_or_default(),
+        });
+        self.scope_loops[scope.0 as usize] = Some(id);
+        self.active.push(id);
+    }
+
+    fn loop_name_is_new(&mut self, raw: ExprId, scope: ScopeId, symbol: Symbol, frame: &Frame) {
+        let what = if let Some(binding) = self.bindings[symbol.0 as usize] {
+            Some(self.described(binding))
+        } else if frame
+            .arguments
+            .iter()
+            .any(|(argument, _)| *argument == symbol)
+        {
+            Some("an argument")
+        } else {
+            let mut outer = self.ast.scopes[scope.0 as usize].parent;
+            let mut found = None;
+            while let Some(id) = outer {
+                let scope = &self.ast.scopes[id.0 as usize];
+                if scope.symbol == symbol {
+                    found = Some("a loop variable around this one");
+                    break;
+                }
+                outer = scope.parent;
+            }
+            found
+        };
+        if let Some(what) = what {
+            let name = self.ast.symbols.name(symbol);
+            let message = format!("`{name}` is used twice: it is {what} already");
+            self.error(
+                raw,
+                self.ast.nodes[raw.0 as usize].at,
+                &message,
+                "choose another loop variable",
+            );
+        }
+    }
+
+    fn sum(
+        &mut self,
+        raw: ExprId,
+        scopes: &[ScopeId],
+        body: ExprId,
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        let mut loops = Vec::with_capacity(scopes.len());
+        for scope in scopes {
+            loops.extend(self.scope_loops[scope.0 as usize].take());
+        }
+        self.active
+            .truncate(self.active.len().saturating_sub(loops.len()));
+        let (body, ty) = self.number(body, frame)?;
+        if loops.len() != scopes.len() {
+            return None;
+        }
+        let first = loops[0].0;
+        self.push(
+            raw,
+            Kind::Sum {
+                loops: first..first + loops.len() as u32,
+                body,
+            },
+            ty,
+        )
+    }
+
+    fn conditional(
+        &mut self,
+        raw: ExprId,
+        condition: ExprId,
+        branches: [ExprId; 2],
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        let condition = self.condition(condition, frame);
+        let (then, otherwise) = (
+            self.number(branches[0], frame),
+            self.number(branches[1], frame),
+        );
+        let (condition, (then, ty), (otherwise, other)) = (condition?, then?, otherwise?);
+        if ty != other {
+            let message = format!(
+                "the branches of `if` differ: {} and {}",
+                self.type_shown(ty),
+                self.type_shown(other)
+            );
+            let at = self.ast.nodes[raw.0 as usize].at;
+            self.error(raw, at, &message, "both branches need the same shape");
+            return None;
+        }
+        self.push(
+            raw,
+            Kind::If {
+                condition,
+                then,
+                otherwise,
+            },
+            ty,
+        )
+    }
+
+    /// The body of a `let` function with the nodes of its arguments.
+    pub(super) fn instantiate(
+        &mut self,
+        raw: ExprId,
+        function: usize,
+        arguments: Vec<Option<NodeId>>,
+    ) -> Option<NodeId> {
+        // Arguments that are erroneous say nothing about the body.
+        if self.lets[function].erroneous || arguments.iter().any(Option::is_none) {
+            return None;
+        }
+        let body = self.lets[function].body;
+        let bound = self.lets[function]
+            .arguments
+            .iter()
+            .copied()
+            .zip(arguments)
+            .collect();
+        let at = self.ast.nodes[raw.0 as usize].at;
+        if self.call_depth >= MAX_DEPTH {
+            self.error(
+                raw,
+                at,
+                &format!("functions call each other deeper than {MAX_DEPTH}"),
+                "write out the inner ones",
+            );
+            return None;
+        }
+        self.instantiated += body.nodes.len();
+        if self.instantiated > MAX_INSTANTIATED {
+            if self.instantiated - body.nodes.len() <= MAX_INSTANTIATED {
+                self.error(
+                    raw,
+                    at,
+                    &format!(
+                        "the calls of functions expand to more than {MAX_INSTANTIATED} operations"
+                    ),
+                    "name a repeated argument or result: `let name = …;`",
+                );
+            }
+            return None;
+        }
+        self.call_depth += 1;
+        let value = self.visit(body, bound, None).value(body.root);
+        self.call_depth -= 1;
+        value
+    }
+
+    /// The affine form of a loop variable or size.
+    pub(super) fn index_variable(
+        &mut self,
+        raw: ExprId,
+        kind: Kind,
+        variable: IndexVariable,
+    ) -> Option<NodeId> {
+        self.push_affine(raw, kind, Type::Scalar, Some(Affine::variable(variable)))
+    }
+}

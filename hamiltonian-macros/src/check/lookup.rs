@@ -1,0 +1,303 @@
+//! Names in expressions: what each stands for.
+//!
+//! Input: a name and where it stands. Output: its node, or one error for each unknown name.
+//! Invariant: inner names win (loop variables, then arguments, then what statements declare).
+
+use super::expr::Frame;
+use super::{Binding, Checker, Place};
+use crate::ast::{ExprId, ScopeId, Symbol};
+use crate::checked::{CaptureId, IndexVariable, Kind, NodeId, Type};
+use crate::names;
+use proc_macro2::Ident;
+
+/// A name with a meaning in the place it stands.
+pub(super) enum Found {
+    /// A loop variable; `None` if its range is erroneous.
+    Loop(Option<crate::checked::LoopId>),
+    Argument(Option<NodeId>),
+    Declared(Binding),
+}
+
+impl Checker<'_> {
+    /// What a name stands for, if it is declared.
+    pub(super) fn find(
+        &self,
+        symbol: Symbol,
+        scope: Option<ScopeId>,
+        frame: &Frame,
+    ) -> Option<Found> {
+        let mut inner = scope;
+        while let Some(id) = inner {
+            let scope = &self.ast.scopes[id.0 as usize];
+            if scope.symbol == symbol {
+                return Some(Found::Loop(self.scope_loops[id.0 as usize]));
+            }
+            inner = scope.parent;
+        }
+        if let Some((_, value)) = frame.arguments.iter().find(|(name, _)| *name == symbol) {
+            return Some(Found::Argument(*value));
+        }
+        self.bindings[symbol.0 as usize].map(Found::Declared)
+    }
+
+    /// A name that stands for a value.
+    pub(super) fn name(
+        &mut self,
+        raw: ExprId,
+        symbol: Symbol,
+        scope: Option<ScopeId>,
+        frame: &Frame,
+    ) -> Option<NodeId> {
+        let binding = match self.find(symbol, scope, frame) {
+            Some(Found::Loop(id)) => {
+                let id = id?;
+                return self.index_variable(raw, Kind::Loop(id), IndexVariable::Loop(id));
+            }
+            Some(Found::Argument(value)) => return value,
+            Some(Found::Declared(binding)) => binding,
+            None => return self.undeclared(raw, symbol),
+        };
+        match binding {
+            Binding::Value(value) => value,
+            Binding::Erroneous => None,
+            Binding::Time => self.push(raw, Kind::Time, Type::Scalar),
+            Binding::Size(id) => self.index_variable(raw, Kind::Size(id), IndexVariable::Size(id)),
+            Binding::Parameter(id) => {
+                let ty = self.out.parameters[id.0 as usize].ty;
+                self.push(raw, Kind::Parameter(id), ty)
+            }
+            Binding::Coordinate(id) => {
+                let ty = self.out.groups[id.0 as usize].ty;
+                self.push(raw, Kind::Coordinate(id), ty)
+            }
+            Binding::Velocity(id) => {
+                let ty = self.out.groups[id.0 as usize].ty;
+                self.push(raw, Kind::Velocity(id), ty)
+            }
+            Binding::Momentum(id) => {
+                let ty = self.out.groups[id.0 as usize].ty;
+                if self.is_lagrangian() && self.place != Place::After {
+                    let group = &self.out.groups[id.0 as usize];
+                    let message = format!(
+                        "`{}` is a momentum, which `L` itself defines",
+                        group.momentum
+                    );
+                    let help = match &group.velocity {
+                        Some(velocity) => format!("write the velocity `{velocity}`"),
+                        None => "write the velocity".into(),
+                    };
+                    self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, &help);
+                    return None;
+                }
+                self.push(raw, Kind::Momentum(id), ty)
+            }
+            Binding::LetFunction(_) | Binding::Function(_) => {
+                let name = self.ast.symbols.name(symbol);
+                let arguments = self.function_shown(binding);
+                let message = format!("`{name}` is a function and no value by itself");
+                let at = self.ast.nodes[raw.0 as usize].at;
+                self.error(raw, at, &message, &format!("write `{arguments}`"));
+                None
+            }
+        }
+    }
+
+    /// `f(x, y)` as it was declared.
+    pub(super) fn function_shown(&self, binding: Binding) -> String {
+        match binding {
+            Binding::LetFunction(index) => self.lets[index].shown.clone(),
+            Binding::Function(id) => {
+                let function = &self.out.functions[id.0 as usize];
+                let places = ["a", "b", "c", "d"]
+                    .iter()
+                    .copied()
+                    .chain(std::iter::repeat("…"));
+                let names: Vec<&str> = places.take(function.arity).collect();
+                format!("{}({})", function.name, names.join(", "))
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// A name that nothing declares: a word of the language, a capture, or a mistake.
+    fn undeclared(&mut self, raw: ExprId, symbol: Symbol) -> Option<NodeId> {
+        let ast = self.ast;
+        let name = ast.symbols.name(symbol);
+        let at = ast.nodes[raw.0 as usize].at;
+        if name == "pi" {
+            return self.push(raw, Kind::Pi, Type::Scalar);
+        }
+        if name == "H" {
+            return self.hamiltonian(raw);
+        }
+        if let Some(function) = names::function(name) {
+            let message = format!("`{name}` is a function and no value by itself");
+            self.error(
+                raw,
+                at,
+                &message,
+                &format!("write `{}`", function.signature()),
+            );
+            return None;
+        }
+        if names::meaning(name).is_some() {
+            let help = match name {
+                "ds" | "dt" => "it stands in a statement of its own: `dt = (…)*ds`",
+                _ => "choose another name",
+            };
+            self.error(
+                raw,
+                at,
+                &format!("`{name}` is a word of the language and not a value"),
+                help,
+            );
+            return None;
+        }
+        if self.defining == Some(symbol) {
+            let message = format!("`{name}` is defined by itself");
+            self.error(raw, at, &message, "a `let` uses only what stands above it");
+            return None;
+        }
+        if self.later[symbol.0 as usize] {
+            let message = format!("`{name}` is used above its definition");
+            self.error(
+                raw,
+                at,
+                &message,
+                &format!("move the definition of `{name}` above this statement"),
+            );
+            return None;
+        }
+        if std::mem::replace(&mut self.unknown[symbol.0 as usize], true) {
+            return None;
+        }
+        if self.loop_symbols[symbol.0 as usize] {
+            let message =
+                format!("`{name}` is a loop variable and means nothing outside its `sum`");
+            self.error(raw, at, &message, "write it inside the braces of the `sum`");
+            return None;
+        }
+        if name == "t" {
+            let help = format!("declare it: `{}`", self.signature_with_time());
+            self.error(raw, at, "`t` is not declared", &help);
+            return None;
+        }
+        if ast.item.is_none() {
+            self.unknown[symbol.0 as usize] = false;
+            if names::is_rust_keyword(name) {
+                let message = format!("`{name}` is a keyword of Rust and not a value");
+                self.error(raw, at, &message, "choose another name");
+                return None;
+            }
+            return self.capture(raw, symbol);
+        }
+        let help = self.help_for_unknown(name);
+        self.error(raw, at, &format!("unknown name `{name}`"), &help);
+        None
+    }
+
+    /// What a name that is not known should have been.
+    fn help_for_unknown(&self, name: &str) -> String {
+        if let Some(known) = names::synonym(name) {
+            return format!("write `{known}`");
+        }
+        let known = self.known_names(false);
+        if let Some(nearest) = names::nearest(name, known.iter().map(String::as_str)) {
+            return format!("the nearest known name is `{nearest}`");
+        }
+        if let Some(longer) = known.iter().find(|known| known.starts_with(name)) {
+            return format!("the nearest known name is `{longer}`");
+        }
+        match &self.ast.item {
+            Some(item) => format!(
+                "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`",
+                item.name
+            ),
+            None => format!("declare it: `let {name} = …;`"),
+        }
+    }
+
+    /// All names that are declared: functions, or values. In the order they were declared.
+    pub(super) fn known_names(&self, functions: bool) -> Vec<String> {
+        let mut known = Vec::new();
+        for (index, binding) in self.bindings.iter().enumerate() {
+            let is_function = matches!(
+                binding,
+                Some(Binding::LetFunction(_) | Binding::Function(_))
+            );
+            if binding.is_some() && is_function == functions {
+                known.push(self.ast.symbols.name(Symbol(index as u32)).to_owned());
+            }
+        }
+        if functions {
+            known.extend(names::FUNCTIONS.iter().map(|entry| entry.name.to_owned()));
+        } else {
+            let groups = self.out.groups.iter();
+            let declared = groups.flat_map(|group| {
+                let partner = group.velocity.as_ref().unwrap_or(&group.momentum);
+                [group.coordinate.to_string(), partner.to_string()]
+            });
+            let parameters = self
+                .out
+                .parameters
+                .iter()
+                .map(|parameter| parameter.name.to_string());
+            let sizes = self.out.sizes.iter().map(|size| size.name.to_string());
+            for name in declared.chain(parameters).chain(sizes) {
+                if !known.contains(&name) {
+                    known.push(name);
+                }
+            }
+            known.extend(names::CONSTANTS.iter().map(|name| (*name).to_owned()));
+        }
+        known
+    }
+
+    /// `H` as a value.
+    fn hamiltonian(&mut self, raw: ExprId) -> Option<NodeId> {
+        let at = self.ast.nodes[raw.0 as usize].at;
+        match (self.place, self.is_lagrangian()) {
+            (Place::After, _) => self.push(raw, Kind::Hamiltonian, Type::Scalar),
+            (Place::Within, false) => {
+                self.error(
+                    raw,
+                    at,
+                    "`H` is defined by itself",
+                    "H depends on coordinates, momenta, time and parameters",
+                );
+                None
+            }
+            (Place::Within, true) => {
+                self.error(
+                    raw,
+                    at,
+                    "`H` follows from `L` and cannot define it",
+                    "write it in terms of coordinates and velocities",
+                );
+                None
+            }
+            (Place::Before, _) => {
+                self.error(
+                    raw,
+                    at,
+                    "`H` is used above its definition",
+                    "move this statement below the definition of `H`",
+                );
+                None
+            }
+        }
+    }
+
+    /// A name of the scope around the macro.
+    fn capture(&mut self, raw: ExprId, symbol: Symbol) -> Option<NodeId> {
+        let name = self.ast.symbols.name(symbol);
+        let known = self.out.captures.iter().position(|capture| capture == name);
+        let index = known.unwrap_or_else(|| {
+            self.out
+                .captures
+                .push(Ident::new(name, self.ast.nodes[raw.0 as usize].at.start));
+            self.out.captures.len() - 1
+        });
+        self.push(raw, Kind::Capture(CaptureId(index as u32)), Type::Scalar)
+    }
+}

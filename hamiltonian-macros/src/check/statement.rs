@@ -1,0 +1,415 @@
+//! Statements: what each defines, and what it may be made of.
+//!
+//! Input: the statements, after the declarations. Output: definition, observables, forces, pieces,
+//! charts. Invariant: `let`s and the definition are read in source order, before everything that
+//! may use all of them.
+
+use super::{Binding, Checker, LetFunction, Place};
+use crate::ast::{ExprKind, Expression, ObservableKind, Signature, Statement, StatementKind};
+use crate::checked::{Definition, Extent, Function, FunctionId, NodeId, Observable, Type};
+use crate::names;
+use crate::report::Spans;
+use proc_macro2::{Ident, TokenStream};
+
+impl<'a> Checker<'a> {
+    /// `let`, `fn`, H and L, in source order.
+    pub(super) fn values(&mut self) {
+        let ast = self.ast;
+        for statement in &ast.statements {
+            if let StatementKind::Let { name, .. } | StatementKind::Function { name, .. } =
+                &statement.kind
+                && let Some(symbol) = self.symbol(name)
+            {
+                self.later[symbol.0 as usize] = true;
+            }
+        }
+        for statement in &ast.statements {
+            match &statement.kind {
+                StatementKind::Let {
+                    name,
+                    arguments,
+                    value,
+                } => {
+                    self.defining = self.symbol(name);
+                    self.let_statement(name, arguments.as_deref(), value);
+                    self.defining = None;
+                }
+                StatementKind::Function {
+                    name,
+                    arguments,
+                    value,
+                    first,
+                    second,
+                } => {
+                    self.function(name, arguments.len(), value, first, second.as_ref());
+                }
+                StatementKind::Hamiltonian { value, .. } => {
+                    self.definition("H", value, Definition::Hamiltonian);
+                }
+                StatementKind::Lagrangian { value, .. } => {
+                    self.definition("L", value, Definition::Lagrangian);
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn definition(&mut self, word: &str, value: &Expression, make: fn(NodeId) -> Definition) {
+        // A second definition was reported; it is not read.
+        if self.place == Place::After {
+            return;
+        }
+        self.place = Place::Within;
+        if let Some(root) = self.scalar_expression(value, &format!("`{word}`")) {
+            self.out.definition = make(root);
+        }
+        self.place = Place::After;
+    }
+
+    fn let_statement(&mut self, name: &Ident, arguments: Option<&[Ident]>, value: &'a Expression) {
+        let Some(symbol) = self.symbol(name) else {
+            return;
+        };
+        let Some(arguments) = arguments else {
+            let root = self.expression(value);
+            let root = match root.map(|root| self.type_of(root)) {
+                Some(Type::Bool) => {
+                    self.condition_as_number(value.root);
+                    None
+                }
+                _ => root,
+            };
+            self.later[symbol.0 as usize] = false;
+            self.declare(name, Binding::Value(root));
+            if let Some(root) = root {
+                self.out.lets.push((name.clone(), root));
+            }
+            return;
+        };
+        let symbols: Vec<_> = arguments
+            .iter()
+            .filter_map(|name| self.symbol(name))
+            .collect();
+        // Read once with arguments of which nothing is known, for the errors of the body itself;
+        // shapes are checked at the calls.
+        let unknown = symbols.iter().map(|symbol| (*symbol, None)).collect();
+        let errors = self.report.errors().len();
+        self.visit(value, unknown, None);
+        let names: Vec<String> = arguments.iter().map(Ident::to_string).collect();
+        self.lets.push(LetFunction {
+            arguments: symbols,
+            body: value,
+            shown: format!("{name}({})", names.join(", ")),
+            erroneous: self.report.errors().len() > errors,
+        });
+        self.later[symbol.0 as usize] = false;
+        self.declare(name, Binding::LetFunction(self.lets.len() - 1));
+    }
+
+    fn function(
+        &mut self,
+        name: &Ident,
+        arity: usize,
+        value: &TokenStream,
+        first: &(Vec<TokenStream>, Spans),
+        second: Option<&(Vec<TokenStream>, Spans)>,
+    ) {
+        let pairs = arity * (arity + 1) / 2;
+        let plural = |count: usize| if count == 1 { "" } else { "s" };
+        if first.0.len() != arity {
+            self.report.error(
+                first.1,
+                format!(
+                    "`{name}` takes {arity} argument{}, but {} partial derivative{} given",
+                    plural(arity),
+                    first.0.len(),
+                    if first.0.len() == 1 { " is" } else { "s are" }
+                ),
+                "write one for each argument, in their order",
+            );
+        }
+        if let Some((second, spans)) = second
+            && second.len() != pairs
+        {
+            self.report.error(
+                *spans,
+                format!(
+                    "`{name}` takes {arity} argument{}, so it has {pairs} second partial{}, not {}",
+                    plural(arity),
+                    plural(pairs),
+                    second.len()
+                ),
+                "write the upper triangle row by row: `(xx, xy, yy)` for two arguments",
+            );
+        }
+        let id = FunctionId(self.out.functions.len() as u32);
+        if let Some(symbol) = self.symbol(name) {
+            self.later[symbol.0 as usize] = false;
+        }
+        self.declare(name, Binding::Function(id));
+        self.out.functions.push(Function {
+            name: name.clone(),
+            arity,
+            value: value.clone(),
+            first: first.0.clone(),
+            second: second.map(|second| second.0.clone()),
+        });
+    }
+
+    /// Everything else.
+    pub(super) fn claims(&mut self) {
+        let ast = self.ast;
+        for statement in &ast.statements {
+            match &statement.kind {
+                StatementKind::Observable {
+                    kind,
+                    assumed,
+                    name,
+                    value,
+                    shell,
+                } => {
+                    self.observable(statement, *kind, *assumed, name, value, shell.as_ref());
+                }
+                StatementKind::Split { pieces } => self.split(statement, pieces),
+                StatementKind::Force { signature, value } => {
+                    self.force(statement, signature, value)
+                }
+                StatementKind::Time { factor } => {
+                    if self.out.time_factor.is_some() {
+                        self.once(statement, "dt");
+                        continue;
+                    }
+                    let factor = self.scalar_expression(factor, "the factor of `ds`");
+                    if let Some(factor) = factor {
+                        self.out.time_factor = Some((factor, statement.keyword));
+                    }
+                }
+                StatementKind::Coordinates { chart, arguments } => self.chart(chart, arguments),
+                _ => {}
+            }
+        }
+    }
+
+    fn once(&mut self, statement: &Statement, word: &str) {
+        let message = format!("`{word}` stands twice");
+        self.report.error(statement.keyword, message, "keep one");
+    }
+
+    fn observable(
+        &mut self,
+        statement: &Statement,
+        kind: ObservableKind,
+        assumed: bool,
+        name: &Ident,
+        value: &Expression,
+        shell: Option<&Expression>,
+    ) {
+        if self.out.observables.iter().any(|other| other.name == *name) {
+            self.report.error(
+                name.span(),
+                format!("the name `{name}` is used twice: an observable has it already"),
+                "choose another name",
+            );
+        } else if names::is_method(&name.to_string()) {
+            self.report.error(
+                name.span(),
+                format!("`{name}` is a method of every system already"),
+                "choose another name",
+            );
+        }
+        let word = kind.word();
+        let value = match kind {
+            ObservableKind::Event => self.scalar_expression(value, "an event"),
+            _ => self.components(value, word),
+        };
+        let shell = match shell {
+            Some(shell) => self
+                .scalar_expression(shell, "the energy of a shell")
+                .map(Some),
+            None => Some(None),
+        };
+        if let (Some(value), Some(shell)) = (value, shell) {
+            self.out.observables.push(Observable {
+                attributes: statement.attributes.clone(),
+                kind,
+                assumed,
+                name: name.clone(),
+                value,
+                shell,
+            });
+        }
+    }
+
+    /// A scalar or a vector of literal extent.
+    fn components(&mut self, value: &Expression, word: &str) -> Option<NodeId> {
+        let root = self.expression(value)?;
+        let ty = self.type_of(root);
+        match ty {
+            Type::Scalar | Type::Vector(Extent::Literal(_)) => return Some(root),
+            Type::Bool => self.condition_as_number(value.root),
+            Type::Vector(Extent::Size(_)) | Type::Matrix(..) => {
+                let article = if word == "invariant" { "an" } else { "a" };
+                let message = format!(
+                    "{article} {word} is a scalar or a vector of known extent, but this is {}",
+                    self.type_shown(ty)
+                );
+                let at = self.ast.nodes[value.root.0 as usize].spans;
+                self.error(
+                    value.root,
+                    at,
+                    &message,
+                    "write one component, or `sum(i in 0..N) { … }`",
+                );
+            }
+        }
+        None
+    }
+
+    fn split(&mut self, statement: &Statement, pieces: &'a [(Ident, Expression)]) {
+        if !self.out.split.is_empty() {
+            self.once(statement, "split");
+            return;
+        }
+        for (name, value) in pieces {
+            let what = format!("the piece `{name}`");
+            if let Some(value) = self.scalar_expression(value, &what) {
+                self.out.split.push((name.clone(), value));
+            }
+        }
+    }
+
+    fn force(&mut self, statement: &Statement, signature: &Signature, value: &Expression) {
+        if !self.out.force.is_empty() {
+            self.once(statement, "force");
+            return;
+        }
+        if !self.repeats(signature) {
+            return;
+        }
+        let count = self.out.groups.len();
+        let root = value.root;
+        let items = match &self.ast.nodes[root.0 as usize].kind {
+            ExprKind::Vector(items) if count > 1 => Some(items.clone()),
+            _ => None,
+        };
+        let frame = self.visit(value, Vec::new(), items.is_some().then_some(root));
+        let items = match items {
+            Some(items) => items,
+            None if count == 1 => vec![root],
+            None => {
+                if frame.value(root).is_some() {
+                    let names: Vec<String> = self
+                        .out
+                        .groups
+                        .iter()
+                        .map(|group| format!("f_{}", group.coordinate))
+                        .collect();
+                    let message =
+                        format!("a force has one component for each of the {count} momenta");
+                    let at = self.ast.nodes[root.0 as usize].spans;
+                    self.error(
+                        root,
+                        at,
+                        &message,
+                        &format!("write `[{}]`", names.join(", ")),
+                    );
+                }
+                return;
+            }
+        };
+        if items.len() != count {
+            let message = format!("{} components of force act on {count} momenta", items.len());
+            let at = self.ast.nodes[root.0 as usize].spans;
+            self.report
+                .error(at, message, "write one for each momentum, in their order");
+            return;
+        }
+        let mut force = Vec::with_capacity(count);
+        for (index, item) in items.into_iter().enumerate() {
+            let Some((value, ty)) = self.number(item, &frame) else {
+                continue;
+            };
+            let group = &self.out.groups[index];
+            if ty == group.ty {
+                force.push(value);
+                continue;
+            }
+            let message = format!(
+                "the force on `{}` is {}, not {}",
+                group.momentum,
+                self.type_shown(group.ty),
+                self.type_shown(ty)
+            );
+            let at = self.ast.nodes[item.0 as usize].spans;
+            self.error(
+                item,
+                at,
+                &message,
+                "give it the shape of the momentum it acts on",
+            );
+        }
+        if force.len() == count {
+            self.out.force = force;
+        }
+    }
+
+    /// The signature of a force names the coordinates and momenta of the definition again.
+    fn repeats(&mut self, signature: &Signature) -> bool {
+        let partners = self.out.groups.iter().map(|group| {
+            group
+                .velocity
+                .clone()
+                .unwrap_or_else(|| group.momentum.clone())
+        });
+        let mut due: Vec<Vec<Ident>> = vec![
+            self.out
+                .groups
+                .iter()
+                .map(|group| group.coordinate.clone())
+                .collect(),
+            partners.collect(),
+        ];
+        let momenta: Vec<Ident> = self
+            .out
+            .groups
+            .iter()
+            .map(|group| group.momentum.clone())
+            .collect();
+        if signature.sections.len() > 2 {
+            due.extend(self.out.time.clone().map(|time| vec![time]));
+        }
+        let given: Vec<Vec<Ident>> = signature
+            .sections
+            .iter()
+            .map(|section| {
+                section
+                    .iter()
+                    .map(|variable| variable.name.clone())
+                    .collect()
+            })
+            .collect();
+        let by_momenta = given.len() == due.len()
+            && given[1] == momenta
+            && given[0] == due[0]
+            && given.get(2) == due.get(2);
+        if given == due || by_momenta {
+            return true;
+        }
+        let shown: Vec<String> = due
+            .iter()
+            .map(|names| {
+                names
+                    .iter()
+                    .map(Ident::to_string)
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            })
+            .collect();
+        self.report.error(
+            signature.spans,
+            "a force acts on the coordinates and momenta of the definition",
+            format!("write `force({})`", shown.join("; ")),
+        );
+        false
+    }
+}

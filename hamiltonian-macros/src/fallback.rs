@@ -1,0 +1,93 @@
+//! What is emitted instead of a definition that is wrong: its errors, and a stub that keeps the
+//! rest of the program from erring too.
+//!
+//! Input: the tree as far as it was read, and the errors. Output: items or an expression.
+//! Invariant: whatever is done with the stub — fields, methods, traits, generics — raises no
+//! further error. That needs a type rustc knows to be erroneous: in expression form the last
+//! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
+//! fields, one of whose const arguments is the last `compile_error!`.
+
+use crate::ast::{Ast, Item, ParameterKind};
+use crate::report::Report;
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+
+/// The errors with a stub.
+pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
+    let mut errors: Vec<TokenStream> = report
+        .errors()
+        .iter()
+        .map(|error| error.to_compile_error())
+        .collect();
+    match &ast.item {
+        Some(item) => {
+            let last = errors.pop();
+            let item = item_stub(item, last.unwrap_or_else(|| quote!(0)));
+            quote!(#(#errors)* #item)
+        }
+        None if ast.is_item || errors.len() == 1 => quote!(#(#errors)*),
+        None => quote!({ #(#errors)* }),
+    }
+}
+
+fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
+    let Item {
+        visibility,
+        name,
+        attributes,
+        ..
+    } = item;
+    let docs = attributes.iter().filter(|attribute| is_doc(attribute));
+    let hidden = format_ident!("__{name}", span = name.span());
+    // A bad header may repeat a name; the stub must not.
+    let sizes = distinct(item.generics.iter());
+    let mut seen: Vec<&Ident> = Vec::new();
+    let mut scalar = false;
+    let mut fields = Vec::new();
+    for parameter in &item.parameters {
+        if seen.contains(&&parameter.name) {
+            continue;
+        }
+        seen.push(&parameter.name);
+        let field = &parameter.name;
+        let ty = match parameter.kind {
+            ParameterKind::Size => quote!(usize),
+            ParameterKind::Scalar(_) => quote!(__P),
+            ParameterKind::Array(_) => quote!([__P; __ERROR]),
+        };
+        scalar |= !matches!(parameter.kind, ParameterKind::Size);
+        fields.push(quote!(#visibility #field: #ty));
+    }
+    let parameter = scalar.then(|| quote!(__P,));
+    let with_default = scalar.then(|| quote!(__P = f64,));
+    quote! {
+        #[doc(hidden)]
+        #visibility struct #hidden<#(const #sizes: usize,)* #parameter const __ERROR: usize> {
+            #(#fields),*
+        }
+        #(#docs)*
+        #visibility type #name<#(const #sizes: usize,)* #with_default> =
+            #hidden<#(#sizes,)* #parameter { #error }>;
+    }
+}
+
+fn distinct<'a>(names: impl Iterator<Item = &'a Ident>) -> Vec<&'a Ident> {
+    let mut seen: Vec<&Ident> = Vec::new();
+    for name in names {
+        if !seen.contains(&name) {
+            seen.push(name);
+        }
+    }
+    seen
+}
+
+fn is_doc(attribute: &TokenStream) -> bool {
+    let inner = attribute.clone().into_iter().nth(1);
+    match inner {
+        Some(proc_macro2::TokenTree::Group(group)) => match group.stream().into_iter().next() {
+            Some(proc_macro2::TokenTree::Ident(word)) => word == "doc",
+            _ => false,
+        },
+        _ => false,
+    }
+}

@@ -1,0 +1,526 @@
+//! Expressions: a Pratt parser with its operators on a stack of its own.
+//!
+//! Input: the cursor at an expression. Output: its root; its nodes are appended in post-order.
+//! Invariants: only groups recurse, and they count towards [`super::MAX_DEPTH`] as prefix operators
+//! and powers do; chains of left-associative operators of any length cost neither stack nor depth.
+//! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read as
+//! what was meant, so that the errors after it are found too.
+//!
+//! Binding, from loose to tight: `||`, `&&`, comparisons (not associative), `+ -`, `* / %`, prefix
+//! `- !`, `^` (right-associative, takes a prefix operator on its right), calls and indices.
+
+use super::{Parser, Result};
+use crate::ast::{BinaryOp, Comparison, ExprId, ExprKind, UnaryOp};
+use crate::names;
+use crate::report::Spans;
+use crate::tokens::{Token, TokenKind};
+use proc_macro2::{Delimiter, Span};
+
+/// An operator that waits for its right operand.
+pub(super) enum Pending {
+    Unary(UnaryOp, Span),
+    Binary(BinaryOp, Spans, ExprId),
+}
+
+impl Pending {
+    /// How tightly it holds the operand on its right.
+    fn right_binding(&self) -> u8 {
+        match self {
+            Pending::Unary(..) => 11,
+            Pending::Binary(BinaryOp::Pow, ..) => 13,
+            Pending::Binary(op, ..) => left_binding(*op) + 1,
+        }
+    }
+}
+
+/// How tightly an operator holds the operand on its left.
+fn left_binding(op: BinaryOp) -> u8 {
+    match op {
+        BinaryOp::Or => 1,
+        BinaryOp::And => 3,
+        BinaryOp::Compare(_) => 5,
+        BinaryOp::Add | BinaryOp::Sub => 7,
+        BinaryOp::Mul | BinaryOp::Div | BinaryOp::Rem => 9,
+        BinaryOp::Pow => 14,
+    }
+}
+
+impl Parser<'_> {
+    /// An expression up to the first token that cannot continue it.
+    pub(super) fn expression(&mut self) -> Result<ExprId> {
+        let (base, depth) = (self.pending.len(), self.depth);
+        let result = self.operands(base);
+        self.pending.truncate(base);
+        self.depth = depth;
+        result
+    }
+
+    fn operands(&mut self, base: usize) -> Result<ExprId> {
+        loop {
+            self.prefixes()?;
+            let operand = self.primary()?;
+            let mut operand = self.postfixes(operand)?;
+            let next = self.infix()?;
+            let binding = next.map_or(0, |(op, _)| left_binding(op));
+            while self.pending.len() > base {
+                let waiting = &self.pending[self.pending.len() - 1];
+                if waiting.right_binding() < binding {
+                    break;
+                }
+                if let (
+                    Pending::Binary(BinaryOp::Compare(_), ..),
+                    Some((BinaryOp::Compare(_), span)),
+                ) = (waiting, next)
+                {
+                    return self.abort(span, "comparisons do not chain", "write `a < b && b < c`");
+                }
+                operand = self.reduce(operand);
+            }
+            let Some((op, span)) = next else {
+                return Ok(operand);
+            };
+            if op == BinaryOp::Pow {
+                self.deeper(span.start)?;
+            }
+            self.pending.push(Pending::Binary(op, span, operand));
+        }
+    }
+
+    /// Gives the innermost waiting operator its right operand.
+    fn reduce(&mut self, operand: ExprId) -> ExprId {
+        let right = self.spans(operand);
+        match self.pending.pop() {
+            Some(Pending::Unary(op, span)) => {
+                self.depth -= 1;
+                self.push(
+                    ExprKind::Unary(op, operand),
+                    Spans::from(span).to(right),
+                    span,
+                )
+            }
+            Some(Pending::Binary(op, span, left)) => {
+                let spans = self.spans(left).to(right);
+                let id = self.push(ExprKind::Binary(op, left, operand), spans, span);
+                match op {
+                    BinaryOp::Pow => self.depth -= 1,
+                    BinaryOp::Rem => self.remainders.push(id),
+                    _ => {}
+                }
+                id
+            }
+            None => operand,
+        }
+    }
+
+    /// Prefix operators; a plus sign means nothing.
+    fn prefixes(&mut self) -> Result<()> {
+        while let Some(token) = self.peek() {
+            let op = match token.kind {
+                TokenKind::Punct('+', _) => {
+                    self.position += 1;
+                    continue;
+                }
+                TokenKind::Punct('-', _) => UnaryOp::Neg,
+                TokenKind::Punct('!', _) => UnaryOp::Not,
+                _ => break,
+            };
+            self.deeper(token.span)?;
+            self.pending.push(Pending::Unary(op, token.span));
+            self.position += 1;
+        }
+        Ok(())
+    }
+
+    fn primary(&mut self) -> Result<ExprId> {
+        let Some(token) = self.peek() else {
+            return self.operand_missing();
+        };
+        match token.kind {
+            TokenKind::Ident => self.word(token),
+            TokenKind::Literal => Ok(self.number_node()),
+            TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
+                let spans = self.group_spans();
+                let id = self.group("a value", |parser| parser.expression())?;
+                self.ast.nodes[id.0 as usize].spans = spans;
+                Ok(id)
+            }
+            TokenKind::Open(Delimiter::Brace) => self.abort(
+                token.span,
+                "braces do not group",
+                "write `( … )`; braces hold the body of a `sum` and the branches of an `if`",
+            ),
+            TokenKind::Open(Delimiter::Bracket) => {
+                let spans = self.group_spans();
+                let items = self.list("[a, b, c]")?;
+                if items.is_empty() {
+                    return self.abort(spans, "a vector without components", "write `[a, b, c]`");
+                }
+                Ok(self.push(ExprKind::Vector(items), spans, spans.start))
+            }
+            TokenKind::Punct('.', _) if self.kind_at(1) == Some(TokenKind::Literal) => {
+                let digits = self.tokens[self.position + 1].text.clone();
+                let spans = Spans {
+                    start: token.span,
+                    end: self.tokens[self.position + 1].span,
+                };
+                self.report.error(
+                    spans,
+                    format!("`.{digits}` does not begin with a digit"),
+                    format!("write `0.{digits}`"),
+                );
+                self.position += 2;
+                Ok(self.push(ExprKind::Error, spans, token.span))
+            }
+            TokenKind::Punct('|', _) => self.abort(
+                token.span,
+                "bars do not mean the absolute value",
+                "write `abs(x)`",
+            ),
+            TokenKind::Punct('&', _) => self.abort(
+                token.span,
+                "references mean nothing here: names are captured by value",
+                "leave out the `&`",
+            ),
+            TokenKind::Punct(..) | TokenKind::Close(_) => self.operand_missing(),
+        }
+    }
+
+    fn operand_missing(&mut self) -> Result<ExprId> {
+        let before = self
+            .position
+            .checked_sub(1)
+            .map(|index| &self.tokens[index]);
+        match (self.peek(), before) {
+            (Some(token), _) if token.kind != TokenKind::Punct(';', false) => {
+                let message = format!(
+                    "expected a number, a name or `(`, found `{}`",
+                    token.shown()
+                );
+                self.abort(
+                    token.span,
+                    message,
+                    "write a value on each side of an operator",
+                )
+            }
+            (_, Some(before)) => {
+                let message = format!("a value is missing after `{}`", before.shown());
+                self.abort(
+                    before.span,
+                    message,
+                    "write one, or remove what waits for it",
+                )
+            }
+            (_, None) => self.abort(self.here(), "an expression is missing", "write one"),
+        }
+    }
+
+    /// A name, a call, `if`, `sum`, or a word that cannot stand here.
+    fn word(&mut self, token: &Token) -> Result<ExprId> {
+        let span = token.span;
+        let name = token.text.as_str();
+        match name {
+            "if" => return self.conditional(),
+            "sum" => return self.sum(),
+            "else" => {
+                return self.abort(span, "`else` without `if`", "write `if c { a } else { b }`");
+            }
+            "let" => {
+                return self.abort(
+                    span,
+                    "`let` does not stand inside an expression",
+                    "write it as a statement of its own: `let name = …;`",
+                );
+            }
+            _ => {}
+        }
+        if names::is_statement_word(name) && name != "H" && name != "L" && name != "dt" {
+            return self.abort(
+                span,
+                format!("`{name}` begins a statement and is not a value"),
+                "choose another name, or write it as a statement of its own",
+            );
+        }
+        let plain = self.is_plain(token);
+        self.position += 1;
+        if matches!(self.kind(), Some(TokenKind::Punct(':', true)))
+            && matches!(self.kind_at(1), Some(TokenKind::Punct(':', _)))
+        {
+            return Ok(self.path(span));
+        }
+        let call = self.at_open(Delimiter::Parenthesis);
+        if !plain {
+            if call {
+                self.skip();
+            }
+            return Ok(self.push(ExprKind::Error, Spans::from(span), span));
+        }
+        let symbol = self.ast.symbols.intern(name);
+        if !call {
+            return Ok(self.push(ExprKind::Name(symbol, self.scope), Spans::from(span), span));
+        }
+        let spans = Spans::from(span).to(self.group_spans());
+        let shown =
+            names::function(name).map_or_else(|| format!("{name}(a, b)"), |f| f.signature());
+        let arguments = self.list(&shown)?;
+        Ok(self.push(ExprKind::Call(symbol, self.scope, arguments), spans, span))
+    }
+
+    /// `std::f64::consts::PI`: refused, the cursor after the first word.
+    fn path(&mut self, start: Span) -> ExprId {
+        let mut last = "";
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Ident => last = token.text.as_str(),
+                TokenKind::Punct(':', _) => {}
+                _ => break,
+            }
+            self.position += 1;
+        }
+        let spans = Spans {
+            start,
+            end: self.previous_span(),
+        };
+        let help = match last {
+            "PI" => "write `pi`".to_owned(),
+            _ if self.ast.is_item => "declare a Rust function by `fn name(x) = path, (path)`, a \
+                                      constant as a parameter"
+                .into(),
+            _ => "bind it before the macro, `let name = …;`, and write `name`".into(),
+        };
+        self.report.error(spans, "a path is not a value here", help);
+        if self.at_open(Delimiter::Parenthesis) {
+            self.skip();
+        }
+        self.push(ExprKind::Error, spans, start)
+    }
+
+    /// Indices, and what Rust writes after a value but mathematics does not.
+    fn postfixes(&mut self, mut base: ExprId) -> Result<ExprId> {
+        while let Some(token) = self.peek() {
+            match token.kind {
+                TokenKind::Open(Delimiter::Bracket) => base = self.index(base)?,
+                TokenKind::Punct('.', joint) => {
+                    if joint && matches!(self.kind_at(1), Some(TokenKind::Punct('.', _))) {
+                        break;
+                    }
+                    base = self.dot(base)?;
+                }
+                _ => break,
+            }
+        }
+        Ok(base)
+    }
+
+    /// `base[index]`, the cursor at the bracket.
+    fn index(&mut self, base: ExprId) -> Result<ExprId> {
+        let group = self.group_spans();
+        let spans = self.spans(base).to(group);
+        let waiting = self.remainders.len();
+        let root = self.group("one index", |parser| {
+            if parser.position == parser.limit {
+                return parser.abort(group, "an index is missing", "write `q[i]`");
+            }
+            parser.expression()
+        })?;
+        let (mut index, mut modulo) = (root, None);
+        for id in self.remainders.split_off(waiting) {
+            let node = &self.ast.nodes[id.0 as usize];
+            match node.kind {
+                ExprKind::Binary(BinaryOp::Rem, left, right) if id == root => {
+                    (index, modulo) = (left, Some(right));
+                    // Taken apart: the remainder itself is not a value.
+                    self.ast.nodes[id.0 as usize].kind = ExprKind::Error;
+                }
+                _ => self.report.error(
+                    node.at,
+                    "`%` binds like `*`: here it is not the last thing done",
+                    "write `q[(i + 1) % N]`",
+                ),
+            }
+        }
+        Ok(self.push(
+            ExprKind::Index {
+                base,
+                index,
+                modulo,
+            },
+            spans,
+            group.start,
+        ))
+    }
+
+    /// `q.sin()`, `q.powi(2)`, `a.b`: refused, the cursor at the dot.
+    fn dot(&mut self, base: ExprId) -> Result<ExprId> {
+        let before = &self.tokens[self.position - 1];
+        let receiver = match before.kind {
+            TokenKind::Ident | TokenKind::Literal => before.text.clone(),
+            _ => "…".into(),
+        };
+        let receiver = receiver.strip_suffix('.').unwrap_or(&receiver).to_owned();
+        let Some(member) = self
+            .peek_at(1)
+            .filter(|token| token.kind != TokenKind::Punct(';', false))
+        else {
+            let span = self.here();
+            return self.abort(span, "a `.` that belongs to nothing", "remove it");
+        };
+        let word = member.text.as_str();
+        let start = self.spans(base).start;
+        self.position += 2;
+        if !matches!(member.kind, TokenKind::Ident) {
+            return self.abort(
+                Spans {
+                    start,
+                    end: member.span,
+                },
+                format!("`.{}` after a value means nothing", member.shown()),
+                format!("write `{receiver}[0]` for a component"),
+            );
+        }
+        let spans = Spans {
+            start,
+            end: member.span,
+        };
+        if self.at_open(Delimiter::Parenthesis) {
+            let argument = self.peek_at(1).map_or("", |token| token.text.as_str());
+            let help = match (word, argument) {
+                ("powi" | "powf", "") => format!("write `{receiver}^n`"),
+                ("powi" | "powf", power) => format!("write `{receiver}^{power}`"),
+                _ => format!(
+                    "write `{}({receiver})`",
+                    names::synonym(word).unwrap_or(word)
+                ),
+            };
+            let end = self.group_spans().end;
+            self.skip();
+            self.report.error(
+                Spans { start, end },
+                format!("`{receiver}.{word}(…)`: a function stands before its argument"),
+                help,
+            );
+        } else {
+            let help = if self.ast.is_item {
+                format!("make it a parameter of its own and write `{word}`")
+            } else {
+                format!(
+                    "bind it before the macro, `let {word} = {receiver}.{word};`, and write `{word}`"
+                )
+            };
+            self.report.error(
+                spans,
+                format!("`{receiver}.{word}`: fields are not captured"),
+                help,
+            );
+        }
+        Ok(self.push(ExprKind::Error, spans, start))
+    }
+
+    /// The operator at the cursor, which it moves past; `None` where the expression ends.
+    fn infix(&mut self) -> Result<Option<(BinaryOp, Spans)>> {
+        let Some(token) = self.peek() else {
+            return Ok(None);
+        };
+        let span = token.span;
+        let then = |parser: &Self, character| matches!(parser.kind_at(1), Some(TokenKind::Punct(found, _)) if found == character);
+        let (op, length) = match token.kind {
+            TokenKind::Punct('+', _) => (BinaryOp::Add, 1),
+            TokenKind::Punct('-', _) => (BinaryOp::Sub, 1),
+            TokenKind::Punct('*', true) if then(self, '*') => {
+                let spans = Spans {
+                    start: span,
+                    end: self.tokens[self.position + 1].span,
+                };
+                self.report
+                    .error(spans, "`**` is not an operator", "write `^` for a power");
+                (BinaryOp::Pow, 2)
+            }
+            TokenKind::Punct('*', _) => (BinaryOp::Mul, 1),
+            TokenKind::Punct('/', _) => (BinaryOp::Div, 1),
+            TokenKind::Punct('%', _) => (BinaryOp::Rem, 1),
+            TokenKind::Punct('^', _) => (BinaryOp::Pow, 1),
+            TokenKind::Punct('<', true) if then(self, '=') => {
+                (BinaryOp::Compare(Comparison::LessEqual), 2)
+            }
+            TokenKind::Punct('>', true) if then(self, '=') => {
+                (BinaryOp::Compare(Comparison::GreaterEqual), 2)
+            }
+            TokenKind::Punct('=', true) if then(self, '=') => {
+                (BinaryOp::Compare(Comparison::Equal), 2)
+            }
+            TokenKind::Punct('!', true) if then(self, '=') => {
+                (BinaryOp::Compare(Comparison::NotEqual), 2)
+            }
+            TokenKind::Punct('<', _) => (BinaryOp::Compare(Comparison::Less), 1),
+            TokenKind::Punct('>', _) => (BinaryOp::Compare(Comparison::Greater), 1),
+            TokenKind::Punct('&', true) if then(self, '&') => (BinaryOp::And, 2),
+            TokenKind::Punct('|', true) if then(self, '|') => (BinaryOp::Or, 2),
+            TokenKind::Punct(single @ ('&' | '|'), _) => {
+                self.report.error(
+                    span,
+                    format!("`{single}` is not an operator"),
+                    format!("write `{single}{single}` between conditions"),
+                );
+                (
+                    if single == '&' {
+                        BinaryOp::And
+                    } else {
+                        BinaryOp::Or
+                    },
+                    1,
+                )
+            }
+            TokenKind::Ident
+            | TokenKind::Literal
+            | TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
+                return Ok(self.missing_operator(token));
+            }
+            TokenKind::Punct('#', _) if self.limit == self.statement_limit => {
+                return Ok(self.missing_operator(token));
+            }
+            _ => return Ok(None),
+        };
+        let end = self.tokens[self.position + length - 1].span;
+        self.position += length;
+        Ok(Some((op, Spans { start: span, end })))
+    }
+
+    /// Two values side by side, or two statements.
+    fn missing_operator(&mut self, token: &Token) -> Option<(BinaryOp, Spans)> {
+        let name = token.text.as_str();
+        if token.kind == TokenKind::Ident && matches!(name, "on" | "else" | "in") {
+            return None;
+        }
+        let before = &self.tokens[self.position - 1];
+        if self.limit == self.statement_limit && self.begins_statement() {
+            let help = if token.kind != TokenKind::Ident || names::is_statement_word(name) {
+                "statements are separated by `;`".to_owned()
+            } else {
+                format!("write `; let {name}` if it is a statement of its own")
+            };
+            let message = format!("a `;` is missing before `{}`", token.shown());
+            self.report.error(token.span, message, help);
+            self.separator_missing = Some(self.position);
+            return None;
+        }
+        if self.condition == Some(self.limit) && !self.brace_follows() {
+            return None;
+        }
+        let shown = |token: &Token| match token.kind {
+            TokenKind::Ident | TokenKind::Literal => Some(token.text.clone()),
+            TokenKind::Open(_) | TokenKind::Close(_) => Some("(…)".into()),
+            TokenKind::Punct(..) => None,
+        };
+        let (message, help) = match (shown(before), shown(token)) {
+            (Some(left), Some(right)) if left != "(…)" || right != "(…)" => (
+                format!("an operator is missing between `{left}` and `{right}`"),
+                format!("write `{left}*{right}`"),
+            ),
+            _ => (
+                format!("an operator is missing before `{}`", token.shown()),
+                "write `*` between the factors of a product".to_owned(),
+            ),
+        };
+        self.report.error(token.span, message, help);
+        Some((BinaryOp::Mul, token.span.into()))
+    }
+}

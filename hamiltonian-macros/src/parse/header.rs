@@ -1,0 +1,396 @@
+//! The header of item form: attributes, visibility, `struct Name<const N: usize> { parameters }`.
+//!
+//! Input: the cursor at the beginning of the definition. Output: [`Item`]; it is put into the tree
+//! as soon as its name is read, so that the stub knows the name whatever follows. Invariant: a bad
+//! parameter does not hide the next one.
+
+use super::{Parser, Result};
+use crate::ast::{DefaultValue, Item, Parameter, ParameterKind, Size};
+use crate::report::Spans;
+use crate::tokens::TokenKind;
+use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+
+/// `#[word …]`.
+pub(super) struct Attribute {
+    /// All of it.
+    pub tokens: TokenStream,
+    /// Its first word.
+    pub word: String,
+    pub spans: Spans,
+    /// What follows the first word.
+    rest: (usize, usize),
+}
+
+const STRUCT: &str = "write `pub struct Name { m = 1.0 }` and the statements after it";
+
+impl Parser<'_> {
+    /// Attributes and docs at the cursor.
+    pub(super) fn attributes(&mut self) -> Vec<Attribute> {
+        let mut found = Vec::new();
+        while self.at_punct('#') {
+            let start = self.here();
+            let inner = matches!(self.kind_at(1), Some(TokenKind::Punct('!', _)));
+            let length = if inner { 2 } else { 1 };
+            if self.kind_at(length) != Some(TokenKind::Open(Delimiter::Bracket)) {
+                break;
+            }
+            let mut tokens = TokenStream::new();
+            tokens.extend(self.tokens[self.position].tree.clone());
+            self.position += length;
+            tokens.extend(self.tokens[self.position].tree.clone());
+            let spans = Spans::from(start).to(self.group_spans());
+            if inner {
+                self.report.error(
+                    spans,
+                    "inner docs and attributes have nothing to stand in",
+                    "write `///` or `#[…]` before what they describe",
+                );
+            }
+            let close = self.tokens[self.position].close;
+            let word = self.tokens[self.position + 1].text.clone();
+            found.push(Attribute {
+                tokens,
+                word,
+                spans,
+                rest: (self.position + 2, close),
+            });
+            self.position = close + 1;
+        }
+        found
+    }
+
+    /// Whether what follows the attributes is an item.
+    pub(super) fn at_item(&self) -> bool {
+        ["pub", "struct", "enum", "type", "mod", "impl"]
+            .iter()
+            .any(|word| self.at_word(word))
+            || (self.at_word("crate") && self.kind_at(1) == Some(TokenKind::Ident))
+    }
+
+    /// The header, after its attributes.
+    pub(super) fn item(&mut self, attributes: Vec<Attribute>) -> Result<()> {
+        let mut visibility = TokenStream::new();
+        if self.at_word("pub") {
+            visibility.extend(self.tokens[self.position].tree.clone());
+            self.position += 1;
+            if self.at_open(Delimiter::Parenthesis) {
+                visibility.extend(self.tokens[self.position].tree.clone());
+                self.skip();
+            }
+        }
+        if !self.at_word("struct") {
+            let message = format!("expected `struct`, {}", self.found());
+            return self.abort(self.here(), message, STRUCT);
+        }
+        self.position += 1;
+        let name = self.declared("the name of the type", STRUCT)?;
+        let item = Item {
+            attributes: Vec::new(),
+            max_ops: None,
+            visibility,
+            name: name.clone(),
+            generics: Vec::new(),
+            parameters: Vec::new(),
+        };
+        self.ast.item = Some(item);
+        self.item_attributes(attributes);
+        if self.at_punct('<') {
+            self.position += 1;
+            self.generics()?;
+        }
+        if !self.at_open(Delimiter::Brace) {
+            let help = format!("write `struct {name} {{}}` if it has no parameters");
+            let message = format!(
+                "expected `{{` and the parameters of `{name}`, {}",
+                self.found()
+            );
+            return self.abort(self.here(), message, help);
+        }
+        let outer = self.enter();
+        self.parameters();
+        self.leave(outer);
+        Ok(())
+    }
+
+    fn item_attributes(&mut self, attributes: Vec<Attribute>) {
+        for attribute in attributes {
+            let taken = if attribute.word == "max_ops" {
+                let number = self.max_ops(&attribute);
+                if number.is_none() {
+                    self.report.error(
+                        attribute.spans,
+                        "`max_ops` takes a number of operations, once",
+                        "write `#[max_ops = 40]`",
+                    );
+                }
+                number
+            } else {
+                None
+            };
+            let is_max_ops = attribute.word == "max_ops";
+            if let Some(item) = &mut self.ast.item {
+                if is_max_ops {
+                    item.max_ops = taken.or(item.max_ops);
+                } else {
+                    item.attributes.push(attribute.tokens);
+                }
+            }
+        }
+    }
+
+    fn max_ops(&self, attribute: &Attribute) -> Option<(u64, Span)> {
+        if self.ast.item.as_ref()?.max_ops.is_some() {
+            return None;
+        }
+        match &self.tokens[attribute.rest.0..attribute.rest.1] {
+            [equals, number] if matches!(equals.kind, TokenKind::Punct('=', _)) => {
+                Some((number.text.replace('_', "").parse().ok()?, number.span))
+            }
+            _ => None,
+        }
+    }
+
+    /// `const N: usize, …>`, the cursor after `<`.
+    fn generics(&mut self) -> Result<()> {
+        const FORM: &str = "only sizes stand between `<` and `>`: write `<const N: usize>`";
+        loop {
+            if self.at_punct('>') {
+                self.position += 1;
+                return Ok(());
+            }
+            if !self.at_word("const") {
+                let message = format!("expected `const`, {}", self.found());
+                return self.abort(self.here(), message, FORM);
+            }
+            self.position += 1;
+            let name = self.declared("the name of a size", FORM)?;
+            let is_usize =
+                self.at_punct(':') && self.peek_at(1).is_some_and(|token| token.text == "usize");
+            if !is_usize {
+                let message = format!("the size `{name}` is not declared as `usize`");
+                return self.abort(name.span(), message, format!("write `const {name}: usize`"));
+            }
+            self.position += 2;
+            if self.at_punct('=') {
+                return self.abort(
+                    self.here(),
+                    "sizes have no default",
+                    format!("write `const {name}: usize`"),
+                );
+            }
+            if let Some(item) = &mut self.ast.item {
+                item.generics.push(name);
+            }
+            if self.at_punct(',') {
+                self.position += 1;
+            } else if !self.at_punct('>') {
+                let message = format!("expected `,` or `>`, {}", self.found());
+                return self.abort(self.here(), message, FORM);
+            }
+        }
+    }
+
+    /// What stands between the braces, the cursor inside.
+    fn parameters(&mut self) {
+        while self.position < self.limit {
+            let (start, limit) = (self.position, self.limit);
+            match self.parameter() {
+                Ok(parameter) => {
+                    if let Some(item) = &mut self.ast.item {
+                        item.parameters.push(parameter);
+                    }
+                }
+                Err(_) => {
+                    (self.position, self.limit) = (start, limit);
+                    while self.position < self.limit && !self.at_punct(',') {
+                        self.skip();
+                    }
+                }
+            }
+            self.position += 1;
+        }
+    }
+
+    /// One parameter, up to its comma.
+    fn parameter(&mut self) -> Result<Parameter> {
+        const FORM: &str = "write `name = 1.0`, `name`, `name: usize` or `name: [N]`";
+        let attributes = self.attributes();
+        for attribute in &attributes {
+            if matches!(attribute.word.as_str(), "cfg" | "cfg_attr") {
+                self.report.error(
+                    attribute.spans,
+                    "a parameter cannot depend on the configuration: H does not",
+                    "write two definitions and choose between them by `#[cfg(…)]`",
+                );
+            }
+        }
+        if self.at_word("pub") {
+            return self.abort(
+                self.here(),
+                "parameters are as visible as their struct",
+                "remove `pub`",
+            );
+        }
+        let name = self.declared("the name of a parameter", FORM)?;
+        let kind = if self.at_equals(0) {
+            self.position += 1;
+            ParameterKind::Scalar(Some(self.default_value(&name)?))
+        } else if self.at_punct(':') {
+            self.position += 1;
+            self.parameter_type(&name)?
+        } else {
+            ParameterKind::Scalar(None)
+        };
+        if self.position < self.limit && !self.at_punct(',') {
+            let (message, help) = match self.kind() {
+                Some(TokenKind::Punct(';', _)) => {
+                    ("parameters are separated by `,`".to_owned(), "write `,`")
+                }
+                Some(TokenKind::Punct('=', _)) => (
+                    "only scalars have a default".into(),
+                    "remove it and give the value to `new`",
+                ),
+                _ if matches!(kind, ParameterKind::Scalar(Some(_))) => (
+                    "a default is a number, not an expression".into(),
+                    "write its value, `0.5`",
+                ),
+                _ => (
+                    format!("expected `,` after `{name}`, {}", self.found()),
+                    FORM,
+                ),
+            };
+            return self.abort(self.here(), message, help);
+        }
+        let attributes = attributes
+            .into_iter()
+            .map(|attribute| attribute.tokens)
+            .collect();
+        Ok(Parameter {
+            attributes,
+            name,
+            kind,
+        })
+    }
+
+    fn default_value(&mut self, name: &Ident) -> Result<DefaultValue> {
+        let mut negative = false;
+        while self.at_punct('-') || self.at_punct('+') {
+            negative ^= self.at_punct('-');
+            self.position += 1;
+        }
+        let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Literal) else {
+            let message = format!(
+                "expected a number as the default of `{name}`, {}",
+                self.found()
+            );
+            return self.abort(
+                self.here(),
+                message,
+                format!("write `{name} = 1.0`, or `{name}` for a parameter without default"),
+            );
+        };
+        self.position += 1;
+        match self.number(token, false) {
+            Some(number) => Ok(DefaultValue { negative, number }),
+            None => Err(super::Abort),
+        }
+    }
+
+    /// `usize`, `[s]`, `[s][s]`, after the colon.
+    fn parameter_type(&mut self, name: &Ident) -> Result<ParameterKind> {
+        if self.at_open(Delimiter::Bracket) {
+            return Ok(ParameterKind::Array(self.sizes()?));
+        }
+        let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
+            let message = format!("expected what `{name}` is, {}", self.found());
+            return self.abort(
+                self.here(),
+                message,
+                format!("write `{name}: usize` for a size or `{name}: [N]` for an array"),
+            );
+        };
+        if token.text == "usize" {
+            self.position += 1;
+            return Ok(ParameterKind::Size);
+        }
+        self.abort(
+            token.span,
+            format!(
+                "`{name}` has no type of its own: `{}` is neither `usize` nor an array",
+                token.text
+            ),
+            format!("write `{name} = 1.0`, or `{name}` for a scalar without default"),
+        )
+    }
+
+    /// `[s]`, `[s][s]`, the cursor at the first bracket.
+    pub(super) fn sizes(&mut self) -> Result<Vec<Size>> {
+        let mut sizes = Vec::new();
+        while self.at_open(Delimiter::Bracket) {
+            let spans = self.group_spans();
+            let outer = self.enter();
+            let size = self.size(spans)?;
+            if self.position != self.limit {
+                let (message, help) = match self.kind() {
+                    Some(TokenKind::Punct(';', _)) => (
+                        "numbers have no type here".to_owned(),
+                        "write `[3]`, not `[f64; 3]`",
+                    ),
+                    Some(TokenKind::Punct(',', _)) => (
+                        "each extent has brackets of its own".into(),
+                        "write `[n][3]`",
+                    ),
+                    _ => (
+                        "a size is a number or a name, not an expression".into(),
+                        "declare a size of its own",
+                    ),
+                };
+                return self.abort(self.here(), message, help);
+            }
+            self.leave(outer);
+            if sizes.len() == 2 {
+                return self.abort(
+                    spans,
+                    "arrays have at most two extents",
+                    "write `[n][3]`, or several arrays",
+                );
+            }
+            sizes.push(size);
+        }
+        Ok(sizes)
+    }
+
+    fn size(&mut self, spans: Spans) -> Result<Size> {
+        const FORM: &str = "write a number or the name of a size: `[3]`, `[N]`";
+        let Some(token) = self.peek() else {
+            return self.abort(spans, "a size is missing", FORM);
+        };
+        match (token.kind, &token.tree) {
+            (TokenKind::Literal, _) => {
+                let value = token.text.replace('_', "").parse::<u64>().ok();
+                self.position += 1;
+                match value {
+                    Some(value) if value > 0 && value <= u64::from(u32::MAX) => {
+                        Ok(Size::Literal(value, token.span))
+                    }
+                    _ => self.abort(
+                        token.span,
+                        format!("`{}` is not a size", token.text),
+                        "write a whole number from 1",
+                    ),
+                }
+            }
+            (TokenKind::Ident, Some(TokenTree::Ident(ident))) => {
+                if !self.is_plain(token) {
+                    return Err(super::Abort);
+                }
+                self.position += 1;
+                Ok(Size::Name(ident.clone()))
+            }
+            _ => {
+                let message = format!("expected a size, {}", self.found());
+                self.abort(token.span, message, FORM)
+            }
+        }
+    }
+}

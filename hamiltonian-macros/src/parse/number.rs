@@ -1,0 +1,151 @@
+//! Numbers: plain decimals, exactly.
+//!
+//! Input: a literal token. Output: a [`Number`] node. Invariant: what is not a plain decimal number
+//! that f64 can hold is reported and reads as [`ExprKind::Error`].
+
+use super::Parser;
+use crate::ast::{ExprId, ExprKind, Number};
+use crate::report::Spans;
+use crate::tokens::{Token, TokenKind};
+use proc_macro2::Delimiter;
+
+/// Suffixes by which Rust gives a number a type.
+const TYPES: &[&str] = &[
+    "f64", "f32", "f16", "f128", "i8", "i16", "i32", "i64", "i128", "isize", "u8", "u16", "u32",
+    "u64", "u128", "usize",
+];
+
+impl Parser<'_> {
+    /// The literal at the cursor as an operand.
+    pub(super) fn number_node(&mut self) -> ExprId {
+        let token = &self.tokens[self.position];
+        let divided = self.position > 0
+            && self.tokens[self.position - 1].kind == TokenKind::Punct('/', false);
+        self.position += 1;
+        let kind = match self.number(token, divided) {
+            Some(number) => ExprKind::Number(number),
+            None => {
+                // `2sin(x)`: the parentheses belong to the function inside the literal.
+                if token
+                    .text
+                    .ends_with(|c: char| c.is_alphabetic() || c == '_')
+                    && self.at_open(Delimiter::Parenthesis)
+                {
+                    self.skip();
+                }
+                ExprKind::Error
+            }
+        };
+        self.push(kind, Spans::from(token.span), token.span)
+    }
+
+    /// The value of a literal, or an error. `divided`: a `/` stands before it.
+    pub(super) fn number(&mut self, token: &Token, divided: bool) -> Option<Number> {
+        let text = token.text.as_str();
+        let span = token.span;
+        if !text.starts_with(|c: char| c.is_ascii_digit()) {
+            self.report.error(
+                span,
+                format!("{text} is not a number"),
+                "write a decimal number",
+            );
+            return None;
+        }
+        if let Some((radix, digits)) = radix(text) {
+            let value = u128::from_str_radix(&digits.replace('_', ""), radix).ok();
+            let help = match value {
+                Some(value) => format!("write `{value}`"),
+                None => "write it in decimal".into(),
+            };
+            self.report
+                .error(span, format!("`{text}` is not a decimal number"), help);
+            return None;
+        }
+        let (digits, suffix) = split_suffix(text);
+        if TYPES.contains(&suffix) {
+            self.report.error(
+                span,
+                format!("`{text}` has a type, but numbers are exact here and have none"),
+                format!("write `{digits}`"),
+            );
+            return None;
+        }
+        if !suffix.is_empty() {
+            let call = if self.at_open(Delimiter::Parenthesis) {
+                "(…)"
+            } else {
+                ""
+            };
+            let product = format!("{digits}*{suffix}{call}");
+            let help = if divided {
+                format!(
+                    "write `({product})` to divide by the product, `{product}` to multiply by `{suffix}{call}` afterwards"
+                )
+            } else {
+                format!("write `{product}`")
+            };
+            self.report
+                .error(span, format!("`{text}` is not a product"), help);
+            return None;
+        }
+        let Some(number) = Number::read(digits) else {
+            self.report.error(
+                span,
+                format!("`{text}` does not fit an f64"),
+                "write a number between 1e-323 and 1.7e308",
+            );
+            return None;
+        };
+        let rounded = number.to_f64();
+        if rounded.is_infinite() {
+            self.report.error(
+                span,
+                format!("`{text}` is larger than any f64"),
+                "write a number up to 1.7e308",
+            );
+            return None;
+        }
+        if rounded == 0.0 && !number.is_zero() {
+            self.report.error(
+                span,
+                format!("`{text}` is smaller than any f64 but not 0"),
+                "write `0`, or a number from 1e-323",
+            );
+            return None;
+        }
+        Some(number)
+    }
+}
+
+fn radix(text: &str) -> Option<(u32, &str)> {
+    let radix = match text.get(..2)? {
+        "0x" => 16,
+        "0o" => 8,
+        "0b" => 2,
+        _ => return None,
+    };
+    Some((radix, &text[2..]))
+}
+
+/// `"2.5e3q"` → `("2.5e3", "q")`.
+fn split_suffix(text: &str) -> (&str, &str) {
+    let bytes = text.as_bytes();
+    let digits = |mut at: usize| {
+        while at < bytes.len() && (bytes[at].is_ascii_digit() || bytes[at] == b'_') {
+            at += 1;
+        }
+        at
+    };
+    let mut end = digits(0);
+    if bytes.get(end) == Some(&b'.') {
+        end = digits(end + 1);
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        if bytes.get(end + 1 + sign).is_some_and(u8::is_ascii_digit) {
+            end = digits(end + 1 + sign);
+        }
+    }
+    let (number, suffix) = text.split_at(end);
+    (number.trim_end_matches('_'), suffix)
+}

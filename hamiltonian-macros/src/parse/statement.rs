@@ -1,0 +1,540 @@
+//! Statements.
+//!
+//! Input: the cursor after the header. Output: [`Ast::statements`](crate::ast::Ast::statements).
+//! Invariant: a statement that cannot be read is left out and the next one is read.
+
+use super::header::Attribute;
+use super::{Abort, Parser, Result};
+use crate::ast::{
+    BinaryOp, ExprKind, Expression, ObservableKind, Signature, Statement, StatementKind, Variable,
+};
+use crate::names;
+use crate::report::Spans;
+use crate::tokens::{Token, TokenKind};
+use proc_macro2::{Delimiter, Ident, Span, TokenStream};
+
+const KINDS: &str =
+    "write `H(q; p) = …`, `let name = …`, `invariant name = …` or another statement";
+
+impl Parser<'_> {
+    /// All statements; `attributes` were already read and belong to the first one.
+    pub(super) fn statements(&mut self, attributes: Vec<Attribute>) {
+        let mut attributes = Some(attributes);
+        while self.position < self.limit {
+            let (start, limit) = (self.position, self.limit);
+            if self.at_punct(';') {
+                self.report.error(
+                    self.here(),
+                    "a statement is missing before this `;`",
+                    "remove the `;`",
+                );
+                self.position += 1;
+                continue;
+            }
+            self.pending.clear();
+            self.remainders.clear();
+            self.scope = None;
+            self.condition = None;
+            self.depth = 0;
+            let mut before = attributes.take().unwrap_or_default();
+            before.extend(self.attributes());
+            if self.statement(before).is_err() {
+                (self.position, self.limit, self.statement_limit) = (start, limit, limit);
+                while self.position < self.limit && !self.at_punct(';') {
+                    self.skip();
+                }
+                self.position += 1;
+            }
+        }
+    }
+
+    /// One statement with its separator.
+    fn statement(&mut self, attributes: Vec<Attribute>) -> Result<()> {
+        let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
+            let message = format!("expected a statement, {}", self.found());
+            return self.abort(self.here(), message, KINDS);
+        };
+        let keyword = token.span;
+        let word = token.text.as_str();
+        let assumed = self.assumed(&attributes, word);
+        let attributes: Vec<TokenStream> = attributes
+            .into_iter()
+            .filter(|attribute| attribute.word == "doc")
+            .map(|attribute| attribute.tokens)
+            .collect();
+        self.position += 1;
+        let kind = match word {
+            "let" => self.let_statement()?,
+            "H" => self.hamiltonian()?,
+            "L" => self.lagrangian(keyword)?,
+            "invariant" => self.observable(ObservableKind::Invariant, assumed)?,
+            "monitor" => self.observable(ObservableKind::Monitor, false)?,
+            "event" => self.observable(ObservableKind::Event, false)?,
+            "split" => self.split(keyword)?,
+            "force" => self.force(keyword)?,
+            "fn" => self.function()?,
+            "dt" => self.time()?,
+            "coordinates" => self.coordinates()?,
+            _ => return self.unknown_statement(token),
+        };
+        let closed = matches!(kind, StatementKind::Split { .. });
+        self.ast.statements.push(Statement {
+            attributes,
+            keyword,
+            kind,
+        });
+        self.separator(closed)
+    }
+
+    /// Whether `#[assume]` stands before an invariant; it stands nowhere else.
+    fn assumed(&mut self, attributes: &[Attribute], word: &str) -> bool {
+        let mut assumed = false;
+        for attribute in attributes {
+            match attribute.word.as_str() {
+                "doc" => {}
+                "assume" if word == "invariant" => assumed = true,
+                "assume" => self.report.error(
+                    attribute.spans,
+                    format!("`#[assume]` says nothing of `{word}`"),
+                    "write it before an `invariant`",
+                ),
+                "max_ops" => self.report.error(
+                    attribute.spans,
+                    "`#[max_ops]` belongs to a type",
+                    "write it before `struct`",
+                ),
+                other => self.report.error(
+                    attribute.spans,
+                    format!("`#[{other}]` means nothing on a statement"),
+                    "remove it; docs and, on invariants, `#[assume]` are possible",
+                ),
+            }
+        }
+        assumed
+    }
+
+    /// The `;` after a statement, or the end.
+    fn separator(&mut self, optional: bool) -> Result<()> {
+        if self.at_punct(';') {
+            self.position += 1;
+            return Ok(());
+        }
+        if self.position == self.limit || optional || self.separator_missing == Some(self.position)
+        {
+            return Ok(());
+        }
+        match self.kind() {
+            Some(TokenKind::Punct(',', _)) => {
+                self.abort(self.here(), "statements are separated by `;`", "write `;`")
+            }
+            Some(TokenKind::Punct('=', _)) => self.abort(
+                self.here(),
+                "a second `=` in one statement",
+                "write `;` between statements, `==` to compare in a condition",
+            ),
+            _ if self.begins_statement() => {
+                let message = format!(
+                    "a `;` is missing before `{}`",
+                    self.tokens[self.position].shown()
+                );
+                self.report
+                    .error(self.here(), message, "statements are separated by `;`");
+                Ok(())
+            }
+            _ if self.at_word("on") => self.abort(
+                self.here(),
+                "`on` names the shell of an invariant",
+                "write `invariant name = e on H = …`",
+            ),
+            _ => self.left_over("an operator or `;`"),
+        }
+    }
+
+    /// Whether the cursor is at the beginning of a statement, where an operator could stand too.
+    pub(super) fn begins_statement(&self) -> bool {
+        let Some(token) = self.peek() else {
+            return false;
+        };
+        let called_equals = self.kind_at(1) == Some(TokenKind::Open(Delimiter::Parenthesis)) && {
+            let after = self.tokens[self.position + 1].close + 1;
+            after < self.limit && matches!(self.tokens[after].kind, TokenKind::Punct('=', _))
+        };
+        match token.kind {
+            TokenKind::Punct('#', _) => {
+                self.kind_at(1) == Some(TokenKind::Open(Delimiter::Bracket))
+            }
+            TokenKind::Ident if matches!(token.text.as_str(), "H" | "L" | "dt") => {
+                self.at_equals(1) || called_equals
+            }
+            TokenKind::Ident => {
+                names::is_statement_word(&token.text) || self.at_equals(1) || called_equals
+            }
+            _ => false,
+        }
+    }
+
+    fn unknown_statement<T>(&mut self, token: &Token) -> Result<T> {
+        // What is missing before it was reported, and says what to write.
+        if !self.is_plain(token) || self.separator_missing == Some(self.position - 1) {
+            return Err(Abort);
+        }
+        let name = token.text.as_str();
+        let span = token.span;
+        // The one-letter words are near to every short name: only their other case is meant.
+        let words = names::STATEMENTS.iter().copied();
+        let word = match name {
+            "h" | "Ham" | "Hamiltonian" | "hamiltonian" => Some("H"),
+            "l" | "Lagrangian" | "lagrangian" => Some("L"),
+            _ => names::nearest(name, words.filter(|word| word.len() > 1)),
+        };
+        if let Some(word) = word {
+            let message = format!("`{name}` does not begin a statement");
+            return self.abort(span, message, format!("write `{word}`"));
+        }
+        let mut arguments = "";
+        if self.at_open(Delimiter::Parenthesis) {
+            self.skip();
+            arguments = "(…)";
+        }
+        if self.at_equals(0) && names::meaning(name).is_none() {
+            let message = format!("`{name}` is not declared by anything");
+            let help = format!("write `let {name}{arguments} = …`");
+            return self.abort(span, message, help);
+        }
+        if name == "const" || name == "static" {
+            return self.abort(
+                span,
+                format!("`{name}` declares nothing here"),
+                "write `let name = …`",
+            );
+        }
+        if !self.ast.is_item && self.ast.statements.is_empty() {
+            return self.abort(
+                span,
+                format!("expected a statement, found `{name}`"),
+                "write `H = …` before the expression",
+            );
+        }
+        self.abort(span, format!("`{name}` does not begin a statement"), KINDS)
+    }
+
+    fn let_statement(&mut self) -> Result<StatementKind> {
+        const FORM: &str = "write `let name = …` or `let name(x) = …`";
+        if self.at_word("mut") {
+            let span = self.here();
+            return self.abort(
+                span,
+                "nothing changes here",
+                "write `let name = …` without `mut`",
+            );
+        }
+        let name = self.declared("a name", FORM)?;
+        let arguments = if self.at_open(Delimiter::Parenthesis) {
+            Some(self.arguments(&name)?)
+        } else {
+            None
+        };
+        if self.at_punct(':') {
+            return self.abort(
+                self.here(),
+                "values have no declared type here",
+                format!("write `let {name} = …`"),
+            );
+        }
+        self.equals(&format!(
+            "let {name}{}",
+            if arguments.is_some() { "(…)" } else { "" }
+        ))?;
+        Ok(StatementKind::Let {
+            name,
+            arguments,
+            value: self.right_side()?,
+        })
+    }
+
+    /// `(a, b)`, names of arguments, each once.
+    fn arguments(&mut self, function: &Ident) -> Result<Vec<Ident>> {
+        let form = format!("write `{function}(x)` or `{function}(x, y)`");
+        let spans = self.group_spans();
+        let arguments = self.name_list(&form, |parser| parser.declared("an argument", &form))?;
+        if arguments.is_empty() {
+            return self.abort(
+                spans,
+                "a function without arguments",
+                format!("write `let {function} = …`"),
+            );
+        }
+        for (index, argument) in arguments.iter().enumerate() {
+            if arguments[..index].contains(argument) {
+                self.report.error(
+                    argument.span(),
+                    format!("the argument `{argument}` stands twice"),
+                    "give each argument a name of its own",
+                );
+            }
+        }
+        Ok(arguments)
+    }
+
+    /// A comma-separated list in the parentheses at the cursor.
+    fn name_list<T>(
+        &mut self,
+        form: &str,
+        mut member: impl FnMut(&mut Self) -> Result<T>,
+    ) -> Result<Vec<T>> {
+        let outer = self.enter();
+        let mut members = Vec::new();
+        while self.position != self.limit {
+            members.push(member(self)?);
+            if self.at_punct(',') {
+                self.position += 1;
+            } else if self.position != self.limit {
+                let message = format!("expected `,` or `)`, {}", self.found());
+                return self.abort(self.here(), message, form);
+            }
+        }
+        self.leave(outer);
+        Ok(members)
+    }
+
+    fn hamiltonian(&mut self) -> Result<StatementKind> {
+        let signature = if self.at_open(Delimiter::Parenthesis) {
+            Some(self.signature("H(q; p)")?)
+        } else {
+            None
+        };
+        self.equals(if signature.is_some() { "H(…)" } else { "H" })?;
+        Ok(StatementKind::Hamiltonian {
+            signature,
+            value: self.right_side()?,
+        })
+    }
+
+    fn lagrangian(&mut self, keyword: Span) -> Result<StatementKind> {
+        if !self.at_open(Delimiter::Parenthesis) {
+            return self.abort(
+                keyword,
+                "a Lagrangian names its coordinates and velocities",
+                "write `L(q; v) = …`",
+            );
+        }
+        let signature = self.signature("L(q; v)")?;
+        self.equals("L(…)")?;
+        Ok(StatementKind::Lagrangian {
+            signature,
+            value: self.right_side()?,
+        })
+    }
+
+    /// `(q, r[N]; p, s[N]; t)`, the cursor at the parenthesis.
+    fn signature(&mut self, form: &str) -> Result<Signature> {
+        let help = format!("write `{form}`");
+        let spans = self.group_spans();
+        let outer = self.enter();
+        let mut sections = vec![Vec::new()];
+        while self.position != self.limit {
+            if self.at_punct(';') {
+                self.position += 1;
+                sections.push(Vec::new());
+                continue;
+            }
+            let name = self.declared("a name", &help)?;
+            let sizes = self.sizes()?;
+            if let Some(section) = sections.last_mut() {
+                section.push(Variable { name, sizes });
+            }
+            if self.at_punct(',') {
+                self.position += 1;
+            } else if self.position != self.limit && !self.at_punct(';') {
+                let message = format!("expected `,` or `;`, {}", self.found());
+                return self.abort(self.here(), message, help);
+            }
+        }
+        self.leave(outer);
+        Ok(Signature { spans, sections })
+    }
+
+    fn observable(&mut self, kind: ObservableKind, assumed: bool) -> Result<StatementKind> {
+        let word = kind.word();
+        let name = self.declared("a name", &format!("write `{word} name = …`"))?;
+        self.equals(&format!("{word} {name}"))?;
+        let value = self.right_side()?;
+        let mut shell = None;
+        if kind == ObservableKind::Invariant && self.at_word("on") {
+            self.position += 1;
+            if !self.at_word("H") {
+                let message = format!("expected `H` after `on`, {}", self.found());
+                return self.abort(self.here(), message, "write `on H = …`");
+            }
+            self.position += 1;
+            self.equals("on H")?;
+            shell = Some(self.right_side()?);
+        }
+        Ok(StatementKind::Observable {
+            kind,
+            assumed,
+            name,
+            value,
+            shell,
+        })
+    }
+
+    fn split(&mut self, keyword: Span) -> Result<StatementKind> {
+        const FORM: &str = "write `split { A = …; B = … }`";
+        if !self.at_open(Delimiter::Brace) {
+            return self.abort(keyword, "`split` needs its pieces in braces", FORM);
+        }
+        let outer_limit = self.statement_limit;
+        let outer = self.enter();
+        self.statement_limit = self.limit;
+        let mut pieces: Vec<(Ident, Expression)> = Vec::new();
+        while self.position != self.limit {
+            let name = self.declared("the name of a piece", FORM)?;
+            if pieces.iter().any(|(other, _)| *other == name) {
+                self.report.error(
+                    name.span(),
+                    format!("the piece `{name}` stands twice"),
+                    "give each piece a name of its own",
+                );
+            }
+            self.equals(&name.to_string())?;
+            pieces.push((name, self.right_side()?));
+            self.separator(false)?;
+        }
+        self.statement_limit = outer_limit;
+        self.leave(outer);
+        if pieces.len() < 2 {
+            return self.abort(keyword, "`split` needs two pieces or more", FORM);
+        }
+        Ok(StatementKind::Split { pieces })
+    }
+
+    fn force(&mut self, keyword: Span) -> Result<StatementKind> {
+        const FORM: &str = "force(q; p)";
+        if !self.at_open(Delimiter::Parenthesis) {
+            return self.abort(
+                keyword,
+                "a force names the coordinates and momenta it acts on",
+                format!("write `{FORM} = …`"),
+            );
+        }
+        let signature = self.signature(FORM)?;
+        self.equals("force(…)")?;
+        Ok(StatementKind::Force {
+            signature,
+            value: self.right_side()?,
+        })
+    }
+
+    /// `name(a, …) = value, (first, …)[, (second, …)]`
+    fn function(&mut self) -> Result<StatementKind> {
+        const FORM: &str = "write `fn name(x) = value, (derivative)`, with paths of Rust functions";
+        let name = self.declared("a name", FORM)?;
+        if !self.at_open(Delimiter::Parenthesis) {
+            let message = format!("the arguments of `{name}` are missing");
+            return self.abort(name.span(), message, FORM);
+        }
+        let arguments = self.arguments(&name)?;
+        self.equals(&format!("fn {name}(…)"))?;
+        let value = self.rust_path(FORM)?;
+        let first = self.path_list("the partial derivatives", FORM)?;
+        let second = if self.at_punct(',') {
+            Some(self.path_list("the second partials", FORM)?)
+        } else {
+            None
+        };
+        Ok(StatementKind::Function {
+            name,
+            arguments,
+            value,
+            first,
+            second,
+        })
+    }
+
+    /// `, (path, …)`
+    fn path_list(&mut self, what: &str, form: &str) -> Result<(Vec<TokenStream>, Spans)> {
+        if self.at_punct(',') {
+            self.position += 1;
+        }
+        if !self.at_open(Delimiter::Parenthesis) {
+            let message = format!("expected {what} in parentheses, {}", self.found());
+            return self.abort(self.here(), message, form);
+        }
+        let spans = self.group_spans();
+        Ok((
+            self.name_list(form, |parser| parser.rust_path(form))?,
+            spans,
+        ))
+    }
+
+    /// A path of Rust: identifiers, `::`, generics.
+    fn rust_path(&mut self, form: &str) -> Result<TokenStream> {
+        let mut path = TokenStream::new();
+        while let Some(token) = self.peek() {
+            let belongs = match token.kind {
+                TokenKind::Ident => true,
+                TokenKind::Punct(character, _) => matches!(character, ':' | '<' | '>'),
+                _ => false,
+            };
+            if !belongs {
+                break;
+            }
+            path.extend(token.tree.clone());
+            self.position += 1;
+        }
+        if path.is_empty() {
+            let message = format!("expected the path of a Rust function, {}", self.found());
+            return self.abort(self.here(), message, form);
+        }
+        Ok(path)
+    }
+
+    /// `dt = factor*ds`
+    fn time(&mut self) -> Result<StatementKind> {
+        const HELP: &str = "write `dt = (…)*ds`, with `ds` as the last factor";
+        self.equals("dt")?;
+        let value = self.right_side()?;
+        let ds = self.ast.symbols.intern("ds");
+        let node = |id: crate::ast::ExprId| &self.ast.nodes[id.0 as usize];
+        let is_ds = |id| matches!(node(id).kind, ExprKind::Name(name, _) if name == ds);
+        let spans = node(value.root).spans;
+        let split = match node(value.root).kind {
+            ExprKind::Binary(BinaryOp::Mul, left, right) if is_ds(right) => Some((left, right)),
+            ExprKind::Binary(BinaryOp::Mul, left, right) if is_ds(left) => Some((right, left)),
+            _ => None,
+        };
+        let Some((factor, word)) = split else {
+            if matches!(node(value.root).kind, ExprKind::Error) {
+                return Err(Abort);
+            }
+            return self.abort(
+                spans,
+                "the new time is not a factor of the right side",
+                HELP,
+            );
+        };
+        // What is left is the factor: neither the product nor `ds` is a value.
+        self.ast.nodes[value.root.0 as usize].kind = ExprKind::Error;
+        self.ast.nodes[word.0 as usize].kind = ExprKind::Error;
+        Ok(StatementKind::Time {
+            factor: Expression {
+                nodes: value.nodes,
+                root: factor,
+            },
+        })
+    }
+
+    fn coordinates(&mut self) -> Result<StatementKind> {
+        const FORM: &str = "write `coordinates polar(x, y)`, `spherical(x, y, z)`, `jacobi(q, m)` or `heliocentric(q, m)`";
+        let chart = self.declared("the name of the new coordinates", FORM)?;
+        if !self.at_open(Delimiter::Parenthesis) {
+            let message = format!("the coordinates that `{chart}` replaces are missing");
+            return self.abort(chart.span(), message, FORM);
+        }
+        let arguments = self.name_list(FORM, |parser| {
+            parser.declared("the name of a coordinate", FORM)
+        })?;
+        Ok(StatementKind::Coordinates { chart, arguments })
+    }
+}

@@ -1,0 +1,50 @@
+//! What the front end accepts, what it refuses and in which words, and that nothing breaks it.
+
+mod accepted;
+mod diagnostics;
+mod limits;
+mod precedence;
+mod refused;
+
+use crate::ast::Ast;
+use crate::checked::Checked;
+use crate::expand;
+use crate::report::Report;
+use proc_macro2::{LineColumn, TokenStream};
+use std::str::FromStr;
+
+/// The tree and, if nothing is wrong, the checked tree.
+fn read(source: &str) -> (Ast, Option<Checked>, Report) {
+    let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
+    let mut report = Report::default();
+    let (ast, checked) = expand::front(stream, &mut report);
+    (ast, checked, report)
+}
+
+/// A definition without errors.
+fn accept(source: &str) -> Checked {
+    let (_, checked, report) = read(source);
+    let texts: Vec<String> = report.errors().iter().map(|error| error.text()).collect();
+    checked.unwrap_or_else(|| panic!("{source}\n{}", texts.join("\n")))
+}
+
+/// Where marked pieces of a source stand once the marks are taken out.
+fn unmarked(source: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
+    let (mut plain, mut open, mut marks) = (String::new(), Vec::new(), Vec::new());
+    let (mut line, mut column) = (1, 0);
+    for character in source.chars() {
+        let here = LineColumn { line, column };
+        match character {
+            '⟦' => open.push(here),
+            '⟧' => marks.push((open.pop().expect("marks are balanced"), here)),
+            _ => {
+                plain.push(character);
+                column += 1;
+                if character == '\n' {
+                    (line, column) = (line + 1, 0);
+                }
+            }
+        }
+    }
+    (plain, marks)
+}

@@ -1,6 +1,9 @@
 //! The paper's schemes on the paper's systems, against values found twice by independent
 //! programs. What the paper prints depends on a run length and a zero of V it does not give.
 
+// Check values stand as they were computed, with more digits than a double holds.
+#![allow(clippy::excessive_precision)]
+
 mod common;
 
 use common::assert_digits;

@@ -86,6 +86,9 @@ struct Stage<T, F, G> {
     y_offset: T,
 }
 
+/// Why what is carried is there: a block that moves it out puts it back.
+const PRESENT: &str = "a piece panicked in an earlier call";
+
 /// A splitting under way.
 ///
 /// # Time
@@ -100,7 +103,8 @@ where
     Y: Vector<Scalar = X::Scalar>,
 {
     clock: Clock<X::Scalar>,
-    carried: Pair<X, Y>,
+    /// Always there but while a block runs.
+    carried: Option<Pair<X, Y>>,
     opening: F,
     fused: F,
     closing: Option<F>,
@@ -151,46 +155,49 @@ where
             closing: (closing != zero).then(|| move_x(closing * h)),
             stages,
             synchronised: carried.x.clone(),
-            carried,
+            carried: Some(carried),
         }
     }
 
     /// What is carried: x before its closing piece, and y.
     #[inline(always)]
     pub fn carried(&self) -> &Pair<X, Y> {
-        &self.carried
+        self.carried.as_ref().expect(PRESENT)
     }
 
     /// The same, mutable.
     #[inline(always)]
     pub fn carried_mut(&mut self) -> &mut Pair<X, Y> {
-        &mut self.carried
+        self.carried.as_mut().expect(PRESENT)
     }
 
     /// Makes `n` steps after the first `made`.
     #[inline(always)]
     pub fn run(&mut self, made: u64, n: u64) {
         let end = made + n;
-        let mut k = made;
-        if k == 0 && n > 0 {
-            self.opening
-                .apply(self.clock.at(0), &self.carried.y, &mut self.carried.x);
-            self.stages(0);
-            k = 1;
+        // Moved out, the halves are variables of this block alone and stay in registers.
+        let Pair { mut x, mut y } = self.carried.take().expect(PRESENT);
+        // Counted down to zero, which costs one instruction less; the number of the step is only
+        // computed where a system looks at the time.
+        let mut left = n;
+        if made == 0 && n > 0 {
+            self.opening.apply(self.clock.at(0), &y, &mut x);
+            self.stages(0, &mut x, &mut y);
+            left -= 1;
         }
-        while k < end {
-            self.fused
-                .apply(self.clock.at(k), &self.carried.y, &mut self.carried.x);
-            self.stages(k);
-            k += 1;
+        while left != 0 {
+            let k = end - left;
+            self.fused.apply(self.clock.at(k), &y, &mut x);
+            self.stages(k, &mut x, &mut y);
+            left -= 1;
         }
+        self.carried = Some(Pair { x, y });
     }
 
     /// All stages of the step after `k` but for the closing piece.
     #[inline(always)]
-    fn stages(&mut self, k: u64) {
+    fn stages(&self, k: u64, x: &mut X, y: &mut Y) {
         let t = self.clock.at(k);
-        let Pair { x, y } = &mut self.carried;
         for i in 0..STAGES {
             let stage = &self.stages[i];
             stage.move_y.apply(t + stage.x_offset, x, y);
@@ -203,11 +210,12 @@ where
     /// Both halves at the same time: a copy of x with its closing piece applied, and y.
     #[inline(always)]
     pub fn synchronise(&mut self, made: u64) -> (&X, &Y) {
-        self.synchronised.copy_from(&self.carried.x);
+        let Pair { x, y } = self.carried.as_ref().expect(PRESENT);
+        self.synchronised.copy_from(x);
         if let Some(closing) = &self.closing
             && made > 0
         {
-            closing.apply(self.clock.at(made), &self.carried.y, &mut self.synchronised);
+            closing.apply(self.clock.at(made), y, &mut self.synchronised);
         }
         self.synchronised()
     }
@@ -215,6 +223,6 @@ where
     /// Both halves as of the last [`Splitting::synchronise`].
     #[inline(always)]
     pub fn synchronised(&self) -> (&X, &Y) {
-        (&self.synchronised, &self.carried.y)
+        (&self.synchronised, &self.carried().y)
     }
 }

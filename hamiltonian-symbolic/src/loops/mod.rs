@@ -4,6 +4,7 @@
 //! Input: a model and sizes. Output: values or another model. Invariant: what is found at sizes
 //! chosen here may refute a statement about all sizes, never prove one.
 
+pub mod field;
 pub mod numeric;
 pub mod unroll;
 mod walk;

@@ -4,13 +4,16 @@
 //! language can say is what the language reads back as the same expression (up to the order of
 //! evaluation); sums and products keep the order they were written in.
 
+mod equations;
 mod latex;
 mod layout;
 mod names;
 mod text;
 
+pub use equations::hamilton_equations;
+
 use crate::dag::Node;
-use crate::index::{Affine, Domain};
+use crate::index::Domain;
 use crate::model::Model;
 
 /// Which notation to write.
@@ -50,10 +53,4 @@ pub(crate) fn write_within(
     bound: &[(Domain, &str)],
 ) -> String {
     layout::Writer::new(model, notation, bound).write(node)
-}
-
-/// An affine index or bound as text, inside loops whose variables have names already.
-#[must_use]
-pub(crate) fn affine(model: &Model, affine: &Affine, bound: &[(Domain, &str)]) -> String {
-    layout::Writer::new(model, Notation::Text, bound).affine(affine)
 }

@@ -1,0 +1,321 @@
+//! The derivative with respect to element k of an array, as an expression of k.
+//!
+//! Input: adjoints as [`crate::diff::gradient`] leaves them, where `q[index]` in a loop means that
+//! every iteration adds to that element. Output: one expression in the loop k in 0..rows: the
+//! index is solved for a loop variable, the other loops become sums. Invariant: where an index
+//! cannot be solved, a condition `index = k` is summed instead; where not even that can be said,
+//! there is no answer.
+
+use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::index::{Affine, Domain, Index};
+
+/// The loop over the elements of an array with this many rows.
+pub fn elements(dag: &mut Dag, rows: &Affine) -> Domain {
+    dag.domain(None, Affine::constant(0), rows.clone())
+}
+
+/// ∂/∂array[k] for k in 0..rows, in the loop that [`elements`] gives, from the adjoints of all
+/// leaves; `None` where an index can be neither solved nor compared.
+pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine) -> Option<Node> {
+    let k = elements(dag, rows);
+    let mut parts = Vec::new();
+    for &(leaf, adjoint) in leaves {
+        let Kind::Element(of, row, None) = dag.kind(leaf) else {
+            continue;
+        };
+        if *of != array {
+            continue;
+        }
+        let row = row.clone();
+        let chain = dag.path(dag.home(leaf));
+        parts.push(gather(dag, &row, &chain, adjoint, k, rows)?);
+    }
+    Some(dag.add(&parts))
+}
+
+/// What all iterations of `chain` together add to element k.
+fn gather(
+    dag: &mut Dag,
+    row: &Index,
+    chain: &[Domain],
+    adjoint: Node,
+    k: Domain,
+    rows: &Affine,
+) -> Option<Node> {
+    let Some((&inner, outer)) = chain.split_last() else {
+        return row
+            .modulo
+            .is_none()
+            .then(|| where_equal(dag, &row.affine, k, adjoint));
+    };
+    // Loops outside the innermost get numbers of their own first: one may be the loop over k.
+    let mut adjoint = adjoint;
+    let mut row = row.clone();
+    let mut inner = inner;
+    let mut around: Vec<Domain> = Vec::new();
+    for &domain in outer {
+        let range = dag.range(domain).clone();
+        if !(range.start.loops.is_empty() && range.end.loops.is_empty()) {
+            return None;
+        }
+        let fresh = dag.domain(
+            Some(around.last().copied().unwrap_or(k)),
+            range.start,
+            range.end,
+        );
+        if dag.loop_count() >= 60 {
+            return None;
+        }
+        let by = Affine::variable(fresh);
+        // The innermost loop moves along; its image is found by moving its variable.
+        let variable = dag.variable(inner);
+        let moved = dag.replace(variable, domain, &by);
+        let Kind::Variable(image) = *dag.kind(moved) else {
+            return None;
+        };
+        let old = inner;
+        inner = image;
+        adjoint = dag.replace(adjoint, domain, &by);
+        row = row.substitute(&|d| {
+            if d == domain {
+                by.clone()
+            } else if d == old {
+                Affine::variable(image)
+            } else {
+                Affine::variable(d)
+            }
+        });
+        around.push(fresh);
+    }
+    let range = dag.range(inner).clone();
+    let factor = row.affine.factor(inner);
+    let rest = row.affine.plus(-factor, &Affine::variable(inner));
+    let solved = match &row.modulo {
+        // inner = ±(k − rest)
+        None if factor.abs() == 1 && rest.loops.is_empty() => Some(Index::plain(
+            Affine::default()
+                .plus(factor, &Affine::variable(k))
+                .plus(-factor, &rest),
+        )),
+        // A shift of all elements onto themselves.
+        Some(modulo)
+            if factor == 1
+                && rest.loops.is_empty()
+                && modulo == rows
+                && range.start == Affine::constant(0)
+                && range.end == *rows =>
+        {
+            Some(Index::wrapped(
+                Affine::variable(k).plus(-1, &rest),
+                modulo.clone(),
+            ))
+        }
+        _ => None,
+    };
+    let mut value = match solved {
+        Some(index) if index.modulo.is_none() => {
+            let at = index.affine;
+            let mut value = dag.replace(adjoint, inner, &at);
+            // start ≤ at < end
+            let bounds = [
+                at.plus(-1, &range.start),
+                range.end.plus(-1, &at).plus(-1, &Affine::constant(1)),
+            ];
+            for bound in bounds {
+                if is_nonnegative(&bound, k, rows) {
+                    continue;
+                }
+                match tighten(dag, &bound, &mut around, k, rows, value) {
+                    Some(moved) => value = moved,
+                    None => {
+                        let (zero, holds) = (dag.integer(0), at_least_zero(dag, &bound));
+                        value = dag.select(holds, value, zero);
+                    }
+                }
+            }
+            value
+        }
+        Some(index) => shift(dag, adjoint, inner, &index)?,
+        None if row.modulo.is_none() => {
+            let fresh = dag.domain(
+                Some(around.last().copied().unwrap_or(k)),
+                range.start,
+                range.end,
+            );
+            let by = Affine::variable(fresh);
+            let value = dag.replace(adjoint, inner, &by);
+            let row = row.affine.substitute(&|d| {
+                if d == inner {
+                    by.clone()
+                } else {
+                    Affine::variable(d)
+                }
+            });
+            around.push(fresh);
+            where_equal(dag, &row, k, value)
+        }
+        None => return None,
+    };
+    for &domain in around.iter().rev() {
+        value = dag.reduce(domain, value);
+    }
+    Some(value)
+}
+
+/// The value where `index = k`, 0 elsewhere.
+fn where_equal(dag: &mut Dag, index: &Affine, k: Domain, value: Node) -> Node {
+    let (zero, k, index) = (dag.integer(0), dag.variable(k), dag.affine(index));
+    let equal = dag.equal(index, k);
+    dag.select(equal, value, zero)
+}
+
+/// Whether an affine expression of k in 0..rows and of sizes is never negative.
+fn is_nonnegative(affine: &Affine, k: Domain, rows: &Affine) -> bool {
+    let plain = |a: &Affine| {
+        a.constant >= 0
+            && a.loops.iter().all(|(d, n)| *d == k && *n >= 0)
+            && a.sizes.iter().all(|(_, n)| *n >= 0)
+    };
+    let factor = affine.factor(k);
+    // k itself, or rows − 1 − k, is the slack.
+    let mirrored = affine
+        .plus(-factor, &Affine::variable(k))
+        .plus(factor, rows)
+        .plus(-factor, &Affine::constant(1));
+    plain(affine) || (factor < 0 && mirrored.loops.is_empty() && plain(&mirrored))
+}
+
+/// The condition `affine ≥ 0`, negative terms on the left: `1 <= k`, `k + 2 <= N`.
+fn at_least_zero(dag: &mut Dag, affine: &Affine) -> Node {
+    let mut above = affine.clone();
+    above.constant = above.constant.max(0);
+    above.loops.retain(|(_, n)| *n > 0);
+    above.sizes.retain(|(_, n)| *n > 0);
+    let below = above.plus(-1, affine);
+    let (below, above) = (dag.affine(&below), dag.affine(&above));
+    dag.less_equal(below, above)
+}
+
+/// Takes the condition `bound ≥ 0` into the range of the one loop around that it names: the value
+/// over the loop so restricted.
+fn tighten(
+    dag: &mut Dag,
+    bound: &Affine,
+    around: &mut [Domain],
+    k: Domain,
+    rows: &Affine,
+    value: Node,
+) -> Option<Node> {
+    let named: Vec<usize> = (0..around.len())
+        .filter(|at| bound.factor(around[*at]) != 0)
+        .collect();
+    let [at] = named.as_slice() else { return None };
+    if at + 1 != around.len() {
+        return None;
+    }
+    let domain = around[*at];
+    let range = dag.range(domain).clone();
+    let factor = bound.factor(domain);
+    let rest = bound.plus(-factor, &Affine::variable(domain));
+    let (start, end) = match factor {
+        // domain ≥ −rest
+        1 => (Affine::default().plus(-1, &rest), range.end.clone()),
+        // domain ≤ rest
+        -1 => (range.start.clone(), rest.plus(1, &Affine::constant(1))),
+        _ => return None,
+    };
+    let narrower = [start.plus(-1, &range.start), range.end.plus(-1, &end)];
+    if !narrower.iter().all(|slack| is_nonnegative(slack, k, rows)) {
+        return None;
+    }
+    let fresh = dag.domain(range.parent, start, end);
+    around[*at] = fresh;
+    Some(dag.replace(value, domain, &Affine::variable(fresh)))
+}
+
+/// The expression with a loop variable replaced by an index modulo a size; `None` where the
+/// variable stands elsewhere than as the index of an element.
+pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> Option<Node> {
+    let Some(modulo) = &by.modulo else {
+        return Some(dag.replace(root, variable, &by.affine));
+    };
+    let bit = 1u64 << variable.0;
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[root]) {
+        if dag.variables(node) & bit == 0 {
+            new.insert(node, node);
+            continue;
+        }
+        let image = match dag.kind(node).clone() {
+            Kind::Element(array, row, column) => {
+                let row = shift_index(dag, &row, variable, by, modulo)?;
+                let column = match column {
+                    Some(column) => Some(shift_index(dag, &column, variable, by, modulo)?),
+                    None => None,
+                };
+                dag.element(array, row, column)
+            }
+            Kind::Variable(_) | Kind::Count(_) => return None,
+            Kind::Reduce(domain, _)
+                if (dag.range(domain).start.variables() | dag.range(domain).end.variables())
+                    & bit
+                    != 0 =>
+            {
+                return None;
+            }
+            Kind::Reduce(domain, body) => {
+                let range = dag.range(domain).clone();
+                let fresh = dag.domain(dag.deepest(by.variables()), range.start, range.end);
+                let body = dag.replace(new[&body], domain, &Affine::variable(fresh));
+                dag.reduce(fresh, body)
+            }
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    Some(new[&root])
+}
+
+fn shift_index(
+    dag: &Dag,
+    index: &Index,
+    variable: Domain,
+    by: &Index,
+    modulo: &Affine,
+) -> Option<Index> {
+    match index.affine.factor(variable) {
+        0 => return Some(index.clone()),
+        1 => {}
+        _ => return None,
+    }
+    let rest = index.affine.plus(-1, &Affine::variable(variable));
+    let whole = match &index.modulo {
+        Some(other) => other == modulo,
+        // Without a modulus of its own the index is the variable itself.
+        None => rest == Affine::default(),
+    };
+    whole.then(|| {
+        plain_where_possible(
+            dag,
+            Index::wrapped(by.affine.plus(1, &rest), modulo.clone()),
+        )
+    })
+}
+
+/// `i % N` for i in 0..N is `i`.
+pub(crate) fn plain_where_possible(dag: &Dag, index: Index) -> Index {
+    let Some(modulo) = &index.modulo else {
+        return index;
+    };
+    match index.affine.loops.as_slice() {
+        [(domain, 1)] if index.affine == Affine::variable(*domain) => {
+            let range = dag.range(*domain);
+            if range.start == Affine::constant(0) && range.end == *modulo {
+                Index::plain(index.affine)
+            } else {
+                index
+            }
+        }
+        _ => index,
+    }
+}

@@ -1,0 +1,210 @@
+//! Hamilton's equations as text.
+//!
+//! Input: a model. Output: one pair (left side, right side) for each scalar coordinate and
+//! momentum, for each element that is read by number, for each column of an array. Invariant: the
+//! model is not changed.
+
+use super::layout::Writer;
+use super::names::is_taken;
+use super::{Notation, latex, write_within};
+use crate::dag::{Array, Dependence, Kind, Node, Side};
+use crate::diff;
+use crate::index::{Affine, Domain, Index};
+use crate::loops::field;
+use crate::model::{Model, Shape};
+use crate::rational::Rational;
+
+/// Hamilton's equations: dq/dt = ∂H/∂p for all coordinates, then dp/dt = −∂H/∂q for all momenta.
+/// Elements of an array share one equation for element k. Where the derivative cannot be written
+/// as an expression of k, it is named instead: `-∂H/∂q[k]`.
+#[must_use]
+pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, String)> {
+    let Some(h) = model.hamiltonian else {
+        return Vec::new();
+    };
+    let mut model = model.clone();
+    let mut equations = Vec::new();
+    for side in [Side::Q, Side::P] {
+        let (other, what, sign) = match side {
+            Side::Q => (Side::P, Dependence::P, Rational::ONE),
+            Side::P => (Side::Q, Dependence::Q, Rational::MINUS_ONE),
+        };
+        let leaves = diff::gradient(&mut model.dag, h, what);
+        for group in 0..model.groups.len() {
+            let (rows, columns) = match &model.groups[group].shape {
+                Shape::Scalar => (None, 1),
+                Shape::Vector(rows) => (Some(rows.clone()), 1),
+                Shape::Matrix(rows, columns) => {
+                    (Some(rows.clone()), columns.as_constant().unwrap_or(0))
+                }
+            };
+            for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
+                let array = Array::Phase {
+                    side: other,
+                    group: group as u16,
+                    column,
+                };
+                let mut own: Vec<(Index, Node)> = Vec::new();
+                for &(leaf, adjoint) in &leaves {
+                    if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
+                        if *of == array {
+                            own.push((row.clone(), adjoint));
+                        }
+                    }
+                }
+                let of = Derivative {
+                    side,
+                    group,
+                    column,
+                    notation,
+                    sign: sign.clone(),
+                };
+                match &rows {
+                    None => {
+                        let value = of.signed(&mut model, own.first().map(|(_, adjoint)| *adjoint));
+                        equations.push(of.equation(&model, None, Some(value)));
+                    }
+                    Some(rows) => {
+                        of.of_array(&mut model, rows, array, &leaves, &own, &mut equations)
+                    }
+                }
+            }
+        }
+    }
+    equations
+}
+
+struct Derivative {
+    side: Side,
+    group: usize,
+    column: u16,
+    notation: Notation,
+    sign: Rational,
+}
+
+impl Derivative {
+    fn signed(&self, model: &mut Model, value: Option<Node>) -> Node {
+        let dag = &mut model.dag;
+        match value {
+            None => dag.integer(0),
+            Some(value) if self.sign.is_one() => value,
+            // −(a + b) is written −a − b.
+            Some(value) => match dag.kind(value).clone() {
+                Kind::Sum(c, terms) => {
+                    let mut negated = Vec::with_capacity(terms.len());
+                    for (k, term) in terms {
+                        let k = k.neg();
+                        match dag.kind(term).clone() {
+                            // Nor is a condition negated, but what it selects.
+                            Kind::Select(condition, yes, no) => {
+                                let (yes, no) = (dag.scale(&k, yes), dag.scale(&k, no));
+                                negated.push((Rational::ONE, dag.select(condition, yes, no)));
+                            }
+                            _ => negated.push((k, term)),
+                        }
+                    }
+                    dag.linear(&c.neg(), &negated)
+                }
+                _ => dag.scale(&self.sign, value),
+            },
+        }
+    }
+
+    fn of_array(
+        &self,
+        model: &mut Model,
+        rows: &Affine,
+        array: Array,
+        leaves: &[(Node, Node)],
+        own: &[(Index, Node)],
+        equations: &mut Vec<(String, String)>,
+    ) {
+        let numbered: Option<Vec<i64>> = own
+            .iter()
+            .map(|(row, _)| {
+                if row.modulo.is_none() {
+                    row.affine.as_constant()
+                } else {
+                    None
+                }
+            })
+            .collect();
+        // A short array that is read by number has an equation for each element.
+        if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant()) {
+            if !own.is_empty() {
+                for row in 0..count {
+                    let value = numbered
+                        .iter()
+                        .position(|at| *at == row)
+                        .map(|at| own[at].1);
+                    let value = self.signed(model, value);
+                    equations.push(self.equation(
+                        model,
+                        Some((row.to_string(), None)),
+                        Some(value),
+                    ));
+                }
+                return;
+            }
+        }
+        let domain = field::elements(&mut model.dag, rows);
+        let value = field::field(&mut model.dag, leaves, array, rows);
+        let value = value.map(|value| self.signed(model, Some(value)));
+        let name = ["k", "i", "j", "l", "n"]
+            .into_iter()
+            .find(|name| !is_taken(model, name))
+            .unwrap_or("index");
+        equations.push(self.equation(model, Some((name.to_owned(), Some(domain))), value));
+    }
+
+    /// `dq[k]/dt` and its value.
+    fn equation(
+        &self,
+        model: &Model,
+        row: Option<(String, Option<Domain>)>,
+        value: Option<Node>,
+    ) -> (String, String) {
+        let group = &model.groups[self.group];
+        let (own, conjugate) = match self.side {
+            Side::Q => (&group.coordinate, &group.momentum),
+            Side::P => (&group.momentum, &group.coordinate),
+        };
+        let mut indices: Vec<String> = row.iter().map(|(name, _)| name.clone()).collect();
+        if matches!(group.shape, Shape::Matrix(..)) {
+            indices.push(self.column.to_string());
+        }
+        let element = |name: &str| match self.notation {
+            Notation::Text => indices
+                .iter()
+                .fold(name.to_owned(), |text, index| format!("{text}[{index}]")),
+            Notation::Latex => latex::indexed(name, &indices),
+        };
+        let time =
+            Writer::new(model, self.notation, &[]).named(model.time.as_deref().unwrap_or("t"));
+        let left = match self.notation {
+            Notation::Text => format!("d{}/d{time}", element(own)),
+            Notation::Latex => format!(
+                "\\frac{{\\mathrm{{d}} {}}}{{\\mathrm{{d}} {time}}}",
+                element(own)
+            ),
+        };
+        let bound: Vec<(Domain, &str)> = row
+            .iter()
+            .filter_map(|(name, domain)| domain.map(|d| (d, name.as_str())))
+            .collect();
+        let right = match value {
+            Some(value) => write_within(model, value, self.notation, &bound),
+            None => {
+                let sign = if self.side == Side::P { "-" } else { "" };
+                match self.notation {
+                    Notation::Text => format!("{sign}∂H/∂{}", element(conjugate)),
+                    Notation::Latex => format!(
+                        "{sign}\\frac{{\\partial H}}{{\\partial {}}}",
+                        element(conjugate)
+                    ),
+                }
+            }
+        };
+        (left, right)
+    }
+}

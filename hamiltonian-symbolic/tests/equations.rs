@@ -1,0 +1,116 @@
+//! Hamilton's equations as text.
+
+mod common;
+
+use common::system;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::print::{Notation, hamilton_equations};
+
+fn lines(model: &Model) -> Vec<String> {
+    hamilton_equations(model, Notation::Text)
+        .into_iter()
+        .map(|(left, right)| format!("{left} = {right}"))
+        .collect()
+}
+
+#[test]
+fn scalar_coordinates_have_an_equation_each() {
+    let model = system(
+        "theta, x; p, p_x; t",
+        "",
+        "m l g",
+        "p^2/(2*m*l^2) - m*g*l*cos(theta) - x*cos(t)",
+    );
+    assert_eq!(
+        lines(&model),
+        [
+            "dtheta/dt = p/(m*l^2)",
+            "dx/dt = 0",
+            "dp/dt = -m*g*l*sin(theta)",
+            "dp_x/dt = cos(t)"
+        ]
+    );
+    let tex = hamilton_equations(&model, Notation::Latex);
+    assert_eq!(
+        tex[0],
+        (
+            r"\frac{\mathrm{d} \theta}{\mathrm{d} t}".to_owned(),
+            r"\frac{p}{m l^{2}}".to_owned()
+        )
+    );
+}
+
+#[test]
+fn arrays_have_one_equation_for_element_k() {
+    let toda = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) }",
+    );
+    assert_eq!(
+        lines(&toda),
+        [
+            "dq[k]/dt = p[k]",
+            "dp[k]/dt = -exp(q[k] - q[(k + 1) % N]) + exp(q[(k - 1) % N] - q[k])"
+        ]
+    );
+
+    let gravity = system(
+        "q[n][2]; p[n][2]",
+        "n",
+        "G m[n]",
+        "sum(i in 0..n) { (p[i][0]^2 + p[i][1]^2)/(2*m[i]) } - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/sqrt((q[i][0] - q[j][0])^2 + (q[i][1] - q[j][1])^2) }",
+    );
+    let lines_of_gravity = lines(&gravity);
+    assert_eq!(lines_of_gravity[0], "dq[k][0]/dt = p[k][0]/m[k]");
+    assert!(
+        lines_of_gravity[2].contains("sum(i in 0..k)")
+            && lines_of_gravity[2].contains("sum(i in k + 1..n)"),
+        "{}",
+        lines_of_gravity[2]
+    );
+
+    let chain = system(
+        "q[N]; p[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { p[i]^2/2 } + sum(i in 0..N - 1) { (q[i + 1] - q[i])^4/4 }",
+    );
+    assert_eq!(
+        lines(&chain)[1],
+        "dp[k]/dt = (if 1 <= k { -(q[k] - q[k - 1])^3 } else { 0 }) + (if k + 2 <= N { (q[k + 1] - q[k])^3 } else { 0 })"
+    );
+
+    let numbered = system("q[3]; p[3]", "", "", "p[0]^2/2 + q[0]*q[2]");
+    assert_eq!(
+        lines(&numbered),
+        [
+            "dq[0]/dt = p[0]",
+            "dq[1]/dt = 0",
+            "dq[2]/dt = 0",
+            "dp[0]/dt = -q[2]",
+            "dp[1]/dt = 0",
+            "dp[2]/dt = -q[0]"
+        ]
+    );
+}
+
+#[test]
+fn an_index_that_cannot_be_solved_is_compared() {
+    let sparse = system("q[N]; p[N]", "N n", "", "sum(i in 0..n) { q[2*i]*p[i] }");
+    assert_eq!(
+        lines(&sparse),
+        [
+            "dq[k]/dt = if k + 1 <= n { q[2*k] } else { 0 }",
+            "dp[k]/dt = -sum(i in 0..n) { if 2*i == k { p[i] } else { 0 } }"
+        ]
+    );
+    let folded = system(
+        "q[N]; p[N]",
+        "N n",
+        "",
+        "sum(i in 0..n) { q[(2*i) % N]*p[i] }",
+    );
+    assert_eq!(lines(&folded)[1], "dp[k]/dt = -∂H/∂q[k]");
+}

@@ -40,13 +40,17 @@ const BLOCK: u64 = 1024;
 /// it is not, the block is made again step by step to find the first bad step, which the error
 /// reports; the run then stands at the state before that step. No observer sees a state that is
 /// not finite.
+///
+/// # Type
+/// `R` is the scheme's stepper; [`Run`] names the type by the scheme. (With the scheme itself as
+/// the parameter a wrong pairing would be reported once for every place the type appears.)
 #[derive(Debug, Clone)]
-pub struct Integrator<T: Real, S: System<T>, M: Scheme<T, S>, O = ()> {
+pub struct Integrator<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O = ()> {
     prepared: S::Prepared,
-    scheme: M,
-    stepper: M::Stepper,
+    entry: &'static Entry,
+    stepper: R,
     /// What was carried at the beginning of the present block.
-    snapshot: <M::Stepper as Stepper>::Carried,
+    snapshot: R::Carried,
     clock: Clock<T>,
     step: T,
     steps: u64,
@@ -54,14 +58,37 @@ pub struct Integrator<T: Real, S: System<T>, M: Scheme<T, S>, O = ()> {
     observer: O,
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
+/// The type of a run of scheme `M` on system `S` with observer `O` over the scalar `T`.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, Run, State, schemes::StormerVerlet};
+///
+/// struct Simulation {
+///     run: Run<Oscillator, StormerVerlet>,
+/// }
+///
+/// let start = State::new([1.0], [0.0]);
+/// let run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+/// let mut simulation = Simulation { run };
+/// simulation.run.advance(3)?;
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Stepper, O>;
+
+impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> {
     /// A run of `scheme` on `system` from `start` with the step size `step`, which is negative to
     /// integrate backwards. Units are the caller's.
     ///
     /// # Errors
     /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
     /// the system's shape; [`Error::Start`] when it is not finite.
-    pub fn new(system: &S, scheme: M, start: State<S::Vector>, step: T) -> Result<Self, Error> {
+    pub fn new<M: Scheme<T, S, Stepper = R>>(
+        system: &S,
+        scheme: M,
+        start: State<S::Vector>,
+        step: T,
+    ) -> Result<Self, Error> {
         if !step.is_finite() || step.equals(T::zero()).any() {
             return Err(Error::Step {
                 step: step.to_f64(),
@@ -96,7 +123,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
                 interval: step * duration,
             },
             prepared,
-            scheme,
+            entry: scheme.entry(),
             stepper,
             step,
             steps: 0,
@@ -112,10 +139,10 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
     ///
     /// Several observers are a tuple. An observer is given away and got back by
     /// [`observer`](Integrator::observer), or lent as `&mut`.
-    pub fn observe<O: Observer<T, S>>(self, mut observer: O) -> Integrator<T, S, M, O> {
+    pub fn observe<O: Observer<T, S>>(self, mut observer: O) -> Integrator<T, S, R, O> {
         let Integrator {
             prepared,
-            scheme,
+            entry,
             stepper,
             snapshot,
             clock,
@@ -131,7 +158,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
         });
         Integrator {
             prepared,
-            scheme,
+            entry,
             stepper,
             snapshot,
             clock,
@@ -143,7 +170,9 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Integrator<T, S, M> {
     }
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S, M, O> {
+impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>>
+    Integrator<T, S, R, O>
+{
     /// Makes `n` steps and returns the state after them.
     ///
     /// # Errors
@@ -205,7 +234,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S,
 
     /// The states after `every`, 2·`every`, … further steps (0 counts as 1), without end. The
     /// first error is the last item.
-    pub fn states(&mut self, every: u64) -> States<'_, T, S, M, O> {
+    pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
         States {
             run: self,
             every: every.max(1),
@@ -273,7 +302,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Integrator<T, S,
     }
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O> {
+impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, R, O> {
     /// The present state: time, coordinates and momenta, all at the same time.
     pub fn state(&self) -> &State<S::Vector> {
         &self.state
@@ -314,7 +343,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O> {
 
     /// The scheme's entry in the catalogue.
     pub fn entry(&self) -> &'static Entry {
-        self.scheme.entry()
+        self.entry
     }
 
     /// The observer.
@@ -328,9 +357,9 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O> {
     }
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>, O> Integrator<T, S, M, O>
+impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, R, O>
 where
-    M::Stepper: Copies,
+    R: Copies,
 {
     /// The second copy (q̃, p̃) at the present time; the first is [`state`](Integrator::state).
     pub fn copy(&self) -> Point<S::Vector> {
@@ -352,14 +381,14 @@ where
 
 /// The iterator of [`Integrator::states`].
 #[derive(Debug)]
-pub struct States<'a, T: Real, S: System<T>, M: Scheme<T, S>, O> {
-    run: &'a mut Integrator<T, S, M, O>,
+pub struct States<'a, T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> {
+    run: &'a mut Integrator<T, S, R, O>,
     every: u64,
     failed: bool,
 }
 
-impl<T: Real, S: System<T>, M: Scheme<T, S>, O: Observer<T, S>> Iterator
-    for States<'_, T, S, M, O>
+impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>> Iterator
+    for States<'_, T, S, R, O>
 {
     type Item = Result<State<S::Vector>, Error>;
 

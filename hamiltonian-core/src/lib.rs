@@ -46,7 +46,7 @@ pub mod private;
 
 pub use error::Error;
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
-pub use integrator::{Integrator, States};
+pub use integrator::{Integrator, Run, States};
 pub use observe::{
     Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, View, Watch, every, watch,
 };
@@ -66,7 +66,7 @@ pub mod prelude {
         RungeKutta4, Start, StormerVerlet, SymplecticEuler, TwoStepMidpoint,
     };
     pub use crate::{
-        EnergyDrift, Error, Gradient, Integrator, Monitors, Observer, Recorder, State, System,
+        EnergyDrift, Error, Gradient, Integrator, Monitors, Observer, Recorder, Run, State, System,
         every, watch,
     };
 }

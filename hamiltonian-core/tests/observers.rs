@@ -9,7 +9,7 @@ use hamiltonian_core::{Dynamics, Observer, Pair, Vector, View};
 
 type One = SVector<f64, 1>;
 
-fn run() -> Integrator<f64, Hand<Pendulum, 1>, StormerVerlet> {
+fn run() -> Run<Hand<Pendulum, 1>, StormerVerlet> {
     let start = State::new([0.7], [0.0]);
     Integrator::new(&pendulum(true), StormerVerlet::default(), start, 0.01).unwrap()
 }

@@ -392,6 +392,43 @@ impl Number {
     /// Reads `1`, `1_000`, `0.1`, `1.`, `1e-3`; `None` for anything else, and for numbers whose
     /// exponent has more than 18 digits.
     pub fn read(text: &str) -> Option<Number> {
+        Number::read_digits(text).or_else(|| Number::read_decimal(text))
+    }
+
+    /// Reads plain digits, which most numbers are; macros are built without optimisation.
+    fn read_digits(text: &str) -> Option<Number> {
+        let bytes = text.as_bytes();
+        let (mut start, mut end) = (0, bytes.len());
+        while start < end {
+            if !bytes[start].is_ascii_digit() {
+                return None;
+            }
+            start += 1;
+        }
+        start = 0;
+        while start < end && bytes[start] == b'0' {
+            start += 1;
+        }
+        while end > start && bytes[end - 1] == b'0' {
+            end -= 1;
+        }
+        match (start == end, bytes.is_empty()) {
+            (_, true) => None,
+            (true, false) => Some(Number {
+                digits: "0".into(),
+                exponent: 0,
+            }),
+            (false, false) => {
+                let exponent = i64::try_from(bytes.len() - end).ok()?;
+                Some(Number {
+                    digits: text[start..end].into(),
+                    exponent,
+                })
+            }
+        }
+    }
+
+    fn read_decimal(text: &str) -> Option<Number> {
         let text = text.replace('_', "");
         let (mantissa, exponent) = match text.find(['e', 'E']) {
             Some(at) => {

@@ -5,6 +5,7 @@ mod diagnostics;
 mod limits;
 mod precedence;
 mod refused;
+mod stub;
 
 use crate::ast::Ast;
 use crate::checked::Checked;

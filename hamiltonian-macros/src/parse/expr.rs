@@ -254,6 +254,9 @@ impl Parser<'_> {
             }
             return Ok(self.push(ExprKind::Error, Spans::from(span), span));
         }
+        if self.at_punct('^') && names::function(name).is_some() {
+            return Ok(self.powered_function(token));
+        }
         let symbol = self.ast.symbols.intern(name);
         if !call {
             return Ok(self.push(ExprKind::Name(symbol, self.scope), Spans::from(span), span));
@@ -263,6 +266,32 @@ impl Parser<'_> {
             names::function(name).map_or_else(|| format!("{name}(a, b)"), |f| f.signature());
         let arguments = self.list(&shown)?;
         Ok(self.push(ExprKind::Call(symbol, self.scope, arguments), spans, span))
+    }
+
+    /// `sin^2(q)`: refused, the cursor after the function.
+    fn powered_function(&mut self, function: &Token) -> ExprId {
+        self.position += 1;
+        let power = match self.kind() {
+            Some(TokenKind::Literal | TokenKind::Ident) => self.tokens[self.position].text.as_str(),
+            _ => "n",
+        };
+        if self.kind().is_some() {
+            self.skip();
+        }
+        let name = &function.text;
+        let spans = Spans {
+            start: function.span,
+            end: self.previous_span(),
+        };
+        self.report.error(
+            spans,
+            format!("`{name}^{power}` is not a function: the power stands after the argument"),
+            format!("write `{name}(x)^{power}`"),
+        );
+        if self.at_open(Delimiter::Parenthesis) {
+            self.skip();
+        }
+        self.push(ExprKind::Error, spans, function.span)
     }
 
     /// `std::f64::consts::PI`: refused, the cursor after the first word.
@@ -510,7 +539,12 @@ impl Parser<'_> {
             TokenKind::Open(_) | TokenKind::Close(_) => Some("(…)".into()),
             TokenKind::Punct(..) => None,
         };
+        let function = names::function(&before.text).filter(|f| f.arguments.len() == 1);
         let (message, help) = match (shown(before), shown(token)) {
+            (Some(left), Some(right)) if function.is_some() => (
+                format!("`{left}` needs parentheses around its argument"),
+                format!("write `{left}({right})`"),
+            ),
             (Some(left), Some(right)) if left != "(…)" || right != "(…)" => (
                 format!("an operator is missing between `{left}` and `{right}`"),
                 format!("write `{left}*{right}`"),

@@ -43,6 +43,13 @@ impl Parser<'_> {
     pub(super) fn number(&mut self, token: &Token, divided: bool) -> Option<Number> {
         let text = token.text.as_str();
         let span = token.span;
+        // Short whole numbers, which most are, need no further look.
+        if text.len() <= 18
+            && text.as_bytes().iter().all(u8::is_ascii_digit)
+            && let Some(number) = Number::read(text)
+        {
+            return Some(number);
+        }
         if !text.starts_with(|c: char| c.is_ascii_digit()) {
             self.report.error(
                 span,

@@ -1619,4 +1619,23 @@ help: write `hypot(x, y)`"##,
         r##"a value is missing after `^`
 help: write one, or remove what waits for it"##,
     ),
+    (
+        r##"H = p^2 + sin ⟦q⟧"##,
+        r##"`sin` needs parentheses around its argument
+help: write `sin(q)`"##,
+    ),
+    (
+        r##"H = p^2 + ⟦sin^2⟧ (q) + sin ⟦2⟧*q"##,
+        r##"`sin^2` is not a function: the power stands after the argument
+help: write `sin(x)^2`
+`sin` needs parentheses around its argument
+help: write `sin(2)`"##,
+    ),
+    (
+        r##"H = p^2 + ⟦sin^2⟧(q)/2 + ⟦cos^(2)⟧"##,
+        r##"`sin^2` is not a function: the power stands after the argument
+help: write `sin(x)^2`
+`cos^n` is not a function: the power stands after the argument
+help: write `cos(x)^n`"##,
+    ),
 ];

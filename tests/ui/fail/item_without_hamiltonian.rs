@@ -1,0 +1,10 @@
+use hamiltonian::hamiltonian;
+
+hamiltonian! {
+    pub struct Pendulum {
+        m = 1.0,
+    }
+    let T = p^2/(2*m)
+}
+
+fn main() {}

@@ -1,0 +1,9 @@
+use hamiltonian::hamiltonian;
+
+hamiltonian! {
+    pub struct Pendulum {
+        m = 1.0,
+    }
+}
+
+fn main() {}

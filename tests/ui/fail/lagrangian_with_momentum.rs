@@ -1,0 +1,5 @@
+use hamiltonian::hamiltonian;
+
+fn main() {
+    let _ = hamiltonian! { L(q; v) = v^2/2 + p_q*v };
+}

@@ -1,0 +1,7 @@
+use hamiltonian::hamiltonian;
+
+fn main() {
+    let _ = hamiltonian! {
+        H = p^2/2 + q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q
+    };
+}

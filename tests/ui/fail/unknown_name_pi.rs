@@ -1,0 +1,8 @@
+use hamiltonian::hamiltonian;
+
+hamiltonian! {
+    pub struct Pendulum {}
+    H = p^2/2 - cos(PI*q)
+}
+
+fn main() {}

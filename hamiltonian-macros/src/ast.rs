@@ -9,6 +9,20 @@
 //! - The nodes of one [`Expression`] are contiguous.
 //! - `%` occurs only as [`ExprKind::Index::modulo`]; `ds` was taken out of `dt = g*ds`.
 //! - No identifier is raw, `_`, or holds a `·`.
+//!
+//! What the language means where its description leaves a choice:
+//!
+//! - A `let` uses only what stands above it; `H` may be used below its definition, and anywhere in
+//!   invariants, monitors, events, forces and pieces, which may also precede it.
+//! - Arguments of a `let` function hide outer names and have the shape of what the call gives them,
+//!   so that `let d(i) = q[i + 1] - q[i]` works; a loop variable hides nothing.
+//! - `invariant name = e on H = shell`; `#[assume]` and docs stand before a statement.
+//! - Under a Lagrangian the momentum of `x` is called `p_x`, unless something else is.
+//! - A force repeats the signature and has one component a group: one expression for one group,
+//!   `[f, g]` for more.
+//! - Observables have names of their own: a monitor may be called as a `let`, not as a method.
+//! - Prefix `+` is allowed; a default may have a sign; `%` must be the last thing done in an index.
+//! - A number that would underflow f64 to 0 is refused like one that overflows.
 
 use crate::report::Spans;
 use proc_macro2::{Ident, Span, TokenStream};

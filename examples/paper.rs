@@ -1,0 +1,253 @@
+//! The paper's schemes on the paper's two systems: its figures, its table, and what it did not see.
+//!
+//! Writes `target/paper/figure1.svg` (the pendulum), `figure2.svg` (H = ½(q²+1)(p²+1), a short
+//! run), `figure3.svg` (the same system run longer) and `results.csv`, and prints the table.
+//!
+//! What the paper does not say is assumed here, and printed: g, the length of the runs, the zero
+//! of the potential, and that "uncertainty" means the deviation of the run's mean H from H₀.
+
+use hamiltonian::prelude::*;
+use hamiltonian::schemes::{Visitor, visit_any, visit_separable};
+use hamiltonian::{Scheme, Separable, System, View, hamiltonian};
+use plot::{Curve, Figure};
+use std::fmt::Write as _;
+use std::path::Path;
+
+#[path = "support/plot.rs"]
+mod plot;
+
+hamiltonian! {
+    /// The paper's pendulum; the potential is zero where it hangs.
+    pub struct Pendulum {
+        /// Mass of the bob.
+        m = 1.0,
+        /// Length.
+        l = 10.0,
+        /// Acceleration of gravity.
+        g = 9.81,
+    }
+    H(q; p) = p^2/(2*m*l^2) + m*g*l*(1 - cos(q))
+}
+
+hamiltonian! {
+    /// The same, the potential zero where it is horizontal.
+    pub struct PendulumFromPivot { m = 1.0, l = 10.0, g = 9.81 }
+    H(q; p) = p^2/(2*m*l^2) - m*g*l*cos(q)
+}
+
+hamiltonian! {
+    /// The paper's equation (34).
+    pub struct NonSeparable {}
+    H(q; p) = 0.5*(q^2 + 1)*(p^2 + 1)
+}
+
+const STEP: f64 = 1e-3;
+const PENDULUM_END: f64 = 50.0;
+/// The copies of (29) part exponentially on (34): only a short run looks like the paper's figure.
+const SHORT_END: f64 = 1.0;
+const LONG_END: f64 = 20.0;
+
+/// One row of the results.
+struct Row {
+    system: &'static str,
+    scheme: &'static str,
+    equations: &'static str,
+    start: &'static str,
+    end: f64,
+    /// max |H/H₀ − 1|
+    max: f64,
+    /// mean |H/H₀ − 1|
+    mean: f64,
+    /// |mean H/H₀ − 1|
+    of_mean: f64,
+    copy_distance: Option<f64>,
+    /// H/H₀ − 1 against t.
+    curve: Vec<(f64, f64)>,
+}
+
+/// A system with its start, the length of the runs, and what came of them.
+struct Problem<'a, S: System<f64>> {
+    name: &'static str,
+    system: &'a S,
+    start: State<S::Vector>,
+    end: f64,
+    rows: Vec<Row>,
+    failure: Option<Error>,
+}
+
+impl<S: System<f64>> Problem<'_, S> {
+    /// Runs one scheme to the end; a run that stops being finite ends there.
+    fn measure<M: Scheme<f64, S>>(&self, scheme: M) -> Result<Row, Error> {
+        let entry = scheme.entry();
+        let energy = self.system.energy(&self.start);
+        let mut curve = Vec::new();
+        let interval = (self.end / STEP / 1000.0).round() as u64;
+        let watcher = every(interval, watch(|view: &View<'_, f64, S>| curve.push((view.state.t, view.energy() / energy - 1.0))));
+        let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?.observe((EnergyDrift::new(), watcher));
+        match run.advance_to(self.end) {
+            Ok(_) | Err(Error::NotFinite { .. }) => {}
+            Err(error) => return Err(error),
+        }
+        let drift = &run.observer().0;
+        let (max, mean, of_mean) = (drift.max_relative(), drift.mean_relative(), (drift.mean() / energy - 1.0).abs());
+        Ok(Row {
+            system: self.name,
+            scheme: entry.name,
+            equations: entry.equations,
+            start: entry.variant.strip_suffix(" start").unwrap_or(""),
+            end: self.end,
+            max,
+            mean,
+            of_mean,
+            copy_distance: None,
+            curve,
+        })
+    }
+
+    /// How far the copies of (29) or (30) are apart at the end.
+    fn copy_distance(&self, scheme: Pihajoki) -> Result<f64, Error> {
+        let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?;
+        run.advance_to(self.end)?;
+        Ok(run.copy_distance())
+    }
+
+    /// The rows of all schemes run so far, copy distances filled in.
+    fn rows(mut self) -> Result<Vec<Row>, Error> {
+        if let Some(error) = self.failure {
+            return Err(error);
+        }
+        let distances = [("29", Pihajoki::CoordinateFirst), ("30", Pihajoki::MomentumFirst)];
+        for (equations, scheme) in distances {
+            let distance = self.copy_distance(scheme).ok();
+            for row in self.rows.iter_mut().filter(|row| row.equations == equations) {
+                row.copy_distance = distance;
+            }
+        }
+        Ok(self.rows)
+    }
+}
+
+impl<S: System<f64>> Visitor<f64, S> for Problem<'_, S> {
+    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
+        match self.measure(scheme) {
+            Ok(row) => self.rows.push(row),
+            Err(error) => self.failure = Some(error),
+        }
+    }
+}
+
+/// A problem that any scheme can be run on.
+fn problem<'a, S: System<f64>>(name: &'static str, system: &'a S, start: State<S::Vector>, end: f64) -> Problem<'a, S> {
+    Problem { name, system, start, end, rows: Vec::new(), failure: None }
+}
+
+/// All schemes of the catalogue on a separable system.
+fn all_on<S: Separable<f64>>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+    visit_any(&mut problem);
+    visit_separable(&mut problem);
+    problem.rows()
+}
+
+/// The schemes that need no structure.
+fn any_on<S: System<f64>>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+    visit_any(&mut problem);
+    problem.rows()
+}
+
+/// The curves of some equations; of (26) and (33) those with the paper's start.
+fn curves(rows: &[Row], wanted: &[(&str, &str)]) -> Vec<Curve> {
+    let find = |equations: &str| rows.iter().find(|row| (row.equations == equations || row.scheme == equations) && matches!(row.start, "" | "equal"));
+    wanted
+        .iter()
+        .filter_map(|(equations, name)| find(equations).map(|row| Curve { name: (*name).to_string(), points: row.curve.clone() }))
+        .collect()
+}
+
+const AS_THE_PAPER: [(&str, &str); 3] = [("26", "scheme 1, (26)"), ("33", "scheme 2, (33)"), ("29", "PSVM, (29)")];
+
+fn csv(rows: &[Row]) -> String {
+    let mut text = String::from("system,scheme,equation,start,dt,t_end,max_rel_energy_error,mean_rel_energy_error,copy_distance\n");
+    for row in rows {
+        let distance = row.copy_distance.map_or_else(String::new, |d| format!("{d:e}"));
+        let _ = writeln!(text, "{},{},{},{},{STEP},{},{:e},{:e},{distance}", row.system, row.scheme, row.equations, row.start, row.end, row.max, row.mean);
+    }
+    text
+}
+
+/// What the paper reports, in per cent, for a system, an equation and its start.
+fn reported(row: &Row) -> Option<f64> {
+    let paper_start = matches!(row.start, "" | "equal");
+    match (row.system, row.equations) {
+        _ if !paper_start => None,
+        ("pendulum", "26") => Some(8.23e-4),
+        ("pendulum", "33") => Some(1.93e-3),
+        ("pendulum", "29") => Some(2.40e-5),
+        ("nonseparable", "26") => Some(1.11e-1),
+        ("nonseparable", "33") => Some(1.74e-1),
+        ("nonseparable", "29") => Some(1.44e-4),
+        _ => None,
+    }
+}
+
+fn print(rows: &[Row]) {
+    println!("{:<20} {:<28} {:<8} {:<13} {:>5} {:>11} {:>11} {:>11} {:>11} {:>10}", "system", "scheme", "equation", "start", "t_end", "max %", "mean %", "of mean %", "paper %", "copies");
+    for row in rows {
+        let paper = reported(row).map_or_else(String::new, |p| format!("{p:.2e}"));
+        let copies = row.copy_distance.map_or_else(String::new, |d| format!("{d:.1e}"));
+        println!(
+            "{:<20} {:<28} {:<8} {:<13} {:>5} {:>11.3e} {:>11.3e} {:>11.3e} {:>11} {:>10}",
+            row.system,
+            row.scheme,
+            row.equations,
+            row.start,
+            row.end,
+            100.0 * row.max,
+            100.0 * row.mean,
+            100.0 * row.of_mean,
+            paper,
+            copies
+        );
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let angle = std::f64::consts::FRAC_PI_4;
+    let (pendulum, from_pivot, nonseparable) = (Pendulum::default(), PendulumFromPivot::default(), NonSeparable {});
+    let at_rest = || State::new([angle], [0.0]);
+    let far_out = || State::new([-3.0], [0.0]);
+
+    let mut rows = all_on(problem("pendulum", &pendulum, at_rest(), PENDULUM_END))?;
+    let pendulum_rows = rows.len();
+    rows.extend(all_on(problem("pendulum from pivot", &from_pivot, at_rest(), PENDULUM_END))?);
+    let short = any_on(problem("nonseparable", &nonseparable, far_out(), SHORT_END))?;
+    let long = any_on(problem("nonseparable", &nonseparable, far_out(), LONG_END))?;
+
+    let folder = Path::new("target/paper");
+    std::fs::create_dir_all(folder)?;
+    let (time, error) = ("time t", "relative energy error H/H(0) − 1");
+    Figure { title: "Figure 1: pendulum, Δt = 0.001", x: time, y: error, logarithmic: false, range: None, curves: curves(&rows[..pendulum_rows], &AS_THE_PAPER) }
+        .write(&folder.join("figure1.svg"))?;
+    Figure { title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001", x: time, y: error, logarithmic: false, range: None, curves: curves(&short, &AS_THE_PAPER) }
+        .write(&folder.join("figure2.svg"))?;
+    let beside = [("29", "PSVM, (29)"), ("33", "scheme 2, (33)"), ("ImplicitMidpoint", "implicit midpoint"), ("RungeKutta4", "Runge–Kutta 4 (not symplectic)")];
+    Figure {
+        title: "Figure 3: the same system for longer: what the paper did not see",
+        x: time,
+        y: "|H/H(0) − 1|",
+        logarithmic: true,
+        range: None,
+        curves: curves(&long, &beside),
+    }
+    .write(&folder.join("figure3.svg"))?;
+
+    rows.extend(short);
+    rows.extend(long);
+    std::fs::write(folder.join("results.csv"), csv(&rows))?;
+    print(&rows);
+    println!();
+    println!("Assumed, because the paper does not say: g = 9.81; V = mgl(1 − cos q) (\"from pivot\": −mgl cos q);");
+    println!("runs to t = {PENDULUM_END} and {SHORT_END}; its \"uncertainty\" is |mean H/H(0) − 1| (column \"of mean\").");
+    println!("Scheme (26) advances time by 2Δt a step; t is the time of the system.");
+    println!("Written to {}: figure1.svg, figure2.svg, figure3.svg, results.csv", folder.display());
+    Ok(())
+}

@@ -15,25 +15,29 @@ use crate::simplify::FEW;
 /// The adjoints of the leaves that depend on `what`: (leaf, ∂root/∂leaf) in order of first
 /// appearance. Zero adjoints are left out.
 pub fn gradient(dag: &mut Dag, root: Node, what: Dependence) -> Vec<(Node, Node)> {
-    let one = dag.integer(1);
-    sweep(dag, root, one, what, None)
+    sweep(dag, root, what, None, &mut Map::default())
 }
 
-/// Adjoints with a seed, in the context of a loop: contributions are summed over the loops inside
-/// `context` only.
+/// Adjoints by leaf.
+type Adjoints = Vec<(Node, Node)>;
+/// What is known of branches: a branch may be shared by many, in many ways.
+type Swept = Map<(Node, Option<Domain>), Adjoints>;
+
+/// Adjoints in the context of a loop: contributions are summed over the loops inside `context`
+/// only.
 fn sweep(
     dag: &mut Dag,
     root: Node,
-    seed: Node,
     what: Dependence,
     context: Option<Domain>,
-) -> Vec<(Node, Node)> {
+    swept: &mut Swept,
+) -> Adjoints {
     if !dag.dependence(root).on(what) {
         return Vec::new();
     }
     let order = dag.reachable(&[root]);
     let mut contributions: Map<Node, Vec<Node>> = Map::default();
-    contributions.insert(root, vec![seed]);
+    contributions.insert(root, vec![dag.integer(1)]);
     let mut leaves = Vec::new();
     for &node in order.iter().rev() {
         let Some(mut parts) = contributions.remove(&node) else {
@@ -72,8 +76,12 @@ fn sweep(
                 } else {
                     dag.less_equal(x[1], x[0])
                 };
-                for (child, value) in branches(dag, first, x[0], x[1], what, here) {
-                    let value = dag.mul(&[adjoint, value]);
+                let either = Branches {
+                    condition: first,
+                    yes: x[0],
+                    no: x[1],
+                };
+                for (child, value) in either.adjoints(dag, adjoint, what, here, swept) {
                     give(dag, child, here, value);
                 }
             }
@@ -93,8 +101,8 @@ fn sweep(
             }
             Kind::Reduce(domain, body) => give(dag, body, Some(domain), adjoint),
             Kind::Select(condition, yes, no) => {
-                for (child, value) in branches(dag, condition, yes, no, what, here) {
-                    let value = dag.mul(&[adjoint, value]);
+                let either = Branches { condition, yes, no };
+                for (child, value) in either.adjoints(dag, adjoint, what, here, swept) {
                     give(dag, child, here, value);
                 }
             }
@@ -116,36 +124,55 @@ fn sweep(
     leaves
 }
 
-/// The derivatives of both branches with respect to the leaves, selected.
-fn branches(
-    dag: &mut Dag,
+/// Two expressions of which a condition takes one.
+struct Branches {
     condition: Node,
     yes: Node,
     no: Node,
-    what: Dependence,
-    here: Option<Domain>,
-) -> Vec<(Node, Node)> {
-    let (one, zero) = (dag.integer(1), dag.integer(0));
-    let from_yes = sweep(dag, yes, one, what, here);
-    let from_no = sweep(dag, no, one, what, here);
-    let mut all: Vec<Node> = from_yes
-        .iter()
-        .chain(&from_no)
-        .map(|(leaf, _)| *leaf)
-        .collect();
-    all.sort_unstable();
-    all.dedup();
-    all.into_iter()
-        .map(|leaf| {
-            let pick = |list: &[(Node, Node)]| {
-                list.iter()
-                    .find(|(l, _)| *l == leaf)
-                    .map_or(zero, |(_, value)| *value)
-            };
-            let (a, b) = (pick(&from_yes), pick(&from_no));
-            (leaf, dag.select(condition, a, b))
-        })
-        .collect()
+}
+
+impl Branches {
+    /// The derivatives of both by the leaves, times the adjoint, selected.
+    fn adjoints(
+        &self,
+        dag: &mut Dag,
+        adjoint: Node,
+        what: Dependence,
+        here: Option<Domain>,
+        swept: &mut Swept,
+    ) -> Adjoints {
+        let zero = dag.integer(0);
+        let [from_yes, from_no] = [self.yes, self.no].map(|branch| {
+            if let Some(known) = swept.get(&(branch, here)) {
+                return known.clone();
+            }
+            let adjoints = sweep(dag, branch, what, here, swept);
+            swept.insert((branch, here), adjoints.clone());
+            adjoints
+        });
+        let mut leaves: Vec<Node> = from_yes.iter().chain(&from_no).map(|(l, _)| *l).collect();
+        leaves.sort_unstable();
+        leaves.dedup();
+        let by = |list: &Adjoints, leaf: Node| {
+            list.binary_search_by_key(&leaf, |(l, _)| *l)
+                .map_or(zero, |at| list[at].1)
+        };
+        leaves
+            .into_iter()
+            .map(|leaf| {
+                let (a, b) = (by(&from_yes, leaf), by(&from_no, leaf));
+                let value = if dag.as_constant(a).is_some() || dag.as_constant(b).is_some() {
+                    // An infinite adjoint adds nothing through the branch not taken.
+                    let (a, b) = (dag.mul(&[adjoint, a]), dag.mul(&[adjoint, b]));
+                    dag.select(self.condition, a, b)
+                } else {
+                    let slope = dag.select(self.condition, a, b);
+                    dag.mul(&[adjoint, slope])
+                };
+                (leaf, value)
+            })
+            .collect()
+    }
 }
 
 /// The deeper of two loops on one path.

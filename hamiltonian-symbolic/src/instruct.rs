@@ -247,12 +247,15 @@ impl Placer<'_> {
 
     /// The two operands of a product's last multiplication (the sign is the caller's).
     pub(crate) fn split_product(&mut self, steps: &mut Vec<Step>, node: Node) -> (Value, Value) {
-        let Kind::Product(_, factors) = self.dag.kind(node).clone() else {
+        let Kind::Product(k, factors) = self.dag.kind(node).clone() else {
             let value = self.value(node);
             let one = self.constant(steps, Rational::ONE);
             return (value, one);
         };
         let mut list: Vec<Value> = Vec::new();
+        if !is_unit(&k) {
+            list.push(self.constant(steps, k.abs()));
+        }
         for (node, n) in factors {
             let value = self.value(node);
             list.extend((0..n.max(0)).map(|_| value));

@@ -128,8 +128,10 @@ operations! {
         let minus = d.integer(-1);
         let lower = d.add(&[x[1], minus]);
         let lower = d.pow(x[0], lower);
-        let log = d.call(Op::Ln, &[x[0]]);
-        vec![d.mul(&[x[1], lower]), d.mul(&[f, log])]
+        // x^y·ln x → 0 as x → 0 from above, for y > 0.
+        let (log, zero) = (d.call(Op::Ln, &[x[0]]), d.integer(0));
+        let (vanished, slope) = (d.equal(f, zero), d.mul(&[f, log]));
+        vec![d.mul(&[x[1], lower]), d.select(vanished, zero, slope)]
     };
 }
 

@@ -8,12 +8,13 @@ use num_bigint::{BigInt, Sign};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
 
-/// An exact rational number.
-#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+/// An exact rational number, ordered by value.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Rational(Form);
 
-#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
 enum Form {
     Small(i64, i64),
     Big(Box<BigRational>),
@@ -298,6 +299,23 @@ impl Rational {
     }
 }
 
+impl Ord for Rational {
+    fn cmp(&self, other: &Rational) -> Ordering {
+        match (&self.0, &other.0) {
+            (Form::Small(a, b), Form::Small(c, d)) => {
+                (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
+            }
+            _ => self.big().cmp(&other.big()),
+        }
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Rational) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
         if let (Ok(x), Ok(y)) = (u64::try_from(a), u64::try_from(b)) {
@@ -409,6 +427,15 @@ mod tests {
         assert_eq!(Rational::new(4, 9).sqrt(), Some(Rational::new(2, 3)));
         assert_eq!(Rational::new(2, 9).sqrt(), None);
         assert_eq!(Rational::new(-3, 2).pow(-3), Some(Rational::new(-8, 27)));
+    }
+
+    #[test]
+    fn order_is_by_value() {
+        assert!(Rational::new(1, 3) < Rational::new(1, 2));
+        assert!(Rational::integer(32) > Rational::new(981, 100));
+        assert!(Rational::new(-5, 1) < Rational::new(-7, 4));
+        let big = Rational::integer(i64::MAX).mul(&Rational::integer(2));
+        assert!(big > Rational::integer(5) && big.neg() < Rational::integer(-5));
     }
 
     #[test]

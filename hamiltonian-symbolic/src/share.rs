@@ -41,6 +41,15 @@ struct Factors {
     divisors: Vec<(Item, u32)>,
 }
 
+impl Factors {
+    fn multiply(&mut self, item: Item, n: u32) {
+        match self.items.iter_mut().find(|(known, _)| *known == item) {
+            Some(entry) => entry.1 += n,
+            None => self.items.push((item, n)),
+        }
+    }
+}
+
 #[derive(Default)]
 struct Workshop {
     made: Vec<Made>,
@@ -144,8 +153,7 @@ pub fn share(dag: &mut Dag, roots: &mut [Node]) {
             }
         }
     }
-    let made_for_loops = share_reciprocals(dag, &mut shop, &mut lists);
-    let _ = made_for_loops;
+    share_reciprocals(dag, &mut shop, &mut lists);
     share_invariant_factors(dag, &mut shop, &mut lists);
     share_pairs(&mut shop, &mut lists);
     let mut sum_pairs: Vec<(Node, bool, Node, bool)> = Vec::new();
@@ -294,59 +302,51 @@ fn grouped(dag: &mut Dag, shop: &mut Workshop, k: Rational, factors: &[(Node, i3
     list
 }
 
-/// Divisors used more than once become one reciprocal. Powers of √x and of x share one division;
-/// where only (√x)⁻³ is needed the reciprocal is of x·√x.
-fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) -> usize {
+/// Divisors used more than once become one reciprocal. Powers of √x and of x share one division
+/// where x ≥ 0 is known; where only (√x)⁻³ is needed the reciprocal is of x·√x.
+fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
     let mut occurrences: Map<Item, Vec<u32>> = Map::default();
     for list in lists.iter() {
         for (item, n) in &list.divisors {
             occurrences.entry(*item).or_default().push(*n);
         }
     }
-    let mut made = 0;
+    // What a root was taken of, and the root of a divisor if that is a divisor too.
+    let radicand = |item: Item| match item {
+        Item::Node(node) => match dag.kind(node) {
+            Kind::Call(Op::Sqrt, x) => Some(x[0]),
+            _ => None,
+        },
+        Item::Made(_) => None,
+    };
+    let divides = |node: Node| occurrences.contains_key(&Item::Node(node));
+    let root_of = |item: Item| match item {
+        Item::Node(node) if dag.is_nonnegative(node) => dag
+            .known(&Kind::Call(Op::Sqrt, vec![node]))
+            .filter(|root| divides(*root)),
+        _ => None,
+    };
     for list in lists.iter_mut() {
-        let mut divisors = Vec::new();
         for (item, n) in std::mem::take(&mut list.divisors) {
             let powers = &occurrences[&item];
-            let root = match item {
-                Item::Node(node) => match dag.kind(node) {
-                    Kind::Call(Op::Sqrt, x) => Some(Item::Node(x[0])),
-                    _ => None,
-                },
-                Item::Made(_) => None,
-            };
-            let power_of_root = |x: Item| {
-                let Item::Node(node) = x else { return None };
-                let root = dag
-                    .known(&Kind::Call(Op::Sqrt, vec![node]))
-                    .map(Item::Node)?;
-                occurrences.contains_key(&root).then_some(root)
-            };
-            if let Some(x) =
-                root.filter(|x| powers.iter().all(|n| *n == 3) && !occurrences.contains_key(x))
-            {
-                let cube = shop.pair(x.min(item), x.max(item));
+            let below = radicand(item);
+            let with_square = below.is_some_and(|x| dag.is_nonnegative(x) && divides(x));
+            if let Some(x) = below.filter(|x| !divides(*x) && powers.iter().all(|n| *n == 3)) {
+                let cube = shop.pair(Item::Node(x).min(item), Item::Node(x).max(item));
                 if powers.len() > 1 {
-                    list.items.push((shop.reciprocal(cube), 1));
-                    made += 1;
+                    list.multiply(shop.reciprocal(cube), 1);
                 } else {
-                    divisors.push((cube, 1));
+                    list.divisors.push((cube, 1));
                 }
-            } else if let Some(root) = power_of_root(item) {
-                list.items.push((shop.reciprocal(root), 2 * n));
-            } else if powers.len() > 1
-                || n > 1
-                || root.is_some_and(|x| occurrences.contains_key(&x))
-            {
-                list.items.push((shop.reciprocal(item), n));
-                made += 1;
+            } else if let Some(root) = root_of(item) {
+                list.multiply(shop.reciprocal(Item::Node(root)), 2 * n);
+            } else if powers.len() > 1 || n > 1 || with_square {
+                list.multiply(shop.reciprocal(item), n);
             } else {
-                divisors.push((item, n));
+                list.divisors.push((item, n));
             }
         }
-        list.divisors = divisors;
     }
-    made
 }
 
 /// Factors that live in an outer loop are multiplied with each other first.

@@ -1,1 +1,76 @@
-//! wip
+//! One line of mathematics, differentiated at compile time, becomes exact, fast,
+//! structure-preserving dynamics.
+//!
+//! Input: a Hamiltonian in the language of [`hamiltonian!`], a start, a scheme, a step. Output: a
+//! run. Invariant: this crate has no code of its own; it joins the macro and the library under one
+//! name, whatever that name is where it is imported.
+//!
+//! ```
+//! use hamiltonian::prelude::*;
+//!
+//! hamiltonian! {
+//!     /// A planar pendulum.
+//!     pub struct Pendulum {
+//!         /// Mass of the bob.
+//!         m = 1.0,
+//!         l = 10.0,
+//!         g = 9.81,
+//!     }
+//!     H(theta; p) = p^2/(2*m*l^2) - m*g*l*cos(theta)
+//! }
+//!
+//! let pendulum = Pendulum { l: 2.0, ..Default::default() };
+//! let start = State::new([std::f64::consts::FRAC_PI_4], [0.0]);
+//! let mut run = Integrator::new(&pendulum, StormerVerlet::default(), start, 1e-3)?;
+//! run.advance(1_000)?;
+//! println!("{}", run.state().q[0]);
+//! # Ok::<(), Error>(())
+//! ```
+#![cfg_attr(not(feature = "std"), no_std)]
+#![forbid(unsafe_code)]
+
+pub use hamiltonian_core::*;
+
+/// The only paths that code emitted by [`hamiltonian!`] names.
+#[doc(hidden)]
+pub use hamiltonian_core::private;
+
+#[doc(hidden)]
+pub use hamiltonian_macros as __private_macros;
+
+/// What a program that defines and runs systems names.
+pub mod prelude {
+    pub use crate::hamiltonian;
+    pub use hamiltonian_core::prelude::*;
+}
+
+/// Defines a Hamiltonian system: a type with named parameters, or a value.
+///
+/// ```
+/// use hamiltonian::prelude::*;
+///
+/// // Expression form: a value. Other names are captured from scope.
+/// let (m, k) = (1.0, 4.0);
+/// let spring = hamiltonian! { H(x; p_x) = p_x^2/(2*m) + k*x^2/2 };
+/// assert_eq!(spring.energy(&State::new([0.5], [1.0])), 1.0);
+///
+/// // Item form: a documented type.
+/// hamiltonian! {
+///     /// An oscillator driven at frequency `omega`.
+///     pub struct Driven { a = 0.1, omega = 1.0 }
+///     let U(r) = r^2/2 + r^4/4;
+///     H(q; p; t) = p^2/2 + U(q) - a*q*cos(omega*t);
+///     monitor power = -a*p*cos(omega*t)
+/// }
+/// let driven = Driven { a: 0.2, ..Default::default() };
+/// assert_eq!(driven.power(&State::new([0.0], [1.0])), -0.2);
+/// ```
+///
+/// Input is statements separated by `;`. `H = …` is short for `H(q; p) = …`; numbers are exact
+/// reals until code is emitted, `^` is power. Signs: dq/dt = ∂H/∂p, dp/dt = −∂H/∂q.
+#[macro_export]
+macro_rules! hamiltonian {
+    ($($definition:tt)*) => {
+        $crate::__private_macros::hamiltonian_impl! { ($crate) $($definition)* }
+    };
+}

@@ -12,8 +12,10 @@ mod backend;
 mod check;
 #[allow(dead_code)]
 mod checked;
+mod emit;
 mod expand;
 mod fallback;
+mod lower;
 #[allow(dead_code)]
 mod names;
 mod parse;

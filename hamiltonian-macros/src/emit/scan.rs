@@ -31,10 +31,6 @@ impl Marks {
     pub fn insert(&mut self, value: Value) -> bool {
         !core::mem::replace(&mut self.0[value.0 as usize], true)
     }
-    /// Whether a value is in the set.
-    pub fn contains(&self, value: Value) -> bool {
-        self.0[value.0 as usize]
-    }
 }
 
 /// Calls `visit` with each operand of an instruction.

@@ -1,0 +1,85 @@
+//! H and Hamilton's equations as people read them.
+//!
+//! Input: a model with its structure. Output: the texts emission puts into docs, `Display` and
+//! constants. Invariant: none of it is read by the program.
+
+use crate::emit::Text;
+use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::print::{self, Notation};
+use hamiltonian_symbolic::structure::Structure;
+
+/// The texts.
+pub fn text(model: &Model, structure: &Structure) -> Text {
+    let Some(h) = model.hamiltonian else {
+        return Text::default();
+    };
+    let equations = |notation| {
+        let equations = print::hamilton_equations(model, notation).into_iter();
+        equations
+            .map(|(left, right)| format!("{left} = {right}"))
+            .collect()
+    };
+    Text {
+        hamiltonian: format!("{} = {}", signature(model), print::text(model, h)),
+        equations: equations(Notation::Text),
+        latex: format!("H = {}", print::latex(model, h)),
+        latex_equations: equations(Notation::Latex),
+        facts: facts(structure),
+    }
+}
+
+/// `H(x, q[N]; p_x, p[N]; t)`
+fn signature(model: &Model) -> String {
+    let extent = |affine: &hamiltonian_symbolic::index::Affine| match affine.as_constant() {
+        Some(number) => number.to_string(),
+        None => {
+            let size = affine.sizes.first().map(|(size, _)| usize::from(size.0));
+            size.and_then(|size| model.sizes.get(size))
+                .cloned()
+                .unwrap_or_default()
+        }
+    };
+    let shape = |shape: &Shape| match shape {
+        Shape::Scalar => String::new(),
+        Shape::Vector(rows) => format!("[{}]", extent(rows)),
+        Shape::Matrix(rows, columns) => format!("[{}][{}]", extent(rows), extent(columns)),
+    };
+    let list = |name: fn(&hamiltonian_symbolic::model::Group) -> &String| {
+        let names = model
+            .groups
+            .iter()
+            .map(|group| format!("{}{}", name(group), shape(&group.shape)));
+        names.collect::<Vec<_>>().join(", ")
+    };
+    let (coordinates, momenta) = (
+        list(|group| &group.coordinate),
+        list(|group| &group.momentum),
+    );
+    let time = model
+        .time
+        .as_ref()
+        .map_or_else(String::new, |time| format!("; {time}"));
+    format!("H({coordinates}; {momenta}{time})")
+}
+
+/// What is known of H, a sentence each.
+fn facts(structure: &Structure) -> Vec<String> {
+    let mut facts = Vec::new();
+    facts.push(match (&structure.separable, &structure.quadratic_kinetic) {
+        (Ok(_), Ok(())) => {
+            "H is separable, its kinetic part a quadratic form of the momenta.".to_owned()
+        }
+        (Ok(_), Err(_)) => "H is separable.".to_owned(),
+        (Err(coupling), _) => format!("H is not separable: see the term `{}`.", coupling.text),
+    });
+    if let Err(why) = &structure.autonomous {
+        facts.push(format!("H depends on time: {why}."));
+    }
+    for cyclic in &structure.cyclic {
+        facts.push(format!(
+            "`{}` does not appear in H: `{}` is conserved.",
+            cyclic.coordinate, cyclic.momentum
+        ));
+    }
+    facts
+}

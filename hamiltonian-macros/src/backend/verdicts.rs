@@ -1,0 +1,86 @@
+//! What was proven of H, and why the rest does not hold, in the words rustc will use.
+//!
+//! Input: the structure of a model. Output: what emission turns into types. Invariant: a reason
+//! names the term of the user's that is in the way.
+
+use crate::emit;
+use crate::emit::Reason;
+use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::structure::{Coupling, Structure};
+
+/// The verdicts.
+pub fn verdicts(model: &Model, structure: &Structure) -> emit::Structure {
+    let name = subject(model);
+    emit::Structure {
+        separable: match &structure.separable {
+            Ok(_) => Ok(()),
+            Err(coupling) => Err(not_separable(model, &name, coupling)),
+        },
+        quadratic_kinetic: structure
+            .quadratic_kinetic
+            .as_ref()
+            .map_err(|why| Reason {
+                message: format!(
+                    "the kinetic part of {name} is not a quadratic form of the momenta: {why}"
+                ),
+                label: "needs H = pᵀM⁻¹p/2 + V(q) with constant M".into(),
+                note: "use a scheme for any separable H, or for any H".into(),
+            })
+            .copied(),
+        autonomous: structure
+            .autonomous
+            .as_ref()
+            .map_err(|why| Reason {
+                message: format!("{name} depends on time: {why}"),
+                label: "needs H(q, p) without time".into(),
+                note: "use a scheme that takes H(q, p, t)".into(),
+            })
+            .copied(),
+        cyclic: structure
+            .cyclic
+            .iter()
+            .map(|cyclic| cyclic.coordinate.clone())
+            .collect(),
+    }
+}
+
+/// ``H of `Pendulum` ``, or `H`
+fn subject(model: &Model) -> String {
+    if model.name == "H" {
+        "H".into()
+    } else {
+        format!("H of `{}`", model.name)
+    }
+}
+
+fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
+    let q = first_name(model, coupling.term, Side::Q);
+    let p = first_name(model, coupling.term, Side::P);
+    Reason {
+        message: format!(
+            "{name} is not separable: the term `{}` couples {q} and {p}",
+            coupling.text
+        ),
+        label: "needs H = T(p) + V(q)".into(),
+        note: "use a scheme for any H: `ImplicitMidpoint`, `Pihajoki`, `IntersectingSubTrajectories`, \
+               `RungeKutta4` (not symplectic)"
+            .into(),
+    }
+}
+
+/// The first coordinate or momentum that a node depends on.
+fn first_name(model: &Model, node: Node, wanted: Side) -> String {
+    for leaf in model.dag.reachable(&[node]) {
+        if let Kind::Element(Array::Phase { side, group, .. }, ..) = model.dag.kind(leaf) {
+            if *side == wanted {
+                let group = &model.groups[usize::from(*group)];
+                return match wanted {
+                    Side::Q => group.coordinate.clone(),
+                    Side::P => group.momentum.clone(),
+                };
+            }
+        }
+    }
+    String::new()
+}

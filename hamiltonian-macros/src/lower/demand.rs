@@ -1,0 +1,349 @@
+//! What is asked of an expression: the scalar it is, or one component of it, for given values of
+//! the loop variables that are written out.
+//!
+//! Input: a demand on a node. Output: the demands it makes on its children. Invariant: `evaluate`
+//! asks for children in this same order.
+
+use super::evaluate::Evaluator;
+use super::scope::size_affine;
+use crate::checked::{self, Extent, IndexVariable, Kind, LoopId, NodeId, Type};
+use crate::names::Builtin;
+use crate::report::Spans;
+use hamiltonian_symbolic::dag::Dag;
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+
+/// The longest vector whose sums over components are written out.
+const LONGEST: i64 = 16;
+
+/// What is asked of a node.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub struct Demand {
+    /// The component: nothing of a scalar, the index in a vector, row and column in a matrix.
+    pub indices: Vec<Index>,
+    /// Loop variables that are written out, with their values, in order.
+    pub values: Vec<(u32, i64)>,
+}
+
+impl Demand {
+    /// A component of a vector.
+    pub fn at(index: Index) -> Demand {
+        Demand {
+            indices: vec![index],
+            values: Vec::new(),
+        }
+    }
+
+    /// The value of a loop variable that is written out.
+    pub fn value(&self, id: LoopId) -> Option<i64> {
+        self.values
+            .iter()
+            .find(|(known, _)| *known == id.0)
+            .map(|(_, value)| *value)
+    }
+
+    fn with(&self, indices: Vec<Index>) -> Demand {
+        Demand {
+            indices,
+            values: self.values.clone(),
+        }
+    }
+
+    fn scalar(&self) -> Demand {
+        self.with(Vec::new())
+    }
+}
+
+/// How the components of a vector are run through.
+#[derive(Debug)]
+pub enum Run {
+    /// One by one.
+    Numbers(i64),
+    /// By a loop.
+    Loop(Domain),
+}
+
+impl Run {
+    fn indices(&self) -> Vec<Index> {
+        match self {
+            Run::Numbers(length) => (0..*length).map(Index::constant).collect(),
+            Run::Loop(domain) => vec![Index::plain(Affine::variable(*domain))],
+        }
+    }
+}
+
+impl Evaluator<'_> {
+    /// The affine form for a demand: loop variables as the engine's, or as numbers.
+    pub fn affine(&self, dag: &mut Dag, affine: &checked::Affine, demand: &Demand) -> Affine {
+        let mut sum = Affine::constant(affine.constant);
+        for &(variable, factor) in &affine.terms {
+            let term = match variable {
+                IndexVariable::Size(size) => Affine::size(Size(size.0 as u16)),
+                IndexVariable::Loop(id) => match demand.value(id) {
+                    Some(value) => Affine::constant(value),
+                    None => Affine::variable(self.domain(dag, id, demand)),
+                },
+            };
+            sum = sum.plus(factor, &term);
+        }
+        sum
+    }
+
+    fn index(&self, dag: &mut Dag, index: &checked::Index, demand: &Demand) -> Index {
+        let affine = self.affine(dag, &index.affine, demand);
+        match index.modulo {
+            Some(modulo) => Index::wrapped(affine, size_affine(modulo)),
+            None => Index::plain(affine),
+        }
+    }
+
+    /// The engine's loop of a loop that is not written out.
+    pub fn domain(&self, dag: &mut Dag, id: LoopId, demand: &Demand) -> Domain {
+        // From the outermost in; those between that are written out are no loops.
+        let mut path = Vec::new();
+        let mut at = Some(id);
+        while let Some(one) = at {
+            if demand.value(one).is_none() {
+                path.push(one);
+            }
+            at = self.loops.parent(one);
+        }
+        let mut domains: Vec<(LoopId, Domain)> = Vec::new();
+        let mut parent = None;
+        for one in path.into_iter().rev() {
+            let range = &self.checked.loops[one.0 as usize];
+            let bound = |affine: &checked::Affine| {
+                affine.terms.iter().fold(
+                    Affine::constant(affine.constant),
+                    |sum, &(variable, factor)| {
+                        let term = match variable {
+                            IndexVariable::Size(size) => Affine::size(Size(size.0 as u16)),
+                            IndexVariable::Loop(outer) => match demand.value(outer) {
+                                Some(value) => Affine::constant(value),
+                                None => domains
+                                    .iter()
+                                    .find(|(known, _)| *known == outer)
+                                    .map_or_else(Affine::default, |(_, domain)| {
+                                        Affine::variable(*domain)
+                                    }),
+                            },
+                        };
+                        sum.plus(factor, &term)
+                    },
+                )
+            };
+            let (start, end) = (bound(&range.lower), bound(&range.upper));
+            let domain = dag.domain(parent, start, end);
+            domains.push((one, domain));
+            parent = Some(domain);
+        }
+        parent.unwrap_or(Domain(0))
+    }
+
+    /// How the components of the vectors `operands` of `node` are run through; the sum over them
+    /// stands inside the loops of `node` and of `demand`.
+    pub fn run(
+        &self,
+        dag: &mut Dag,
+        node: NodeId,
+        operands: &[NodeId],
+        extent: Extent,
+        demand: &Demand,
+    ) -> Run {
+        let length = size_affine(extent);
+        match length.as_constant() {
+            Some(number)
+                if number <= LONGEST || operands.iter().any(|one| self.loops.by_number(*one)) =>
+            {
+                Run::Numbers(number)
+            }
+            _ => {
+                let own = self.loops.free(node);
+                let outer = (0..64)
+                    .map(LoopId)
+                    .filter(|id| own >> id.0 & 1 == 1 && demand.value(*id).is_none());
+                let outer: Vec<LoopId> = outer.collect();
+                let mut set = demand
+                    .indices
+                    .iter()
+                    .fold(0, |set, index| set | index.variables());
+                for id in outer {
+                    set |= 1 << self.domain(dag, id, demand).0;
+                }
+                let parent = dag.deepest(set);
+                Run::Loop(dag.domain(parent, Affine::constant(0), length))
+            }
+        }
+    }
+
+    /// The values a written-out sum runs through, innermost loop fastest. `None` if a bound is no
+    /// number.
+    pub fn written_values(
+        &self,
+        dag: &mut Dag,
+        loops: core::ops::Range<u32>,
+        demand: &Demand,
+    ) -> Option<Vec<Demand>> {
+        let mut all = vec![demand.clone()];
+        for id in loops.map(LoopId) {
+            if !self.loops.is_written(id) {
+                continue;
+            }
+            let range = &self.checked.loops[id.0 as usize];
+            let mut next = Vec::new();
+            for one in &all {
+                let start = self.affine(dag, &range.lower, one).as_constant()?;
+                let end = self.affine(dag, &range.upper, one).as_constant()?;
+                if end.saturating_sub(start) > super::LARGEST as i64 || next.len() > super::LARGEST
+                {
+                    return None;
+                }
+                for value in start..end {
+                    let mut with = one.clone();
+                    with.values.push((id.0, value));
+                    next.push(with);
+                }
+            }
+            all = next;
+        }
+        Some(all)
+    }
+
+    /// The demands a demand makes on the children of its node.
+    pub fn children(
+        &mut self,
+        dag: &mut Dag,
+        node: NodeId,
+        demand: &Demand,
+    ) -> Vec<(NodeId, Demand)> {
+        let mut wanted = Vec::new();
+        let checked = self.checked;
+        let this = checked.node(node);
+        let is_scalar = |child: NodeId| matches!(checked.node(child).ty, Type::Scalar | Type::Bool);
+        // A scalar factor of a vector is asked for as it is, a vector for the same component.
+        let same = |child: NodeId| {
+            if is_scalar(child) {
+                demand.scalar()
+            } else {
+                demand.clone()
+            }
+        };
+        match &this.kind {
+            Kind::Number(_)
+            | Kind::Pi
+            | Kind::Coordinate(_)
+            | Kind::Momentum(_)
+            | Kind::Velocity(_)
+            | Kind::Time
+            | Kind::Parameter(_)
+            | Kind::Capture(_)
+            | Kind::Size(_)
+            | Kind::Loop(_)
+            | Kind::Hamiltonian => {}
+            Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
+                (Type::Matrix(_, columns), Type::Vector(_)) => {
+                    for k in self.run(dag, node, &[*b], columns, demand).indices() {
+                        let row = demand.indices.first().cloned().unwrap_or_else(|| Index::constant(0));
+                        wanted.push((*a, demand.with(vec![row, k.clone()])));
+                        wanted.push((*b, demand.with(vec![k])));
+                    }
+                }
+                _ => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
+            },
+            Kind::Neg(a) | Kind::Not(a) => wanted.push((*a, same(*a))),
+            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
+            Kind::Pow(a, b)
+            | Kind::Compare(_, a, b)
+            | Kind::And(a, b)
+            | Kind::Or(a, b)
+            | Kind::Bracket(a, b) => wanted.extend([(*a, demand.scalar()), (*b, demand.scalar())]),
+            Kind::Index { base, index } => {
+                let mut indices = vec![self.index(dag, index, demand)];
+                indices.extend(demand.indices.iter().cloned());
+                wanted.push((*base, demand.with(indices)));
+            }
+            Kind::Vector(items) => {
+                if let Some(at) = self.number(this.spans, demand, 0, items.len()) {
+                    wanted.push((items[at], demand.scalar()));
+                }
+            }
+            Kind::Call(Builtin::Cross, items) => {
+                if let Some(at) = self.number(this.spans, demand, 0, 3) {
+                    let (i, j) = ((at as i64 + 1) % 3, (at as i64 + 2) % 3);
+                    for (item, component) in [(items[0], i), (items[1], j), (items[0], j), (items[1], i)] {
+                        wanted.push((item, demand.with(vec![Index::constant(component)])));
+                    }
+                }
+            }
+            Kind::Call(Builtin::Dot | Builtin::Norm | Builtin::NormSquared, items) => {
+                let Type::Vector(extent) = checked.node(items[0]).ty else { return wanted };
+                let run = self.run(dag, node, items, extent, demand);
+                for k in run.indices() {
+                    for item in items {
+                        wanted.push((*item, demand.with(vec![k.clone()])));
+                    }
+                }
+            }
+            Kind::Call(_, items) | Kind::Function(_, items) => {
+                wanted.extend(items.iter().map(|item| (*item, demand.scalar())));
+            }
+            Kind::Sum { .. } if demand.indices.iter().any(|index| index.variables() != 0) => self.refuse(
+                this.spans,
+                "a component of a sum of vectors is chosen by a loop variable here",
+                "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
+            ),
+            Kind::Sum { loops, body } => match self.written_values(dag, loops.clone(), demand) {
+                Some(all) => wanted.extend(all.into_iter().map(|one| (*body, one))),
+                None => self.refuse(
+                    this.spans,
+                    "a loop that chooses components must have a literal range",
+                    "components of a vector are chosen by number: write the range in numbers, as in `sum(c in 0..3) { … }`",
+                ),
+            },
+            Kind::If { condition, then, otherwise } => {
+                wanted.extend([(*condition, demand.scalar()), (*then, same(*then)), (*otherwise, same(*otherwise))]);
+            }
+        }
+        // A value is the same whatever the loops are that it does not depend on.
+        for (child, demand) in &mut wanted {
+            let free = self.loops.free(*child);
+            demand.values.retain(|(id, _)| free >> id & 1 == 1);
+            demand.values.sort_unstable();
+        }
+        wanted
+    }
+
+    /// A component that must be a number below `length`.
+    pub fn number(
+        &mut self,
+        spans: Spans,
+        demand: &Demand,
+        level: usize,
+        length: usize,
+    ) -> Option<usize> {
+        let value = demand
+            .indices
+            .get(level)
+            .filter(|index| index.modulo.is_none());
+        let value = value.and_then(|index| index.affine.as_constant());
+        match value
+            .and_then(|value| usize::try_from(value).ok())
+            .filter(|value| *value < length)
+        {
+            Some(value) => Some(value),
+            None => {
+                let found = value.map_or_else(
+                    || "one that is not a number".to_owned(),
+                    |value| value.to_string(),
+                );
+                self.refuse(
+                    spans,
+                    &format!(
+                        "there are {length} components here, counted from 0; asked for is {found}"
+                    ),
+                    "choose components by number, or by a loop over a literal range",
+                );
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,390 @@
+//! Answers demands: components of checked expressions as nodes of the arena.
+//!
+//! Input: roots with demands. Output: their nodes. Invariant: two passes over the expressions, one
+//! from parents to children that gathers what is asked, one back that answers; each demand is
+//! answered once.
+
+use super::LARGEST;
+use super::bracket::bracket;
+use super::demand::{Demand, Run};
+use super::loops::Loops;
+use super::scope::number;
+use crate::ast::Comparison;
+use crate::checked::{Checked, Kind, LoopId, NodeId, Type};
+use crate::names::{Builtin, FUNCTIONS};
+use crate::report::{Report, Spans};
+use hamiltonian_symbolic::dag::{Array, Dag, Map, Node, Parameter, Part, Side};
+use hamiltonian_symbolic::index::{Domain, Index, Size};
+use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::rational::Rational;
+
+/// Answers demands on the expressions of one definition.
+#[derive(Debug)]
+pub struct Evaluator<'a> {
+    pub(super) checked: &'a Checked,
+    pub(super) loops: Loops,
+    report: &'a mut Report,
+    /// Whether something was refused: then there is no model.
+    refused: bool,
+    /// Answers to demands for the whole of a node outside loops that are written out.
+    plain: Vec<Option<Node>>,
+    /// All other answers.
+    answers: Map<(u32, Demand), Node>,
+}
+
+impl<'a> Evaluator<'a> {
+    /// An evaluator that has answered nothing.
+    pub fn new(checked: &'a Checked, report: &'a mut Report) -> Evaluator<'a> {
+        let many = checked.loops.get(64).map(|one| one.name.span());
+        let mut evaluator = Evaluator {
+            checked,
+            loops: if many.is_none() {
+                Loops::of(checked)
+            } else {
+                Loops::none()
+            },
+            report,
+            refused: false,
+            plain: vec![None; checked.nodes.len()],
+            answers: Map::default(),
+        };
+        if let Some(span) = many {
+            evaluator.refuse(
+                span.into(),
+                "there are more than 64 loops",
+                "let several sums share a loop, or write a function with `let`",
+            );
+        }
+        evaluator
+    }
+
+    /// Reports an error; there will be no model.
+    pub fn refuse(&mut self, spans: Spans, message: &str, help: &str) {
+        self.refused = true;
+        self.report.error(spans, message, help);
+    }
+
+    /// The nodes of the roots.
+    pub fn evaluate(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
+        if self.refused {
+            return None;
+        }
+        let mut demands: Vec<Vec<Demand>> = vec![Vec::new(); self.checked.nodes.len()];
+        for (root, demand) in roots {
+            demands[root.0 as usize].push(demand.clone());
+        }
+        let mut total = 0;
+        for at in (0..demands.len()).rev() {
+            let mut own = core::mem::take(&mut demands[at]);
+            own.sort_unstable();
+            own.dedup();
+            own.retain(|demand| self.answer(NodeId(at as u32), demand).is_none());
+            total += own.len();
+            for demand in &own {
+                for (child, wanted) in self.children(&mut model.dag, NodeId(at as u32), demand) {
+                    demands[child.0 as usize].push(wanted);
+                }
+            }
+            demands[at] = own;
+            if self.refused || total > LARGEST {
+                self.too_large(at, total);
+                return None;
+            }
+        }
+        for (at, own) in demands.into_iter().enumerate() {
+            let node = NodeId(at as u32);
+            for demand in own {
+                let children = self.children(&mut model.dag, node, &demand);
+                let values: Vec<Node> = children
+                    .iter()
+                    .map(|(child, wanted)| self.answer(*child, wanted).unwrap_or(Node(0)))
+                    .collect();
+                let value = self.combine(model, node, &demand, &values);
+                if self.refused {
+                    return None;
+                }
+                self.note(node, demand, value);
+                if model.dag.len() > LARGEST {
+                    self.too_large(at, model.dag.len());
+                    return None;
+                }
+            }
+        }
+        let zero = model.dag.integer(0);
+        Some(
+            roots
+                .iter()
+                .map(|(root, demand)| self.answer(*root, demand).unwrap_or(zero))
+                .collect(),
+        )
+    }
+
+    fn too_large(&mut self, at: usize, count: usize) {
+        if !self.refused {
+            let spans = self.checked.nodes[at].spans;
+            self.refuse(
+                spans,
+                &format!("this grows past {count} operations"),
+                "a definition has at most 32768 operations: write sums with `sum(i in 0..N) { … }`, which stay loops",
+            );
+        }
+    }
+
+    fn answer(&self, node: NodeId, demand: &Demand) -> Option<Node> {
+        if demand.indices.is_empty() && demand.values.is_empty() {
+            return self.plain[node.0 as usize];
+        }
+        self.answers.get(&(node.0, demand.clone())).copied()
+    }
+
+    fn note(&mut self, node: NodeId, demand: Demand, value: Node) {
+        if demand.indices.is_empty() && demand.values.is_empty() {
+            self.plain[node.0 as usize] = Some(value);
+        } else {
+            self.answers.insert((node.0, demand), value);
+        }
+    }
+
+    /// The node of a demand whose children's demands are answered.
+    fn combine(
+        &mut self,
+        model: &mut Model,
+        node: NodeId,
+        demand: &Demand,
+        values: &[Node],
+    ) -> Node {
+        let checked = self.checked;
+        let this = checked.node(node);
+        let dag = &mut model.dag;
+        match (&this.kind, values) {
+            (Kind::Number(value), _) => dag.constant(number(value)),
+            (Kind::Pi, _) => dag.pi(),
+            (Kind::Coordinate(group), _) => {
+                self.phase(model, node, Side::Q, group.0 as usize, demand)
+            }
+            (Kind::Momentum(group), _) => {
+                self.phase(model, node, Side::P, group.0 as usize, demand)
+            }
+            (Kind::Time, _) => dag.time(),
+            (Kind::Parameter(parameter), _) => {
+                let parameter = Parameter(parameter.0 as u16);
+                match demand.indices.as_slice() {
+                    [] => dag.parameter(parameter),
+                    [row] => dag.element(Array::Parameter(parameter), row.clone(), None),
+                    [row, column, ..] => dag.element(
+                        Array::Parameter(parameter),
+                        row.clone(),
+                        Some(column.clone()),
+                    ),
+                }
+            }
+            (Kind::Capture(capture), _) => dag.parameter(Parameter(
+                (checked.parameters.len() + capture.0 as usize) as u16,
+            )),
+            (Kind::Size(size), _) => dag.extent(Size(size.0 as u16)),
+            (Kind::Loop(id), _) => match demand.value(*id) {
+                Some(value) => dag.integer(value),
+                None => {
+                    let domain = self.domain(dag, *id, demand);
+                    dag.variable(domain)
+                }
+            },
+            (Kind::Hamiltonian, _) => match model.hamiltonian {
+                Some(h) => h,
+                None => dag.integer(0),
+            },
+            (Kind::Neg(_), [a]) => dag.neg(*a),
+            (Kind::Not(_), [a]) => dag.not(*a),
+            (Kind::Add(..), [a, b]) => dag.add(&[*a, *b]),
+            (Kind::Sub(..), [a, b]) => dag.sub(*a, *b),
+            (Kind::Div(..), [a, b]) => dag.div(*a, *b),
+            (Kind::Pow(..), [a, b]) => dag.pow(*a, *b),
+            (Kind::And(..), [a, b]) => dag.and(*a, *b),
+            (Kind::Or(..), [a, b]) => dag.or(*a, *b),
+            (Kind::Compare(comparison, ..), [a, b]) => compare(dag, *comparison, *a, *b),
+            (Kind::Bracket(..), [a, b]) => match bracket(dag, *a, *b) {
+                Some(value) => value,
+                None => {
+                    self.refuse(
+                        this.spans,
+                        "a bracket of sums over coordinates with indices cannot be formed",
+                        "write the coordinates out, or state the result",
+                    );
+                    *a
+                }
+            },
+            (Kind::Mul(a, b), values) => match (checked.node(*a).ty, checked.node(*b).ty) {
+                (Type::Matrix(_, columns), Type::Vector(_)) => {
+                    let run = self.run(dag, node, &[*b], columns, demand);
+                    products(dag, run, values)
+                }
+                _ => dag.mul(values),
+            },
+            (Kind::Index { .. } | Kind::Vector(_), [value, ..]) => *value,
+            (Kind::Call(function, items), values) => {
+                self.call(dag, node, *function, items, demand, values)
+            }
+            (Kind::Function(function, _), values) => {
+                dag.external(function.0 as u16, Part::Value, values)
+            }
+            (Kind::Sum { loops, .. }, values) => self.sum(dag, loops.clone(), demand, values),
+            (Kind::If { .. }, [condition, then, otherwise]) => {
+                dag.select(*condition, *then, *otherwise)
+            }
+            // What was refused is not answered.
+            _ => dag.integer(0),
+        }
+    }
+
+    /// An element of a group.
+    fn phase(
+        &mut self,
+        model: &mut Model,
+        node: NodeId,
+        side: Side,
+        group: usize,
+        demand: &Demand,
+    ) -> Node {
+        let spans = self.checked.node(node).spans;
+        let column = match &model.groups[group].shape {
+            Shape::Matrix(_, columns) => {
+                let length = columns
+                    .as_constant()
+                    .and_then(|n| usize::try_from(n).ok())
+                    .unwrap_or(0);
+                self.number(spans, demand, 1, length).unwrap_or(0)
+            }
+            Shape::Scalar | Shape::Vector(_) => 0,
+        };
+        let row = demand
+            .indices
+            .first()
+            .cloned()
+            .unwrap_or_else(|| Index::constant(0));
+        let array = Array::Phase {
+            side,
+            group: group as u16,
+            column: column as u16,
+        };
+        model.dag.element(array, row, None)
+    }
+
+    fn call(
+        &mut self,
+        dag: &mut Dag,
+        node: NodeId,
+        function: Builtin,
+        items: &[NodeId],
+        demand: &Demand,
+        values: &[Node],
+    ) -> Node {
+        match function {
+            Builtin::Dot | Builtin::Norm | Builtin::NormSquared => {
+                let Type::Vector(extent) = self.checked.node(items[0]).ty else {
+                    return dag.integer(0);
+                };
+                let run = self.run(dag, node, items, extent, demand);
+                if function == Builtin::Dot {
+                    return products(dag, run, values);
+                }
+                let squared = match run {
+                    Run::Numbers(_) => dag.sum_of_squares(values),
+                    Run::Loop(domain) => {
+                        let square = dag.powi(values[0], 2);
+                        dag.reduce(domain, square)
+                    }
+                };
+                if function == Builtin::Norm {
+                    dag.call(Op::Sqrt, &[squared])
+                } else {
+                    squared
+                }
+            }
+            Builtin::Cross => match values {
+                [a, b, c, d] => {
+                    let (first, second) = (dag.mul(&[*a, *b]), dag.mul(&[*c, *d]));
+                    dag.sub(first, second)
+                }
+                _ => dag.integer(0),
+            },
+            _ => {
+                let name = FUNCTIONS
+                    .iter()
+                    .find(|entry| entry.function == function)
+                    .map(|entry| entry.name);
+                match name.and_then(Op::named) {
+                    Some(op) => dag.call(op, values),
+                    None => dag.integer(0),
+                }
+            }
+        }
+    }
+
+    fn sum(
+        &mut self,
+        dag: &mut Dag,
+        loops: core::ops::Range<u32>,
+        demand: &Demand,
+        values: &[Node],
+    ) -> Node {
+        let written = self
+            .written_values(dag, loops.clone(), demand)
+            .unwrap_or_default();
+        let kept: Vec<LoopId> = loops
+            .rev()
+            .map(LoopId)
+            .filter(|id| !self.loops.is_written(*id))
+            .collect();
+        let mut nests: Vec<Vec<Domain>> = Vec::new();
+        for one in &written {
+            nests.push(kept.iter().map(|id| self.domain(dag, *id, one)).collect());
+        }
+        let over = |dag: &mut Dag, nest: &[Domain], body: Node| {
+            nest.iter()
+                .fold(body, |sum, domain| dag.reduce(*domain, sum))
+        };
+        // What is written out stands inside the loops that stay, where these are the same.
+        if let Some((first, rest)) = nests.split_first() {
+            if rest.iter().all(|nest| nest == first) {
+                let body = dag.add(values);
+                return over(dag, first, body);
+            }
+        }
+        let terms: Vec<Node> = nests
+            .iter()
+            .zip(values)
+            .map(|(nest, value)| over(dag, nest, *value))
+            .collect();
+        dag.add(&terms)
+    }
+}
+
+fn compare(dag: &mut Dag, comparison: Comparison, a: Node, b: Node) -> Node {
+    match comparison {
+        Comparison::Less => dag.less(a, b),
+        Comparison::LessEqual => dag.less_equal(a, b),
+        Comparison::Greater => dag.less(b, a),
+        Comparison::GreaterEqual => dag.less_equal(b, a),
+        Comparison::Equal => dag.equal(a, b),
+        Comparison::NotEqual => {
+            let equal = dag.equal(a, b);
+            dag.not(equal)
+        }
+    }
+}
+
+/// Σ of products of pairs, over a loop or one by one.
+fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
+    let terms: Vec<(Rational, Node)> = values
+        .chunks_exact(2)
+        .map(|pair| (Rational::ONE, dag.mul(pair)))
+        .collect();
+    match (run, terms.first()) {
+        (Run::Loop(domain), Some((_, body))) => {
+            let body = *body;
+            dag.reduce(domain, body)
+        }
+        _ => dag.linear(&Rational::ZERO, &terms),
+    }
+}

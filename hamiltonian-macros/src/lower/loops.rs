@@ -1,0 +1,172 @@
+//! Loops of sums: which expression depends on which, how they nest, and which are written out.
+//!
+//! Input: [`Checked`]. Output: [`Loops`]. Invariants: the loops an expression depends on lie on
+//! one path of parents; a loop is written out only where its variable chooses a component that
+//! exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`).
+
+use crate::checked::{Affine, Checked, IndexVariable, Kind, LoopId, Node, NodeId, Type};
+use crate::names::Builtin;
+
+/// A set of loops; there are at most 64.
+pub type Set = u64;
+
+/// What is known of loops.
+#[derive(Debug)]
+pub struct Loops {
+    /// The loops each node depends on.
+    free: Vec<Set>,
+    /// Whether components of each node (of its rows, for matrices) exist by number only.
+    by_number: Vec<bool>,
+    /// The loop around each loop, as far as it matters.
+    parents: Vec<Option<LoopId>>,
+    /// How deep each loop stands.
+    depths: Vec<u32>,
+    /// Loops that are written out.
+    written: Set,
+}
+
+fn bit(id: LoopId) -> Set {
+    1 << id.0
+}
+
+fn mentioned(affine: &Affine) -> Set {
+    affine
+        .terms
+        .iter()
+        .fold(0, |set, (variable, _)| match variable {
+            IndexVariable::Loop(id) => set | bit(*id),
+            IndexVariable::Size(_) => set,
+        })
+}
+
+impl Loops {
+    /// Knows nothing.
+    pub fn none() -> Loops {
+        Loops {
+            free: Vec::new(),
+            by_number: Vec::new(),
+            parents: Vec::new(),
+            depths: Vec::new(),
+            written: 0,
+        }
+    }
+
+    /// Reads a definition with at most 64 loops.
+    pub fn of(checked: &Checked) -> Loops {
+        let count = checked.loops.len();
+        let mut loops = Loops {
+            free: Vec::with_capacity(checked.nodes.len()),
+            by_number: Vec::with_capacity(checked.nodes.len()),
+            parents: vec![None; count],
+            depths: vec![0; count],
+            written: 0,
+        };
+        for node in &checked.nodes {
+            let free = loops.free_of(checked, node);
+            loops.free.push(free);
+            let by_number = loops.is_by_number(checked, node);
+            loops.by_number.push(by_number);
+        }
+        // Bounds of a loop that is written out are numbers.
+        loop {
+            let before = loops.written;
+            for (at, one) in checked.loops.iter().enumerate() {
+                if before >> at & 1 == 1 {
+                    loops.written |= mentioned(&one.lower) | mentioned(&one.upper);
+                }
+            }
+            if loops.written == before {
+                break;
+            }
+        }
+        for (at, node) in checked.nodes.iter().enumerate().rev() {
+            if let Kind::Sum { loops: own, .. } = &node.kind {
+                let mut parent = loops.deepest(loops.free[at]);
+                for id in own.clone().map(LoopId) {
+                    loops.parents[id.0 as usize] = parent;
+                    loops.depths[id.0 as usize] =
+                        parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
+                    parent = Some(id);
+                }
+            }
+        }
+        loops
+    }
+
+    fn free_of(&self, checked: &Checked, node: &Node) -> Set {
+        let mut set = 0;
+        node.kind.for_each_child(|child| set |= self.free(child));
+        match &node.kind {
+            Kind::Loop(id) => set |= bit(*id),
+            Kind::Index { index, .. } => set |= mentioned(&index.affine),
+            Kind::Sum { loops, .. } => {
+                for id in loops.clone() {
+                    let one = &checked.loops[id as usize];
+                    set |= mentioned(&one.lower) | mentioned(&one.upper);
+                }
+                for id in loops.clone() {
+                    set &= !bit(LoopId(id));
+                }
+            }
+            _ => {}
+        }
+        set
+    }
+
+    fn is_by_number(&mut self, checked: &Checked, node: &Node) -> bool {
+        let of = |child: NodeId| self.by_number[child.0 as usize];
+        match &node.kind {
+            // Columns of coordinates are separate arrays.
+            Kind::Coordinate(_) | Kind::Momentum(_) | Kind::Velocity(_) => {
+                matches!(node.ty, Type::Matrix(..))
+            }
+            Kind::Vector(_) | Kind::Call(Builtin::Cross, _) => true,
+            Kind::Index { base, index } => {
+                let base_by_number = of(*base);
+                if base_by_number && matches!(checked.node(*base).ty, Type::Vector(_)) {
+                    self.written |= mentioned(&index.affine);
+                }
+                base_by_number
+            }
+            Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
+                (Type::Matrix(..), Type::Vector(_)) => false,
+                _ => of(*a) || of(*b),
+            },
+            Kind::Neg(a) => of(*a),
+            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Div(a, b) => of(*a) || of(*b),
+            Kind::Sum { body, .. } => of(*body),
+            Kind::If {
+                then, otherwise, ..
+            } => of(*then) || of(*otherwise),
+            _ => false,
+        }
+    }
+
+    /// The loops a node depends on.
+    pub fn free(&self, node: NodeId) -> Set {
+        self.free[node.0 as usize]
+    }
+
+    /// Whether components of a vector exist by number only.
+    pub fn by_number(&self, node: NodeId) -> bool {
+        self.by_number[node.0 as usize]
+    }
+
+    /// The loop around a loop.
+    pub fn parent(&self, id: LoopId) -> Option<LoopId> {
+        self.parents[id.0 as usize]
+    }
+
+    /// Whether a loop is written out.
+    pub fn is_written(&self, id: LoopId) -> bool {
+        self.written & bit(id) != 0
+    }
+
+    /// The innermost of loops that lie on one path.
+    pub fn deepest(&self, set: Set) -> Option<LoopId> {
+        let ids = (0..self.depths.len() as u32)
+            .filter(|id| set >> id & 1 == 1)
+            .map(LoopId);
+        ids.max_by_key(|id| self.depths[id.0 as usize])
+    }
+}

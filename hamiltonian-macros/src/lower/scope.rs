@@ -1,0 +1,33 @@
+//! Checked sizes, shapes and numbers in the engine's terms.
+//!
+//! Input: what check resolved. Output: affine forms, shapes, exact numbers. Invariant: size `n` of
+//! the one is size `n` of the other.
+
+use crate::ast::Number;
+use crate::checked::{Extent, Type};
+use hamiltonian_symbolic::index::{Affine, Size};
+use hamiltonian_symbolic::model::Shape;
+use hamiltonian_symbolic::rational::Rational;
+
+/// An extent.
+pub fn size_affine(extent: Extent) -> Affine {
+    match extent {
+        Extent::Literal(value) => Affine::constant(i64::try_from(value).unwrap_or(i64::MAX)),
+        Extent::Size(size) => Affine::size(Size(size.0 as u16)),
+    }
+}
+
+/// A shape.
+pub fn shape(ty: Type) -> Shape {
+    match ty {
+        Type::Bool | Type::Scalar => Shape::Scalar,
+        Type::Vector(rows) => Shape::Vector(size_affine(rows)),
+        Type::Matrix(rows, columns) => Shape::Matrix(size_affine(rows), size_affine(columns)),
+    }
+}
+
+/// A number, exactly.
+pub fn number(number: &Number) -> Rational {
+    // Its digits are digits, and its exponent is that of a finite f64.
+    Rational::decimal(&number.digits, number.exponent).unwrap_or(Rational::ZERO)
+}

@@ -1,0 +1,220 @@
+//! The language with scalar coordinates, end to end: what is defined is what runs.
+
+use hamiltonian::prelude::*;
+use hamiltonian::{Autonomous, Dual, Dynamics, Observable, QuadraticKinetic, Separable};
+
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-14 * (1.0 + a.abs()), "{a} is not {b}");
+}
+
+hamiltonian! {
+    /// A planar pendulum.
+    pub struct Pendulum {
+        /// Mass of the bob.
+        m = 1.0,
+        l = 10.0,
+        g = 9.81,
+    }
+    H(theta; p) = p^2/(2*m*l^2) - m*g*l*cos(theta)
+}
+
+hamiltonian! {
+    /// A driven oscillator with a function of its own.
+    pub struct Driven { a = 0.1, omega = 1.0 }
+    let U(r) = r^2/2 + r^4/4;
+    H(q; p; t) = p^2/2 + U(q) - a*q*cos(omega*t);
+    /// The power the drive puts in, times −1.
+    monitor power = -a*p*cos(omega*t);
+    event crossing = q - sin(t)
+}
+
+hamiltonian! {
+    /// A charge whose mass has no default.
+    pub struct Charge { m, e = -1.0, B = 0.5 }
+    H(x, y; p_x, p_y) = ((p_x + e*B*y/2)^2 + (p_y - e*B*x/2)^2)/(2*m)
+}
+
+hamiltonian! {
+    /// H of the paper's equation (34).
+    pub struct Paper34 {}
+    H = 0.5*(q^2 + 1)*(p^2 + 1)
+}
+
+fn separable<T: hamiltonian::Real, S: Separable<T>>(_: &S) {}
+fn quadratic<S: QuadraticKinetic>(_: &S) {}
+fn autonomous<S: Autonomous>(_: &S) {}
+
+#[test]
+fn item_form_is_a_type_with_defaults() {
+    let pendulum = Pendulum {
+        l: 2.0,
+        ..Default::default()
+    };
+    let state = State::new([0.7], [0.3]);
+    close(
+        pendulum.energy(&state),
+        0.3 * 0.3 / 8.0 - 9.81 * 2.0 * 0.7f64.cos(),
+    );
+    let gradient = pendulum.gradient(&state);
+    close(gradient.q[0], 9.81 * 2.0 * 0.7f64.sin());
+    close(gradient.p[0], 0.3 / 4.0);
+    let by_parameters = pendulum.parameter_gradient(&state);
+    close(by_parameters.g, -2.0 * 0.7f64.cos());
+    close(
+        by_parameters.m,
+        -0.3 * 0.3 / 8.0 - 9.81 * 2.0 * 0.7f64.cos(),
+    );
+    assert_eq!(
+        pendulum.to_string(),
+        "H(theta; p) = p^2/(2*m*l^2) - m*g*l*cos(theta)"
+    );
+    assert_eq!(
+        format!("{:?}", pendulum.clone()),
+        "Pendulum { m: 1.0, l: 2.0, g: 9.81 }"
+    );
+    separable::<f64, _>(&pendulum);
+    quadratic(&pendulum);
+    autonomous(&pendulum);
+    fn shared<T: Send + Sync>(_: &T) {}
+    shared(&pendulum);
+}
+
+#[test]
+fn expression_form_captures_scalars() {
+    let simple = hamiltonian! { H = 0.5*(q^2 + 1)*(p^2 + 1) };
+    close(simple.energy(&State::new([1.0], [2.0])), 5.0);
+    let (m, k) = (1.0, 4);
+    let spring = hamiltonian! { H(x; p_x) = p_x^2/(2*m) + k*x^2/2 };
+    close(spring.energy(&State::new([0.5], [1.0])), 1.0);
+    close(spring.gradient(&State::new([0.5], [1.0])).q[0], 2.0);
+    let mut run = Integrator::new(
+        &spring,
+        StormerVerlet::default(),
+        State::new([1.0], [0.0]),
+        1e-3,
+    )
+    .unwrap();
+    run.advance_to(1.0).unwrap();
+    assert!((run.state().q[0] - 2.0f64.cos()).abs() < 1e-5);
+}
+
+#[test]
+fn time_monitors_and_events() {
+    let driven = Driven {
+        a: 0.2,
+        ..Default::default()
+    };
+    let state = State::new([0.5], [1.5]).at(0.25);
+    let expected = 1.125 + 0.125 + 0.5f64.powi(4) / 4.0 - 0.2 * 0.5 * 0.25f64.cos();
+    close(driven.energy(&state), expected);
+    close(driven.power(&state), -0.2 * 1.5 * 0.25f64.cos());
+    close(driven.crossing(&state), 0.5 - 0.25f64.sin());
+    let prepared = System::<f64>::prepare(&driven);
+    close(
+        prepared.time_derivative(0.25, &state.q, &state.p),
+        0.2 * 0.5 * 0.25f64.sin(),
+    );
+    close(
+        prepared.observable(0, 0.25, &state.q, &state.p),
+        driven.power(&state),
+    );
+    let names: Vec<&str> = <Driven as System<f64>>::OBSERVABLES
+        .iter()
+        .map(|o: &Observable| o.name)
+        .collect();
+    assert_eq!(names, ["power", "crossing"]);
+    separable::<f64, _>(&driven);
+}
+
+#[test]
+fn parameters_without_default_are_arguments_of_new() {
+    let charge = Charge::new(2.0);
+    assert_eq!((charge.m, charge.e, charge.B), (2.0, -1.0, 0.5));
+    let state = State::new([1.0, 2.0], [0.5, -0.5]);
+    let (a, b) = (0.5 - 0.25 * 2.0, -0.5 + 0.25);
+    close(charge.energy(&state), (a * a + b * b) / 4.0);
+    let names: Vec<_> = <Charge as System<f64>>::GROUPS
+        .iter()
+        .map(|g| (g.coordinate, g.momentum))
+        .collect();
+    assert_eq!(names, [("x", "p_x"), ("y", "p_y")]);
+}
+
+#[test]
+fn gradients_and_hessians_are_those_of_duals() {
+    let paper = Paper34::default();
+    let charge = Charge::new(1.5);
+    let driven = Driven::default();
+    check(&paper, [0.4], [-1.2]);
+    check(&charge, [0.4, -0.3], [-1.2, 0.7]);
+    check(&driven, [0.4], [-1.2]);
+}
+
+/// Where scalar coordinates are kept.
+type Scalars<T, const N: usize> =
+    <[T; N] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector;
+
+/// The gradient against duals of H, the Hessian times a direction against duals of the gradient,
+/// and the accumulating flow against the gradient.
+fn check<S, const N: usize>(system: &S, q: [f64; N], p: [f64; N])
+where
+    S: System<f64, Vector = Scalars<f64, N>> + System<Dual<f64>, Vector = Scalars<Dual<f64>, N>>,
+{
+    use hamiltonian::Flow;
+    let t = 0.3;
+    let state = State::new(q, p).at(t);
+    let gradient = System::<f64>::gradient(system, &state);
+    let lift = |values: [f64; N]| values.map(Dual::fixed);
+    for at in 0..2 * N {
+        let (mut dq, mut dp) = (lift(q), lift(p));
+        let expected = if at < N {
+            dq[at].eps = 1.0;
+            gradient.q[at]
+        } else {
+            dp[at - N].eps = 1.0;
+            gradient.p[at - N]
+        };
+        let state = State::new(dq, dp).at(Dual::fixed(t));
+        close(System::<Dual<f64>>::energy(system, &state).eps, expected);
+        let derivative = System::<Dual<f64>>::gradient(system, &state);
+        let (mut vq, mut vp) = ([0.0; N], [0.0; N]);
+        if at < N {
+            vq[at] = 1.0
+        } else {
+            vp[at - N] = 1.0
+        }
+        let direction = State::new(vq, vp);
+        let (mut hq, mut hp) = (direction.q, direction.q);
+        let prepared = System::<f64>::prepare(system);
+        let here = State::new(q, p);
+        prepared.hessian_vector(
+            t,
+            &here.q,
+            &here.p,
+            &direction.q,
+            &direction.p,
+            &mut hq,
+            &mut hp,
+        );
+        for k in 0..N {
+            close(hq[k], derivative.q[k].eps);
+            close(hp[k], derivative.p[k].eps);
+        }
+    }
+    let prepared = System::<f64>::prepare(system);
+    let (mut to_q, mut to_p) = (state.q, state.p);
+    prepared
+        .flow(0.125)
+        .flow(t, &state.q, &state.p, &mut to_q, &mut to_p);
+    for k in 0..N {
+        close(to_q[k], q[k] + 0.125 * gradient.p[k]);
+        close(to_p[k], p[k] - 0.125 * gradient.q[k]);
+    }
+    let (mut dq, mut dp) = (state.q, state.p);
+    let energy = prepared.energy_and_gradient(t, &state.q, &state.p, &mut dq, &mut dp);
+    close(energy, System::<f64>::energy(system, &state));
+    for k in 0..N {
+        close(dq[k], gradient.q[k]);
+        close(dp[k], gradient.p[k]);
+    }
+}

@@ -9,6 +9,7 @@ pub mod index;
 mod instruct;
 pub mod loops;
 pub mod model;
+pub mod normal_form;
 pub mod op;
 pub mod pipeline;
 pub mod print;

@@ -89,6 +89,19 @@ fn products_are_multiplied_out_only_where_they_must_be() {
 }
 
 #[test]
+fn relations_between_functions_are_known() {
+    assert_eq!(
+        parts("p^2*sin(x)^2 + p^2*cos(x)^2 + q"),
+        ("p^2".to_owned(), "q".to_owned())
+    );
+    assert_eq!(
+        parts("exp(q - p)*exp(p)*x"),
+        ("0".to_owned(), "exp(q)*x".to_owned())
+    );
+    assert_eq!(coupling("p^2*sin(x)^2 - p^2*cos(x)^2"), "p^2*sin(x)^2");
+}
+
+#[test]
 fn a_quadratic_kinetic_part_is_recognised() {
     for h in [
         "p^2/2 + q",

@@ -1,11 +1,14 @@
 //! H = T(p, t) + V(q, t), or the term that forbids it.
 //!
 //! Input: a model and its H. Output: [`Split`] or [`Coupling`]. Invariant: term by term first,
-//! which keeps the source's grouping; multiplied out only where that fails.
+//! which keeps the source's grouping; multiplied out only where that fails; relations between
+//! functions (sin² + cos² = 1) only where numbers do not already show that H is not separable.
 
 use super::{Coupling, Split, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::loops::{Sample, sample};
 use crate::model::Model;
+use crate::normal_form;
 use crate::print;
 use crate::rational::Rational;
 
@@ -50,6 +53,11 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
             potential: model.dag.add(&potential),
         });
     };
+    if !is_certainly_coupled(model, h) {
+        if let Some((kinetic, potential)) = normal_form::separated(model, h) {
+            return Ok(Split { kinetic, potential });
+        }
+    }
     Err(Coupling {
         term,
         text: print::text(model, term),
@@ -165,4 +173,37 @@ fn spine(dag: &Dag, root: Node) -> Vec<Node> {
     }
     found.sort_unstable();
     found
+}
+
+/// Whether H(q,p) − H(q′,p) − H(q,p′) + H(q′,p′) is certainly not 0 somewhere: then no T and V
+/// exist, whatever relations hold between the functions in H.
+fn is_certainly_coupled(model: &Model, h: Node) -> bool {
+    let sizes = vec![3; model.sizes.len()];
+    for seed in 0..6 {
+        let at = |q: u64, p: u64| {
+            sample(
+                model,
+                &[h],
+                &sizes,
+                Sample {
+                    seed,
+                    q,
+                    p,
+                    signed: seed % 2 == 1,
+                },
+                &[],
+            )
+            .map(|(values, _)| values[0])
+        };
+        let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1)) else {
+            return false;
+        };
+        let value = a.value - b.value - c.value + d.value;
+        let size = a.value.abs() + b.value.abs() + c.value.abs() + d.value.abs();
+        let error = a.error + b.error + c.error + d.error + size * f64::EPSILON;
+        if value.is_finite() && value.abs() > 16.0 * error {
+            return true;
+        }
+    }
+    false
 }

@@ -1,0 +1,339 @@
+//! The atoms of an algebra: what polynomials are made of.
+//!
+//! Input: leaves and functions of polynomials. Output: [`Atom`] numbers. Invariant: an atom's
+//! arguments are made of atoms with smaller numbers; an atom either is algebraically independent
+//! of those or has its relation here.
+
+use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
+use crate::index::Domain;
+use crate::op::Op;
+use crate::rational::Rational;
+use std::rc::Rc;
+
+/// What an atom is.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub(crate) enum Key {
+    /// A variable, a parameter, π, a size.
+    Leaf(Node),
+    /// The cosine of a base angle.
+    Cos(Poly),
+    /// The sine of a base angle; its square is 1 − cos².
+    Sin(Poly),
+    /// e to a base exponent.
+    Exp(Poly),
+    /// A square or cube root; its square or cube is the polynomial.
+    Root(u32, Poly),
+    /// The logarithm of an absolute value.
+    Ln(Poly),
+    /// The sign: its square is 1, except where the argument takes whole values (then its cube is
+    /// itself), as measure zero does not count.
+    Sign(Poly),
+    /// 1/polynomial: this atom stands for the polynomial, and only negative powers of it occur.
+    Divisor(Poly),
+    /// Any other function.
+    Function(Op, Vec<Poly>),
+    /// A function written in Rust, or a derivative of it.
+    External(u16, Part, Vec<Poly>),
+    /// A sum over a loop of a product that depends on its variable.
+    Sum(Domain, Monomial),
+}
+
+/// An atom with what is known of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    /// What it is.
+    pub(crate) key: Key,
+    /// `atom^n = polynomial`
+    pub(crate) relation: Option<(u32, Rc<Poly>)>,
+    /// The polynomial that took its place, when a finer base was needed.
+    pub(crate) redefined: Option<Rc<Poly>>,
+    /// What it depends on.
+    pub(crate) dependence: Dependence,
+    /// The loop variables it depends on.
+    pub(crate) variables: u64,
+    /// Whether it is known to be ≥ 0.
+    pub(crate) nonnegative: bool,
+    /// Whether it takes whole values only.
+    pub(crate) whole: bool,
+}
+
+/// The base that angles or exponents with one monomial are multiples of.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Base {
+    /// The base is the monomial over this.
+    pub(super) denominator: i64,
+    /// Its cosine, or its exponential.
+    pub(super) first: Atom,
+    /// Its sine.
+    pub(super) second: Atom,
+}
+
+/// An algebra over the leaves of one arena.
+#[derive(Debug)]
+pub(crate) struct Algebra {
+    entries: Vec<Entry>,
+    known: Map<Key, Atom>,
+    pub(super) angles: Map<Monomial, Base>,
+    pub(super) exponents: Map<Monomial, Base>,
+    pub(super) converted: Map<Node, Rc<Poly>>,
+    /// Arguments of functions so far, with whether they have divisors.
+    pub(super) arguments: Vec<(Poly, bool)>,
+    pub(super) any_redefined: bool,
+    /// What may still be spent.
+    pub(crate) budget: Budget,
+}
+
+impl Algebra {
+    /// An empty algebra.
+    pub(crate) fn new(budget: Budget) -> Algebra {
+        Algebra {
+            entries: Vec::new(),
+            known: Map::default(),
+            angles: Map::default(),
+            exponents: Map::default(),
+            converted: Map::default(),
+            arguments: Vec::new(),
+            any_redefined: false,
+            budget,
+        }
+    }
+
+    /// What is known of an atom.
+    pub(crate) fn entry(&self, atom: Atom) -> &Entry {
+        &self.entries[atom as usize]
+    }
+
+    pub(super) fn relate(&mut self, atom: Atom, degree: u32, to: Poly) {
+        self.entries[atom as usize].relation = Some((degree, Rc::new(to)));
+    }
+
+    pub(super) fn redefine(&mut self, atom: Atom, as_what: Poly) {
+        self.entries[atom as usize].redefined = Some(Rc::new(as_what));
+        self.any_redefined = true;
+    }
+
+    /// The atom of a leaf.
+    pub(crate) fn leaf(&mut self, dag: &Dag, node: Node) -> Atom {
+        let key = Key::Leaf(node);
+        if let Some(&atom) = self.known.get(&key) {
+            return atom;
+        }
+        let whole = matches!(
+            dag.kind(node),
+            Kind::Variable(_) | Kind::Extent(_) | Kind::Count(_)
+        );
+        let entry = Entry {
+            key: key.clone(),
+            relation: None,
+            redefined: None,
+            dependence: dag.dependence(node),
+            variables: dag.variables(node),
+            nonnegative: dag.is_nonnegative(node),
+            whole,
+        };
+        self.push(key, entry)
+    }
+
+    /// The atom of a function of polynomials, with its relation.
+    pub(super) fn function(&mut self, key: Key, relation: Option<(u32, Poly)>) -> Atom {
+        if let Some(&atom) = self.known.get(&key) {
+            return atom;
+        }
+        let mut dependence = Dependence::default();
+        let mut variables = 0;
+        let mut read = |poly: &Poly| {
+            for atom in poly.atoms() {
+                dependence.0 |= self.entry(atom).dependence.0;
+                variables |= self.entry(atom).variables;
+            }
+        };
+        let nonnegative = match &key {
+            Key::Leaf(_) | Key::Sum(..) => false,
+            Key::Cos(x) | Key::Sin(x) | Key::Ln(x) | Key::Sign(x) => {
+                read(x);
+                false
+            }
+            Key::Exp(x) => {
+                read(x);
+                true
+            }
+            Key::Root(n, x) => {
+                read(x);
+                *n == 2
+            }
+            Key::Divisor(x) => {
+                read(x);
+                self.is_nonnegative(x)
+            }
+            Key::Function(op, arguments) => {
+                arguments.iter().for_each(read);
+                matches!(op, Op::Acosh)
+            }
+            Key::External(_, _, arguments) => {
+                arguments.iter().for_each(read);
+                false
+            }
+        };
+        let entry = Entry {
+            key: key.clone(),
+            relation: relation.map(|(n, poly)| (n, Rc::new(poly))),
+            redefined: None,
+            dependence,
+            variables,
+            nonnegative,
+            whole: false,
+        };
+        self.push(key, entry)
+    }
+
+    /// The atom of a sum over a loop.
+    pub(crate) fn sum(&mut self, dag: &Dag, domain: Domain, body: Monomial) -> Atom {
+        let key = Key::Sum(domain, body.clone());
+        if let Some(&atom) = self.known.get(&key) {
+            return atom;
+        }
+        let range = dag.range(domain);
+        let mut dependence = Dependence::default();
+        let mut variables = range.start.variables() | range.end.variables();
+        if !(range.start.sizes.is_empty() && range.end.sizes.is_empty()) {
+            dependence.0 |= Dependence::PARAMETER.0;
+        }
+        for (atom, _) in &body.0 {
+            dependence.0 |= self.entry(*atom).dependence.0;
+            variables |= self.entry(*atom).variables;
+        }
+        variables &= !(1u64 << domain.0);
+        let nonnegative = body
+            .0
+            .iter()
+            .all(|(atom, n)| n % 2 == 0 || self.entry(*atom).nonnegative);
+        let entry = Entry {
+            key: key.clone(),
+            relation: None,
+            redefined: None,
+            dependence,
+            variables,
+            nonnegative,
+            whole: false,
+        };
+        self.push(key, entry)
+    }
+
+    fn push(&mut self, key: Key, entry: Entry) -> Atom {
+        let atom = self.entries.len() as Atom;
+        self.entries.push(entry);
+        self.known.insert(key, atom);
+        atom
+    }
+
+    /// Whether a polynomial is ≥ 0 term by term.
+    pub(super) fn is_nonnegative(&self, poly: &Poly) -> bool {
+        poly.terms().iter().all(|(m, k)| {
+            !k.is_negative()
+                && m.0
+                    .iter()
+                    .all(|(atom, n)| n % 2 == 0 || self.entry(*atom).nonnegative)
+        })
+    }
+
+    /// Whether a polynomial takes whole values only, up to a common factor.
+    pub(super) fn is_whole(&self, poly: &Poly) -> bool {
+        poly.terms().iter().all(|(m, _)| {
+            m.0.iter()
+                .all(|(atom, n)| *n > 0 && self.entry(*atom).whole)
+        })
+    }
+
+    /// What a polynomial depends on.
+    pub(crate) fn dependence(&self, monomial: &Monomial) -> Dependence {
+        Dependence(
+            monomial
+                .0
+                .iter()
+                .fold(0, |set, (atom, _)| set | self.entry(*atom).dependence.0),
+        )
+    }
+
+    /// The product, within the budget.
+    pub(crate) fn mul(&mut self, a: &Poly, b: &Poly) -> Result<Poly, Undecided> {
+        a.mul(b, &mut self.budget)
+    }
+
+    /// A power of any sign.
+    pub(crate) fn pow(&mut self, poly: &Poly, n: i32) -> Result<Poly, Undecided> {
+        let base = if n < 0 {
+            self.invert(poly)?
+        } else {
+            poly.clone()
+        };
+        base.pow(n.unsigned_abs(), &mut self.budget)
+    }
+
+    /// 1/polynomial: a term is inverted atom by atom, anything longer becomes a divisor.
+    pub(crate) fn invert(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
+        let (k, monomial, rest) = self.content(poly)?;
+        let k = k.recip().ok_or(Undecided)?;
+        let mut inverse = Poly::constant(k);
+        for &(atom, n) in &monomial.0 {
+            let factor = match &self.entry(atom).key {
+                // The reciprocal of a divisor is what it divides by.
+                Key::Divisor(divisor) if n < 0 => {
+                    let divisor = divisor.clone();
+                    divisor.pow(n.unsigned_abs(), &mut self.budget)?
+                }
+                _ => Poly::atom(atom, n.saturating_neg()),
+            };
+            inverse = self.mul(&inverse, &factor)?;
+        }
+        if rest.as_constant().is_none() {
+            let divisor = self.function(Key::Divisor(rest), None);
+            inverse = inverse.times(&Monomial::atom(divisor, -1));
+        }
+        Ok(inverse)
+    }
+
+    /// The rational and monomial factors that all terms share, and what is left: 1, or a
+    /// polynomial of several terms without negative powers whose last term has the coefficient 1.
+    pub(super) fn content(&mut self, poly: &Poly) -> Result<(Rational, Monomial, Poly), Undecided> {
+        let mut rest = self.canonical(poly)?;
+        let mut monomial = Monomial::default();
+        // Divisors inside are cleared: 1/(1 + 1/d) is d/(d + 1).
+        loop {
+            let divisor = rest
+                .atoms()
+                .into_iter()
+                .rev()
+                .find(|atom| matches!(self.entry(*atom).key, Key::Divisor(_)));
+            let Some(atom) = divisor else { break };
+            let (lowest, cleared) = self.cleared(&rest, atom)?;
+            monomial = monomial.mul(&Monomial::atom(atom, lowest));
+            rest = self.canonical(&cleared)?;
+        }
+        for atom in rest.atoms() {
+            let lowest = rest
+                .terms()
+                .iter()
+                .map(|(m, _)| m.exponent(atom))
+                .min()
+                .unwrap_or(0);
+            if lowest != 0 {
+                monomial = monomial.mul(&Monomial::atom(atom, lowest));
+                rest = rest.times(&Monomial::atom(atom, lowest.saturating_neg()));
+            }
+        }
+        rest = self.canonical(&rest)?;
+        let k = rest
+            .terms()
+            .last()
+            .map_or(Rational::ZERO, |(_, k)| k.clone());
+        if let Some(recip) = k.recip() {
+            rest = rest.scale(&recip);
+        }
+        if let Some((left, one)) = rest.as_term() {
+            let k = k.mul(one);
+            return Ok((k, monomial.mul(&left.clone()), Poly::integer(1)));
+        }
+        Ok((k, monomial, rest))
+    }
+}

@@ -1,0 +1,211 @@
+//! From nodes to polynomials and back.
+//!
+//! Input: nodes of one arena. Output: polynomials over the atoms of an [`Algebra`], and nodes made
+//! from them. Invariant: bottom-up over the arena, each node once.
+
+use super::atoms::{Algebra, Key};
+use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
+use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
+use crate::op::Op;
+use crate::rational::Rational;
+use std::rc::Rc;
+
+impl Algebra {
+    /// The polynomial of a node.
+    pub(crate) fn convert(&mut self, dag: &Dag, root: Node) -> Result<Poly, Undecided> {
+        for node in dag.reachable(&[root]) {
+            if !self.converted.contains_key(&node) {
+                let poly = self.convert_one(dag, node)?;
+                self.converted.insert(node, Rc::new(poly));
+            }
+        }
+        Ok(self.converted[&root].as_ref().clone())
+    }
+
+    fn of(&self, node: Node) -> Rc<Poly> {
+        Rc::clone(&self.converted[&node])
+    }
+
+    fn convert_one(&mut self, dag: &Dag, node: Node) -> Result<Poly, Undecided> {
+        Ok(match dag.kind(node) {
+            Kind::Constant(value) => Poly::constant(value.clone()),
+            Kind::Pi
+            | Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Count(_)
+            | Kind::Element(
+                Array::Phase { .. } | Array::Direction { .. } | Array::Parameter(_),
+                ..,
+            ) => Poly::atom(self.leaf(dag, node), 1),
+            Kind::Sum(c, terms) => {
+                let mut sum = Sum::default();
+                sum.add(&Poly::constant(c.clone()), &Rational::ONE);
+                for (k, child) in terms {
+                    sum.add(&self.of(*child), k);
+                }
+                sum.finish(&self.budget)?
+            }
+            Kind::Product(k, factors) => {
+                let mut product = Poly::constant(k.clone());
+                for (child, n) in factors {
+                    let factor = self.of(*child);
+                    let factor = self.pow(&factor, *n)?;
+                    product = self.mul(&product, &factor)?;
+                }
+                product
+            }
+            Kind::Call(op, arguments) => {
+                let arguments: Vec<Poly> = arguments
+                    .iter()
+                    .map(|x| self.of(*x).as_ref().clone())
+                    .collect();
+                self.call(*op, &arguments)?
+            }
+            Kind::External(function, part, arguments) => {
+                let arguments: Vec<Poly> = arguments
+                    .iter()
+                    .map(|x| self.of(*x).as_ref().clone())
+                    .collect();
+                self.external(*function, *part, &arguments)?
+            }
+            Kind::Reduce(domain, body) => {
+                let bit = 1u64 << domain.0;
+                let body = self.of(*body);
+                let body = self.canonical(&body)?;
+                let mut sum = Sum::default();
+                for (monomial, k) in body.terms() {
+                    let (inside, outside): (Vec<_>, Vec<_>) = monomial
+                        .0
+                        .iter()
+                        .partition(|(atom, _)| self.entry(*atom).variables & bit != 0);
+                    // A body without the variable is a count, which the constructors make.
+                    let looped = self.sum(dag, *domain, Monomial(inside));
+                    sum.add_term(Monomial(outside).mul(&Monomial::atom(looped, 1)), k.clone());
+                }
+                sum.finish(&self.budget)?
+            }
+            Kind::Compare(relation, a, b) => {
+                let (a, b) = (self.of(*a), self.of(*b));
+                let sign = self.sign(&b.sub(&a))?;
+                let half = Rational::new(1, 2);
+                let square = self.mul(&sign, &sign)?;
+                let square = self.canonical(&square)?;
+                match relation {
+                    // sign = 1
+                    Relation::Less => square.add(&sign).scale(&half),
+                    // not sign = −1
+                    Relation::LessEqual => Poly::integer(1).sub(&square.sub(&sign).scale(&half)),
+                    Relation::Equal => Poly::integer(1).sub(&square),
+                }
+            }
+            Kind::Not(a) => Poly::integer(1).sub(&self.of(*a)),
+            Kind::And(a, b) => {
+                let (a, b) = (self.of(*a), self.of(*b));
+                self.mul(&a, &b)?
+            }
+            Kind::Or(a, b) => {
+                let (a, b) = (self.of(*a), self.of(*b));
+                let both = self.mul(&a, &b)?;
+                a.add(&b).sub(&both)
+            }
+            Kind::Select(c, yes, no) => {
+                let (c, yes, no) = (self.of(*c), self.of(*yes), self.of(*no));
+                let difference = yes.sub(&no);
+                let chosen = self.mul(&c, &difference)?;
+                no.add(&chosen)
+            }
+        })
+    }
+
+    /// A polynomial as a node.
+    pub(crate) fn node(&self, dag: &mut Dag, poly: &Poly) -> Node {
+        let atoms = self.nodes_of(dag, poly.atoms());
+        assemble(dag, poly, &atoms)
+    }
+
+    /// The nodes of atoms and of all atoms they are made of, oldest first.
+    fn nodes_of(&self, dag: &mut Dag, wanted: Vec<Atom>) -> Map<Atom, Node> {
+        let mut needed: Vec<Atom> = Vec::new();
+        let mut stack = wanted;
+        let mut seen: Map<Atom, ()> = Map::default();
+        while let Some(atom) = stack.pop() {
+            if seen.insert(atom, ()).is_some() {
+                continue;
+            }
+            needed.push(atom);
+            match &self.entry(atom).key {
+                Key::Leaf(_) => {}
+                Key::Cos(x)
+                | Key::Sin(x)
+                | Key::Exp(x)
+                | Key::Root(_, x)
+                | Key::Ln(x)
+                | Key::Sign(x)
+                | Key::Divisor(x) => stack.extend(x.atoms()),
+                Key::Function(_, arguments) | Key::External(_, _, arguments) => {
+                    stack.extend(arguments.iter().flat_map(Poly::atoms))
+                }
+                Key::Sum(_, body) => stack.extend(body.0.iter().map(|(atom, _)| *atom)),
+            }
+        }
+        needed.sort_unstable();
+        let mut nodes: Map<Atom, Node> = Map::default();
+        for atom in needed {
+            let call = |dag: &mut Dag, op: Op, x: &Poly| {
+                let x = assemble(dag, x, &nodes);
+                dag.call(op, &[x])
+            };
+            let node = match &self.entry(atom).key {
+                Key::Leaf(node) => *node,
+                Key::Cos(x) => call(dag, Op::Cos, x),
+                Key::Sin(x) => call(dag, Op::Sin, x),
+                Key::Exp(x) => call(dag, Op::Exp, x),
+                Key::Root(2, x) => call(dag, Op::Sqrt, x),
+                Key::Root(_, x) => call(dag, Op::Cbrt, x),
+                Key::Ln(x) => {
+                    let size = call(dag, Op::Abs, x);
+                    dag.call(Op::Ln, &[size])
+                }
+                Key::Sign(x) => call(dag, Op::Sign, x),
+                Key::Divisor(x) => assemble(dag, x, &nodes),
+                Key::Function(op, arguments) => {
+                    let arguments: Vec<Node> =
+                        arguments.iter().map(|x| assemble(dag, x, &nodes)).collect();
+                    dag.call(*op, &arguments)
+                }
+                Key::External(function, part, arguments) => {
+                    let arguments: Vec<Node> =
+                        arguments.iter().map(|x| assemble(dag, x, &nodes)).collect();
+                    dag.external(*function, *part, &arguments)
+                }
+                Key::Sum(domain, body) => {
+                    let body = assemble(dag, &Poly::term(Rational::ONE, body.clone()), &nodes);
+                    dag.reduce(*domain, body)
+                }
+            };
+            nodes.insert(atom, node);
+        }
+        nodes
+    }
+}
+
+fn assemble(dag: &mut Dag, poly: &Poly, nodes: &Map<Atom, Node>) -> Node {
+    let mut constant = Rational::ZERO;
+    let mut terms = Vec::with_capacity(poly.terms().len());
+    for (monomial, k) in poly.terms() {
+        if monomial.is_one() {
+            constant = constant.add(k);
+            continue;
+        }
+        let factors: Vec<(Node, i32)> = monomial
+            .0
+            .iter()
+            .map(|(atom, n)| (nodes[atom], *n))
+            .collect();
+        terms.push((k.clone(), dag.product(&Rational::ONE, &factors)));
+    }
+    dag.linear(&constant, &terms)
+}

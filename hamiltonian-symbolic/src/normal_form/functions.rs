@@ -1,0 +1,541 @@
+//! Functions of polynomials in terms of atoms: angles and exponents over common bases, roots,
+//! logarithms and signs of products taken apart.
+//!
+//! Input: canonical polynomials. Output: polynomials. Invariant: each rule here is an identity
+//! wherever the original is defined (logarithms are of absolute values, signs at 0 do not count).
+
+use super::atoms::{Algebra, Base, Key};
+use super::polynomial::{Atom, Monomial, Poly, Undecided};
+use crate::dag::Part;
+use crate::op::{Op, Parity};
+use crate::rational::Rational;
+
+/// Angles with more terms than this are not expanded.
+const LONGEST_ANGLE: usize = 6;
+/// How many arguments of functions are compared with each other.
+const MOST_ARGUMENTS: usize = 64;
+/// Multiples of a base past this are bases of their own.
+const LARGEST_MULTIPLE: i64 = 64;
+
+impl Algebra {
+    /// An elementary function.
+    pub(super) fn call(&mut self, op: Op, x: &[Poly]) -> Result<Poly, Undecided> {
+        let half = Rational::new(1, 2);
+        let one = Poly::integer(1);
+        let first = self.argument(&x[0])?;
+        Ok(match op {
+            Op::Sqrt => self.root(&first)?,
+            Op::Cbrt => {
+                let (sign, first) = self.oriented(first)?;
+                if first.is_zero() {
+                    return Ok(first);
+                }
+                let atom = self.function(Key::Root(3, first.clone()), Some((3, first)));
+                Poly::term(sign, Monomial::atom(atom, 1))
+            }
+            Op::Abs => {
+                let sign = self.sign(&first)?;
+                self.mul(&sign, &first)?
+            }
+            Op::Sign => self.sign(&first)?,
+            Op::Sin => self.angle(&first)?.1,
+            Op::Cos => self.angle(&first)?.0,
+            Op::Tan => {
+                let (cos, sin) = self.angle(&first)?;
+                let cos = self.invert(&cos)?;
+                self.mul(&sin, &cos)?
+            }
+            Op::Exp => self.exponential(&first)?,
+            Op::ExpM1 => self.exponential(&first)?.sub(&one),
+            Op::Sinh | Op::Cosh | Op::Tanh => {
+                let up = self.exponential(&first)?;
+                let down = self.exponential(&first.scale(&Rational::MINUS_ONE))?;
+                let (sinh, cosh) = (up.sub(&down).scale(&half), up.add(&down).scale(&half));
+                match op {
+                    Op::Sinh => sinh,
+                    Op::Cosh => cosh,
+                    _ => {
+                        let cosh = self.invert(&cosh)?;
+                        self.mul(&sinh, &cosh)?
+                    }
+                }
+            }
+            Op::Ln => self.logarithm(&first)?,
+            Op::Ln1p => self.logarithm(&first.add(&one))?,
+            Op::Asinh => {
+                let square = self.mul(&first, &first)?.add(&one);
+                let root = self.root(&square)?;
+                self.logarithm(&first.add(&root))?
+            }
+            Op::Atanh => {
+                let (above, below) = (
+                    self.logarithm(&one.add(&first))?,
+                    self.logarithm(&one.sub(&first))?,
+                );
+                above.sub(&below).scale(&half)
+            }
+            Op::Hypot => {
+                let y = self.argument(&x[1])?;
+                let (a, b) = (self.mul(&first, &first)?, self.mul(&y, &y)?);
+                let sum = a.add(&b);
+                self.root(&sum)?
+            }
+            Op::Min | Op::Max => {
+                let y = self.argument(&x[1])?;
+                let difference = first.sub(&y);
+                let sign = self.sign(&difference)?;
+                let size = self.mul(&sign, &difference)?;
+                let both = first.add(&y);
+                (if op == Op::Min {
+                    both.sub(&size)
+                } else {
+                    both.add(&size)
+                })
+                .scale(&half)
+            }
+            Op::Pow => {
+                let y = self.argument(&x[1])?;
+                let ln = self.logarithm(&first)?;
+                let exponent = self.mul(&y, &ln)?;
+                self.exponential(&exponent)?
+            }
+            Op::Asin | Op::Acos | Op::Atan | Op::Acosh | Op::Atan2 => {
+                let mut arguments = vec![first];
+                for other in &x[1..] {
+                    arguments.push(self.argument(other)?);
+                }
+                let mut sign = Rational::ONE;
+                if op.row().parity == Parity::Odd {
+                    let (k, argument) = self.oriented(arguments.remove(0))?;
+                    if argument.is_zero() {
+                        return Ok(argument);
+                    }
+                    sign = k;
+                    arguments.push(argument);
+                }
+                let atom = self.function(Key::Function(op, arguments), None);
+                Poly::term(sign, Monomial::atom(atom, 1))
+            }
+        })
+    }
+
+    /// The argument of a function in the form it was first met in: with divisors, equal
+    /// polynomials need not look alike.
+    fn argument(&mut self, x: &Poly) -> Result<Poly, Undecided> {
+        let x = self.canonical(x)?;
+        let divided = x
+            .atoms()
+            .into_iter()
+            .any(|atom| matches!(self.entry(atom).key, Key::Divisor(_)));
+        if self.arguments.iter().any(|(known, _)| *known == x) {
+            return Ok(x);
+        }
+        for at in 0..self.arguments.len() {
+            let (known, with_divisors) = self.arguments[at].clone();
+            if (divided || with_divisors) && self.numerator(&x.sub(&known))?.is_zero() {
+                return Ok(known);
+            }
+        }
+        if self.arguments.len() < MOST_ARGUMENTS {
+            self.arguments.push((x.clone(), divided));
+        }
+        Ok(x)
+    }
+
+    /// A function written in Rust.
+    pub(super) fn external(
+        &mut self,
+        function: u16,
+        part: Part,
+        x: &[Poly],
+    ) -> Result<Poly, Undecided> {
+        let mut arguments = Vec::with_capacity(x.len());
+        for argument in x {
+            arguments.push(self.argument(argument)?);
+        }
+        let atom = self.function(Key::External(function, part, arguments), None);
+        Ok(Poly::atom(atom, 1))
+    }
+
+    /// ±1 and the polynomial whose last coefficient is positive.
+    fn oriented(&mut self, poly: Poly) -> Result<(Rational, Poly), Undecided> {
+        Ok(match poly.terms().last() {
+            Some((_, k)) if k.is_negative() => {
+                (Rational::MINUS_ONE, poly.scale(&Rational::MINUS_ONE))
+            }
+            _ => (Rational::ONE, poly),
+        })
+    }
+
+    /// Cosine and sine of an angle, by addition over its base angles.
+    fn angle(&mut self, angle: &Poly) -> Result<(Poly, Poly), Undecided> {
+        let mut sum = (Poly::integer(1), Poly::default());
+        let terms: Vec<(Monomial, Rational)> = if angle.terms().len() > LONGEST_ANGLE {
+            // The whole angle is one base, up to its sign.
+            let (sign, angle) = self.oriented(angle.clone())?;
+            let cos = self.function(Key::Cos(angle.clone()), None);
+            let sin = self.sine(angle, cos);
+            return Ok((Poly::atom(cos, 1), Poly::term(sign, Monomial::atom(sin, 1))));
+        } else {
+            angle.terms().to_vec()
+        };
+        for (monomial, k) in terms {
+            let (n, d) = k.to_small().ok_or(Undecided)?;
+            let (cos, sin, multiple) = self.base_angle(&monomial, n, d)?;
+            let (c, s) = self.multiple(&cos, &sin, multiple)?;
+            sum = self.rotated(&sum, (&c, &s))?;
+        }
+        Ok(sum)
+    }
+
+    /// Cosine and sine of a sum of two angles.
+    fn rotated(&mut self, a: &(Poly, Poly), b: (&Poly, &Poly)) -> Result<(Poly, Poly), Undecided> {
+        let (cc, ss) = (self.mul(&a.0, b.0)?, self.mul(&a.1, b.1)?);
+        let (cs, sc) = (self.mul(&a.0, b.1)?, self.mul(&a.1, b.0)?);
+        Ok((cc.sub(&ss), cs.add(&sc)))
+    }
+
+    fn sine(&mut self, angle: Poly, cos: Atom) -> Atom {
+        let square = Poly::integer(1).sub(&Poly::atom(cos, 2));
+        self.function(Key::Sin(angle), Some((2, square)))
+    }
+
+    /// Cosine and sine of a base of `n/d·monomial`, and the multiple of the base this is.
+    fn base_angle(
+        &mut self,
+        monomial: &Monomial,
+        n: i64,
+        d: i64,
+    ) -> Result<(Poly, Poly, i64), Undecided> {
+        if n.abs() > LARGEST_MULTIPLE {
+            let angle = Poly::term(Rational::new(n.abs(), d), monomial.clone());
+            let cos = self.function(Key::Cos(angle.clone()), None);
+            let sin = self.sine(angle, cos);
+            return Ok((Poly::atom(cos, 1), Poly::atom(sin, 1), n.signum()));
+        }
+        if let (1, [(atom, 1)]) = (d, monomial.0.as_slice()) {
+            if let Some((cos, sin)) = self.inverse_angle(*atom)? {
+                return Ok((cos, sin, n));
+            }
+        }
+        let known = self.angles.get(monomial).copied();
+        let base = match known {
+            Some(base) if base.denominator % d == 0 => base,
+            _ => {
+                let denominator = known.map_or(d, |base| lcm(base.denominator, d));
+                if denominator > LARGEST_MULTIPLE {
+                    return Err(Undecided);
+                }
+                let angle = Poly::term(Rational::new(1, denominator), monomial.clone());
+                let first = self.function(Key::Cos(angle.clone()), None);
+                let second = self.sine(angle, first);
+                let base = Base {
+                    denominator,
+                    first,
+                    second,
+                };
+                self.angles.insert(monomial.clone(), base);
+                if let Some(old) = known {
+                    let (cos, sin) = self.multiple(
+                        &Poly::atom(first, 1),
+                        &Poly::atom(second, 1),
+                        denominator / old.denominator,
+                    )?;
+                    self.redefine(old.first, cos);
+                    self.redefine(old.second, sin);
+                }
+                base
+            }
+        };
+        Ok((
+            Poly::atom(base.first, 1),
+            Poly::atom(base.second, 1),
+            n * (base.denominator / d),
+        ))
+    }
+
+    /// Cosine and sine of an angle that is itself an inverse function.
+    fn inverse_angle(&mut self, atom: Atom) -> Result<Option<(Poly, Poly)>, Undecided> {
+        let Key::Function(op, x) = self.entry(atom).key.clone() else {
+            return Ok(None);
+        };
+        let one = Poly::integer(1);
+        let square = self.mul(&x[0], &x[0])?;
+        Ok(match op {
+            Op::Asin => Some((self.root(&one.sub(&square))?, x[0].clone())),
+            Op::Acos => Some((x[0].clone(), self.root(&one.sub(&square))?)),
+            Op::Atan => {
+                let root = self.root(&one.add(&square))?;
+                let inverse = self.invert(&root)?;
+                Some((inverse.clone(), self.mul(&x[0], &inverse)?))
+            }
+            Op::Atan2 => {
+                let other = self.mul(&x[1], &x[1])?;
+                let root = self.root(&square.add(&other))?;
+                let inverse = self.invert(&root)?;
+                Some((self.mul(&x[1], &inverse)?, self.mul(&x[0], &inverse)?))
+            }
+            _ => None,
+        })
+    }
+
+    /// cos nx and sin nx from cos x and sin x.
+    fn multiple(&mut self, cos: &Poly, sin: &Poly, n: i64) -> Result<(Poly, Poly), Undecided> {
+        if n.abs() == 1 {
+            return Ok((cos.clone(), sin.scale(&Rational::integer(n))));
+        }
+        let (mut c, mut s) = (Poly::integer(1), Poly::default());
+        for _ in 0..n.unsigned_abs() {
+            let next = self.rotated(&(c, s), (cos, sin))?;
+            // Squares of the sine lowered at each step keep the cosine a polynomial in cos x.
+            (c, s) = (self.canonical(&next.0)?, self.canonical(&next.1)?);
+        }
+        Ok((
+            c,
+            if n < 0 {
+                s.scale(&Rational::MINUS_ONE)
+            } else {
+                s
+            },
+        ))
+    }
+
+    /// e^exponent: a product over base exponents; e^(n ln x) is a power of x.
+    fn exponential(&mut self, exponent: &Poly) -> Result<Poly, Undecided> {
+        let mut product = Poly::integer(1);
+        for (monomial, k) in exponent.terms().to_vec() {
+            let (n, d) = k.to_small().ok_or(Undecided)?;
+            let factor = match self.power_of_logarithm(&monomial, n, d)? {
+                Some(factor) => factor,
+                None => {
+                    let known = self.exponents.get(&monomial).copied();
+                    let base = match known {
+                        Some(base) if base.denominator % d == 0 => base,
+                        _ => {
+                            let denominator = known.map_or(d, |base| lcm(base.denominator, d));
+                            let base = Poly::term(Rational::new(1, denominator), monomial.clone());
+                            let relation = self.power_relation(&monomial, denominator);
+                            let first = self.function(Key::Exp(base), relation);
+                            let base = Base {
+                                denominator,
+                                first,
+                                second: first,
+                            };
+                            self.exponents.insert(monomial.clone(), base);
+                            if let Some(old) = known {
+                                let times = i32::try_from(denominator / old.denominator)
+                                    .map_err(|_| Undecided)?;
+                                self.redefine(old.first, Poly::atom(first, times));
+                            }
+                            base
+                        }
+                    };
+                    let n = n
+                        .checked_mul(base.denominator / d)
+                        .and_then(|n| i32::try_from(n).ok());
+                    Poly::atom(base.first, n.ok_or(Undecided)?)
+                }
+            };
+            product = self.mul(&product, &factor)?;
+        }
+        Ok(product)
+    }
+
+    /// e^(n/d·ln x) where the exponent is just that, d ≤ 3.
+    fn power_of_logarithm(
+        &mut self,
+        monomial: &Monomial,
+        n: i64,
+        d: i64,
+    ) -> Result<Option<Poly>, Undecided> {
+        let [(atom, 1)] = monomial.0.as_slice() else {
+            return Ok(None);
+        };
+        let Key::Ln(x) = self.entry(*atom).key.clone() else {
+            return Ok(None);
+        };
+        let Ok(n) = i32::try_from(n) else {
+            return Ok(None);
+        };
+        Ok(match d {
+            1 => Some(self.pow(&x, n)?),
+            2 => {
+                let root = self.root(&x)?;
+                Some(self.pow(&root, n)?)
+            }
+            3 => {
+                let root = self.call(Op::Cbrt, &[x])?;
+                Some(self.pow(&root, n)?)
+            }
+            _ => None,
+        })
+    }
+
+    /// (e^(ln x/d))^d = x
+    fn power_relation(&self, monomial: &Monomial, d: i64) -> Option<(u32, Poly)> {
+        let [(atom, 1)] = monomial.0.as_slice() else {
+            return None;
+        };
+        match &self.entry(*atom).key {
+            Key::Ln(x) => Some((u32::try_from(d).ok()?, x.clone())),
+            _ => None,
+        }
+    }
+
+    /// √poly: squares come out, as absolute values.
+    fn root(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
+        let (k, monomial, rest) = self.content(poly)?;
+        if k.is_zero() {
+            return Ok(Poly::default());
+        }
+        let mut outside = Poly::integer(1);
+        let mut inside = rest.scale(&if k.is_negative() {
+            Rational::MINUS_ONE
+        } else {
+            Rational::ONE
+        });
+        for &(atom, n) in &monomial.0 {
+            if let Key::Exp(exponent) = self.entry(atom).key.clone() {
+                let factor = self.exponential(&exponent.scale(&Rational::new(i64::from(n), 2)))?;
+                outside = self.mul(&outside, &factor)?;
+                continue;
+            }
+            let half = n.div_euclid(2);
+            if half != 0 {
+                let mut factor = Poly::atom(atom, half);
+                if half % 2 != 0 {
+                    let sign = self.sign(&Poly::atom(atom, 1))?;
+                    factor = self.mul(&factor, &sign)?;
+                }
+                outside = self.mul(&outside, &factor)?;
+            }
+            if n.rem_euclid(2) == 1 {
+                let factor = match &self.entry(atom).key {
+                    Key::Divisor(divisor) => divisor.clone(),
+                    _ => Poly::atom(atom, 1),
+                };
+                inside = self.mul(&inside, &factor)?;
+            }
+        }
+        for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
+            let whole = Rational::integer(prime)
+                .pow(n.div_euclid(2))
+                .ok_or(Undecided)?;
+            outside = outside.scale(&whole);
+            if n.rem_euclid(2) == 1 {
+                let radicand = Poly::integer(prime);
+                let atom = self.function(Key::Root(2, radicand.clone()), Some((2, radicand)));
+                outside = outside.times(&Monomial::atom(atom, 1));
+            }
+        }
+        let inside = self.canonical(&inside)?;
+        if inside.as_constant().is_some_and(|c| c.is_one()) {
+            return Ok(outside);
+        }
+        let atom = self.function(Key::Root(2, inside.clone()), Some((2, inside)));
+        self.mul(&outside, &Poly::atom(atom, 1))
+    }
+
+    /// ln|poly|: of a product the sum of its logarithms.
+    fn logarithm(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
+        let (k, monomial, rest) = self.content(poly)?;
+        let mut sum = Poly::default();
+        for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
+            let atom = self.function(Key::Ln(Poly::integer(prime)), None);
+            sum = sum.add(&Poly::term(
+                Rational::integer(i64::from(n)),
+                Monomial::atom(atom, 1),
+            ));
+        }
+        for &(atom, n) in &monomial.0 {
+            let of_atom = match self.entry(atom).key.clone() {
+                Key::Exp(exponent) => exponent,
+                Key::Root(degree, x) => self
+                    .logarithm(&x)?
+                    .scale(&Rational::new(1, i64::from(degree))),
+                Key::Sign(_) => Poly::default(),
+                Key::Divisor(x) => self.logarithm(&x)?,
+                _ => Poly::atom(self.function(Key::Ln(Poly::atom(atom, 1)), None), 1),
+            };
+            sum = sum.add(&of_atom.scale(&Rational::integer(i64::from(n))));
+        }
+        if rest.as_constant().is_none() {
+            let atom = self.function(Key::Ln(rest), None);
+            sum = sum.add(&Poly::atom(atom, 1));
+        }
+        Ok(sum)
+    }
+
+    /// The sign of a polynomial: of a product the product of its signs.
+    pub(super) fn sign(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
+        let (k, monomial, rest) = self.content(poly)?;
+        if k.is_zero() {
+            return Ok(Poly::default());
+        }
+        let mut sign = Poly::integer(if k.is_negative() { -1 } else { 1 });
+        for &(atom, n) in &monomial.0 {
+            let entry = self.entry(atom);
+            if n % 2 == 0 || entry.nonnegative {
+                continue;
+            }
+            let factor = match entry.key.clone() {
+                Key::Sign(_) => Poly::atom(atom, 1),
+                Key::Divisor(x) => self.sign_atom(&x),
+                Key::Root(3, x) => self.sign(&x)?,
+                _ => self.sign_atom(&Poly::atom(atom, 1)),
+            };
+            sign = self.mul(&sign, &factor)?;
+        }
+        if rest.as_constant().is_none() && !self.is_nonnegative(&rest) {
+            let factor = self.sign_atom(&rest);
+            sign = self.mul(&sign, &factor)?;
+        }
+        self.canonical(&sign)
+    }
+
+    fn sign_atom(&mut self, of: &Poly) -> Poly {
+        let key = Key::Sign(of.clone());
+        let atom = if self.is_whole(of) {
+            // −1, 0 or 1: indices of loops do meet.
+            let own = self.function(key.clone(), None);
+            self.relate(own, 3, Poly::atom(own, 1));
+            own
+        } else {
+            self.function(key, Some((2, Poly::integer(1))))
+        };
+        Poly::atom(atom, 1)
+    }
+}
+
+/// The prime factors of a positive rational with their exponents; what is left past 1000 counts
+/// as prime. `None` for very large numbers.
+fn factored(value: &Rational) -> Option<Vec<(i64, i32)>> {
+    let (n, d) = value.to_small()?;
+    let mut factors: Vec<(i64, i32)> = Vec::new();
+    for (number, sign) in [(n, 1), (d, -1)] {
+        let mut rest = number;
+        for prime in (2..1000).take_while(|p| p * p <= number) {
+            let mut count = 0;
+            while rest % prime == 0 {
+                rest /= prime;
+                count += sign;
+            }
+            if count != 0 {
+                factors.push((prime, count));
+            }
+        }
+        if rest > 1 {
+            factors.push((rest, sign));
+        }
+    }
+    factors.sort_unstable();
+    Some(factors)
+}
+
+fn lcm(a: i64, b: i64) -> i64 {
+    let (mut x, mut y) = (a, b);
+    while y != 0 {
+        (x, y) = (y, x % y);
+    }
+    (a / x).saturating_mul(b)
+}

@@ -1,0 +1,135 @@
+//! The normal form: expressions as polynomials over algebraically independent atoms, and the
+//! question whether an expression is identically zero.
+//!
+//! Input: nodes. Output: [`Proof`]. Invariant: deterministic, and never past a budget; what is
+//! said to be zero is zero wherever it is defined (up to a set without volume, on which conditions
+//! meet), what is said not to be is not at the point given.
+//!
+//! Atoms are variables, parameters and functions of normal forms. Relations that are known:
+//! sin² + cos² = 1 and sums and multiples of angles, hyperbolic functions and powers as
+//! exponentials, e^a·e^b = e^(a+b), e^(n ln x) = xⁿ, (√x)² = x, logarithms of products, |x| = x·sign x,
+//! min, max and `if` as signs, polynomials below fraction lines brought over a common denominator.
+//! A loop is an atom for each product it sums.
+
+mod atoms;
+mod convert;
+mod functions;
+mod polynomial;
+mod reduce;
+
+pub(crate) use atoms::{Algebra, Key};
+pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
+
+use crate::dag::{Dependence, Kind, Node};
+use crate::loops::{Point, Sample, sample, unroll_nodes};
+use crate::model::Model;
+
+/// What one expansion may cost.
+pub(crate) const BUDGET: Budget = Budget {
+    terms: 20_000,
+    products: 400_000,
+};
+
+/// Whether an expression is identically zero.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Proof {
+    /// It is.
+    Zero,
+    /// It is not: its value at a point.
+    NonZero {
+        /// The names of what it depends on with their values; sizes included.
+        point: Point,
+        /// Its value there.
+        value: f64,
+    },
+    /// Neither was shown.
+    Undecided,
+}
+
+/// Whether a node is identically zero. With sizes that are not literal, zero means for all sizes,
+/// and not zero for some small one.
+#[must_use]
+pub fn is_zero(model: &Model, node: Node) -> Proof {
+    if model.dag.is_zero(node) {
+        return Proof::Zero;
+    }
+    if let Some((point, value)) = witness(model, node) {
+        return Proof::NonZero { point, value };
+    }
+    let mut algebra = Algebra::new(BUDGET);
+    let vanishes = |algebra: &mut Algebra, model: &Model, node: Node| {
+        let poly = algebra.convert(&model.dag, node)?;
+        algebra.numerator(&poly)
+    };
+    if vanishes(&mut algebra, model, node).is_ok_and(|poly| poly.is_zero()) {
+        return Proof::Zero;
+    }
+    // Loops over literal ranges are sums like any other.
+    let has_loops = model
+        .dag
+        .reachable(&[node])
+        .iter()
+        .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
+    if model.sizes.is_empty() && has_loops {
+        if let Ok((unrolled, images)) = unroll_nodes(model, &[], &[node]) {
+            let mut algebra = Algebra::new(BUDGET);
+            if vanishes(&mut algebra, &unrolled, images[0]).is_ok_and(|poly| poly.is_zero()) {
+                return Proof::Zero;
+            }
+        }
+    }
+    Proof::Undecided
+}
+
+/// The sizes at which a statement about all sizes is tried.
+pub(crate) const TRIED: [i64; 4] = [3, 2, 4, 1];
+
+/// A point where a node is certainly not zero.
+#[must_use]
+pub(crate) fn witness(model: &Model, node: Node) -> Option<(Point, f64)> {
+    let tried: &[i64] = if model.sizes.is_empty() { &[0] } else { &TRIED };
+    for &size in tried {
+        let sizes = vec![size; model.sizes.len()];
+        for seed in 0..4 {
+            let how = Sample {
+                seed,
+                signed: seed % 2 == 1,
+                ..Sample::default()
+            };
+            let Some((values, mut point)) = sample(model, &[node], &sizes, how, &[]) else {
+                break;
+            };
+            if values[0].is_nonzero() {
+                point.splice(
+                    0..0,
+                    model.sizes.iter().map(|name| (name.clone(), size as f64)),
+                );
+                return Some((point, values[0].value));
+            }
+        }
+    }
+    None
+}
+
+/// T and V of an H that its normal form separates.
+pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
+    let mut algebra = Algebra::new(BUDGET);
+    let poly = algebra
+        .convert(&model.dag, h)
+        .and_then(|poly| algebra.canonical(&poly))
+        .ok()?;
+    let (mut kinetic, mut potential) = (Poly::default(), Poly::default());
+    for (monomial, k) in poly.terms() {
+        let dependence = algebra.dependence(monomial);
+        let term = Poly::term(k.clone(), monomial.clone());
+        match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
+            (true, true) => return None,
+            (_, true) => kinetic = kinetic.add(&term),
+            _ => potential = potential.add(&term),
+        }
+    }
+    Some((
+        algebra.node(&mut model.dag, &kinetic),
+        algebra.node(&mut model.dag, &potential),
+    ))
+}

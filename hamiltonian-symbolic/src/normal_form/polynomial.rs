@@ -1,0 +1,307 @@
+//! Laurent polynomials with rational coefficients.
+//!
+//! Input: numbers of atoms. Output: [`Poly`]. Invariant: terms sorted by monomial, no zero
+//! coefficients, atoms of a monomial sorted and with exponents other than 0, so that equal
+//! polynomials are equal values; every product is charged to a [`Budget`].
+
+use crate::dag::Map;
+use crate::rational::Rational;
+
+/// The number of an atom in its algebra.
+pub(crate) type Atom = u32;
+
+/// The expansion grew past its budget, or divided by 0: nothing was decided.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Undecided;
+
+/// What an expansion may still cost.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Budget {
+    /// The most terms a polynomial may have.
+    pub(crate) terms: usize,
+    /// How many products of terms are left.
+    pub(crate) products: usize,
+}
+
+impl Budget {
+    fn charge(&mut self, products: usize) -> Result<(), Undecided> {
+        self.products = self.products.checked_sub(products).ok_or(Undecided)?;
+        Ok(())
+    }
+}
+
+/// `Π atom^n`
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+pub(crate) struct Monomial(pub(crate) Vec<(Atom, i32)>);
+
+impl Monomial {
+    /// One atom.
+    pub(crate) fn atom(atom: Atom, n: i32) -> Monomial {
+        Monomial(if n == 0 { Vec::new() } else { vec![(atom, n)] })
+    }
+    /// The product.
+    pub(crate) fn mul(&self, other: &Monomial) -> Monomial {
+        let (a, b) = (&self.0, &other.0);
+        let mut product = Vec::with_capacity(a.len() + b.len());
+        let (mut i, mut j) = (0, 0);
+        while i < a.len() && j < b.len() {
+            if a[i].0 < b[j].0 {
+                product.push(a[i]);
+                i += 1;
+            } else if b[j].0 < a[i].0 {
+                product.push(b[j]);
+                j += 1;
+            } else {
+                let n = a[i].1.saturating_add(b[j].1);
+                if n != 0 {
+                    product.push((a[i].0, n));
+                }
+                i += 1;
+                j += 1;
+            }
+        }
+        product.extend_from_slice(&a[i..]);
+        product.extend_from_slice(&b[j..]);
+        Monomial(product)
+    }
+    /// The power.
+    pub(crate) fn pow(&self, n: i32) -> Monomial {
+        if n == 0 {
+            return Monomial::default();
+        }
+        Monomial(
+            self.0
+                .iter()
+                .map(|(atom, m)| (*atom, m.saturating_mul(n)))
+                .collect(),
+        )
+    }
+    /// The exponent of an atom.
+    pub(crate) fn exponent(&self, atom: Atom) -> i32 {
+        self.0
+            .iter()
+            .find(|(a, _)| *a == atom)
+            .map_or(0, |entry| entry.1)
+    }
+    /// The same without an atom.
+    pub(crate) fn without(&self, atom: Atom) -> Monomial {
+        Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().collect())
+    }
+    /// Whether this is 1.
+    pub(crate) fn is_one(&self) -> bool {
+        self.0.is_empty()
+    }
+}
+
+/// `Σ k·Π atom^n`
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
+pub(crate) struct Poly {
+    terms: Vec<(Monomial, Rational)>,
+}
+
+impl Poly {
+    /// A number.
+    pub(crate) fn constant(value: Rational) -> Poly {
+        Poly::term(value, Monomial::default())
+    }
+    /// An integer.
+    pub(crate) fn integer(value: i64) -> Poly {
+        Poly::constant(Rational::integer(value))
+    }
+    /// `k·monomial`
+    pub(crate) fn term(k: Rational, monomial: Monomial) -> Poly {
+        Poly {
+            terms: if k.is_zero() {
+                Vec::new()
+            } else {
+                vec![(monomial, k)]
+            },
+        }
+    }
+    /// An atom to a power.
+    pub(crate) fn atom(atom: Atom, n: i32) -> Poly {
+        Poly::term(Rational::ONE, Monomial::atom(atom, n))
+    }
+    /// The terms.
+    pub(crate) fn terms(&self) -> &[(Monomial, Rational)] {
+        &self.terms
+    }
+    /// Whether this is 0.
+    pub(crate) fn is_zero(&self) -> bool {
+        self.terms.is_empty()
+    }
+    /// The value, of a constant.
+    pub(crate) fn as_constant(&self) -> Option<Rational> {
+        match self.terms.as_slice() {
+            [] => Some(Rational::ZERO),
+            [(monomial, k)] if monomial.is_one() => Some(k.clone()),
+            _ => None,
+        }
+    }
+    /// The one term, if there is exactly one.
+    pub(crate) fn as_term(&self) -> Option<&(Monomial, Rational)> {
+        match self.terms.as_slice() {
+            [term] => Some(term),
+            _ => None,
+        }
+    }
+    /// A rational multiple.
+    pub(crate) fn scale(&self, k: &Rational) -> Poly {
+        if k.is_zero() {
+            return Poly::default();
+        }
+        Poly {
+            terms: self
+                .terms
+                .iter()
+                .map(|(m, c)| (m.clone(), c.mul(k)))
+                .collect(),
+        }
+    }
+    /// The sum.
+    pub(crate) fn add(&self, other: &Poly) -> Poly {
+        let mut sum = Vec::with_capacity(self.terms.len() + other.terms.len());
+        let (mut a, mut b) = (self.terms.iter().peekable(), other.terms.iter().peekable());
+        loop {
+            match (a.peek(), b.peek()) {
+                (Some(x), Some(y)) if x.0 == y.0 => {
+                    let k = x.1.add(&y.1);
+                    if !k.is_zero() {
+                        sum.push((x.0.clone(), k));
+                    }
+                    a.next();
+                    b.next();
+                }
+                (Some(x), Some(y)) if x.0 < y.0 => sum.extend(a.next().cloned()),
+                (_, Some(_)) => sum.extend(b.next().cloned()),
+                (Some(_), None) => sum.extend(a.next().cloned()),
+                (None, None) => return Poly { terms: sum },
+            }
+        }
+    }
+    /// The difference.
+    pub(crate) fn sub(&self, other: &Poly) -> Poly {
+        self.add(&other.scale(&Rational::MINUS_ONE))
+    }
+    /// The product.
+    pub(crate) fn mul(&self, other: &Poly, budget: &mut Budget) -> Result<Poly, Undecided> {
+        let mut sum = Sum::default();
+        sum.add_product(self, other, budget)?;
+        sum.finish(budget)
+    }
+    /// The product with a monomial.
+    pub(crate) fn times(&self, monomial: &Monomial) -> Poly {
+        let mut terms: Vec<_> = self
+            .terms
+            .iter()
+            .map(|(m, k)| (m.mul(monomial), k.clone()))
+            .collect();
+        terms.sort_unstable();
+        Poly { terms }
+    }
+    /// The power, n ≥ 0.
+    pub(crate) fn pow(&self, n: u32, budget: &mut Budget) -> Result<Poly, Undecided> {
+        if let (Some((monomial, k)), Ok(power)) = (self.as_term(), i32::try_from(n)) {
+            return Ok(Poly::term(
+                k.pow(power).ok_or(Undecided)?,
+                monomial.pow(power),
+            ));
+        }
+        let mut result = Poly::integer(1);
+        for _ in 0..n {
+            result = result.mul(self, budget)?;
+        }
+        Ok(result)
+    }
+    /// The atoms that occur, ascending.
+    pub(crate) fn atoms(&self) -> Vec<Atom> {
+        let mut atoms: Vec<Atom> = self
+            .terms
+            .iter()
+            .flat_map(|(m, _)| m.0.iter().map(|(a, _)| *a))
+            .collect();
+        atoms.sort_unstable();
+        atoms.dedup();
+        atoms
+    }
+    /// The coefficients of the powers of an atom, ascending.
+    pub(crate) fn by_power(&self, atom: Atom) -> Vec<(i32, Poly)> {
+        let mut groups: Vec<(i32, Vec<(Monomial, Rational)>)> = Vec::new();
+        for (monomial, k) in &self.terms {
+            let n = monomial.exponent(atom);
+            let term = (monomial.without(atom), k.clone());
+            match groups.iter_mut().find(|(power, _)| *power == n) {
+                Some((_, terms)) => terms.push(term),
+                None => groups.push((n, vec![term])),
+            }
+        }
+        groups.sort_unstable_by_key(|(n, _)| *n);
+        groups
+            .into_iter()
+            .map(|(n, mut terms)| {
+                terms.sort_unstable();
+                (n, Poly { terms })
+            })
+            .collect()
+    }
+}
+
+/// A sum under construction.
+#[derive(Default)]
+pub(crate) struct Sum {
+    terms: Map<Monomial, Rational>,
+}
+
+impl Sum {
+    /// Adds a term.
+    pub(crate) fn add_term(&mut self, monomial: Monomial, k: Rational) {
+        match self.terms.get_mut(&monomial) {
+            Some(sum) => *sum = sum.add(&k),
+            None => {
+                self.terms.insert(monomial, k);
+            }
+        }
+    }
+    /// Adds a multiple of a polynomial.
+    pub(crate) fn add(&mut self, poly: &Poly, k: &Rational) {
+        for (monomial, c) in &poly.terms {
+            self.add_term(
+                monomial.clone(),
+                if k.is_one() { c.clone() } else { c.mul(k) },
+            );
+        }
+    }
+    /// Adds a product.
+    pub(crate) fn add_product(
+        &mut self,
+        a: &Poly,
+        b: &Poly,
+        budget: &mut Budget,
+    ) -> Result<(), Undecided> {
+        budget.charge(a.terms.len().saturating_mul(b.terms.len()))?;
+        for (m, k) in &a.terms {
+            for (n, l) in &b.terms {
+                self.add_term(m.mul(n), k.mul(l));
+            }
+        }
+        self.check(budget)
+    }
+    fn check(&self, budget: &Budget) -> Result<(), Undecided> {
+        if self.terms.len() > budget.terms {
+            Err(Undecided)
+        } else {
+            Ok(())
+        }
+    }
+    /// The polynomial.
+    pub(crate) fn finish(self, budget: &Budget) -> Result<Poly, Undecided> {
+        self.check(budget)?;
+        let mut terms: Vec<_> = self
+            .terms
+            .into_iter()
+            .filter(|(_, k)| !k.is_zero())
+            .collect();
+        terms.sort_unstable();
+        Ok(Poly { terms })
+    }
+}

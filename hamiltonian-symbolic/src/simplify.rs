@@ -623,13 +623,13 @@ impl Dag {
     pub fn replace(&mut self, root: Node, variable: Domain, by: &Affine) -> Node {
         let mut moved: Map<Domain, Domain> = Map::default();
         let mut new: Map<Node, Node> = Map::default();
+        // The variable itself and those of the loops inside it. A sum over the same loop binds
+        // the variable anew: what stands in it is not free and stays.
+        let inside = (0..self.loop_count() as u32)
+            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
+            .fold(0u64, |set, d| set | 1 << d);
         for node in self.reachable(&[root]) {
-            let touched = {
-                let mut touched = false;
-                self.for_children(node, |child| touched |= new[&child] != child);
-                touched || self.mentions(node, variable)
-            };
-            if !touched {
+            if self.variables(node) & inside == 0 {
                 new.insert(node, node);
                 continue;
             }
@@ -673,20 +673,6 @@ impl Dag {
             new.insert(node, image);
         }
         new[&root]
-    }
-
-    /// Whether a node itself (not its children) names the variable or a loop inside it.
-    fn mentions(&self, node: Node, variable: Domain) -> bool {
-        let set = match self.kind(node) {
-            Kind::Variable(d) | Kind::Reduce(d, _) | Kind::Count(d) => 1u64 << d.0,
-            Kind::Element(_, row, column) => {
-                row.variables() | column.as_ref().map_or(0, Index::variables)
-            }
-            _ => 0,
-        };
-        (0..64)
-            .filter(|d| set >> d & 1 == 1)
-            .any(|d| self.path(Some(Domain(d))).contains(&variable))
     }
 
     /// The image of a loop when `variable` is replaced.

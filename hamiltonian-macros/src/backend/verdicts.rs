@@ -72,14 +72,14 @@ fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
 /// The first coordinate or momentum that a node depends on.
 fn first_name(model: &Model, node: Node, wanted: Side) -> String {
     for leaf in model.dag.reachable(&[node]) {
-        if let Kind::Element(Array::Phase { side, group, .. }, ..) = model.dag.kind(leaf) {
-            if *side == wanted {
-                let group = &model.groups[usize::from(*group)];
-                return match wanted {
-                    Side::Q => group.coordinate.clone(),
-                    Side::P => group.momentum.clone(),
-                };
-            }
+        if let Kind::Element(Array::Phase { side, group, .. }, ..) = model.dag.kind(leaf)
+            && *side == wanted
+        {
+            let group = &model.groups[usize::from(*group)];
+            return match wanted {
+                Side::Q => group.coordinate.clone(),
+                Side::P => group.momentum.clone(),
+            };
         }
     }
     String::new()

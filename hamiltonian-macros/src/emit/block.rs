@@ -9,7 +9,7 @@ use super::layout::{Layout, Slice};
 use super::number;
 use super::scan::is_number;
 use hamiltonian_symbolic::dag::{Array, Part, Relation};
-use hamiltonian_symbolic::index::{Domain, Index};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
 use std::fmt::Write;
@@ -239,11 +239,18 @@ impl<'a> Writer<'a> {
             return self.place(slice, None, row);
         };
         let rows = match &self.context.model.parameters[usize::from(parameter)].shape {
-            Shape::Matrix(rows, _) | Shape::Vector(rows) => self.context.indices.modulus(rows),
+            Shape::Matrix(rows, _) | Shape::Vector(rows) => match rows.as_constant() {
+                Some(number) => number.to_string(),
+                None => self.context.indices.modulus(rows),
+            },
             Shape::Scalar => "0".into(),
         };
-        let (row, column) = (self.index(row), self.index(column));
-        format!("{}[{row} + {rows} * ({column})]", slice.name())
+        let numbers = [&row.affine, &column.affine].map(Affine::as_constant);
+        let place = match (numbers, rows.parse::<i64>()) {
+            ([Some(row), Some(column)], Ok(rows)) => (row + rows * column).to_string(),
+            _ => format!("{} + {rows} * ({})", self.index(row), self.index(column)),
+        };
+        format!("{}[{place}]", slice.name())
     }
 
     /// A loop: whole where no index wraps, in segments otherwise.

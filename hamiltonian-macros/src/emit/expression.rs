@@ -28,13 +28,12 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
     } else {
         format!("<{}>", generics.scalars.join(", "))
     };
-    let mut text = format!(
-        "#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\nstruct {name}{scalars} {{ {fields} }}\n"
-    );
+    let declaration = lex(&format!("struct {name}{scalars} {{ {fields} }}"));
+    let mut text = String::new();
     if context.layout == layout::Layout::Mixed {
-        text.push_str("#[derive(__h::core::clone::Clone, __h::core::fmt::Debug, __h::core::cmp::PartialEq)]\n");
-        text.push_str(&mixed::declaration(context, &generics, "", "__h"));
-        text.push_str(&mixed::implementations(context, &generics, "pub"));
+        text.push_str(&mixed::derives(context, "__h"));
+        text.push_str(&mixed::declaration(context, &generics, "__h"));
+        text.push_str(&mixed::implementations(context, &generics));
     }
     text.push_str(&dynamics::implementations(definition, context, &generics));
     text.push_str(&markers::implementations(&definition.structure, &generics));
@@ -46,11 +45,15 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
     let names = (0..captures.len()).map(|at| lex(&format!("c{at}")));
     quote! {
         {
-            #[allow(unused_imports)]
-            use #root::private as __h;
-            #externals
-            #implementations
-            #inherent
+            #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
+            #declaration
+            #[allow(clippy::approx_constant)]
+            const _: () = {
+                use #root::private as __h;
+                #externals
+                #implementations
+                #inherent
+            };
             #value { #(#names: #captures),* }
         }
     }

@@ -11,6 +11,8 @@ use super::{Definition, Form};
 pub struct Generics {
     /// The name of the type.
     pub name: String,
+    /// The visibility of the type and of all that it brings along.
+    pub visibility: String,
     /// Const generics as they are called in bodies, in declaration order.
     pub constants: Vec<String>,
     /// The scalars of the parameters: one for all in item form, one a capture in expression form.
@@ -43,11 +45,13 @@ impl Generics {
                     fields: item.parameters.iter().map(|p| p.name.to_string()).collect(),
                     sizes: item.sizes.iter().map(|s| s.name.to_string()).collect(),
                     shared: true,
+                    visibility: item.visibility.to_string(),
                     name,
                 }
             }
             Form::Expression(captures) => Generics {
                 name: "HamiltonianValue".into(),
+                visibility: String::new(),
                 constants: Vec::new(),
                 scalars: (0..captures.len()).map(|at| format!("A{at}")).collect(),
                 fields: (0..captures.len()).map(|at| format!("c{at}")).collect(),

@@ -41,10 +41,14 @@ impl Holder {
         let _ = write!(
             out,
             "#[doc(hidden)]\n#[allow(dead_code)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
-             pub struct {}{} {{\nv: [T; {}],\n",
+             {} struct {}{} {{\nv: {},\n",
+            generics.visibility,
             self.name,
             generics.holder_declaration(),
-            self.values.len()
+            match self.values.len() {
+                0 => "__h::core::marker::PhantomData<T>".to_owned(),
+                length => format!("[T; {length}]"),
+            }
         );
         if !self.masks.is_empty() {
             let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", self.masks.len());
@@ -72,7 +76,11 @@ impl Holder {
                 .collect::<Vec<_>>()
                 .join(", ")
         };
-        let mut out = format!("{} {{ v: [{}], ", self.name, list(&self.values));
+        let values = match self.values.len() {
+            0 => "__h::core::marker::PhantomData".to_owned(),
+            _ => format!("[{}]", list(&self.values)),
+        };
+        let mut out = format!("{} {{ v: {values}, ", self.name);
         if !self.masks.is_empty() {
             let _ = write!(out, "m: [{}], ", list(&self.masks));
         }

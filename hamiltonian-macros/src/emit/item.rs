@@ -14,7 +14,7 @@ use super::{
     observables,
 };
 use hamiltonian_symbolic::model::Shape;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
@@ -69,11 +69,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     text.push_str(&markers::implementations(&definition.structure, &generics));
     text.push_str(&display(definition, &generics));
     if context.layout == Layout::Mixed {
-        text.push_str(&mixed::implementations(
-            context,
-            &generics,
-            &item.visibility.to_string(),
-        ));
+        text.push_str(&mixed::implementations(context, &generics));
     }
     text.push_str(&default(item, context, &generics));
     let implementations = lex(&text);
@@ -81,6 +77,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let inherent = inherent(definition, item, context, &generics);
     quote! {
         #declaration
+        #[allow(clippy::approx_constant)]
         const _: () = {
             use #root::private as __h;
             #externals
@@ -134,16 +131,13 @@ fn declaration(
     let allow = allowances(&names);
     let vector = if context.layout == Layout::Mixed {
         let doc = format!(" Coordinates, or momenta, of [`{name}`].");
-        let text = mixed::declaration(context, generics, &visibility.to_string(), "__ROOT__");
+        let text = mixed::declaration(context, generics, "__ROOT__");
         let text = with_root(lex(&text), root);
+        let derives = with_root(lex(&mixed::derives(context, "__ROOT__")), root);
         quote! {
             #[doc = #doc]
-            #[derive(
-                #root::private::core::clone::Clone,
-                #root::private::core::fmt::Debug,
-                #root::private::core::cmp::PartialEq,
-            )]
-            #visibility #text
+            #derives
+            #text
         }
     } else {
         TokenStream::new()
@@ -365,15 +359,17 @@ fn inherent(
 /// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
 fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
     let scalar = generics.scalars.first().map_or("P", String::as_str);
+    // A constant of the user's may have a parameter's name, and an argument may not.
+    let argument = |name: &Ident| Ident::new(&format!("_{name}"), Span::call_site());
     let (mut kinds, mut arguments, mut lets) =
         (TokenStream::new(), TokenStream::new(), TokenStream::new());
     let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());
     for field in &item.fields {
         if let Field::Size(number) = field {
             let name = &item.sizes[*number].name;
-            let local = lex(&format!("_n{number}"));
-            arguments.extend(quote! { #name: __h::core::primitive::usize, });
-            lets.extend(quote! { let #local = #name; });
+            let (local, given) = (lex(&format!("_n{number}")), argument(name));
+            arguments.extend(quote! { #given: __h::core::primitive::usize, });
+            lets.extend(quote! { let #local = #given; });
             names.push(name);
             let _ = write!(fields, "{name}: _n{number}, ");
         }
@@ -397,7 +393,7 @@ fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
         }
         names.push(name);
         let _ = write!(fields, "{name}: _a{number}, ");
-        let local = lex(&format!("_a{number}"));
+        let (local, given) = (lex(&format!("_a{number}")), argument(name));
         let ty = lex(&layout::storage(
             shape,
             scalar,
@@ -407,13 +403,13 @@ fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
         ));
         // A matrix with columns set at run time is no vector of coordinates.
         if *shape == Shape::Scalar || layout::has_dynamic_columns(shape, context.is_run_time) {
-            arguments.extend(quote! { #name: #ty, });
-            lets.extend(quote! { let #local = #name; });
+            arguments.extend(quote! { #given: #ty, });
+            lets.extend(quote! { let #local = #given; });
         } else {
             let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
             kinds.extend(quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, });
-            arguments.extend(quote! { #name: #from, });
-            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#name); });
+            arguments.extend(quote! { #given: #from, });
+            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
         }
         if layout::is_dynamic(shape, context.is_run_time) {
             let (rows, columns) = layout::extents(shape, context.indices);

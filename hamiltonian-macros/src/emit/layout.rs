@@ -228,12 +228,22 @@ pub fn bind(
         let Some((mutable, group)) = part_of(run[0]) else {
             continue;
         };
-        let (vector, part) = (
-            run[0].vector(),
-            if layout == Layout::Mixed { group } else { 0 },
-        );
-        let access = if mutable { "part_mut" } else { "part" };
-        let whole = format!("__h::Vector::{access}({vector}, {part})");
+        let vector = run[0].vector();
+        let suffix = if mutable { "_mut" } else { "" };
+        let field = &model.groups[usize::from(group)];
+        // Two parts of one vector are borrowed at once only as fields.
+        let whole = match (layout, &field.shape) {
+            (Layout::Mixed, Shape::Scalar) => {
+                let borrow = if mutable { "&mut " } else { "&" };
+                let from = if mutable { "from_mut" } else { "from_ref" };
+                format!(
+                    "__h::core::slice::{from}({borrow}{vector}.{})",
+                    field.coordinate
+                )
+            }
+            (Layout::Mixed, _) => format!("{vector}.{}.as{suffix}_slice()", field.coordinate),
+            _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
+        };
         let shape = &model.groups[usize::from(group)].shape;
         if layout == Layout::Scalars || *shape == Shape::Scalar {
             out.push_str(&format!("let {} = {whole};\n", run[0].name()));

@@ -6,7 +6,7 @@
 use super::block::Context;
 use super::generics::Generics;
 use super::layout;
-use hamiltonian_symbolic::model::Shape;
+use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
 /// The name of the struct.
@@ -25,9 +25,23 @@ pub fn ty(generics: &Generics, scalar: &str) -> String {
     format!("{}<{}>", name(generics), arguments.join(", "))
 }
 
-/// The declaration without visibility, attributes and docs: `struct NameVector<T> { … }`, paths
-/// beginning with `root`.
-pub fn declaration(context: Context, generics: &Generics, visibility: &str, root: &str) -> String {
+/// The traits the struct derives: it is `Copy` where static vectors are.
+pub fn derives(context: Context, root: &str) -> String {
+    let is_static = |group: &Group| !layout::is_dynamic(&group.shape, context.is_run_time);
+    let copy = if context.model.groups.iter().all(is_static) {
+        format!("{root}::core::marker::Copy, ")
+    } else {
+        String::new()
+    };
+    format!(
+        "#[derive({copy}{root}::core::clone::Clone, {root}::core::fmt::Debug, {root}::core::cmp::PartialEq)]\n"
+    )
+}
+
+/// The declaration without attributes and docs: `pub struct NameVector<T> { … }`, paths beginning
+/// with `root`.
+pub fn declaration(context: Context, generics: &Generics, root: &str) -> String {
+    let visibility = &generics.visibility;
     let mut parameters: Vec<String> = generics
         .constants
         .iter()
@@ -54,7 +68,7 @@ pub fn declaration(context: Context, generics: &Generics, visibility: &str, root
         );
     }
     format!(
-        "struct {}<{}> {{\n{fields}}}",
+        "{visibility} struct {}<{}> {{\n{fields}}}",
         name(generics),
         parameters.join(", ")
     )
@@ -114,7 +128,8 @@ pub fn constructor(context: Context, generics: &Generics) -> String {
 }
 
 /// The implementations.
-pub fn implementations(context: Context, generics: &Generics, visibility: &str) -> String {
+pub fn implementations(context: Context, generics: &Generics) -> String {
+    let visibility = &generics.visibility;
     let ty = ty(generics, "T");
     let declaration = generics.holder_declaration();
     let groups = &context.model.groups;

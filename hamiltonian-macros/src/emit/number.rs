@@ -3,10 +3,8 @@
 //! Input: exact rationals. Output: text that rustc reads back to the same bits. Invariant: a
 //! number is rounded here and nowhere else.
 
+use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::rational::Rational;
-
-/// π in two words.
-const PI: (f64, f64) = (core::f64::consts::PI, 1.224_646_799_147_353_2e-16);
 
 /// A float as an expression of type `f64`: the shortest decimal that reads back exactly.
 pub fn float(value: f64) -> String {
@@ -27,7 +25,7 @@ pub fn constant(value: &Rational) -> String {
 
 /// π as an expression of the scalar type `T`.
 pub fn pi() -> String {
-    two_words(PI)
+    format!("T::constant(__h::core::f64::consts::PI, {})", float(PI_LOW))
 }
 
 fn two_words((hi, lo): (f64, f64)) -> String {

@@ -345,11 +345,11 @@ impl<'a> Evaluator<'a> {
                 .fold(body, |sum, domain| dag.reduce(*domain, sum))
         };
         // What is written out stands inside the loops that stay, where these are the same.
-        if let Some((first, rest)) = nests.split_first() {
-            if rest.iter().all(|nest| nest == first) {
-                let body = dag.add(values);
-                return over(dag, first, body);
-            }
+        if let Some((first, rest)) = nests.split_first()
+            && rest.iter().all(|nest| nest == first)
+        {
+            let body = dag.add(values);
+            return over(dag, first, body);
         }
         let terms: Vec<Node> = nests
             .iter()

@@ -1,6 +1,7 @@
 //! The symbolic engine of `hamiltonian`: expressions as mathematics, from H to a scheduled program.
 #![forbid(unsafe_code)]
 
+pub mod bracket;
 pub mod dag;
 pub mod diff;
 pub mod eval;
@@ -19,6 +20,7 @@ pub mod schedule;
 pub mod share;
 pub mod simplify;
 pub mod structure;
+pub mod transform;
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

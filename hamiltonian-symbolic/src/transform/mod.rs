@@ -1,0 +1,134 @@
+//! Canonical transformations of a system: another time, other coordinates; the pieces and forces
+//! that are declared beside H, checked and carried along.
+//!
+//! Input: a [`Model`] with its H. Output: a model of the same dynamics in other variables, with
+//! the maps between them as nodes. Invariant: signs stay q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order of the
+//! stages is coordinates, then time, and what is declared beside H (observables, pieces, forces,
+//! the factor of time) is written in the variables of the definition and carried through both.
+
+pub mod charts;
+pub mod coordinates;
+mod reduce;
+pub mod split;
+pub mod time;
+mod verify;
+
+pub use charts::{Bodies, Chart, Component};
+pub use coordinates::{Transformed, apply};
+pub use split::{Difference, Force, check_forces, check_split};
+pub use time::{Retimed, retime};
+pub use verify::check;
+
+use crate::dag::{Array, Dag, Node, Side};
+use crate::index::Index;
+use crate::loops::Point;
+use crate::model::Model;
+use std::fmt;
+
+/// A scalar of phase space and its value: one entry of a map, or of a force.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Entry {
+    /// Coordinates or momenta.
+    pub side: Side,
+    /// The group.
+    pub group: u16,
+    /// The row; 0 in a scalar group.
+    pub row: u32,
+    /// The column; 0 unless the group is of rank 2.
+    pub column: u16,
+    /// What it is.
+    pub value: Node,
+}
+
+/// Why a transformation is refused.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Refusal {
+    /// A name that the transformation introduces is declared already.
+    NameTaken {
+        /// The name.
+        name: String,
+        /// What would introduce it: `polar`.
+        by: &'static str,
+    },
+    /// A coordinate is not of the shape the chart is for.
+    Shape {
+        /// The coordinate.
+        coordinate: String,
+        /// What is asked for.
+        wanted: &'static str,
+    },
+    /// A coordinate of the chart is replaced in part only, or twice.
+    NotWhole {
+        /// The coordinate.
+        coordinate: String,
+    },
+    /// A coordinate of the chart is read in loops that cannot be written out.
+    Loops {
+        /// The coordinate.
+        coordinate: String,
+        /// Why not.
+        reason: String,
+    },
+    /// The factor of the time transformation is none.
+    Factor {
+        /// Why not.
+        reason: &'static str,
+    },
+    /// H in the new variables is not H in the old ones at a point.
+    Unverified {
+        /// The point, in the new variables.
+        point: Point,
+        /// H in the old variables.
+        old: f64,
+        /// H in the new variables.
+        new: f64,
+    },
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Refusal::NameTaken { name, by } => {
+                write!(f, "`{by}` introduces `{name}`, which is declared already")
+            }
+            Refusal::Shape { coordinate, wanted } => write!(f, "`{coordinate}` is not {wanted}"),
+            Refusal::NotWhole { coordinate } => {
+                write!(f, "`{coordinate}` is not replaced as a whole, and once")
+            }
+            Refusal::Loops { coordinate, reason } => write!(
+                f,
+                "`{coordinate}` is read in a loop that cannot be written out: {reason}"
+            ),
+            Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
+            Refusal::Unverified { old, new, .. } => write!(
+                f,
+                "H is {old} in the old coordinates and {new} in the new ones at the same point"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Refusal {}
+
+/// Whether a name is declared in a model.
+fn is_taken(model: &Model, name: &str) -> bool {
+    model
+        .groups
+        .iter()
+        .any(|g| g.coordinate == name || g.momentum == name)
+        || model.parameters.iter().any(|p| p.name == name)
+        || model.sizes.iter().any(|s| s == name)
+        || model.externals.iter().any(|e| e.name == name)
+        || model.observables.iter().any(|o| o.name == name)
+        || model.time.as_deref() == Some(name)
+}
+
+/// The scalar at a literal place of phase space.
+fn element(dag: &mut Dag, side: Side, group: u16, row: u32, column: u16) -> Node {
+    let array = Array::Phase {
+        side,
+        group,
+        column,
+    };
+    dag.element(array, Index::constant(i64::from(row)), None)
+}

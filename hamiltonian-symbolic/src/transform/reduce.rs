@@ -1,0 +1,548 @@
+//! Substitution of coordinates with the simplification that makes it worth while.
+//!
+//! Input: expressions in old variables, the image of each, and the rules of the charts. Output: the
+//! same expressions in new variables. Invariant: a sum is multiplied out only where that makes it
+//! cheaper, by sin² + cos² = 1 or m_i = M_i − M_{i−1} on collected coefficients; a sum inside a
+//! function or below a fraction line that is known to be ≥ 0 stays known to be so, because a
+//! distance must not be computed by cancellation.
+
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Stage};
+use crate::op::Op;
+use crate::rational::Rational;
+use crate::structure::{Term, expand};
+
+/// The most terms of one sum that are multiplied out.
+const WIDEST: u64 = 1 << 14;
+/// The most terms of all sums together.
+const BUDGET: u64 = 1 << 17;
+/// The largest power that is rewritten.
+const HIGHEST: i32 = 16;
+/// The most angles whose sine and cosine are told apart; beyond, all are rewritten alike.
+const ANGLES: usize = 3;
+
+type Factors = Vec<(Node, i32)>;
+
+/// What the charts know.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rules {
+    /// Sines and cosines of one angle each.
+    pub(super) angles: Vec<(Node, Node)>,
+    /// What is > 0 on the chart.
+    pub(super) positive: Vec<Node>,
+    /// m, M, M′ with m = M − M′, all > 0.
+    pub(super) masses: Vec<(Node, Node, Node)>,
+}
+
+/// The roots with each node replaced that has an image.
+pub(super) fn substitute(
+    dag: &mut Dag,
+    roots: &[Node],
+    images: &Map<Node, Node>,
+    rules: &Rules,
+) -> Vec<Node> {
+    let order = dag.reachable(roots);
+    let inside = inside(dag, &order);
+    let mut reducer = Reducer {
+        rules,
+        left: BUDGET,
+        widths: Map::default(),
+    };
+    let mut new: Map<Node, Node> = Map::default();
+    for node in order {
+        if let Some(image) = images.get(&node) {
+            new.insert(node, *image);
+            continue;
+        }
+        let changed = {
+            let mut changed = false;
+            dag.for_children(node, |child| changed |= new[&child] != child);
+            changed
+        };
+        let image = if changed {
+            let image = dag.rebuild(node, &|child| new[&child]);
+            let image = positive(dag, image, rules);
+            reducer.settle(dag, image, inside.contains_key(&node))
+        } else {
+            node
+        };
+        new.insert(node, image);
+    }
+    roots
+        .iter()
+        .map(|root| reducer.sum(dag, new[root], inside.contains_key(root)))
+        .collect()
+}
+
+/// A node made of others that were reduced before.
+pub(super) fn reduce(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
+    let mut reducer = Reducer {
+        rules,
+        left: BUDGET,
+        widths: Map::default(),
+    };
+    reducer.sum(dag, node, false)
+}
+
+/// The nodes that stand inside a function or below a fraction line.
+fn inside(dag: &Dag, order: &[Node]) -> Map<Node, ()> {
+    let mut inside: Map<Node, ()> = Map::default();
+    for &node in order.iter().rev() {
+        let all = inside.contains_key(&node)
+            || !matches!(
+                dag.kind(node),
+                Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..)
+            );
+        if all {
+            dag.for_children(node, |child| {
+                inside.insert(child, ());
+            });
+        } else if let Kind::Product(_, factors) = dag.kind(node) {
+            for (factor, _) in factors.iter().filter(|(_, n)| *n < 0) {
+                inside.insert(*factor, ());
+            }
+        }
+    }
+    inside
+}
+
+/// |x| where x is positive on the chart is x.
+fn positive(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
+    let bare = |dag: &mut Dag, node: Node| -> Option<Node> {
+        let Kind::Call(Op::Abs, arguments) = dag.kind(node) else {
+            return None;
+        };
+        let inner = arguments[0];
+        let is_positive = |node: Node| rules.positive.contains(&node) || dag.is_nonnegative(node);
+        let known = match dag.kind(inner) {
+            Kind::Product(k, factors) => {
+                !k.is_negative() && factors.iter().all(|(n, e)| e % 2 == 0 || is_positive(*n))
+            }
+            _ => is_positive(inner),
+        };
+        known.then_some(inner)
+    };
+    if let Some(inner) = bare(dag, node) {
+        return inner;
+    }
+    let Kind::Product(k, factors) = dag.kind(node).clone() else {
+        return node;
+    };
+    let mut changed = false;
+    let mut images = Vec::with_capacity(factors.len());
+    for (factor, n) in factors {
+        let image = bare(dag, factor).unwrap_or(factor);
+        changed |= image != factor;
+        images.push((image, n));
+    }
+    if changed {
+        dag.product(&k, &images)
+    } else {
+        node
+    }
+}
+
+struct Reducer<'a> {
+    rules: &'a Rules,
+    left: u64,
+    widths: Map<Node, u64>,
+}
+
+impl Reducer<'_> {
+    /// A rebuilt node, simplified at its own level.
+    fn settle(&mut self, dag: &mut Dag, node: Node, inside: bool) -> Node {
+        match dag.kind(node).clone() {
+            Kind::Sum(..) => self.sum(dag, node, inside),
+            Kind::Call(Op::Hypot, arguments) => {
+                let squares = dag.sum_of_squares(&arguments);
+                let squares = self.sum(dag, squares, true);
+                let root = dag.call(Op::Sqrt, &[squares]);
+                let root = positive(dag, root, self.rules);
+                if matches!(dag.kind(root), Kind::Call(Op::Sqrt, _)) {
+                    node
+                } else {
+                    root
+                }
+            }
+            _ => node,
+        }
+    }
+
+    /// How many terms a node has when multiplied out, without collecting.
+    fn width(&mut self, dag: &Dag, root: Node) -> u64 {
+        let mut stack = vec![(root, false)];
+        while let Some((node, ready)) = stack.pop() {
+            if self.widths.contains_key(&node) {
+                continue;
+            }
+            let known = |child: &Node| self.widths.get(child).copied().unwrap_or(1);
+            let width = match dag.kind(node) {
+                Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..) if !ready => {
+                    stack.push((node, true));
+                    dag.for_children(node, |child| stack.push((child, false)));
+                    continue;
+                }
+                Kind::Sum(c, terms) => terms
+                    .iter()
+                    .map(|(_, n)| known(n))
+                    .fold(u64::from(!c.is_zero()), u64::saturating_add),
+                Kind::Product(_, factors) => factors
+                    .iter()
+                    .filter(|(_, n)| *n > 0)
+                    .map(|(node, n)| known(node).saturating_pow(n.unsigned_abs()))
+                    .fold(1, u64::saturating_mul),
+                Kind::Reduce(_, body) => known(body),
+                _ => 1,
+            };
+            self.widths.insert(node, width);
+        }
+        self.widths.get(&root).copied().unwrap_or(1)
+    }
+
+    /// The sum with those of its operands multiplied out and collected that gain by it.
+    fn sum(&mut self, dag: &mut Dag, node: Node, inside: bool) -> Node {
+        let (constant, operands) = match dag.kind(node) {
+            Kind::Sum(c, terms) => (c.clone(), terms.clone()),
+            Kind::Product(..) => (Rational::ZERO, vec![(Rational::ONE, node)]),
+            _ => return node,
+        };
+        let widths: Vec<u64> = operands.iter().map(|(_, n)| self.width(dag, *n)).collect();
+        let all = widths.iter().fold(0u64, |sum, n| sum.saturating_add(*n));
+        if all > WIDEST || all > self.left || (operands.len() == 1 && all == 1) {
+            return node;
+        }
+        self.left -= all;
+        let mut terms: Vec<Vec<Term>> = Vec::with_capacity(operands.len());
+        for (k, operand) in &operands {
+            let scaled = dag.scale(k, *operand);
+            match expand(dag, scaled) {
+                Some(found) => terms.push(found),
+                None => return node,
+            }
+        }
+        let parts = connected(dag, &terms, self.rules);
+        let mut picked: Vec<(Rational, Node)> = Vec::with_capacity(parts.len());
+        for part in &parts {
+            let own: Vec<(Rational, Node)> = part.iter().map(|at| operands[*at].clone()).collect();
+            let width = part.iter().map(|at| widths[*at]).sum();
+            let together: Vec<&Term> = part.iter().flat_map(|at| &terms[*at]).collect();
+            match self.cheaper(dag, &own, &together, width) {
+                Some(better) => picked.push((Rational::ONE, better)),
+                None => picked.extend(own),
+            }
+        }
+        let reduced = dag.collected(&constant, &picked, false);
+        let reduced = flattened(dag, reduced);
+        if inside && dag.is_nonnegative(node) && !dag.is_nonnegative(reduced) {
+            return node;
+        }
+        reduced
+    }
+
+    /// Some operands of a sum, multiplied out and collected, where that is cheaper.
+    fn cheaper(
+        &self,
+        dag: &mut Dag,
+        own: &[(Rational, Node)],
+        terms: &[&Term],
+        width: u64,
+    ) -> Option<Node> {
+        let kept = dag.linear(&Rational::ZERO, own);
+        let mut best: Option<(u32, Node)> = None;
+        let ways = if self.rules.angles.len() <= ANGLES {
+            1u32 << self.rules.angles.len()
+        } else {
+            2
+        };
+        for way in 0..ways {
+            let mut collected = Collected::default();
+            let mut rewritten = false;
+            for term in terms {
+                rewritten |= rewrite(term, self.rules, direction(way, ways), &mut collected);
+            }
+            let terms = collected.terms();
+            let count = terms.len() as u64;
+            if count > width || (count == width && !rewritten) {
+                continue;
+            }
+            let node = grouped(dag, &terms);
+            let price = cost(dag, node);
+            if best.is_none_or(|(least, _)| price < least) {
+                best = Some((price, node));
+            }
+            if !rewritten {
+                break;
+            }
+        }
+        let (price, node) = best?;
+        (price < cost(dag, kept)).then_some(node)
+    }
+}
+
+/// Which of the two goes for each angle: bit i set means sin² of angle i.
+fn direction(way: u32, ways: u32) -> u32 {
+    // With many angles the two ways are all cosines and all sines.
+    if ways == 2 && way == 1 { u32::MAX } else { way }
+}
+
+/// A sum whose operands are sums is one sum: they were collected together.
+fn flattened(dag: &mut Dag, node: Node) -> Node {
+    let Kind::Sum(c, terms) = dag.kind(node) else {
+        return node;
+    };
+    if !terms
+        .iter()
+        .any(|(k, n)| k.is_one() && matches!(dag.kind(*n), Kind::Sum(..)))
+    {
+        return node;
+    }
+    let mut constant = c.clone();
+    let mut flat = Vec::new();
+    for (k, term) in terms {
+        match dag.kind(*term) {
+            Kind::Sum(c, inner) if k.is_one() => {
+                constant = constant.add(c);
+                flat.extend(inner.iter().cloned());
+            }
+            _ => flat.push((k.clone(), *term)),
+        }
+    }
+    dag.linear(&constant, &flat)
+}
+
+/// The operands that have a monomial in common, directly or through others, in order.
+fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
+    let mut leader: Vec<usize> = (0..terms.len()).collect();
+    let find = |leader: &[usize], mut at: usize| {
+        while leader[at] != at {
+            at = leader[at];
+        }
+        at
+    };
+    let mut first: Map<Factors, usize> = Map::default();
+    for (at, own) in terms.iter().enumerate() {
+        let mut collected = Collected::default();
+        for term in own {
+            rewrite(term, rules, 0, &mut collected);
+        }
+        for term in collected.terms() {
+            let (_, mut key) = parted(dag, &term);
+            key.sort_unstable();
+            match first.get(&key) {
+                Some(&other) => {
+                    let (a, b) = (find(&leader, at), find(&leader, other));
+                    leader[a.max(b)] = a.min(b);
+                }
+                None => {
+                    first.insert(key, at);
+                }
+            }
+        }
+    }
+    let mut place: Map<usize, usize> = Map::default();
+    let mut parts: Vec<Vec<usize>> = Vec::new();
+    for at in 0..terms.len() {
+        let root = find(&leader, at);
+        match place.get(&root) {
+            Some(&part) => parts[part].push(at),
+            None => {
+                place.insert(root, parts.len());
+                parts.push(vec![at]);
+            }
+        }
+    }
+    parts
+}
+
+/// The factors that are computed once per run, and those computed at every evaluation.
+fn parted(dag: &Dag, term: &Term) -> (Factors, Factors) {
+    term.factors
+        .iter()
+        .partition(|(node, _)| dag.stage(*node) < Stage::Evaluation)
+}
+
+/// A term by the rules, into a collection; whether any rule applied.
+fn rewrite(term: &Term, rules: &Rules, way: u32, into: &mut Collected) -> bool {
+    let power = |factors: &[(Node, i32)], node: Node| {
+        factors
+            .iter()
+            .find(|(other, _)| *other == node)
+            .map_or(0, |(_, n)| *n)
+    };
+    let mut terms = vec![term.clone()];
+    let mut rewritten = false;
+    for (at, &(sin, cos)) in rules.angles.iter().enumerate() {
+        let (kept, gone) = if way >> (at.min(31)) & 1 == 0 {
+            (sin, cos)
+        } else {
+            (cos, sin)
+        };
+        let mut next = Vec::with_capacity(terms.len());
+        for term in terms {
+            let n = power(&term.factors, gone);
+            if !(2..=HIGHEST).contains(&n) {
+                next.push(term);
+                continue;
+            }
+            rewritten = true;
+            // gone^n = gone^(n mod 2)·(1 − kept²)^(n/2)
+            let half = n / 2;
+            let mut binomial = Rational::ONE;
+            for k in 0..=half {
+                next.push(exchanged(
+                    &term,
+                    &binomial,
+                    &[(gone, -2 * half), (kept, 2 * k)],
+                ));
+                binomial = next_binomial(&binomial, half, k).neg();
+            }
+        }
+        terms = next;
+    }
+    for &(mass, sum, before) in &rules.masses {
+        let mut next = Vec::with_capacity(terms.len());
+        for term in terms {
+            let n = power(&term.factors, mass);
+            if !(1..=HIGHEST).contains(&n) {
+                next.push(term);
+                continue;
+            }
+            rewritten = true;
+            // m^n = (M − M′)^n
+            let mut binomial = Rational::ONE;
+            for k in 0..=n {
+                next.push(exchanged(
+                    &term,
+                    &binomial,
+                    &[(mass, -n), (sum, n - k), (before, k)],
+                ));
+                binomial = next_binomial(&binomial, n, k).neg();
+            }
+        }
+        terms = next;
+    }
+    terms.into_iter().for_each(|term| into.add(term));
+    rewritten
+}
+
+/// From C(n, k) to C(n, k+1), sign kept.
+fn next_binomial(value: &Rational, n: i32, k: i32) -> Rational {
+    value.mul(&Rational::new(i64::from(n - k), i64::from(k + 1)))
+}
+
+/// A term times a number and some powers.
+fn exchanged(term: &Term, k: &Rational, powers: &[(Node, i32)]) -> Term {
+    let mut factors = term.factors.clone();
+    for &(node, n) in powers {
+        match factors.iter_mut().find(|(other, _)| *other == node) {
+            Some(entry) => entry.1 += n,
+            None => factors.push((node, n)),
+        }
+    }
+    factors.retain(|(_, n)| *n != 0);
+    Term {
+        coefficient: term.coefficient.mul(k),
+        factors,
+    }
+}
+
+/// Like terms added up, in order of first appearance.
+#[derive(Default)]
+struct Collected {
+    terms: Vec<Term>,
+    place: Map<Factors, usize>,
+}
+
+impl Collected {
+    fn add(&mut self, term: Term) {
+        let mut key = term.factors.clone();
+        key.sort_unstable();
+        match self.place.get(&key) {
+            Some(&at) => {
+                self.terms[at].coefficient = self.terms[at].coefficient.add(&term.coefficient);
+            }
+            None => {
+                self.place.insert(key, self.terms.len());
+                self.terms.push(term);
+            }
+        }
+    }
+    fn terms(mut self) -> Vec<Term> {
+        self.terms.retain(|term| !term.coefficient.is_zero());
+        self.terms
+    }
+}
+
+/// The sum of terms, those that differ in parameters only under one coefficient.
+fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
+    let mut place: Map<Factors, usize> = Map::default();
+    let mut groups: Vec<(Factors, Vec<(Rational, Factors)>)> = Vec::new();
+    for term in terms {
+        let (parameters, factors) = parted(dag, term);
+        let mut key = factors.clone();
+        key.sort_unstable();
+        let at = *place.entry(key).or_insert(groups.len());
+        if at == groups.len() {
+            groups.push((factors, Vec::new()));
+        }
+        groups[at].1.push((term.coefficient.clone(), parameters));
+    }
+    let mut operands = Vec::with_capacity(groups.len());
+    for (factors, coefficients) in groups {
+        let mut all = factors;
+        let mut k = Rational::ONE;
+        if let [(coefficient, parameters)] = coefficients.as_slice() {
+            k = coefficient.clone();
+            all.extend(parameters);
+        } else {
+            let mut parts = Vec::with_capacity(coefficients.len());
+            for (coefficient, parameters) in &coefficients {
+                parts.push((coefficient.clone(), dag.product(&Rational::ONE, parameters)));
+            }
+            all.push((dag.linear(&Rational::ZERO, &parts), 1));
+        }
+        operands.push((Rational::ONE, dag.product(&k, &all)));
+    }
+    dag.collected(&Rational::ZERO, &operands, false)
+}
+
+/// What a node costs at every evaluation, each shared node and power once: additions and
+/// multiplications 1, divisions 4, functions 8.
+fn cost(dag: &Dag, root: Node) -> u32 {
+    let run = Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut powers: Map<(Node, i32), ()> = Map::default();
+    let mut stack = vec![root];
+    let mut sum = 0u32;
+    while let Some(node) = stack.pop() {
+        if !dag.dependence(node).on(run) || seen.insert(node, ()).is_some() {
+            continue;
+        }
+        sum = sum.saturating_add(match dag.kind(node) {
+            Kind::Sum(c, terms) => {
+                let scaled = terms.iter().filter(|(k, _)| !k.abs().is_one()).count();
+                (terms.len() + usize::from(!c.is_zero()) + scaled - 1) as u32
+            }
+            Kind::Product(k, factors) => {
+                let constant =
+                    !k.abs().is_one() || factors.iter().any(|(n, _)| !dag.dependence(*n).on(run));
+                let mut price = u32::from(constant);
+                let mut divided = false;
+                let mut count = 0;
+                for &(factor, n) in factors.iter().filter(|(n, _)| dag.dependence(*n).on(run)) {
+                    count += 1;
+                    divided |= n < 0;
+                    let n = n.unsigned_abs();
+                    if n > 1 && powers.insert((factor, n as i32), ()).is_none() {
+                        price += n.ilog2() + n.count_ones() - 1;
+                    }
+                }
+                price + count - 1 + if divided { 4 } else { 0 }
+            }
+            Kind::Call(..) | Kind::External(..) => 8,
+            Kind::Element(..) | Kind::Time => 0,
+            _ => 1,
+        });
+        dag.for_children(node, |child| stack.push(child));
+    }
+    sum
+}

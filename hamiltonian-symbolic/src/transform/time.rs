@@ -1,0 +1,249 @@
+//! Another time: `dt = g(q, p)*ds`.
+//!
+//! Input: a model with H(q, p, t) and g(q, p, t) > 0. Output: [`Retimed`], the same orbits run
+//! through in the time s, with t carried along as one more coordinate.
+//!
+//! K(q, t, p, p_t) = g·(H(q, p, t) + p_t) on the extended phase space, where t is a coordinate and
+//! p_t its momentum. K is conserved, and on the shell K = 0, which is p_t = −H, its equations are
+//! dq/ds = g ∂H/∂p, dp/ds = −g ∂H/∂q, dt/ds = g, dp_t/ds = −g ∂H/∂t. Off the shell the terms
+//! (H + p_t)·∇g do not vanish: a start must have p_t = −H(q, p, t) ([`Retimed::start`]).
+//!
+//! The state's own `t` is s in the new system, which does not depend on it. Sources: Mino, Phys.
+//! Rev. D 67, 084027 (2003), doi:10.1103/PhysRevD.67.084027 (g = Σ for Kerr); Sundman, Acta Math.
+//! 36, 105 (1912), doi:10.1007/BF02422379 (g = r for Kepler); Hairer, Lubich & Wanner, Geometric
+//! Numerical Integration, 2nd ed. 2006, §VIII.2 for the extended Hamiltonian (there with −p_t).
+//! Invariant: no node of the new model is the time leaf, and the time group comes last.
+
+use super::{Entry, Refusal, element, is_taken};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
+use crate::model::{Group, Model, Shape};
+use crate::rational::Rational;
+
+/// A system in another time.
+#[derive(Clone, Debug)]
+pub struct Retimed {
+    /// The system in the time s: H is K, the groups are those of the old system and then
+    /// (t; p_t); observables are the same functions.
+    pub model: Model,
+    /// What was carried along: the same functions, t read from the new coordinate.
+    pub carried: Vec<Node>,
+    /// The number of the group (t; p_t).
+    pub group: u16,
+    /// dt/ds = g.
+    pub factor: Node,
+    /// H(q, p, t) of the old system, which is no longer the conserved quantity K.
+    pub energy: Node,
+    /// p_t of a start: −H(q, p, t).
+    pub start: Node,
+}
+
+/// The system of `model` in the time s with dt = g ds; `carried` are further functions of (q, p, t)
+/// to be kept.
+///
+/// The new coordinate has the declared name of time, or `t`; its momentum is `p_t`; where these are
+/// taken, a number follows.
+///
+/// # Errors
+/// [`Refusal::Factor`] if g is 0, or depends on something other than coordinates, momenta, time and
+/// parameters.
+pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refusal> {
+    if model.dag.is_zero(g) {
+        return Err(Refusal::Factor { reason: "is 0" });
+    }
+    let strange = Dependence(Dependence::COEFFICIENT.0 | Dependence::DIRECTION.0);
+    if model.dag.dependence(g).on(strange) {
+        return Err(Refusal::Factor {
+            reason: "is no function of coordinates, momenta, time and parameters",
+        });
+    }
+    if model.dag.variables(g) != 0 {
+        return Err(Refusal::Factor {
+            reason: "depends on a loop variable",
+        });
+    }
+    let mut new = model.clone();
+    let group = new.groups.len() as u16;
+    let wanted = new.time.take().unwrap_or_else(|| "t".to_owned());
+    let coordinate = free(&new, &wanted);
+    let momentum = free(&new, &format!("p_{wanted}"));
+    new.groups.push(Group {
+        coordinate,
+        momentum,
+        shape: Shape::Scalar,
+    });
+
+    let time = element(&mut new.dag, Side::Q, group, 0, 0);
+    let p_t = element(&mut new.dag, Side::P, group, 0, 0);
+    let h = match new.hamiltonian {
+        Some(h) => h,
+        None => new.dag.integer(0),
+    };
+    let mut roots = vec![h, g];
+    for observable in &new.observables {
+        roots.extend(&observable.components);
+    }
+    roots.extend(carried);
+    let roots = at_coordinate(&mut new.dag, &roots, time);
+    let (energy, factor) = (roots[0], roots[1]);
+    let mut rest = roots.into_iter().skip(2);
+    for observable in &mut new.observables {
+        observable.components = rest.by_ref().take(observable.components.len()).collect();
+    }
+    let start = new.dag.neg(energy);
+    new.hamiltonian = Some(product(&mut new.dag, factor, energy, p_t));
+    Ok(Retimed {
+        carried: rest.collect(),
+        model: new,
+        group,
+        factor,
+        energy,
+        start,
+    })
+}
+
+impl Retimed {
+    /// The pieces of a split of H as pieces of K: g times each, and g·p_t last, under the name of
+    /// the time coordinate. The pieces are nodes of the new model (from `carried`).
+    pub fn pieces(&mut self, pieces: &[(String, Node)]) -> Vec<(String, Node)> {
+        let dag = &mut self.model.dag;
+        let zero = dag.integer(0);
+        let p_t = element(dag, Side::P, self.group, 0, 0);
+        let mut all: Vec<(String, Node)> = pieces
+            .iter()
+            .map(|(name, piece)| (name.clone(), product(dag, self.factor, *piece, zero)))
+            .collect();
+        let clock = self.model.groups[usize::from(self.group)]
+            .coordinate
+            .clone();
+        all.push((clock, dag.mul(&[self.factor, p_t])));
+        all
+    }
+
+    /// A force on the old momenta as one in the new time: g·f on each, and −g Σ f·∂H/∂p on p_t,
+    /// which keeps p_t = −H while the force does work. Values are nodes of the new model (from
+    /// `carried`).
+    pub fn force(&mut self, force: &[Entry]) -> Vec<Entry> {
+        let dag = &mut self.model.dag;
+        let velocities = crate::diff::gradient(dag, self.energy, Dependence::P);
+        let mut all = Vec::with_capacity(force.len() + 1);
+        let mut work = Vec::new();
+        for entry in force {
+            let momentum = element(dag, Side::P, entry.group, entry.row, entry.column);
+            if let Some((_, velocity)) = velocities.iter().find(|(leaf, _)| *leaf == momentum) {
+                let power = dag.mul(&[self.factor, entry.value, *velocity]);
+                work.push((Rational::MINUS_ONE, power));
+            }
+            all.push(Entry {
+                value: dag.mul(&[self.factor, entry.value]),
+                ..*entry
+            });
+        }
+        all.push(Entry {
+            side: Side::P,
+            group: self.group,
+            row: 0,
+            column: 0,
+            value: dag.linear(&Rational::ZERO, &work),
+        });
+        all
+    }
+}
+
+/// The name, or the name with the first number that makes it free.
+fn free(model: &Model, name: &str) -> String {
+    let mut candidate = name.to_owned();
+    let mut number = 2u32;
+    while is_taken(model, &candidate) {
+        candidate = format!("{name}_{number}");
+        number += 1;
+    }
+    candidate
+}
+
+/// The roots with the time leaf replaced.
+fn at_coordinate(dag: &mut Dag, roots: &[Node], time: Node) -> Vec<Node> {
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(roots) {
+        let image = if *dag.kind(node) == Kind::Time {
+            time
+        } else if dag.dependence(node).on(Dependence::TIME) {
+            dag.rebuild(node, &|child| new[&child])
+        } else {
+            node
+        };
+        new.insert(node, image);
+    }
+    roots.iter().map(|root| new[root]).collect()
+}
+
+/// g·(h + p): terms of h that have g, or a factor of it, below their fraction line meet it there;
+/// the others stay in the bracket.
+fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
+    let factors: Vec<Node> = match dag.kind(g) {
+        Kind::Product(_, factors) => factors
+            .iter()
+            .filter(|(_, n)| *n > 0)
+            .map(|(node, _)| *node)
+            .collect(),
+        _ => vec![g],
+    };
+    if !meets(dag, h, &factors) {
+        let bracket = dag.add(&[h, p]);
+        return dag.mul(&[g, bracket]);
+    }
+    let mut cancelled: Vec<(Rational, Node)> = Vec::new();
+    let mut bracket: Vec<(Rational, Node)> = Vec::new();
+    let mut stack = vec![(Rational::ONE, h)];
+    while let Some((k, node)) = stack.pop() {
+        // What nothing cancels in keeps its grouping.
+        if !meets(dag, node, &factors) {
+            bracket.push((k, node));
+            continue;
+        }
+        match dag.kind(node) {
+            Kind::Sum(c, terms) => {
+                let inner = terms.iter().map(|(own, n)| (k.mul(own), *n));
+                let mut inner: Vec<_> = inner.collect();
+                if !c.is_zero() {
+                    let constant = k.mul(c);
+                    inner.push((constant, dag.integer(1)));
+                }
+                stack.extend(inner.into_iter().rev());
+            }
+            Kind::Product(own, parts) => match parts.as_slice() {
+                [(inner, 1)] => stack.push((k.mul(own), *inner)),
+                _ => {
+                    let term = dag.mul(&[g, node]);
+                    cancelled.push((k, term));
+                }
+            },
+            _ => bracket.push((k, node)),
+        }
+    }
+    bracket.push((Rational::ONE, p));
+    let bracket = dag.linear(&Rational::ZERO, &bracket);
+    let rest = dag.mul(&[g, bracket]);
+    cancelled.push((Rational::ONE, rest));
+    dag.linear(&Rational::ZERO, &cancelled)
+}
+
+/// Whether a term of a node, down through its sums, has one of the factors below its fraction line.
+fn meets(dag: &Dag, root: Node, factors: &[Node]) -> bool {
+    let mut stack = vec![root];
+    let mut seen: Map<Node, ()> = Map::default();
+    while let Some(node) = stack.pop() {
+        if seen.insert(node, ()).is_some() {
+            continue;
+        }
+        match dag.kind(node) {
+            Kind::Sum(_, terms) => stack.extend(terms.iter().map(|(_, n)| *n)),
+            Kind::Product(_, parts) => match parts.as_slice() {
+                [(inner, 1)] => stack.push(*inner),
+                parts if parts.iter().any(|(n, e)| *e < 0 && factors.contains(n)) => return true,
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+    false
+}

@@ -1,0 +1,729 @@
+//! Canonical transformations: what H becomes, that the maps are canonical, that both ways are
+//! inverse, and what is refused.
+
+mod common;
+
+use common::{model, parse, system};
+use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Parameter, Side};
+use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::loops::{Sample, sample};
+use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
+use hamiltonian_symbolic::normal_form::{Proof, is_zero};
+use hamiltonian_symbolic::print;
+use hamiltonian_symbolic::structure;
+use hamiltonian_symbolic::transform::{
+    Bodies, Chart, Component, Entry, Force, Refusal, Transformed, apply, check, check_forces,
+    check_split, retime,
+};
+
+fn scalar(group: u16) -> Component {
+    Component { group, row: None }
+}
+
+const POLAR: Chart = Chart::Polar([
+    Component {
+        group: 0,
+        row: None,
+    },
+    Component {
+        group: 1,
+        row: None,
+    },
+]);
+
+fn spherical() -> Chart {
+    Chart::Spherical([scalar(0), scalar(1), scalar(2)])
+}
+
+fn bodies() -> Bodies {
+    Bodies {
+        group: 0,
+        masses: Parameter(0),
+    }
+}
+
+fn polar(h: &str, parameters: &str) -> Transformed {
+    let model = system("x, y; p_x, p_y; t", "", parameters, h);
+    apply(&model, &[POLAR], &[]).unwrap()
+}
+
+fn shown(transformed: &Transformed) -> String {
+    print::text(&transformed.model, transformed.model.hamiltonian.unwrap())
+}
+
+/// H of the new system is the node that `text` means there.
+#[track_caller]
+fn assert_becomes(mut transformed: Transformed, text: &str) {
+    let found = shown(&transformed);
+    let expected = parse(&mut transformed.model, text);
+    assert_eq!(
+        transformed.model.hamiltonian,
+        Some(expected),
+        "{found}, expected {text}"
+    );
+}
+
+#[test]
+fn polar_coordinates_give_the_textbook_hamiltonians() {
+    let groups = |t: &Transformed| -> Vec<(String, String)> {
+        t.model
+            .groups
+            .iter()
+            .map(|g| (g.coordinate.clone(), g.momentum.clone()))
+            .collect()
+    };
+    let free = polar("(p_x^2 + p_y^2)/2", "");
+    assert_eq!(
+        groups(&free),
+        [
+            ("r".to_owned(), "p_r".to_owned()),
+            ("phi".to_owned(), "p_phi".to_owned())
+        ]
+    );
+    assert_becomes(free, "(p_r^2 + p_phi^2/r^2)/2");
+    assert_becomes(polar("p_x^2 + p_y^2", ""), "p_r^2 + p_phi^2/r^2");
+    assert_becomes(
+        polar("x^2 + y^2 + p_x^2", ""),
+        "r^2 + (p_r*cos(phi) - p_phi*sin(phi)/r)^2",
+    );
+    assert_becomes(
+        polar("(p_x^2 + p_y^2)/(2*m) - k/sqrt(x^2 + y^2)", "m k"),
+        "(p_r^2 + p_phi^2/r^2)/(2*m) - k/r",
+    );
+    assert_becomes(
+        polar("p_x^2/2 + p_y^2/2 + (x^2 + y^2)^(3/2) + hypot(x, y)", ""),
+        "p_r^2/2 + p_phi^2/(2*r^2) + r^3 + r",
+    );
+    // Angular momentum, alone and inside a product.
+    assert_becomes(polar("(x*p_y - y*p_x)*omega", "omega"), "p_phi*omega");
+    assert_becomes(polar("x*p_x + y*p_y", ""), "r*p_r");
+    // The rotating frame: the square multiplied out is cheaper.
+    assert_becomes(
+        polar("((p_x + w*y)^2 + (p_y - w*x)^2)/2", "w"),
+        "(p_r^2 + p_phi^2/r^2 + w^2*r^2 - 2*p_phi*w)/2",
+    );
+    // Hénon–Heiles: the monkey saddle without cosines.
+    assert_becomes(
+        polar("(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3", ""),
+        "(p_r^2 + p_phi^2/r^2)/2 + r^2/2 + r^3*sin(phi) - 4/3*r^3*sin(phi)^3",
+    );
+}
+
+#[test]
+fn a_distance_is_not_computed_by_cancellation() {
+    let two = polar("1/sqrt((x + a)^2 + y^2)", "a");
+    let text = shown(&two);
+    assert!(
+        text.contains("r*cos(phi) + a"),
+        "the square was multiplied out: {text}"
+    );
+    let mut free = 0;
+    // Where the sum is one of H's own, it is.
+    for h in ["(x + a)^2 + y^2", "x*((x + a)^2 + y^2)"] {
+        let text = shown(&polar(h, "a"));
+        free += usize::from(!text.contains("sin"));
+    }
+    assert_eq!(free, 2);
+}
+
+#[test]
+fn spherical_coordinates_give_the_textbook_hamiltonians() {
+    let new = |h: &str, parameters: &str| {
+        let model = system("x, y, z; p_x, p_y, p_z", "", parameters, h);
+        apply(&model, &[spherical()], &[]).unwrap()
+    };
+    assert_becomes(
+        new(
+            "(p_x^2 + p_y^2 + p_z^2)/(2*m) - k/sqrt(x^2 + y^2 + z^2)",
+            "m k",
+        ),
+        "(p_r^2 + p_theta^2/r^2 + p_phi^2/(r^2*sin(theta)^2))/(2*m) - k/r",
+    );
+    assert_becomes(new("x^2 + y^2 + z^2", ""), "r^2");
+    assert_becomes(new("sqrt(x^2 + y^2)", ""), "r*sin(theta)");
+    assert_becomes(new("x*p_y - y*p_x", ""), "p_phi");
+    assert_becomes(
+        new(
+            "(y*p_z - z*p_y)^2 + (z*p_x - x*p_z)^2 + (x*p_y - y*p_x)^2",
+            "",
+        ),
+        "p_theta^2 + p_phi^2/sin(theta)^2",
+    );
+}
+
+#[test]
+fn a_vector_is_replaced_as_well_as_scalars_and_other_groups_stay() {
+    let mut model = system(
+        "u, q[2], w[3]; p_u, p[2], p_w[3]; t",
+        "",
+        "k",
+        "p_u^2/2 + u^2*w[1] + sum(i in 0..3) { p_w[i]^2/2 } + sum(i in 0..2) { p[i]^2/2 + k*q[i]^2/2 }",
+    );
+    let angular = parse(&mut model, "q[0]*p[1] - q[1]*p[0]");
+    model.observables.push(Observable {
+        name: "L".into(),
+        kind: ObservableKind::Monitor,
+        components: vec![angular],
+    });
+    let carried = parse(&mut model, "u*hypot(q[0], q[1])");
+    let chart = Chart::Polar([0, 1].map(|row| Component {
+        group: 1,
+        row: Some(row),
+    }));
+    let new = apply(&model, &[chart], &[carried]).unwrap();
+    let names: Vec<&str> = new
+        .model
+        .groups
+        .iter()
+        .map(|g| g.coordinate.as_str())
+        .collect();
+    assert_eq!(names, ["u", "r", "phi", "w"]);
+    assert_eq!(new.kept, [(0, 0), (2, 3)]);
+    let text = |node: Node| print::text(&new.model, node);
+    assert_eq!(text(new.model.observables[0].components[0]), "p_phi");
+    assert_eq!(text(new.carried[0]), "u*r");
+    assert_becomes(
+        new,
+        "p_u^2/2 + u^2*w[1] + (p_w[0]^2 + p_w[1]^2 + p_w[2]^2)/2 + p_r^2/2 + k*r^2/2 + p_phi^2/(2*r^2)",
+    );
+}
+
+/// The value of each node where elements have the given values.
+fn values(model: &Model, nodes: &[Node], given: &[(Node, f64)]) -> Vec<f64> {
+    let (values, _) = sample(model, nodes, &[], Sample::default(), given).unwrap();
+    values.iter().map(|v| v.value).collect()
+}
+
+fn leaf(model: &mut Model, entry: &Entry) -> Node {
+    let array = Array::Phase {
+        side: entry.side,
+        group: entry.group,
+        column: entry.column,
+    };
+    model
+        .dag
+        .element(array, Index::constant(i64::from(entry.row)), None)
+}
+
+/// Max |MᵀJM − J| of a map whose entries are coordinates, then momenta, in conjugate order, with
+/// respect to the arguments in the same order.
+fn defect(model: &mut Model, map: &[Node], arguments: &[Node], given: &[(Node, f64)]) -> f64 {
+    let size = map.len();
+    let zero = model.dag.integer(0);
+    let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+    let mut partials = Vec::new();
+    for node in map {
+        let gradient = diff::gradient(&mut model.dag, *node, both);
+        partials.extend(arguments.iter().map(|argument| {
+            gradient
+                .iter()
+                .find(|(leaf, _)| leaf == argument)
+                .map_or(zero, |(_, slope)| *slope)
+        }));
+    }
+    let m = values(model, &partials, given);
+    let n = size / 2;
+    let mut worst: f64 = 0.0;
+    for a in 0..size {
+        for b in 0..size {
+            let at = |row: usize, column: usize| m[row * size + column];
+            let form: f64 = (0..n)
+                .map(|k| at(k, a) * at(n + k, b) - at(n + k, a) * at(k, b))
+                .sum();
+            let expected = f64::from(u8::from(b == a + n)) - f64::from(u8::from(a == b + n));
+            worst = worst.max((form - expected).abs());
+        }
+    }
+    worst
+}
+
+/// Both maps are canonical, and one the inverse of the other.
+fn assert_canonical(transformed: &mut Transformed) {
+    let sorted = |entries: &[Entry]| {
+        let mut entries = entries.to_vec();
+        entries.sort_by_key(|e| (e.side, e.group, e.column, e.row));
+        entries
+    };
+    let (forward, inverse) = (sorted(&transformed.forward), sorted(&transformed.inverse));
+    assert_eq!(forward.len(), inverse.len());
+    let new: Vec<Node> = forward
+        .iter()
+        .map(|e| leaf(&mut transformed.model, e))
+        .collect();
+    let old: Vec<Node> = inverse
+        .iter()
+        .map(|e| leaf(&mut transformed.source, e))
+        .collect();
+    let to_new: Vec<Node> = forward.iter().map(|e| e.value).collect();
+    let to_old: Vec<Node> = inverse.iter().map(|e| e.value).collect();
+    for shift in 0..4 {
+        let start: Vec<f64> = (0..old.len())
+            .map(|at| 1.5 * (2.3 * (at + 7 * shift) as f64 + 1.0).sin() + 0.01)
+            .collect();
+        let given: Vec<_> = old.iter().copied().zip(start.iter().copied()).collect();
+        let there = values(&transformed.source, &to_new, &given);
+        let wrong = defect(&mut transformed.source, &to_new, &old, &given);
+        assert!(wrong < 1e-11, "old → new is off by {wrong}");
+        let given: Vec<_> = new.iter().copied().zip(there).collect();
+        let wrong = defect(&mut transformed.model, &to_old, &new, &given);
+        assert!(wrong < 1e-11, "new → old is off by {wrong}");
+        let back = values(&transformed.model, &to_old, &given);
+        for (a, b) in start.iter().zip(&back) {
+            assert!(
+                (a - b).abs() < 1e-12 * (1.0 + a.abs()),
+                "{start:?} {back:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_map_is_canonical_and_has_its_inverse() {
+    assert_canonical(&mut polar("p_x^2", ""));
+    let space = system("x, y, z; p_x, p_y, p_z", "", "", "p_x^2");
+    assert_canonical(&mut apply(&space, &[spherical()], &[]).unwrap());
+    for chart in [Chart::Jacobi(bodies()), Chart::Heliocentric(bodies())] {
+        let line = system("q[4]; p[4]", "", "m[4]", "p[0]^2");
+        assert_canonical(&mut apply(&line, &[chart], &[]).unwrap());
+        let plane = system("q[3][2]; p[3][2]", "", "m[3]", "p[0][1]^2");
+        assert_canonical(&mut apply(&plane, &[chart], &[]).unwrap());
+        let one = system("q[1][2]; p[1][2]", "", "m[1]", "p[0][1]^2");
+        assert_canonical(&mut apply(&one, &[chart], &[]).unwrap());
+    }
+    // The check itself sees a map that is not: one momentum half as large.
+    let mut wrong = polar("p_x^2", "");
+    let half = hamiltonian_symbolic::rational::Rational::new(1, 2);
+    let entry = wrong
+        .inverse
+        .iter()
+        .position(|e| e.side == Side::P)
+        .unwrap();
+    let value = wrong.inverse[entry].value;
+    wrong.inverse[entry].value = wrong.model.dag.scale(&half, value);
+    let caught = std::panic::catch_unwind(move || assert_canonical(&mut wrong));
+    assert!(caught.is_err());
+}
+
+const GRAVITY: &str = "sum(i in 0..3, c in 0..2) { p[i][c]^2/(2*m[i]) }";
+
+fn gravity() -> Model {
+    let mut h = GRAVITY
+        .replace(", c in 0..2", "")
+        .replace("p[i][c]^2", "(p[i][0]^2 + p[i][1]^2)");
+    h += " - G*sum(i in 0..3, j in 0..i) { m[i]*m[j]/sqrt((q[i][0] - q[j][0])^2 + (q[i][1] - q[j][1])^2) }";
+    system("q[3][2]; p[3][2]", "", "m[3] G", &h)
+}
+
+#[test]
+fn jacobi_coordinates_make_the_kinetic_energy_diagonal() {
+    let new = apply(&gravity(), &[Chart::Jacobi(bodies())], &[]).unwrap();
+    assert_eq!(new.model.groups[0].coordinate, "q_jacobi");
+    assert_eq!(new.model.groups[0].momentum, "p_jacobi");
+    let mut model = new.model;
+    let structure = structure::analyse(&mut model);
+    let split = structure.separable.as_ref().unwrap();
+    let text = print::text(&model, split.kinetic);
+    // One square a momentum, no products of two momenta.
+    assert_eq!(text.matches("p_jacobi").count(), 6, "{text}");
+    assert_eq!(structure.quadratic_kinetic, Ok(()));
+    // The centre of mass is gone from the potential, and its momentum is conserved.
+    let cyclic: Vec<&str> = structure
+        .cyclic
+        .iter()
+        .map(|c| c.coordinate.as_str())
+        .collect();
+    assert_eq!(cyclic, ["q_jacobi[0][0]", "q_jacobi[0][1]"]);
+    let text = print::text(&model, split.potential);
+    assert!(
+        text.contains("sqrt(q_jacobi[1][0]^2 + q_jacobi[1][1]^2)"),
+        "{text}"
+    );
+    // T = P_0²/2M + Σ P_i²/2μ_i with 1/μ_i = 1/m_i + 1/M_{i−1}.
+    let mut expected = String::new();
+    for c in 0..2 {
+        expected += &format!(
+            "+ p_jacobi[0][{c}]^2/(2*(m[0] + m[1] + m[2])) \
+             + p_jacobi[1][{c}]^2/2*(1/m[1] + 1/m[0]) \
+             + p_jacobi[2][{c}]^2/2*(1/m[2] + 1/(m[0] + m[1]))"
+        );
+    }
+    let expected = parse(&mut model, expected.trim_start_matches('+'));
+    let difference = model.dag.sub(split.kinetic, expected);
+    assert_eq!(is_zero(&model, difference), Proof::Zero);
+}
+
+#[test]
+fn heliocentric_coordinates_keep_the_momenta() {
+    let new = apply(&gravity(), &[Chart::Heliocentric(bodies())], &[]).unwrap();
+    let text = shown(&new);
+    assert!(
+        text.contains("sqrt(q_heliocentric[1][0]^2 + q_heliocentric[1][1]^2)"),
+        "{text}"
+    );
+    let mut model = new.model;
+    let structure = structure::analyse(&mut model);
+    let cyclic: Vec<&str> = structure
+        .cyclic
+        .iter()
+        .map(|c| c.coordinate.as_str())
+        .collect();
+    assert_eq!(cyclic, ["q_heliocentric[0][0]", "q_heliocentric[0][1]"]);
+}
+
+#[test]
+fn ten_bodies_are_done_in_time() {
+    let h = "sum(i in 0..10) { (p[i][0]^2 + p[i][1]^2 + p[i][2]^2)/(2*m[i]) } \
+        - sum(i in 0..10, j in 0..i) { m[i]*m[j]/sqrt((q[i][0] - q[j][0])^2 + (q[i][1] - q[j][1])^2 + (q[i][2] - q[j][2])^2) }";
+    let model = system("q[10][3]; p[10][3]", "", "m[10]", h);
+    let new = apply(&model, &[Chart::Jacobi(bodies())], &[]).unwrap();
+    assert_eq!(shown(&new).matches("p_jacobi").count(), 30);
+}
+
+#[test]
+fn the_check_sees_a_wrong_hamiltonian() {
+    let mut new = polar("p_x^2/2 + x*y", "");
+    assert_eq!(check(&new), Ok(()));
+    new.model.hamiltonian = Some(parse(&mut new.model, "p_r^2/2 + r^2*sin(phi)*cos(phi)"));
+    match check(&new) {
+        Err(Refusal::Unverified { point, old, new }) => {
+            assert!(!point.is_empty() && old != new);
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn forces_are_transformed_with_the_momenta() {
+    let mut model = system("x, y; p_x, p_y", "", "c", "(p_x^2 + p_y^2)/2");
+    let (f_x, f_y) = (parse(&mut model, "-c*p_x"), parse(&mut model, "-c*p_y"));
+    let mut new = apply(&model, &[POLAR], &[f_x, f_y]).unwrap();
+    let force: Vec<Entry> = [(0, new.carried[0]), (1, new.carried[1])]
+        .into_iter()
+        .map(|(group, value)| Entry {
+            side: Side::P,
+            group,
+            row: 0,
+            column: 0,
+            value,
+        })
+        .collect();
+    let found = new.force(&force);
+    let text: Vec<String> = found
+        .iter()
+        .map(|e| print::text(&new.model, e.value))
+        .collect();
+    assert_eq!(text, ["-c*p_r", "-c*p_phi"]);
+    assert_eq!((found[0].group, found[1].group), (0, 1));
+}
+
+#[test]
+fn charts_that_do_not_fit_are_refused() {
+    let taken = |parameters: &str| {
+        let model = system("x, y; p_x, p_y", "", parameters, "p_x^2");
+        apply(&model, &[POLAR], &[]).unwrap_err()
+    };
+    assert_eq!(
+        taken("p_phi").to_string(),
+        "`polar` introduces `p_phi`, which is declared already"
+    );
+    assert!(matches!(taken("r"), Refusal::NameTaken { .. }));
+    // The name of a coordinate that goes is free.
+    let model = system("r, y; p_r, p_y", "", "", "p_r^2");
+    assert!(apply(&model, &[POLAR], &[]).is_ok());
+    let model = system("x, y, r; p_x, p_y, p_z", "", "", "p_x^2");
+    assert!(matches!(
+        apply(&model, &[POLAR], &[]),
+        Err(Refusal::NameTaken { .. })
+    ));
+    // Twice, and one component of three.
+    let model = system("x, y; p_x, p_y", "", "", "p_x^2");
+    let twice = [POLAR, POLAR];
+    assert!(matches!(
+        apply(&model, &twice, &[]),
+        Err(Refusal::NotWhole { .. })
+    ));
+    let model = system("q[3]; p[3]", "", "", "p[0]^2");
+    let part = Chart::Polar([0, 1].map(|row| Component {
+        group: 0,
+        row: Some(row),
+    }));
+    assert!(matches!(
+        apply(&model, &[part], &[]),
+        Err(Refusal::NotWhole { .. })
+    ));
+    // Bodies of a number that is not literal, masses of another number.
+    let model = system("q[n]; p[n]", "n", "m[n]", "sum(i in 0..n) { p[i]^2 }");
+    assert!(matches!(
+        apply(&model, &[Chart::Jacobi(bodies())], &[]),
+        Err(Refusal::Shape { .. })
+    ));
+    let model = system("q[3]; p[3]", "", "m[2]", "p[0]^2");
+    assert!(matches!(
+        apply(&model, &[Chart::Heliocentric(bodies())], &[]),
+        Err(Refusal::Shape { .. })
+    ));
+    // A loop of a length that is not known over a replaced coordinate.
+    let model = system(
+        "q[2], w[n]; p[2], v[n]",
+        "n",
+        "",
+        "sum(i in 0..2) { p[i]^2 } + sum(i in 0..n) { v[i]^2 }",
+    );
+    let whole = Chart::Polar([0, 1].map(|row| Component {
+        group: 0,
+        row: Some(row),
+    }));
+    assert!(matches!(
+        apply(&model, &[whole], &[]),
+        Err(Refusal::Loops { .. })
+    ));
+}
+
+#[test]
+fn loops_over_other_groups_stay_loops() {
+    let model = system(
+        "x, y, w[n]; p_x, p_y, v[n]",
+        "n",
+        "",
+        "(p_x^2 + p_y^2)/2 + sum(i in 0..n) { v[i]^2/2 + w[i]*(x^2 + y^2) }",
+    );
+    let new = apply(&model, &[POLAR], &[]).unwrap();
+    assert_becomes(
+        new,
+        "(p_r^2 + p_phi^2/r^2)/2 + sum(i in 0..n) { v[i]^2/2 + w[i]*r^2 }",
+    );
+}
+
+#[test]
+fn another_time_adds_the_old_one_as_a_coordinate() {
+    let mut kepler = system(
+        "x, y; p_x, p_y; t",
+        "",
+        "e",
+        "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2) + e*x*cos(t)",
+    );
+    let angular = parse(&mut kepler, "(x*p_y - y*p_x)*t");
+    kepler.observables.push(Observable {
+        name: "L".into(),
+        kind: ObservableKind::Monitor,
+        components: vec![angular],
+    });
+    let g = parse(&mut kepler, "sqrt(x^2 + y^2)");
+    let mut new = retime(&kepler, g, &[]).unwrap();
+    assert_eq!(new.group, 2);
+    assert_eq!(new.model.time, None);
+    assert_eq!(new.model.groups[2].coordinate, "t");
+    assert_eq!(new.model.groups[2].momentum, "p_t");
+    let h = new.model.hamiltonian.unwrap();
+    let expected = parse(
+        &mut new.model,
+        "-1 + sqrt(x^2 + y^2)*((p_x^2 + p_y^2)/2 + e*x*cos(t) + p_t)",
+    );
+    let text = print::text(&new.model, h);
+    assert_eq!(h, expected, "{text}");
+    for root in [
+        h,
+        new.energy,
+        new.start,
+        new.model.observables[0].components[0],
+    ] {
+        assert!(!new.model.dag.dependence(root).on(Dependence::TIME));
+    }
+
+    // On the shell the equations are g times the old ones, and dt/ds = g.
+    let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+    let slopes = diff::gradient(&mut new.model.dag, h, both);
+    let old = diff::gradient(&mut new.model.dag, new.energy, both);
+    let read = |new: &mut Model, side, group| {
+        let array = Array::Phase {
+            side,
+            group,
+            column: 0,
+        };
+        new.dag.element(array, Index::constant(0), None)
+    };
+    let p_t = read(&mut new.model, Side::P, 2);
+    let start = values(&new.model, &[new.start], &[])[0];
+    let given = [(p_t, start)];
+    let mut compared = 0;
+    for (leaf, slope) in &slopes {
+        let expected = if *leaf == p_t {
+            new.factor
+        } else {
+            let (_, slope) = old.iter().find(|(other, _)| other == leaf).unwrap();
+            new.model.dag.mul(&[new.factor, *slope])
+        };
+        let pair = values(&new.model, &[*slope, expected], &given);
+        assert!((pair[0] - pair[1]).abs() < 1e-12, "{pair:?}");
+        compared += 1;
+    }
+    assert_eq!(compared, 6);
+    assert!(values(&new.model, &[h], &given)[0].abs() < 1e-14);
+    // Off it they are not.
+    let x = read(&mut new.model, Side::Q, 0);
+    let of = |list: &[(Node, Node)]| list.iter().find(|(leaf, _)| *leaf == x).unwrap().1;
+    let (slope, was) = (of(&slopes), of(&old));
+    let expected = new.model.dag.mul(&[new.factor, was]);
+    let pair = values(&new.model, &[slope, expected], &[(p_t, start + 1.0)]);
+    assert!((pair[0] - pair[1]).abs() > 1e-3, "{pair:?}");
+}
+
+#[test]
+fn mino_time_takes_the_fraction_away() {
+    let mut kerr = system(
+        "r, theta; p_r, p_theta",
+        "",
+        "a",
+        "((r^2 + a^2)*p_r^2 + p_theta^2 - r^3)/(2*(r^2 + a^2*cos(theta)^2))",
+    );
+    let g = parse(&mut kerr, "r^2 + a^2*cos(theta)^2");
+    let pieces = [parse(&mut kerr, "p_theta^2/(2*(r^2 + a^2*cos(theta)^2))")];
+    let mut new = retime(&kerr, g, &pieces).unwrap();
+    let h = new.model.hamiltonian.unwrap();
+    let expected = parse(
+        &mut new.model,
+        "((r^2 + a^2)*p_r^2 + p_theta^2 - r^3)/2 + (r^2 + a^2*cos(theta)^2)*p_t",
+    );
+    let text = print::text(&new.model, h);
+    assert_eq!(h, expected, "{text}");
+    let pieces = new.pieces(&[("A".into(), new.carried[0])]);
+    let shown: Vec<(&str, String)> = pieces
+        .iter()
+        .map(|(name, node)| (name.as_str(), print::text(&new.model, *node)))
+        .collect();
+    assert_eq!(shown[0].0, "A");
+    let half = parse(&mut new.model, "p_theta^2/2");
+    assert_eq!(pieces[0].1, half);
+    assert_eq!(shown[1].0, "t");
+}
+
+#[test]
+fn taken_names_get_a_number_and_factors_are_checked() {
+    let mut model = system("t, x; p_t, p_x", "", "p_t_2", "p_x^2/2 + t^2");
+    let g = parse(&mut model, "1 + x^2");
+    let new = retime(&model, g, &[]).unwrap();
+    assert_eq!(new.model.groups[2].coordinate, "t_2");
+    assert_eq!(new.model.groups[2].momentum, "p_t_3");
+    let zero = model.dag.integer(0);
+    assert_eq!(
+        retime(&model, zero, &[]).unwrap_err().to_string(),
+        "the factor of `dt = …*ds` is 0"
+    );
+    let coefficient = model.dag.coefficient();
+    assert!(retime(&model, coefficient, &[]).is_err());
+    let mut loops = system("q[n]; p[n]", "n", "", "sum(i in 0..n) { p[i]^2 }");
+    let h = loops.hamiltonian.unwrap();
+    let Kind::Reduce(_, body) = *loops.dag.kind(h) else {
+        panic!("a loop")
+    };
+    assert!(retime(&loops, body, &[]).is_err());
+    let g = loops.dag.integer(2);
+    assert!(retime(&loops, g, &[]).is_ok());
+}
+
+#[test]
+fn a_force_in_another_time_keeps_the_shell() {
+    let mut model = system("x; p", "", "c", "p^2/2 + x^2/2");
+    let g = parse(&mut model, "1 + x^2");
+    let f = parse(&mut model, "-c*p");
+    let mut new = retime(&model, g, &[f]).unwrap();
+    let force = new.force(&[Entry {
+        side: Side::P,
+        group: 0,
+        row: 0,
+        column: 0,
+        value: new.carried[0],
+    }]);
+    let expected = [
+        parse(&mut new.model, "-(1 + x^2)*c*p"),
+        parse(&mut new.model, "(1 + x^2)*c*p*p"),
+    ];
+    assert_eq!([force[0].value, force[1].value], expected);
+    assert_eq!(force[1].group, new.group);
+}
+
+#[test]
+fn a_split_adds_up_or_is_refused_with_the_difference() {
+    let mut model = system("q; p", "", "k", "(q^2 + 1)*(p^2 + 1)/2 + k*cos(2*q)");
+    let mut split = |pieces: &[&str]| {
+        let pieces: Vec<(String, Node)> = pieces
+            .iter()
+            .map(|text| ((*text).to_owned(), parse(&mut model, text)))
+            .collect();
+        check_split(&mut model, &pieces)
+    };
+    assert_eq!(
+        split(&["q^2/2 + p^2/2 + 1/2", "q^2*p^2/2 + k*cos(2*q)"]),
+        Ok(())
+    );
+    assert_eq!(
+        split(&["(q^2 + 1)*p^2/2", "(q^2 + 1)/2 + k - 2*k*sin(q)^2"]),
+        Ok(())
+    );
+    let wrong = split(&["q^2/2 + p^2/2", "q^2*p^2 + k*cos(2*q)"]).unwrap_err();
+    assert_eq!(wrong.text, "0.5 - 0.5*q^2*p^2");
+    let (point, value) = wrong.point.unwrap();
+    assert!(value != 0.0 && point.len() == 2, "{point:?}");
+    assert!(split(&["q^2/2"]).is_err());
+
+    let mut chain = system(
+        "q[n]; p[n]",
+        "n",
+        "",
+        "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }",
+    );
+    let kinetic = parse(&mut chain, "sum(i in 0..n) { p[i]^2/2 }");
+    let potential = parse(&mut chain, "sum(i in 0..n) { exp(q[i] - q[(i + 1) % n]) }");
+    let named = |a, b| [("T".to_owned(), a), ("V".to_owned(), b)];
+    assert_eq!(check_split(&mut chain, &named(kinetic, potential)), Ok(()));
+    assert!(check_split(&mut chain, &named(kinetic, kinetic)).is_err());
+}
+
+#[test]
+fn forces_act_on_every_momentum_once() {
+    let mut model = model("x, q[2], w[n][3]; p_x, p[2], v[n][3]", "n", "");
+    let value = model.dag.integer(1);
+    let force = |group: u16, row: Index, column: u16| Force {
+        group,
+        row,
+        column,
+        value,
+    };
+    let whole = model.dag.domain(
+        None,
+        Affine::constant(0),
+        Affine::size(hamiltonian_symbolic::index::Size(0)),
+    );
+    let part = model.dag.domain(
+        None,
+        Affine::constant(1),
+        Affine::size(hamiltonian_symbolic::index::Size(0)),
+    );
+    let all = |domain| Index::plain(Affine::variable(domain));
+    let mut forces = vec![
+        force(0, Index::constant(0), 0),
+        force(1, Index::constant(0), 0),
+        force(1, Index::constant(1), 0),
+        force(2, all(whole), 0),
+        force(2, all(whole), 1),
+        force(2, all(whole), 2),
+    ];
+    assert_eq!(check_forces(&model, &forces), Ok(()));
+    let missing = &forces[..5];
+    assert_eq!(
+        check_forces(&model, missing),
+        Err("no force acts on all of `v`".into())
+    );
+    forces[5] = force(2, all(part), 2);
+    assert!(check_forces(&model, &forces).unwrap_err().contains("rows"));
+    forces[5] = force(2, all(whole), 1);
+    assert_eq!(
+        check_forces(&model, &forces),
+        Err("two forces act on `v`".into())
+    );
+    forces[5] = force(2, all(whole), 3);
+    assert!(check_forces(&model, &forces).is_err());
+    forces[2] = force(1, Index::constant(2), 0);
+    assert!(check_forces(&model, &forces).unwrap_err().contains("`p`"));
+}

@@ -4,7 +4,7 @@
 //! Invariant: the operands of a sum are added in their order, but that a product in front may
 //! change places with the plain term after it (which rounds the same, fused).
 
-use crate::dag::{Dag, Kind, Node};
+use crate::dag::{Kind, Node};
 use crate::program::{Instruction, Step, Value};
 use crate::rational::Rational;
 use crate::schedule::Placer;
@@ -48,7 +48,6 @@ fn start_of(c: &Rational, terms: &[(Rational, Node)], can_fuse: &impl Fn(Node) -
 /// Whether term `at` of a sum is added by a fused instruction, so that its product is not needed
 /// by itself.
 pub(crate) fn fuses(
-    _dag: &Dag,
     c: &Rational,
     terms: &[(Rational, Node)],
     at: usize,
@@ -277,7 +276,12 @@ impl Placer<'_> {
         product
     }
 
-    fn product(&mut self, steps: &mut Vec<Step>, k: &Rational, factors: &[(Node, i32)]) -> Value {
+    pub(crate) fn product(
+        &mut self,
+        steps: &mut Vec<Step>,
+        k: &Rational,
+        factors: &[(Node, i32)],
+    ) -> Value {
         let mut above: Vec<Value> = Vec::new();
         let mut below: Vec<Value> = Vec::new();
         if !is_unit(k) {

@@ -72,7 +72,7 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
     }
     wanted.sort_unstable();
     wanted.dedup();
-    let (prepare, prepared) = stage(
+    let (prepare, computed) = stage(
         dag,
         &mut program,
         Stage::Parameters,
@@ -81,6 +81,8 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
         Map::default(),
     );
     program.prepare = prepare;
+    // Only what is wanted is handed on, not what it was computed from.
+    let prepared: Map<Node, Value> = wanted.iter().map(|n| (*n, computed[n])).collect();
     program.prepared = wanted.iter().map(|n| prepared[n]).collect();
     for request in requests {
         let (coefficients, _) = frontier(dag, &request.roots(), Stage::Evaluation);
@@ -271,7 +273,7 @@ impl Placer<'_> {
             for &node in &needed {
                 if level[&node] == now && self.dag.home(node) == here && !fused.contains_key(&node)
                 {
-                    self.compute(&mut steps, node);
+                    self.compute(&mut steps, node, &level);
                 }
             }
             for (_, store) in own_stores.iter().filter(|(l, _)| *l == now) {
@@ -358,9 +360,7 @@ impl Placer<'_> {
                 for (at, (_, term)) in terms.iter().enumerate() {
                     if open(*term)
                         && self.can_fuse(*term)
-                        && crate::instruct::fuses(self.dag, c, terms, at, &|n| {
-                            open(n) && self.can_fuse(n)
-                        })
+                        && crate::instruct::fuses(c, terms, at, &|n| open(n) && self.can_fuse(n))
                     {
                         fused.insert(*term, ());
                     }
@@ -371,7 +371,7 @@ impl Placer<'_> {
             if store.add
                 && open(store.value)
                 && self.home_of(store) == here
-                && self.can_fuse(store.value)
+                && (self.can_fuse(store.value) || self.is_negative_once(store.value))
             {
                 fused.insert(store.value, ());
             }
@@ -394,13 +394,19 @@ impl Placer<'_> {
         }
     }
 
+    /// Whether a node is a negative product, used once.
+    fn is_negative_once(&self, node: Node) -> bool {
+        matches!(self.dag.kind(node), Kind::Product(k, _) if k.is_negative())
+            && self.uses.get(&node) == Some(&1)
+    }
+
     /// Whether a node's value can be looked up.
     pub(crate) fn is_computed(&self, node: Node) -> bool {
         self.scopes.iter().any(|scope| scope.contains_key(&node))
     }
 
-    /// Computes a node whose children are computed.
-    fn compute(&mut self, steps: &mut Vec<Step>, node: Node) {
+    /// Computes a node whose children are computed; `needed` are the nodes of the block.
+    fn compute(&mut self, steps: &mut Vec<Step>, node: Node, needed: &Map<Node, usize>) {
         if self
             .scopes
             .last()
@@ -408,34 +414,27 @@ impl Placer<'_> {
         {
             return;
         }
-        let value = match self.dag.kind(node).clone() {
-            Kind::Call(Op::Sin, x) if self.partner(Op::Cos, x[0]).is_some() => {
+        let partner = match self.dag.kind(node) {
+            Kind::Call(Op::Sin, x) => self.dag.known(&Kind::Call(Op::Cos, x.clone())),
+            Kind::Call(Op::Cos, x) => self.dag.known(&Kind::Call(Op::Sin, x.clone())),
+            _ => None,
+        };
+        let value = match (self.dag.kind(node).clone(), partner) {
+            (Kind::Call(op, x), Some(partner)) if needed.contains_key(&partner) => {
                 let angle = self.value(x[0]);
                 let sin = self.push(steps, Instruction::PairedSin(angle));
                 let cos = self.push(steps, Instruction::PairedCos(sin));
-                if let Some(partner) = self.partner(Op::Cos, x[0]) {
-                    self.define(partner, cos);
-                }
-                sin
+                let (own, other) = if op == Op::Sin {
+                    (sin, cos)
+                } else {
+                    (cos, sin)
+                };
+                self.define(partner, other);
+                own
             }
-            Kind::Call(Op::Cos, x) if self.partner(Op::Sin, x[0]).is_some() => {
-                let angle = self.value(x[0]);
-                let sin = self.push(steps, Instruction::PairedSin(angle));
-                if let Some(partner) = self.partner(Op::Sin, x[0]) {
-                    self.define(partner, sin);
-                }
-                self.push(steps, Instruction::PairedCos(sin))
-            }
-            kind => self.instruct(steps, node, &kind),
+            (kind, _) => self.instruct(steps, node, &kind),
         };
         self.define(node, value);
-    }
-
-    /// The other of sin and cos of the same angle, if this function needs it too.
-    fn partner(&self, op: Op, angle: Node) -> Option<Node> {
-        self.dag
-            .known(&Kind::Call(op, vec![angle]))
-            .filter(|n| self.uses.contains_key(n))
     }
 
     /// Notes a node's value.
@@ -446,31 +445,23 @@ impl Placer<'_> {
     }
 
     fn store(&mut self, steps: &mut Vec<Step>, store: &Store, fused: &Map<Node, ()>) {
-        let (negative, magnitude) = match self.dag.kind(store.value) {
-            Kind::Product(k, factors)
-                if k.is_negative()
-                    && (fused.contains_key(&store.value)
-                        || matches!(factors.as_slice(), [(_, 1)])) =>
-            {
-                (true, store.value)
+        let update = match self.dag.kind(store.value) {
+            Kind::Product(k, factors) if fused.contains_key(&store.value) => {
+                let negative = k.is_negative();
+                if self.can_fuse(store.value) {
+                    let (a, b) = self.split_product(steps, store.value);
+                    if negative {
+                        Update::SubProduct(a, b)
+                    } else {
+                        Update::AddProduct(a, b)
+                    }
+                } else {
+                    let (k, factors) = (k.abs(), factors.clone());
+                    Update::Sub(self.product(steps, &k, &factors))
+                }
             }
-            _ => (false, store.value),
-        };
-        let update = if !store.add {
-            Update::Set(self.value(store.value))
-        } else if fused.contains_key(&store.value) {
-            let (a, b) = self.split_product(steps, magnitude);
-            if negative {
-                Update::SubProduct(a, b)
-            } else {
-                Update::AddProduct(a, b)
-            }
-        } else {
-            let value = self.value(store.value);
-            match *self.program.instruction(value) {
-                Instruction::Neg(inner) => Update::Sub(inner),
-                _ => Update::Add(value),
-            }
+            _ if store.add => Update::Add(self.value(store.value)),
+            _ => Update::Set(self.value(store.value)),
         };
         steps.push(Step::Store(
             store.target,

@@ -213,33 +213,41 @@ impl Tree {
         model
     }
 
-    /// Operations of the expression as written, shared places once: a quotient counts as a
-    /// reciprocal and a product, powers as multiplication trees.
+    /// Whether each place depends on q, p or t.
+    fn varies(&self) -> Vec<bool> {
+        let mut varies: Vec<bool> = Vec::with_capacity(self.0.len());
+        for part in &self.0 {
+            let own = matches!(part, Part::Variable(at) if *at <= TIME);
+            let operands = part.operands();
+            varies.push(own || operands.into_iter().any(|at| varies[at]));
+        }
+        varies
+    }
+
+    /// Operations of one evaluation of the expression as written, shared places once: a quotient
+    /// counts as a reciprocal and a product, powers as multiplication trees, what depends on
+    /// parameters alone as nothing.
     pub fn operations(&self) -> usize {
-        self.0
-            .iter()
-            .map(|part| match *part {
-                Part::Variable(_) | Part::Number(..) | Part::Pi | Part::Neg(_) => 0,
-                Part::Add(..) | Part::Sub(..) | Part::Mul(..) => 1,
-                Part::Div(a, _) if self.0[a] == Part::Number(1, 1) => 1,
-                Part::Div(..) => 2,
-                Part::Power(_, n, d) => {
-                    let m = n.unsigned_abs() as usize;
-                    let chain = if m < 2 {
-                        0
-                    } else {
-                        m.ilog2() as usize + m.count_ones() as usize - 1
-                    };
-                    match d {
-                        1 => chain + usize::from(n < 0),
-                        2 => 1 + chain + usize::from(n < 0),
-                        _ => 1,
-                    }
-                }
-                Part::Call(Op::Abs | Op::Sign, _) | Part::Call2(Op::Min | Op::Max, ..) => 0,
-                Part::Call(..) | Part::Call2(..) => 1,
-                Part::If(..) | Part::IfBoth(..) => 0,
-            })
+        let varies = self.varies();
+        let count = |part: &Part| match *part {
+            Part::Variable(_) | Part::Number(..) | Part::Pi | Part::Neg(_) => 0,
+            Part::Add(..) | Part::Sub(..) | Part::Mul(..) => 1,
+            Part::Div(a, b) => {
+                usize::from(varies[b]) + usize::from(self.0[a] != Part::Number(1, 1))
+            }
+            Part::Power(_, n, d) => {
+                let m = n.unsigned_abs() as usize;
+                let chain = m.ilog2() as usize + m.count_ones() as usize - 1;
+                chain + usize::from(n < 0) + usize::from(d == 2 || d == 3)
+            }
+            Part::Call(Op::Abs | Op::Sign, _) | Part::Call2(Op::Min | Op::Max, ..) => 0,
+            Part::Call(..) | Part::Call2(..) => 1,
+            Part::If(..) | Part::IfBoth(..) => 0,
+        };
+        let parts = self.0.iter().zip(&varies);
+        parts
+            .filter(|(_, varies)| **varies)
+            .map(|(part, _)| count(part))
             .sum()
     }
 

@@ -1,0 +1,280 @@
+//! Properties of scheduled programs: sound, deterministic, never more work than written, and the
+//! rules about domains.
+
+mod common;
+mod soundness;
+mod tree;
+
+use hamiltonian_symbolic::dag::{Array, Side};
+use hamiltonian_symbolic::eval::{Point, run};
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::pipeline::derive;
+use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose};
+use tree::{Random, grow};
+
+const ALL: [Purpose; 11] = [
+    Purpose::Energy,
+    Purpose::GradientQ,
+    Purpose::GradientP,
+    Purpose::Gradient,
+    Purpose::EnergyAndGradient,
+    Purpose::TimeDerivative,
+    Purpose::ParameterGradient,
+    Purpose::HessianVector,
+    Purpose::Flow,
+    Purpose::Kick,
+    Purpose::Drift,
+];
+
+#[test]
+fn programs_of_random_expressions_are_sound() {
+    let mut random = Random(11);
+    for _ in 0..3_000 {
+        let (tree, _) = grow(&mut random);
+        let program = derive(&mut tree.model(), &ALL).unwrap();
+        if std::panic::catch_unwind(|| soundness::check(&program)).is_err() {
+            panic!("{}", tree.text());
+        }
+    }
+}
+
+#[test]
+fn the_same_model_gives_the_same_program() {
+    let mut random = Random(12);
+    for _ in 0..300 {
+        let (tree, _) = grow(&mut random);
+        let first = derive(&mut tree.model(), &ALL).unwrap();
+        let second = derive(&mut tree.model(), &ALL).unwrap();
+        assert_eq!(first, second);
+    }
+}
+
+/// The work of an evaluation; a quotient is a reciprocal and a product.
+fn work(program: &Program, function: &Function) -> usize {
+    let mut quotients = 0;
+    soundness::every(&function.evaluation, &mut |value| {
+        quotients += usize::from(matches!(program.instruction(value), Instruction::Div(..)));
+    });
+    program.operations(function).total() + quotients
+}
+
+#[test]
+fn simplification_adds_no_operation() {
+    let mut random = Random(13);
+    let (mut more, mut written, mut left) = (0, 0, 0);
+    for _ in 0..10_000 {
+        let (tree, _) = grow(&mut random);
+        let program = derive(&mut tree.model(), &[Purpose::Energy]).unwrap();
+        let (before, after) = (tree.operations(), work(&program, &program.functions[0]));
+        written += before;
+        left += after;
+        if after > before {
+            more += 1;
+            if more < 20 {
+                println!("{before} → {after}: {}", tree.text());
+            }
+        }
+    }
+    println!("{written} operations written, {left} left");
+    assert!(left <= written && more * 40 <= 10_000);
+}
+
+/// The derived program of an H over scalar groups.
+fn program(signature: &str, parameters: &str, h: &str, wanted: &[Purpose]) -> Program {
+    let mut model = common::system(signature, "", parameters, h);
+    let program = derive(&mut model, wanted).unwrap();
+    soundness::check(&program);
+    program
+}
+
+/// How many instructions of the first function are such.
+fn count(program: &Program, such: impl Fn(&Instruction) -> bool) -> usize {
+    let mut total = 0;
+    soundness::every(&program.functions[0].evaluation, &mut |value| {
+        total += usize::from(such(program.instruction(value)));
+    });
+    total
+}
+
+fn energy(h: &str, q: f64, p: f64) -> f64 {
+    let program = program("q; p", "", h, &[Purpose::Energy]);
+    let mut point = Point::<f64>::new();
+    for (side, x) in [(Side::Q, q), (Side::P, p)] {
+        let array = Array::Phase {
+            side,
+            group: 0,
+            column: 0,
+        };
+        point.arrays.insert(array, vec![vec![x]]);
+    }
+    run(&program, &program.functions[0], &point).results[0]
+}
+
+#[test]
+fn long_products_share_their_parts() {
+    for (factors, most) in [(3usize, 3), (10, 24), (50, 144), (200, 594)] {
+        let names = |letter: char| {
+            let list: Vec<_> = (0..factors).map(|i| format!("{letter}{i}")).collect();
+            list.join(", ")
+        };
+        let signature = format!("{}; {}", names('q'), names('p'));
+        let h = names('q').replace(", ", "*");
+        let program = program(&signature, "", &h, &[Purpose::GradientQ]);
+        let multiplications = count(&program, |i| matches!(i, Instruction::Mul(..)));
+        println!("{factors} factors: {multiplications} of {most}");
+        assert_eq!(
+            program.operations(&program.functions[0]).total(),
+            multiplications
+        );
+        assert!(multiplications <= most);
+    }
+}
+
+#[test]
+fn numbers_are_exact() {
+    for (h, value) in [
+        ("0.1 + 0.2 - 0.3", 0.0),
+        ("q*(1/3 + 1/3 + 1/3)", 7.0),
+        ("q*(2/3)*1.5", 7.0),
+        ("sqrt(2.25)*q", 10.5),
+        ("q + 1e400*1e-400", 8.0),
+        ("if 1/3 < 1/2 { q } else { p }", 7.0),
+        ("if 32 < 9.81 { p } else { q }", 7.0),
+    ] {
+        let program = program("q; p", "", h, &[Purpose::Energy]);
+        assert_eq!(energy(h, 7.0, f64::NAN), value, "{h}");
+        let arithmetic = program.operations(&program.functions[0]).arithmetic;
+        assert!(arithmetic <= 1, "{h}: {arithmetic}");
+    }
+}
+
+#[test]
+fn domains_change_by_three_rules_only() {
+    // 0·x = 0, x/x = 1, √(x²) = |x|
+    assert_eq!(energy("0*ln(q)", -1.0, 0.0), 0.0);
+    assert_eq!(energy("q/q", 0.0, 0.0), 1.0);
+    assert_eq!(energy("sqrt(q^2)", -3.0, 0.0), 3.0);
+    assert_eq!(energy("sqrt(q^2*p^4)", -3.0, 2.0), 12.0);
+    assert_eq!(energy("abs(q)^2", 1e200, 0.0), f64::INFINITY);
+    // Everything else keeps its domain.
+    for (h, q) in [
+        ("sqrt(q)*sqrt(q)", -1.0),
+        ("sqrt(q)^2", -1.0),
+        ("q^0.5*q^0.5", -1.0),
+        ("q^1.5/sqrt(q)", -1.0),
+        ("q^(1/3)", -8.0),
+        ("q^(2/3)", -8.0),
+        ("exp(ln(q))", -1.0),
+        ("cosh(acosh(q))", 0.0),
+        ("ln(q) + ln(p)", -1.0),
+        ("sqrt(q)*sqrt(p)", -1.0),
+        ("(q^0.25)^4", -1.0),
+        ("1/sqrt(q) + 1/q", -1.0),
+    ] {
+        assert!(energy(h, q, -1.0).is_nan(), "{h}");
+    }
+    assert_eq!(energy("cbrt(q)^3", -8.0, 0.0), -8.0);
+    assert_eq!(energy("ln(q^2)", -1.0, 0.0), 0.0);
+    assert_eq!(energy("(q^2)^(1/2)", -2.0, 0.0), 2.0);
+    assert_eq!(energy("(q^2)^(3/2)", -2.0, 0.0), 8.0);
+    assert_eq!(
+        energy("1/sqrt(q^2 + p^2)^3 + 1/(q^2 + p^2)", 0.6, -0.8),
+        2.0
+    );
+}
+
+#[test]
+fn parity_shares_calls() {
+    let calls = |h: &str| {
+        let program = program("a, b; pa, pb", "", h, &[Purpose::Energy]);
+        program.operations(&program.functions[0]).functions
+    };
+    assert_eq!(calls("cos(a - b) + 2*cos(b - a)"), 1);
+    assert_eq!(calls("sin(a - b)*pa - sin(b - a)*pb"), 1);
+    assert_eq!(calls("exp(a - b) + exp(b - a)"), 2);
+    assert_eq!(calls("tanh(-a) + tanh(a)*pa"), 1);
+    assert_eq!(calls("abs(a - b) + abs(b - a)"), 0);
+}
+
+#[test]
+fn sine_and_cosine_of_one_angle_are_one_call() {
+    let both = program("q; p", "", "sin(q) + p*cos(q)", &[Purpose::Energy]);
+    assert_eq!(count(&both, |i| matches!(i, Instruction::PairedSin(_))), 1);
+    assert_eq!(count(&both, |i| matches!(i, Instruction::PairedCos(_))), 1);
+    assert_eq!(count(&both, |i| matches!(i, Instruction::Call(..))), 0);
+    let one = program("q; p", "", "sin(q)", &[Purpose::GradientQ]);
+    assert_eq!(
+        count(&one, |i| matches!(i, Instruction::Call(Op::Cos, _))),
+        1
+    );
+    assert_eq!(count(&one, |i| matches!(i, Instruction::PairedSin(_))), 0);
+}
+
+#[test]
+fn one_division_serves_all_powers() {
+    let divisions = |h: &str, wanted: Purpose| {
+        let program = program("x, y, z; a, b, c", "", h, &[wanted]);
+        count(&program, |i| {
+            matches!(i, Instruction::Div(..) | Instruction::Recip(_))
+        })
+    };
+    let r = "sqrt(x^2 + y^2 + z^2)";
+    assert_eq!(divisions(&format!("1/{r}"), Purpose::EnergyAndGradient), 1);
+    assert_eq!(
+        divisions(&format!("1/{r} + a/{r}^3"), Purpose::EnergyAndGradient),
+        1
+    );
+    assert_eq!(divisions("1/x + y/x^3", Purpose::EnergyAndGradient), 1);
+    assert_eq!(divisions("x/y + z/y", Purpose::Energy), 1);
+    assert_eq!(divisions("x/(y*z)", Purpose::Energy), 1);
+    let parameter = program(
+        "q; p",
+        "m",
+        "p^2/(2*m) + q/m",
+        &[Purpose::EnergyAndGradient],
+    );
+    let divides = |i: &Instruction| matches!(i, Instruction::Div(..) | Instruction::Recip(_));
+    assert_eq!(count(&parameter, divides), 0);
+}
+
+#[test]
+fn work_goes_where_it_is_due() {
+    let flow = program(
+        "q; p; t",
+        "m",
+        "p^2/(2*m) + cos(q)*cos(t)",
+        &[Purpose::Flow],
+    );
+    let function = &flow.functions[0];
+    // c/m once a step size, nothing but products and additions of it at a step.
+    assert_eq!(function.coefficient.len(), 2);
+    assert!(!flow.prepare.is_empty());
+    assert_eq!(flow.operations(function).divisions, 0);
+    let nothing = program("q; p", "m", "m*exp(m)", &[Purpose::EnergyAndGradient]);
+    assert_eq!(nothing.operations(&nothing.functions[0]).total(), 0);
+    // What no function needs is not in the program.
+    let kick = program("q; p", "m", "exp(p)/m + q^2", &[Purpose::Kick]);
+    assert!(kick.prepare.is_empty());
+    assert_eq!(kick.operations(&kick.functions[0]).functions, 0);
+}
+
+/// A chain of conditions, each taking the one before twice.
+#[test]
+fn nested_conditions_are_differentiated_once() {
+    let mut h = "q^2".to_owned();
+    for level in 0..40 {
+        h = format!("(if p < {level} {{ {h} }} else {{ sin(p*{level}) }})");
+    }
+    program("q; p", "", &h, &[Purpose::EnergyAndGradient]);
+    let mut model: Model = common::system("q; p", "", "", "q*p");
+    let mut node = model.hamiltonian.unwrap();
+    let p = model.scalar(Side::P, 0);
+    for level in 0..40 {
+        let limit = model.dag.integer(level);
+        let (condition, other) = (model.dag.less(p, limit), model.dag.powi(node, 2));
+        node = model.dag.select(condition, node, other);
+    }
+    model.hamiltonian = Some(node);
+    soundness::check(&derive(&mut model, &[Purpose::EnergyAndGradient]).unwrap());
+}

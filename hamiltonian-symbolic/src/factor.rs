@@ -87,10 +87,11 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
                         .into_iter()
                         .map(|(k, n)| (k, new[&n], uses[&n] == 1))
                         .collect();
-                    let sum = factored_sum(dag, &c, &terms, &k, Some(p));
+                    // The sign stays outside, where it becomes a subtraction.
+                    let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
                     let mut all = vec![(sum, 1)];
                     all.extend(others);
-                    dag.product(&Rational::ONE, &all)
+                    dag.product(&k.sign(), &all)
                 }
                 None => {
                     let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new[&n], e)).collect();

@@ -216,6 +216,15 @@ impl Rational {
             self.clone()
         }
     }
+    /// −1, 0 or 1.
+    #[must_use]
+    pub fn sign(&self) -> Rational {
+        match (self.is_zero(), self.is_negative()) {
+            (true, _) => Rational::ZERO,
+            (_, true) => Rational::MINUS_ONE,
+            _ => Rational::ONE,
+        }
+    }
     /// The value as an integer that fits `i32`, if it is one.
     #[must_use]
     pub fn to_i32(&self) -> Option<i32> {

@@ -169,6 +169,8 @@ fn loops_are_linear_and_literal_ones_are_written_out() {
         Proof::NonZero { point, .. } => assert_eq!(point[0], ("N".to_owned(), 3.0)),
         other => panic!("{other:?}"),
     }
+    let triangle = parse(&mut m, "sum(i in 0..N, j in 0..i) { sin(q[i] - q[j]) }");
+    assert!(matches!(is_zero(&m, triangle), Proof::NonZero { .. }));
     let mut m = model("s[4]; u[4]", "", "");
     let node = parse(
         &mut m,

@@ -120,6 +120,24 @@ impl Algebra {
         })
     }
 
+    /// The atoms an atom is made of.
+    pub(crate) fn parts(&self, atom: Atom) -> Vec<Atom> {
+        match &self.entry(atom).key {
+            Key::Leaf(_) => Vec::new(),
+            Key::Cos(x)
+            | Key::Sin(x)
+            | Key::Exp(x)
+            | Key::Root(_, x)
+            | Key::Ln(x)
+            | Key::Sign(x)
+            | Key::Divisor(x) => x.atoms(),
+            Key::Function(_, arguments) | Key::External(_, _, arguments) => {
+                arguments.iter().flat_map(Poly::atoms).collect()
+            }
+            Key::Sum(_, body) => body.0.iter().map(|(atom, _)| *atom).collect(),
+        }
+    }
+
     /// A polynomial as a node.
     pub(crate) fn node(&self, dag: &mut Dag, poly: &Poly) -> Node {
         let atoms = self.nodes_of(dag, poly.atoms());
@@ -136,20 +154,7 @@ impl Algebra {
                 continue;
             }
             needed.push(atom);
-            match &self.entry(atom).key {
-                Key::Leaf(_) => {}
-                Key::Cos(x)
-                | Key::Sin(x)
-                | Key::Exp(x)
-                | Key::Root(_, x)
-                | Key::Ln(x)
-                | Key::Sign(x)
-                | Key::Divisor(x) => stack.extend(x.atoms()),
-                Key::Function(_, arguments) | Key::External(_, _, arguments) => {
-                    stack.extend(arguments.iter().flat_map(Poly::atoms))
-                }
-                Key::Sum(_, body) => stack.extend(body.0.iter().map(|(atom, _)| *atom)),
-            }
+            stack.extend(self.parts(atom));
         }
         needed.sort_unstable();
         let mut nodes: Map<Atom, Node> = Map::default();

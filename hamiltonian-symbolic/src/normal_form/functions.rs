@@ -438,57 +438,70 @@ impl Algebra {
 
     /// ln|poly|: of a product the sum of its logarithms.
     fn logarithm(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
-        let (k, monomial, rest) = self.content(poly)?;
         let mut sum = Poly::default();
-        for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
-            let atom = self.function(Key::Ln(Poly::integer(prime)), None);
-            sum = sum.add(&Poly::term(
-                Rational::integer(i64::from(n)),
-                Monomial::atom(atom, 1),
-            ));
-        }
-        for &(atom, n) in &monomial.0 {
-            let of_atom = match self.entry(atom).key.clone() {
-                Key::Exp(exponent) => exponent,
-                Key::Root(degree, x) => self
-                    .logarithm(&x)?
-                    .scale(&Rational::new(1, i64::from(degree))),
-                Key::Sign(_) => Poly::default(),
-                Key::Divisor(x) => self.logarithm(&x)?,
-                _ => Poly::atom(self.function(Key::Ln(Poly::atom(atom, 1)), None), 1),
-            };
-            sum = sum.add(&of_atom.scale(&Rational::integer(i64::from(n))));
-        }
-        if rest.as_constant().is_none() {
-            let atom = self.function(Key::Ln(rest), None);
-            sum = sum.add(&Poly::atom(atom, 1));
+        let mut left = vec![(poly.clone(), Rational::ONE)];
+        while let Some((poly, scale)) = left.pop() {
+            let (k, monomial, rest) = self.content(&poly)?;
+            for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
+                let atom = self.function(Key::Ln(Poly::integer(prime)), None);
+                let n = scale.mul(&Rational::integer(i64::from(n)));
+                sum = sum.add(&Poly::term(n, Monomial::atom(atom, 1)));
+            }
+            for &(atom, n) in &monomial.0 {
+                let scale = scale.mul(&Rational::integer(i64::from(n)));
+                match self.entry(atom).key.clone() {
+                    Key::Exp(exponent) => sum = sum.add(&exponent.scale(&scale)),
+                    Key::Root(degree, x) => {
+                        left.push((x, scale.mul(&Rational::new(1, i64::from(degree)))))
+                    }
+                    Key::Sign(_) => {}
+                    Key::Divisor(x) => left.push((x, scale)),
+                    _ => {
+                        let atom = self.function(Key::Ln(Poly::atom(atom, 1)), None);
+                        sum = sum.add(&Poly::term(scale, Monomial::atom(atom, 1)));
+                    }
+                }
+            }
+            if rest.as_constant().is_none() {
+                let atom = self.function(Key::Ln(rest), None);
+                sum = sum.add(&Poly::term(scale, Monomial::atom(atom, 1)));
+            }
         }
         Ok(sum)
     }
 
     /// The sign of a polynomial: of a product the product of its signs.
     pub(super) fn sign(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
-        let (k, monomial, rest) = self.content(poly)?;
-        if k.is_zero() {
-            return Ok(Poly::default());
-        }
-        let mut sign = Poly::integer(if k.is_negative() { -1 } else { 1 });
-        for &(atom, n) in &monomial.0 {
-            let entry = self.entry(atom);
-            if n % 2 == 0 || entry.nonnegative {
-                continue;
+        let mut sign = Poly::integer(1);
+        let mut left = vec![poly.clone()];
+        while let Some(poly) = left.pop() {
+            let (k, monomial, rest) = self.content(&poly)?;
+            if k.is_zero() {
+                return Ok(Poly::default());
             }
-            let factor = match entry.key.clone() {
-                Key::Sign(_) => Poly::atom(atom, 1),
-                Key::Divisor(x) => self.sign_atom(&x),
-                Key::Root(3, x) => self.sign(&x)?,
-                _ => self.sign_atom(&Poly::atom(atom, 1)),
-            };
-            sign = self.mul(&sign, &factor)?;
-        }
-        if rest.as_constant().is_none() && !self.is_nonnegative(&rest) {
-            let factor = self.sign_atom(&rest);
-            sign = self.mul(&sign, &factor)?;
+            if k.is_negative() {
+                sign = sign.scale(&Rational::MINUS_ONE);
+            }
+            for &(atom, n) in &monomial.0 {
+                let entry = self.entry(atom);
+                if n % 2 == 0 || entry.nonnegative {
+                    continue;
+                }
+                let factor = match entry.key.clone() {
+                    Key::Sign(_) => Poly::atom(atom, 1),
+                    Key::Divisor(x) => self.sign_atom(&x),
+                    Key::Root(_, x) => {
+                        left.push(x);
+                        continue;
+                    }
+                    _ => self.sign_atom(&Poly::atom(atom, 1)),
+                };
+                sign = self.mul(&sign, &factor)?;
+            }
+            if rest.as_constant().is_none() && !self.is_nonnegative(&rest) {
+                let factor = self.sign_atom(&rest);
+                sign = self.mul(&sign, &factor)?;
+            }
         }
         self.canonical(&sign)
     }

@@ -9,18 +9,19 @@
 //! sin² + cos² = 1 and sums and multiples of angles, hyperbolic functions and powers as
 //! exponentials, e^a·e^b = e^(a+b), e^(n ln x) = xⁿ, (√x)² = x, logarithms of products, |x| = x·sign x,
 //! min, max and `if` as signs, polynomials below fraction lines brought over a common denominator.
-//! A loop is an atom for each product it sums.
+//! A loop is an atom for each product it sums, the same one for all re-indexings of the loop.
 
 mod atoms;
 mod convert;
 mod functions;
 mod polynomial;
 mod reduce;
+mod symmetry;
 
 pub(crate) use atoms::{Algebra, Key};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 
-use crate::dag::{Dependence, Kind, Node};
+use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::loops::{Point, Sample, sample, unroll_nodes};
 use crate::model::Model;
 
@@ -56,29 +57,43 @@ pub fn is_zero(model: &Model, node: Node) -> Proof {
     if let Some((point, value)) = witness(model, node) {
         return Proof::NonZero { point, value };
     }
-    let mut algebra = Algebra::new(BUDGET);
-    let vanishes = |algebra: &mut Algebra, model: &Model, node: Node| {
-        let poly = algebra.convert(&model.dag, node)?;
-        algebra.numerator(&poly)
-    };
-    if vanishes(&mut algebra, model, node).is_ok_and(|poly| poly.is_zero()) {
+    let mut dag = model.dag.clone();
+    if vanishes(&mut dag, node) {
         return Proof::Zero;
     }
     // Loops over literal ranges are sums like any other.
-    let has_loops = model
-        .dag
-        .reachable(&[node])
-        .iter()
-        .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
-    if model.sizes.is_empty() && has_loops {
-        if let Ok((unrolled, images)) = unroll_nodes(model, &[], &[node]) {
-            let mut algebra = Algebra::new(BUDGET);
-            if vanishes(&mut algebra, &unrolled, images[0]).is_ok_and(|poly| poly.is_zero()) {
+    if model.sizes.is_empty() && has_loops(&model.dag, node) {
+        if let Ok((mut written, images)) = unroll_nodes(model, &[], &[node]) {
+            if vanishes(&mut written.dag, images[0]) {
                 return Proof::Zero;
             }
         }
     }
     Proof::Undecided
+}
+
+fn has_loops(dag: &Dag, node: Node) -> bool {
+    dag.reachable(&[node])
+        .iter()
+        .any(|n| matches!(dag.kind(*n), Kind::Reduce(..)))
+}
+
+/// Whether the normal form says that a node is identically zero, loops re-indexed where that
+/// helps.
+pub(crate) fn vanishes(dag: &mut Dag, node: Node) -> bool {
+    let mut algebra = Algebra::new(BUDGET);
+    let mut decide = || {
+        let poly = algebra.convert(dag, node)?;
+        if symmetry::summands_vanish(&mut algebra, &poly)? {
+            return Ok(true);
+        }
+        if !has_loops(dag, node) {
+            return Ok(false);
+        }
+        let poly = symmetry::settle(&mut algebra, dag, &poly)?;
+        symmetry::summands_vanish(&mut algebra, &poly)
+    };
+    decide() == Ok::<bool, Undecided>(true)
 }
 
 /// The sizes at which a statement about all sizes is tried.

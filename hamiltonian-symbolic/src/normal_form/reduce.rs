@@ -8,7 +8,6 @@
 use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::rational::Rational;
-use std::rc::Rc;
 
 /// How often all atoms are gone through: each pass but the first only meets what redefined atoms
 /// brought back.
@@ -21,17 +20,7 @@ impl Algebra {
         for _ in 0..PASSES {
             let mut changed = false;
             for atom in poly.atoms().into_iter().rev() {
-                let Some((degree, replacement)) = self.entry(atom).relation.clone() else {
-                    continue;
-                };
-                if poly
-                    .terms()
-                    .iter()
-                    .any(|(m, _)| m.exponent(atom) >= degree as i32)
-                {
-                    poly = self.lowered(&poly, atom, degree, &replacement)?;
-                    changed = true;
-                }
+                changed |= self.lower(&mut poly, atom)?;
             }
             if !changed {
                 return Ok(poly);
@@ -57,16 +46,7 @@ impl Algebra {
                     (_, poly) = self.cleared(&poly, atom)?;
                     changed = true;
                 }
-                if let Some((degree, replacement)) = self.entry(atom).relation.clone() {
-                    if poly
-                        .terms()
-                        .iter()
-                        .any(|(m, _)| m.exponent(atom) >= degree as i32)
-                    {
-                        poly = self.lowered(&poly, atom, degree, &replacement)?;
-                        changed = true;
-                    }
-                }
+                changed |= self.lower(&mut poly, atom)?;
             }
             if !changed {
                 return Ok(poly);
@@ -105,35 +85,33 @@ impl Algebra {
         Ok((lowest, sum.finish(&self.budget)?))
     }
 
-    /// Powers of an atom from `degree` on replaced.
-    fn lowered(
-        &mut self,
-        poly: &Poly,
-        atom: Atom,
-        degree: u32,
-        replacement: &Rc<Poly>,
-    ) -> Result<Poly, Undecided> {
-        let replacement = self.settled(replacement)?;
+    /// Powers of an atom that its relation replaces: those from its degree on, and negative ones
+    /// where that takes no divisor. Whether there were any.
+    fn lower(&mut self, poly: &mut Poly, atom: Atom) -> Result<bool, Undecided> {
+        let Some((degree, replacement)) = self.entry(atom).relation.clone() else {
+            return Ok(false);
+        };
         let degree = degree as i32;
+        let inverts = replacement
+            .as_term()
+            .is_some_and(|(m, _)| m.exponent(atom) == 0);
+        let stays = |n: i32| n < degree && (n >= 0 || !inverts);
+        if poly.terms().iter().all(|(m, _)| stays(m.exponent(atom))) {
+            return Ok(false);
+        }
+        let replacement = self.settled(&replacement)?;
         let mut sum = Sum::default();
-        let mut power = Poly::integer(1);
-        let mut reached = 0;
         for (n, part) in poly.by_power(atom) {
-            if n < degree {
+            if stays(n) {
                 sum.add(&part.times(&Monomial::atom(atom, n)), &Rational::ONE);
                 continue;
             }
-            while reached < n / degree {
-                power = self.mul(&power, &replacement)?;
-                reached += 1;
-            }
-            sum.add_product(
-                &part.times(&Monomial::atom(atom, n % degree)),
-                &power,
-                &mut self.budget,
-            )?;
+            let power = self.pow(&replacement, n.div_euclid(degree))?;
+            let part = part.times(&Monomial::atom(atom, n.rem_euclid(degree)));
+            sum.add_product(&part, &power, &mut self.budget)?;
         }
-        sum.finish(&self.budget)
+        *poly = sum.finish(&self.budget)?;
+        Ok(true)
     }
 
     /// The polynomial with redefined atoms replaced.

@@ -1,0 +1,177 @@
+//! Poisson brackets and the proof or refutation of invariants.
+//!
+//! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
+//! proven means for all sizes, at all points (on the shell, if one is given); disproven comes with
+//! sizes and a point where the time derivative along the flow is not zero.
+
+mod pair;
+mod shell;
+
+pub use pair::bracket;
+
+use crate::dag::{Dependence, Kind, Node};
+use crate::diff;
+use crate::loops::{Point, unroll_nodes};
+use crate::model::Model;
+use crate::normal_form::{self, Algebra, BUDGET, TRIED, witness};
+use crate::print;
+use crate::rational::Rational;
+use crate::structure::expand;
+
+/// What is known of a claimed invariant.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Verdict {
+    /// It is conserved.
+    Proven,
+    /// It is not.
+    Disproven {
+        /// Its time derivative along the flow, {I, H} + ∂I/∂t, as text.
+        residual: String,
+        /// Sizes, parameters, coordinates and momenta with values at which the residual is not 0.
+        point: Point,
+        /// The residual there.
+        value: f64,
+    },
+    /// Neither was shown.
+    Undecided {
+        /// Its time derivative along the flow as text.
+        residual: String,
+    },
+}
+
+/// Whether an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
+/// `shell` the statement is about points with H = shell only.
+#[must_use]
+pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
+    let mut model = model.clone();
+    let h = match model.hamiltonian {
+        Some(h) => h,
+        None => model.dag.integer(0),
+    };
+    let difference = shell.map(|e| model.dag.sub(h, e));
+    let general = derivative(&mut model, expression, h);
+    let mut undecided = general.map_or_else(
+        || "the bracket with H".to_owned(),
+        |node| readable(&mut model, node),
+    );
+    let has_loops = model
+        .dag
+        .reachable(&[h, expression])
+        .iter()
+        .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
+    if !has_loops && model.sizes.is_empty() {
+        return match general {
+            Some(residual) => decide(&mut model, residual, difference, undecided),
+            None => Verdict::Undecided {
+                residual: undecided,
+            },
+        };
+    }
+    // Small sizes may refute; only the loops as they stand may prove, unless the sizes are literal.
+    let tried: &[i64] = if model.sizes.is_empty() { &[0] } else { &TRIED };
+    for &size in tried {
+        let sizes = vec![size; model.sizes.len()];
+        let mut roots = vec![h, expression];
+        roots.extend(difference);
+        let Ok((mut small, images)) = unroll_nodes(&model, &sizes, &roots) else {
+            continue;
+        };
+        let Some(residual) = derivative(&mut small, images[1], images[0]) else {
+            continue;
+        };
+        let found = match images.get(2) {
+            None => witness(&small, residual),
+            Some(difference) => shell::witness(&small, residual, *difference),
+        };
+        if let Some((mut point, value)) = found {
+            point.splice(
+                0..0,
+                model.sizes.iter().map(|name| (name.clone(), size as f64)),
+            );
+            if general.is_none() {
+                undecided = readable(&mut small, residual);
+            }
+            return Verdict::Disproven {
+                residual: undecided,
+                point,
+                value,
+            };
+        }
+    }
+    if let Some(residual) = general {
+        if normal_form::vanishes(&mut model.dag, residual) {
+            return Verdict::Proven;
+        }
+    }
+    if model.sizes.is_empty() {
+        let mut roots = vec![h, expression];
+        roots.extend(difference);
+        if let Ok((mut written, images)) = unroll_nodes(&model, &[], &roots) {
+            if let Some(residual) = derivative(&mut written, images[1], images[0]) {
+                return decide(&mut written, residual, images.get(2).copied(), undecided);
+            }
+        }
+    }
+    Verdict::Undecided {
+        residual: undecided,
+    }
+}
+
+/// {I, H} + ∂I/∂t
+fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
+    let flow = bracket(model, expression, h)?;
+    let explicit = diff::gradient(&mut model.dag, expression, Dependence::TIME);
+    let parts: Vec<Node> = std::iter::once(flow)
+        .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
+        .collect();
+    Some(model.dag.add(&parts))
+}
+
+/// The verdict on a residual without loops.
+fn decide(model: &mut Model, residual: Node, difference: Option<Node>, text: String) -> Verdict {
+    if model.dag.is_zero(residual) {
+        return Verdict::Proven;
+    }
+    let found = match difference {
+        None => witness(model, residual),
+        Some(difference) => shell::witness(model, residual, difference),
+    };
+    if let Some((point, value)) = found {
+        return Verdict::Disproven {
+            residual: text,
+            point,
+            value,
+        };
+    }
+    let vanishes = match difference {
+        None => normal_form::vanishes(&mut model.dag, residual),
+        Some(difference) => {
+            let mut algebra = Algebra::new(BUDGET);
+            shell::vanishes(&mut algebra, &model.dag, residual, difference) == Ok(true)
+        }
+    };
+    if vanishes {
+        Verdict::Proven
+    } else {
+        Verdict::Undecided { residual: text }
+    }
+}
+
+/// The text of a residual: as it came, or multiplied out, whichever is shorter.
+fn readable(model: &mut Model, residual: Node) -> String {
+    let plain = print::text(model, residual);
+    let Some(terms) = expand(&mut model.dag, residual) else {
+        return plain;
+    };
+    let mut operands = Vec::with_capacity(terms.len());
+    for term in &terms {
+        operands.push((Rational::ONE, term.node(&mut model.dag)));
+    }
+    let expanded = model.dag.linear(&Rational::ZERO, &operands);
+    let expanded = print::text(model, expanded);
+    if expanded.len() <= plain.len() {
+        expanded
+    } else {
+        plain
+    }
+}

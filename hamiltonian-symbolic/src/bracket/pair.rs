@@ -1,0 +1,155 @@
+//! The Poisson bracket as an expression.
+//!
+//! Input: two expressions. Output: {a, b} = Σ ∂a/∂q ∂b/∂p − ∂a/∂p ∂b/∂q, loops as loops.
+//! Invariant: derivatives with respect to array elements are lists of scatters (every iteration
+//! adds a value to an element); a product of two such lists is a sum over the scatters of one of
+//! the derivative of the other at the element scattered to.
+
+use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
+use crate::diff;
+use crate::index::{Affine, Domain, Index};
+use crate::loops::field;
+use crate::model::{Model, Shape};
+use crate::rational::Rational;
+
+/// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
+/// cannot be solved for loop variables.
+pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
+    let shapes: Vec<Shape> = model.groups.iter().map(|g| g.shape.clone()).collect();
+    let dag = &mut model.dag;
+    let (aq, ap) = (
+        diff::gradient(dag, a, Dependence::Q),
+        diff::gradient(dag, a, Dependence::P),
+    );
+    let (bq, bp) = (
+        diff::gradient(dag, b, Dependence::Q),
+        diff::gradient(dag, b, Dependence::P),
+    );
+    let mut terms: Vec<(Rational, Node)> = Vec::new();
+    for (group, shape) in shapes.iter().enumerate() {
+        let (rows, columns) = match shape {
+            Shape::Scalar => (Affine::constant(1), 1),
+            Shape::Vector(rows) => (rows.clone(), 1),
+            Shape::Matrix(rows, columns) => (rows.clone(), columns.as_constant()?),
+        };
+        for column in 0..u16::try_from(columns).ok()? {
+            let array = |side| Array::Phase {
+                side,
+                group: group as u16,
+                column,
+            };
+            for (x, y, sign) in [(&aq, &bp, Rational::ONE), (&ap, &bq, Rational::MINUS_ONE)] {
+                let sides = if sign.is_one() {
+                    [Side::Q, Side::P]
+                } else {
+                    [Side::P, Side::Q]
+                };
+                let (x, y) = (
+                    scatters(dag, x, array(sides[0])),
+                    scatters(dag, y, array(sides[1])),
+                );
+                for term in paired(dag, &x, &y, &rows)? {
+                    terms.push((sign.clone(), term));
+                }
+            }
+        }
+    }
+    Some(dag.linear(&Rational::ZERO, &terms))
+}
+
+/// Every iteration of the loops around adds a value to an element.
+#[derive(Clone, Debug)]
+struct Scatter {
+    leaf: Node,
+    row: Index,
+    chain: Vec<Domain>,
+    value: Node,
+}
+
+fn scatters(dag: &Dag, leaves: &[(Node, Node)], array: Array) -> Vec<Scatter> {
+    leaves
+        .iter()
+        .filter_map(|&(leaf, value)| match dag.kind(leaf) {
+            Kind::Element(of, row, None) if *of == array => Some(Scatter {
+                leaf,
+                row: row.clone(),
+                chain: dag.path(dag.home(leaf)),
+                value,
+            }),
+            _ => None,
+        })
+        .collect()
+}
+
+/// Σ over elements of the product of two derivatives.
+fn paired(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<Vec<Node>> {
+    if x.is_empty() || y.is_empty() {
+        return Some(Vec::new());
+    }
+    let fixed = |list: &[Scatter]| -> Option<Vec<i64>> {
+        list.iter()
+            .map(|s| {
+                if s.row.modulo.is_none() {
+                    s.row.affine.as_constant()
+                } else {
+                    None
+                }
+            })
+            .collect()
+    };
+    if let (Some(a), Some(b)) = (fixed(x), fixed(y)) {
+        let mut terms = Vec::new();
+        for (s, at) in x.iter().zip(a) {
+            for (t, _) in y.iter().zip(&b).filter(|(_, other)| **other == at) {
+                terms.push(dag.mul(&[s.value, t.value]));
+            }
+        }
+        return Some(terms);
+    }
+    // The side whose derivative is plain as a function of the element is read at the elements the
+    // other side scatters to.
+    let plain = |dag: &Dag, list: &[Scatter]| list.iter().all(|s| is_plain(dag, s, rows));
+    if plain(dag, y) || !plain(dag, x) {
+        gathered(dag, x, y, rows).or_else(|| gathered(dag, y, x, rows))
+    } else {
+        gathered(dag, y, x, rows).or_else(|| gathered(dag, x, y, rows))
+    }
+}
+
+/// Whether each iteration of one loop writes one element, and all of them together all elements.
+fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
+    let [domain] = scatter.chain.as_slice() else {
+        return false;
+    };
+    let range = dag.range(*domain);
+    let is_whole = range.start == Affine::constant(0) && range.end == *rows;
+    let rest = scatter.row.affine.plus(-1, &Affine::variable(*domain));
+    is_whole
+        && rest.loops.is_empty()
+        && (scatter.row.modulo.as_ref() == Some(rows)
+            || scatter.row == Index::plain(Affine::variable(*domain)))
+}
+
+fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<Vec<Node>> {
+    let k = field::elements(dag, rows);
+    let leaves: Vec<(Node, Node)> = y.iter().map(|s| (s.leaf, s.value)).collect();
+    let Kind::Element(array, ..) = *dag.kind(y.first()?.leaf) else {
+        return None;
+    };
+    let value = field::field(dag, &leaves, array, rows)?;
+    let mut terms = Vec::new();
+    for scatter in x {
+        let row = field::plain_where_possible(dag, scatter.row.clone());
+        let there = match &row.modulo {
+            None => dag.replace(value, k, &row.affine),
+            Some(_) => field::shift(dag, value, k, &row)?,
+        };
+        let mut term = dag.mul(&[scatter.value, there]);
+        for &domain in scatter.chain.iter().rev() {
+            term = dag.reduce(domain, term);
+        }
+        terms.push(term);
+    }
+    // More loops than can be told apart would be mistaken for each other.
+    (dag.loop_count() < 60).then_some(terms)
+}

@@ -1,0 +1,273 @@
+//! Sums over loops brought to one form among all their re-indexings.
+//!
+//! Input: a polynomial with sums as atoms. Output: the same polynomial where sums that a
+//! re-indexing turns into each other are one atom, and a sum that one turns into its own negative
+//! is 0. Invariant: only bijections of a loop's range are used: shifts modulo its length, the
+//! exchange of two loops over one range, the exchange that maps j < i onto itself.
+
+use super::atoms::{Algebra, Key};
+use super::polynomial::{Atom, Monomial, Poly, Undecided};
+use crate::dag::{Dag, Kind, Map, Node};
+use crate::index::{Affine, Domain, Index};
+use crate::loops::field;
+use crate::rational::Rational;
+
+/// The most re-indexings of one sum that are looked at.
+const MOST: usize = 64;
+
+/// A sum: its loops, outermost first, and what is added.
+#[derive(Clone, PartialEq, Debug)]
+struct Nest {
+    loops: Vec<Domain>,
+    body: Node,
+}
+
+/// The polynomial with every sum in its first form.
+pub(super) fn settle(algebra: &mut Algebra, dag: &mut Dag, poly: &Poly) -> Result<Poly, Undecided> {
+    let mut poly = poly.clone();
+    for atom in poly.atoms() {
+        if matches!(algebra.entry(atom).key, Key::Sum(..)) {
+            let image = first_form(algebra, dag, atom)?;
+            if image != Poly::atom(atom, 1) {
+                poly = algebra.substituted(&poly, atom, &image)?;
+            }
+        }
+    }
+    Ok(poly)
+}
+
+/// Whether a polynomial is zero, or all sums over one loop together are sums of zeros.
+pub(super) fn summands_vanish(algebra: &mut Algebra, poly: &Poly) -> Result<bool, Undecided> {
+    let mut left = vec![poly.clone()];
+    while let Some(poly) = left.pop() {
+        let poly = algebra.numerator(&poly)?;
+        if poly.is_zero() {
+            continue;
+        }
+        // What several loops multiply is not a sum over one of them.
+        let mut summands: Vec<(Domain, Poly)> = Vec::new();
+        for (monomial, k) in poly.terms() {
+            let sums: Vec<_> = monomial
+                .0
+                .iter()
+                .filter(|(atom, _)| matches!(algebra.entry(*atom).key, Key::Sum(..)))
+                .collect();
+            let [(atom, 1)] = sums.as_slice() else {
+                return Ok(false);
+            };
+            let Key::Sum(domain, body) = algebra.entry(*atom).key.clone() else {
+                return Ok(false);
+            };
+            let term = Poly::term(k.clone(), monomial.without(*atom).mul(&body));
+            match summands.iter_mut().find(|(d, _)| *d == domain) {
+                Some((_, summand)) => *summand = summand.add(&term),
+                None => summands.push((domain, term)),
+            }
+        }
+        left.extend(summands.into_iter().map(|(_, summand)| summand));
+    }
+    Ok(true)
+}
+
+fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, Undecided> {
+    let Some(nest) = flattened(algebra, dag, atom) else {
+        return Ok(Poly::atom(atom, 1));
+    };
+    let mut best: Option<(Vec<Domain>, Monomial, Rational)> = None;
+    for candidate in images(dag, nest) {
+        if dag.loop_count() >= 60 {
+            return Err(Undecided);
+        }
+        let body = algebra.convert(dag, candidate.body)?;
+        let body = algebra.canonical(&body)?;
+        let Some((monomial, k)) = body.as_term().cloned() else {
+            continue;
+        };
+        let better = match &best {
+            None => true,
+            Some((loops, other, sign)) => {
+                match (&candidate.loops, &monomial).cmp(&(loops, other)) {
+                    std::cmp::Ordering::Equal if *sign != k => return Ok(Poly::default()),
+                    order => order.is_lt(),
+                }
+            }
+        };
+        if better {
+            best = Some((candidate.loops, monomial, k));
+        }
+    }
+    let Some((loops, monomial, k)) = best else {
+        return Ok(Poly::atom(atom, 1));
+    };
+    let mut sum = monomial;
+    for &domain in loops.iter().rev() {
+        let bit = 1u64 << domain.0;
+        let (inside, outside): (Vec<_>, Vec<_>) = sum
+            .0
+            .iter()
+            .partition(|(atom, _)| algebra.entry(*atom).variables & bit != 0);
+        let looped = algebra.sum(dag, domain, Monomial(inside));
+        sum = Monomial(outside).mul(&Monomial::atom(looped, 1));
+    }
+    Ok(Poly::term(k, sum))
+}
+
+/// The loops of a sum of a sum; `None` where sums are multiplied inside, or stand inside
+/// functions.
+fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
+    let mut loops = Vec::new();
+    let mut body = Monomial::atom(atom, 1);
+    loop {
+        let sums: Vec<(Atom, i32)> = body
+            .0
+            .iter()
+            .filter(|(atom, _)| matches!(algebra.entry(*atom).key, Key::Sum(..)))
+            .copied()
+            .collect();
+        match sums.as_slice() {
+            [] => break,
+            [(sum, 1)] => {
+                let Key::Sum(domain, inner) = &algebra.entry(*sum).key else {
+                    return None;
+                };
+                loops.push(*domain);
+                body = body.without(*sum).mul(inner);
+            }
+            _ => return None,
+        }
+    }
+    let body = algebra.node(dag, &Poly::term(Rational::ONE, body));
+    let is_flat = !dag
+        .reachable(&[body])
+        .iter()
+        .any(|n| matches!(dag.kind(*n), Kind::Reduce(..) | Kind::Count(_)));
+    is_flat.then_some(Nest { loops, body })
+}
+
+/// All re-indexings of a nest, itself first.
+fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
+    let nest = lower(dag, &nest).unwrap_or(nest);
+    let mut found = vec![nest];
+    let mut at = 0;
+    while at < found.len() && found.len() < MOST {
+        let nest = found[at].clone();
+        at += 1;
+        let mut new = shifts(dag, &nest);
+        new.extend(exchanges(dag, &nest));
+        for image in new {
+            if !found.contains(&image) {
+                found.push(image);
+            }
+        }
+    }
+    found
+}
+
+/// Σ_i Σ_{j>i} f(i, j) as Σ_i Σ_{j<i} f(j, i).
+fn lower(dag: &mut Dag, nest: &Nest) -> Option<Nest> {
+    let [i, j] = *nest.loops.as_slice() else {
+        return None;
+    };
+    let (outer, inner) = (dag.range(i).clone(), dag.range(j).clone());
+    let after = Affine::variable(i).plus(1, &Affine::constant(1));
+    if inner.start != after || inner.end != outer.end {
+        return None;
+    }
+    let below = dag.domain(Some(i), outer.start, Affine::variable(i));
+    let body = renamed(dag, nest.body, &|d| if d == i { below } else { i }, &[i, j])?;
+    Some(Nest {
+        loops: vec![i, below],
+        body,
+    })
+}
+
+/// Two loops over one range exchanged. (j < i has no image of its own kind: exchanged, it is
+/// j > i, which [`lower`] maps back; so a triangular sum is in one form already.)
+fn exchanges(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
+    let [i, j] = *nest.loops.as_slice() else {
+        return Vec::new();
+    };
+    let (outer, inner) = (dag.range(i).clone(), dag.range(j).clone());
+    if outer.start != inner.start || outer.end != inner.end {
+        return Vec::new();
+    }
+    let body = renamed(dag, nest.body, &|d| if d == i { j } else { i }, &[i, j]);
+    body.map(|body| Nest {
+        loops: vec![i, j],
+        body,
+    })
+    .into_iter()
+    .collect()
+}
+
+/// Each loop over 0..N shifted so that one of the elements modulo N has the bare index.
+fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
+    let mut found = Vec::new();
+    for &domain in &nest.loops {
+        let range = dag.range(domain).clone();
+        if range.start != Affine::constant(0) || !range.end.loops.is_empty() {
+            continue;
+        }
+        let mut offsets: Vec<Affine> = Vec::new();
+        for node in dag.reachable(&[nest.body]) {
+            let Kind::Element(_, row, column) = dag.kind(node) else {
+                continue;
+            };
+            for index in std::iter::once(row).chain(column) {
+                if index.affine.factor(domain) == 1 && index.modulo.as_ref() == Some(&range.end) {
+                    let offset = index.affine.plus(-1, &Affine::variable(domain));
+                    if offset.loops.is_empty() && !offsets.contains(&offset) {
+                        offsets.push(offset);
+                    }
+                }
+            }
+        }
+        for offset in offsets {
+            let by = Index::wrapped(
+                Affine::variable(domain).plus(-1, &offset),
+                range.end.clone(),
+            );
+            if let Some(body) = field::shift(dag, nest.body, domain, &by) {
+                found.push(Nest {
+                    loops: nest.loops.clone(),
+                    body,
+                });
+            }
+        }
+    }
+    found
+}
+
+/// A body without loops with its loop variables renamed all at once; `None` where the new names
+/// have no common place.
+fn renamed(
+    dag: &mut Dag,
+    root: Node,
+    name: &impl Fn(Domain) -> Domain,
+    which: &[Domain],
+) -> Option<Node> {
+    let target = |d: Domain| {
+        if which.contains(&d) {
+            Affine::variable(name(d))
+        } else {
+            Affine::variable(d)
+        }
+    };
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[root]) {
+        let image = match dag.kind(node).clone() {
+            Kind::Variable(d) => dag.affine(&target(d)),
+            Kind::Element(array, row, column) => {
+                let (row, column) = (
+                    row.substitute(&target),
+                    column.map(|c| c.substitute(&target)),
+                );
+                dag.element(array, row, column)
+            }
+            Kind::Reduce(..) | Kind::Count(_) => return None,
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    Some(new[&root])
+}

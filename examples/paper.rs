@@ -81,15 +81,25 @@ impl<S: System<f64>> Problem<'_, S> {
         let entry = scheme.entry();
         let energy = self.system.energy(&self.start);
         let mut curve = Vec::new();
-        let interval = (self.end / STEP / 1000.0).round() as u64;
-        let watcher = every(interval, watch(|view: &View<'_, f64, S>| curve.push((view.state.t, view.energy() / energy - 1.0))));
-        let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?.observe((EnergyDrift::new(), watcher));
+        let interval = (self.end / STEP / 2000.0).ceil() as u64;
+        let watcher = every(
+            interval,
+            watch(|view: &View<'_, f64, S>| {
+                curve.push((view.state.t, view.energy() / energy - 1.0))
+            }),
+        );
+        let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?
+            .observe((EnergyDrift::new(), watcher));
         match run.advance_to(self.end) {
             Ok(_) | Err(Error::NotFinite { .. }) => {}
             Err(error) => return Err(error),
         }
         let drift = &run.observer().0;
-        let (max, mean, of_mean) = (drift.max_relative(), drift.mean_relative(), (drift.mean() / energy - 1.0).abs());
+        let (max, mean, of_mean) = (
+            drift.max_relative(),
+            drift.mean_relative(),
+            (drift.mean() / energy - 1.0).abs(),
+        );
         Ok(Row {
             system: self.name,
             scheme: entry.name,
@@ -116,10 +126,17 @@ impl<S: System<f64>> Problem<'_, S> {
         if let Some(error) = self.failure {
             return Err(error);
         }
-        let distances = [("29", Pihajoki::CoordinateFirst), ("30", Pihajoki::MomentumFirst)];
+        let distances = [
+            ("29", Pihajoki::CoordinateFirst),
+            ("30", Pihajoki::MomentumFirst),
+        ];
         for (equations, scheme) in distances {
             let distance = self.copy_distance(scheme).ok();
-            for row in self.rows.iter_mut().filter(|row| row.equations == equations) {
+            for row in self
+                .rows
+                .iter_mut()
+                .filter(|row| row.equations == equations)
+            {
                 row.copy_distance = distance;
             }
         }
@@ -137,8 +154,20 @@ impl<S: System<f64>> Visitor<f64, S> for Problem<'_, S> {
 }
 
 /// A problem that any scheme can be run on.
-fn problem<'a, S: System<f64>>(name: &'static str, system: &'a S, start: State<S::Vector>, end: f64) -> Problem<'a, S> {
-    Problem { name, system, start, end, rows: Vec::new(), failure: None }
+fn problem<'a, S: System<f64>>(
+    name: &'static str,
+    system: &'a S,
+    start: State<S::Vector>,
+    end: f64,
+) -> Problem<'a, S> {
+    Problem {
+        name,
+        system,
+        start,
+        end,
+        rows: Vec::new(),
+        failure: None,
+    }
 }
 
 /// All schemes of the catalogue on a separable system.
@@ -156,20 +185,42 @@ fn any_on<S: System<f64>>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error
 
 /// The curves of some equations; of (26) and (33) those with the paper's start.
 fn curves(rows: &[Row], wanted: &[(&str, &str)]) -> Vec<Curve> {
-    let find = |equations: &str| rows.iter().find(|row| (row.equations == equations || row.scheme == equations) && matches!(row.start, "" | "equal"));
+    let find = |equations: &str| {
+        rows.iter().find(|row| {
+            (row.equations == equations || row.scheme == equations)
+                && matches!(row.start, "" | "equal")
+        })
+    };
     wanted
         .iter()
-        .filter_map(|(equations, name)| find(equations).map(|row| Curve { name: (*name).to_string(), points: row.curve.clone() }))
+        .filter_map(|(equations, name)| {
+            find(equations).map(|row| Curve {
+                name: (*name).to_string(),
+                points: row.curve.clone(),
+            })
+        })
         .collect()
 }
 
-const AS_THE_PAPER: [(&str, &str); 3] = [("26", "scheme 1, (26)"), ("33", "scheme 2, (33)"), ("29", "PSVM, (29)")];
+const AS_THE_PAPER: [(&str, &str); 3] = [
+    ("26", "scheme 1, (26)"),
+    ("33", "scheme 2, (33)"),
+    ("29", "PSVM, (29)"),
+];
 
 fn csv(rows: &[Row]) -> String {
-    let mut text = String::from("system,scheme,equation,start,dt,t_end,max_rel_energy_error,mean_rel_energy_error,copy_distance\n");
+    let mut text = String::from(
+        "system,scheme,equation,start,dt,t_end,max_rel_energy_error,mean_rel_energy_error,copy_distance\n",
+    );
     for row in rows {
-        let distance = row.copy_distance.map_or_else(String::new, |d| format!("{d:e}"));
-        let _ = writeln!(text, "{},{},{},{},{STEP},{},{:e},{:e},{distance}", row.system, row.scheme, row.equations, row.start, row.end, row.max, row.mean);
+        let distance = row
+            .copy_distance
+            .map_or_else(String::new, |d| format!("{d:e}"));
+        let _ = writeln!(
+            text,
+            "{},{},{},{},{STEP},{},{:e},{:e},{distance}",
+            row.system, row.scheme, row.equations, row.start, row.end, row.max, row.mean
+        );
     }
     text
 }
@@ -190,10 +241,24 @@ fn reported(row: &Row) -> Option<f64> {
 }
 
 fn print(rows: &[Row]) {
-    println!("{:<20} {:<28} {:<8} {:<13} {:>5} {:>11} {:>11} {:>11} {:>11} {:>10}", "system", "scheme", "equation", "start", "t_end", "max %", "mean %", "of mean %", "paper %", "copies");
+    println!(
+        "{:<20} {:<28} {:<8} {:<13} {:>5} {:>11} {:>11} {:>11} {:>11} {:>10}",
+        "system",
+        "scheme",
+        "equation",
+        "start",
+        "t_end",
+        "max %",
+        "mean %",
+        "of mean %",
+        "paper %",
+        "copies"
+    );
     for row in rows {
         let paper = reported(row).map_or_else(String::new, |p| format!("{p:.2e}"));
-        let copies = row.copy_distance.map_or_else(String::new, |d| format!("{d:.1e}"));
+        let copies = row
+            .copy_distance
+            .map_or_else(String::new, |d| format!("{d:.1e}"));
         println!(
             "{:<20} {:<28} {:<8} {:<13} {:>5} {:>11.3e} {:>11.3e} {:>11.3e} {:>11} {:>10}",
             row.system,
@@ -212,24 +277,52 @@ fn print(rows: &[Row]) {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let angle = std::f64::consts::FRAC_PI_4;
-    let (pendulum, from_pivot, nonseparable) = (Pendulum::default(), PendulumFromPivot::default(), NonSeparable {});
+    let (pendulum, from_pivot, nonseparable) = (
+        Pendulum::default(),
+        PendulumFromPivot::default(),
+        NonSeparable {},
+    );
     let at_rest = || State::new([angle], [0.0]);
     let far_out = || State::new([-3.0], [0.0]);
 
     let mut rows = all_on(problem("pendulum", &pendulum, at_rest(), PENDULUM_END))?;
     let pendulum_rows = rows.len();
-    rows.extend(all_on(problem("pendulum from pivot", &from_pivot, at_rest(), PENDULUM_END))?);
+    rows.extend(all_on(problem(
+        "pendulum from pivot",
+        &from_pivot,
+        at_rest(),
+        PENDULUM_END,
+    ))?);
     let short = any_on(problem("nonseparable", &nonseparable, far_out(), SHORT_END))?;
     let long = any_on(problem("nonseparable", &nonseparable, far_out(), LONG_END))?;
 
     let folder = Path::new("target/paper");
     std::fs::create_dir_all(folder)?;
     let (time, error) = ("time t", "relative energy error H/H(0) − 1");
-    Figure { title: "Figure 1: pendulum, Δt = 0.001", x: time, y: error, logarithmic: false, range: None, curves: curves(&rows[..pendulum_rows], &AS_THE_PAPER) }
-        .write(&folder.join("figure1.svg"))?;
-    Figure { title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001", x: time, y: error, logarithmic: false, range: None, curves: curves(&short, &AS_THE_PAPER) }
-        .write(&folder.join("figure2.svg"))?;
-    let beside = [("29", "PSVM, (29)"), ("33", "scheme 2, (33)"), ("ImplicitMidpoint", "implicit midpoint"), ("RungeKutta4", "Runge–Kutta 4 (not symplectic)")];
+    Figure {
+        title: "Figure 1: pendulum, Δt = 0.001",
+        x: time,
+        y: error,
+        logarithmic: false,
+        range: None,
+        curves: curves(&rows[..pendulum_rows], &AS_THE_PAPER),
+    }
+    .write(&folder.join("figure1.svg"))?;
+    Figure {
+        title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001",
+        x: time,
+        y: error,
+        logarithmic: false,
+        range: None,
+        curves: curves(&short, &AS_THE_PAPER),
+    }
+    .write(&folder.join("figure2.svg"))?;
+    let beside = [
+        ("29", "PSVM, (29)"),
+        ("33", "scheme 2, (33)"),
+        ("ImplicitMidpoint", "implicit midpoint"),
+        ("RungeKutta4", "Runge–Kutta 4 (not symplectic)"),
+    ];
     Figure {
         title: "Figure 3: the same system for longer: what the paper did not see",
         x: time,
@@ -245,9 +338,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::write(folder.join("results.csv"), csv(&rows))?;
     print(&rows);
     println!();
-    println!("Assumed, because the paper does not say: g = 9.81; V = mgl(1 − cos q) (\"from pivot\": −mgl cos q);");
-    println!("runs to t = {PENDULUM_END} and {SHORT_END}; its \"uncertainty\" is |mean H/H(0) − 1| (column \"of mean\").");
+    println!(
+        "Assumed, because the paper does not say: g = 9.81; V = mgl(1 − cos q) (\"from pivot\": −mgl cos q);"
+    );
+    println!(
+        "runs to t = {PENDULUM_END} and {SHORT_END}; its \"uncertainty\" is |mean H/H(0) − 1| (column \"of mean\")."
+    );
     println!("Scheme (26) advances time by 2Δt a step; t is the time of the system.");
-    println!("Written to {}: figure1.svg, figure2.svg, figure3.svg, results.csv", folder.display());
+    println!(
+        "Written to {}: figure1.svg, figure2.svg, figure3.svg, results.csv",
+        folder.display()
+    );
     Ok(())
 }

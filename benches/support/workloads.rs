@@ -38,16 +38,34 @@ pub struct Workload {
 
 /// All workloads.
 pub const ALL: &[Workload] = &[
-    Workload { name: "pendulum, Störmer–Verlet", library: pendulum, twin: pendulum_twin },
-    Workload { name: "(34), Pihajoki (29) fused", library: doubled, twin: doubled_twin },
-    Workload { name: "Hénon–Heiles, Störmer–Verlet", library: henon_heiles, twin: henon_heiles_twin },
+    Workload {
+        name: "pendulum, Störmer–Verlet",
+        library: pendulum,
+        twin: pendulum_twin,
+    },
+    Workload {
+        name: "(34), Pihajoki (29) fused",
+        library: doubled,
+        twin: doubled_twin,
+    },
+    Workload {
+        name: "Hénon–Heiles, Störmer–Verlet",
+        library: henon_heiles,
+        twin: henon_heiles_twin,
+    },
 ];
 
 #[inline(never)]
 fn pendulum(n: u64) -> Vec<f64> {
     let system = black_box(Pendulum::default());
     let start = black_box(State::new([0.7], [3.0]));
-    let mut run = Integrator::new(&system, StormerVerlet::KickDriftKick, start, black_box(STEP)).unwrap();
+    let mut run = Integrator::new(
+        &system,
+        StormerVerlet::KickDriftKick,
+        start,
+        black_box(STEP),
+    )
+    .unwrap();
     let end = run.advance(n).unwrap();
     vec![end.q[0], end.p[0]]
 }
@@ -71,7 +89,13 @@ fn pendulum_twin(n: u64) -> Vec<f64> {
 #[inline(never)]
 fn doubled(n: u64) -> Vec<f64> {
     let start = black_box(State::new([0.3], [0.4]));
-    let mut run = Integrator::new(&NonSeparable {}, Pihajoki::CoordinateFirst, start, black_box(STEP)).unwrap();
+    let mut run = Integrator::new(
+        &NonSeparable {},
+        Pihajoki::CoordinateFirst,
+        start,
+        black_box(STEP),
+    )
+    .unwrap();
     let end = run.advance(n).unwrap();
     vec![end.q[0], end.p[0]]
 }
@@ -84,20 +108,28 @@ fn doubled_twin(n: u64) -> Vec<f64> {
     let half = 0.5 * h;
     q += half * p * (q2 * q2 + 1.0);
     p2 -= half * q2 * (p * p + 1.0);
-    for k in 0..n {
+    for _ in 1..n {
         q2 += h * p2 * (q * q + 1.0);
         p -= h * q * (p2 * p2 + 1.0);
-        let c = if k + 1 < n { h } else { half };
-        q += c * p * (q2 * q2 + 1.0);
-        p2 -= c * q2 * (p * p + 1.0);
+        q += h * p * (q2 * q2 + 1.0);
+        p2 -= h * q2 * (p * p + 1.0);
     }
+    q2 += h * p2 * (q * q + 1.0);
+    p -= h * q * (p2 * p2 + 1.0);
+    q += half * p * (q2 * q2 + 1.0);
     vec![q, p]
 }
 
 #[inline(never)]
 fn henon_heiles(n: u64) -> Vec<f64> {
     let start = black_box(State::new([0.1, -0.1], [0.3, 0.2]));
-    let mut run = Integrator::new(&HenonHeiles {}, StormerVerlet::KickDriftKick, start, black_box(STEP)).unwrap();
+    let mut run = Integrator::new(
+        &HenonHeiles {},
+        StormerVerlet::KickDriftKick,
+        start,
+        black_box(STEP),
+    )
+    .unwrap();
     let end = run.advance(n).unwrap();
     vec![end.q[0], end.q[1], end.p[0], end.p[1]]
 }
@@ -109,12 +141,15 @@ fn henon_heiles_twin(n: u64) -> Vec<f64> {
     let half = 0.5 * h;
     px -= half * x * (1.0 + 2.0 * y);
     py -= half * (y + x * x - y * y);
-    for k in 0..n {
+    x += h * px;
+    y += h * py;
+    for _ in 1..n {
+        px -= h * x * (1.0 + 2.0 * y);
+        py -= h * (y + x * x - y * y);
         x += h * px;
         y += h * py;
-        let c = if k + 1 < n { h } else { half };
-        px -= c * x * (1.0 + 2.0 * y);
-        py -= c * (y + x * x - y * y);
     }
+    px -= half * x * (1.0 + 2.0 * y);
+    py -= half * (y + x * x - y * y);
     vec![x, y, px, py]
 }

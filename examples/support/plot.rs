@@ -40,33 +40,58 @@ impl Figure<'_> {
     pub fn write(&self, path: &Path) -> Result<(), Box<dyn Error>> {
         let drawing = SVGBackend::new(path, (900, 560)).into_drawing_area();
         drawing.fill(&WHITE)?;
-        let all = || self.curves.iter().flat_map(|curve| &curve.points).filter(|(_, y)| y.is_finite());
-        let x = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (x, _)| r.start.min(*x)..r.end.max(*x));
+        let all = || {
+            self.curves
+                .iter()
+                .flat_map(|curve| &curve.points)
+                .filter(|(_, y)| y.is_finite())
+        };
+        let x = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (x, _)| {
+            r.start.min(*x)..r.end.max(*x)
+        });
         let mut builder = ChartBuilder::on(&drawing);
-        builder.caption(self.title, ("sans-serif", 20)).margin(16).x_label_area_size(44).y_label_area_size(84);
+        builder
+            .caption(self.title, ("sans-serif", 20))
+            .margin(16)
+            .x_label_area_size(44)
+            .y_label_area_size(84);
         if self.logarithmic {
             let shown = || all().map(|(_, y)| y.abs()).filter(|y| *y > 0.0);
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
             let largest = shown().fold(f64::NEG_INFINITY, f64::max);
-            let y = self.range.clone().unwrap_or(smallest..largest * 2.0);
+            // Room for the legend above the curves.
+            let y = self
+                .range
+                .clone()
+                .unwrap_or(smallest..largest * (largest / smallest).powf(0.25));
             let mut chart = builder.build_cartesian_2d(x, y.clone().log_scale())?;
-            self.draw(&mut chart, |y_value| (y_value.abs() >= y.start && y_value.abs() <= y.end).then_some(y_value.abs()))
+            self.draw(&mut chart, |y_value| {
+                (y_value.abs() >= y.start && y_value.abs() <= y.end).then_some(y_value.abs())
+            })
         } else {
             let y = self.range.clone().unwrap_or_else(|| {
-                let y = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (_, y)| r.start.min(*y)..r.end.max(*y));
-                let margin = 0.05 * (y.end - y.start).max(f64::MIN_POSITIVE);
-                y.start - margin..y.end + margin
+                let y = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (_, y)| {
+                    r.start.min(*y)..r.end.max(*y)
+                });
+                let span = (y.end - y.start).max(f64::MIN_POSITIVE);
+                y.start - 0.05 * span..y.end + 0.3 * span
             });
             let mut chart = builder.build_cartesian_2d(x, y.clone())?;
-            self.draw(&mut chart, |y_value| (y_value >= y.start && y_value <= y.end).then_some(y_value))
+            self.draw(&mut chart, |y_value| {
+                (y_value >= y.start && y_value <= y.end).then_some(y_value)
+            })
         }?;
         drawing.present()?;
         Ok(())
     }
 
-    fn draw<Y>(
+    fn draw<'a, 'b: 'a, Y>(
         &self,
-        chart: &mut ChartContext<'_, SVGBackend<'_>, Cartesian2d<plotters::coord::types::RangedCoordf64, Y>>,
+        chart: &mut ChartContext<
+            'a,
+            SVGBackend<'b>,
+            Cartesian2d<plotters::coord::types::RangedCoordf64, Y>,
+        >,
         visible: impl Fn(f64) -> Option<f64>,
     ) -> Result<(), Box<dyn Error>>
     where
@@ -76,7 +101,13 @@ impl Figure<'_> {
             .configure_mesh()
             .x_desc(self.x)
             .y_desc(self.y)
-            .y_label_formatter(&|y| if *y == 0.0 { "0".into() } else { format!("{y:.1e}") })
+            .y_label_formatter(&|y| {
+                if *y == 0.0 {
+                    "0".into()
+                } else {
+                    format!("{y:.1e}")
+                }
+            })
             .light_line_style(WHITE.mix(0.0))
             .bold_line_style(BLACK.mix(0.12))
             .draw()?;
@@ -85,10 +116,17 @@ impl Figure<'_> {
             // A curve that leaves the range is cut there, not joined across.
             let pieces = curve.points.split(|(_, y)| visible(*y).is_none());
             for (number, piece) in pieces.filter(|piece| piece.len() > 1).enumerate() {
-                let line = LineSeries::new(piece.iter().filter_map(|(x, y)| visible(*y).map(|y| (*x, y))), colour.stroke_width(2));
+                let line = LineSeries::new(
+                    piece
+                        .iter()
+                        .filter_map(|(x, y)| visible(*y).map(|y| (*x, y))),
+                    colour.stroke_width(2),
+                );
                 let drawn = chart.draw_series(line)?;
                 if number == 0 {
-                    drawn.label(&curve.name).legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(3)));
+                    drawn.label(&curve.name).legend(move |(x, y)| {
+                        PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(3))
+                    });
                 }
             }
         }

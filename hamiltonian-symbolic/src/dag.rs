@@ -174,6 +174,7 @@ struct Facts {
     dependence: Dependence,
     variables: u64,
     nonnegative: bool,
+    height: u32,
 }
 
 /// A loop: its range, in the context of its parent.
@@ -275,6 +276,11 @@ impl Dag {
     #[must_use]
     pub fn is_nonnegative(&self, node: Node) -> bool {
         self.facts[node.0 as usize].nonnegative
+    }
+    /// The longest way down to a leaf, in operations: what is low is known early.
+    #[must_use]
+    pub fn height(&self, node: Node) -> u32 {
+        self.facts[node.0 as usize].height
     }
     /// The innermost loop a node must be computed in.
     #[must_use]
@@ -417,7 +423,9 @@ impl Dag {
     fn facts_of(&self, kind: &Kind) -> Facts {
         let mut dependence = Dependence::default();
         let mut variables = 0u64;
+        let mut height = 0;
         let mut child = |node: Node| {
+            height = height.max(self.height(node) + 1);
             dependence.0 |= self.dependence(node).0;
             variables |= self.variables(node);
         };
@@ -507,6 +515,7 @@ impl Dag {
             dependence,
             variables,
             nonnegative,
+            height,
         }
     }
 }

@@ -5,6 +5,7 @@
 //! change places with the plain term after it (which rounds the same, fused).
 
 use crate::dag::{Kind, Node};
+use crate::factor::is_prepared;
 use crate::program::{Instruction, Step, Value};
 use crate::rational::Rational;
 use crate::schedule::Placer;
@@ -251,6 +252,7 @@ impl Placer<'_> {
             let one = self.constant(steps, Rational::ONE);
             return (value, one);
         };
+        let factors = self.early_first(&factors);
         let mut list: Vec<Value> = Vec::new();
         if !is_unit(&k) {
             list.push(self.constant(steps, k.abs()));
@@ -262,6 +264,18 @@ impl Placer<'_> {
         let last = list.pop().unwrap_or(Value(0));
         let first = self.chain(steps, &list);
         (first, last)
+    }
+
+    /// The factors of a product in the order of multiplication: what an outer block or few
+    /// operations make known comes first, so that the product waits for its last factor only.
+    fn early_first(&self, factors: &[(Node, i32)]) -> Vec<(Node, i32)> {
+        let mut ordered = factors.to_vec();
+        ordered.sort_by_key(|(node, _)| {
+            let depth = self.dag.path(self.dag.home(*node)).len();
+            let height = self.dag.height(*node);
+            (depth, if is_prepared(self.dag, *node) { 0 } else { 1 + height })
+        });
+        ordered
     }
 
     fn chain(&mut self, steps: &mut Vec<Step>, list: &[Value]) -> Value {
@@ -288,7 +302,7 @@ impl Placer<'_> {
             let factor = self.constant(steps, k.abs());
             above.push(factor);
         }
-        for &(node, n) in factors {
+        for (node, n) in self.early_first(factors) {
             let value = self.value(node);
             let side = if n > 0 { &mut above } else { &mut below };
             side.extend((0..n.unsigned_abs()).map(|_| value));

@@ -8,6 +8,7 @@ pub mod eval;
 pub mod factor;
 pub mod index;
 mod instruct;
+pub mod legendre;
 pub mod loops;
 pub mod model;
 pub mod normal_form;

@@ -111,6 +111,7 @@ pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Poi
             )
         })
         .collect();
+    let mut found = 0;
     for seed in 0..6 {
         let how = Sample {
             seed,
@@ -118,45 +119,61 @@ pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Poi
             ..Sample::default()
         };
         for &momentum in &momenta {
-            let at = |value: f64| sample(model, &[shell, residual], &[], how, &[(momentum, value)]);
-            let Some(root) = solve(|p| at(p).map_or(f64::NAN, |(values, _)| values[0].value))
-            else {
+            let at =
+                |roots: &[Node], value: f64| sample(model, roots, &[], how, &[(momentum, value)]);
+            let off_shell = |p| at(&[shell], p).map_or(f64::NAN, |(values, _)| values[0].value);
+            let Some(root) = solve(off_shell) else {
                 continue;
             };
-            let (values, point) = at(root)?;
+            let (values, point) = at(&[shell, residual], root)?;
             // How much the residual changes over the distance the root may be off.
             let off = 1e-9 * (1.0 + root.abs());
-            let (above, below) = (at(root + off)?.0[1], at(root - off)?.0[1]);
-            let change = (above.value - below.value).abs();
+            let (above, below) = (at(&[residual], root + off)?, at(&[residual], root - off)?);
+            let change = (above.0[0].value - below.0[0].value).abs();
             if values[1].is_nonzero() && values[1].value.abs() > 16.0 * (change + values[1].error) {
                 return Some((point, values[1].value));
             }
+            found += 1;
+            break;
+        }
+        if found == 2 {
+            break;
         }
     }
     None
 }
 
-/// A zero by bisection between two of a range of points.
+/// A zero by false position (the Illinois variant) between two of a range of points.
 fn solve(f: impl Fn(f64) -> f64) -> Option<f64> {
-    let points = (-32..=32).map(|n| f64::from(n) * 0.25 + 0.015625);
     let mut last: Option<(f64, f64)> = None;
-    for x in points {
+    for x in (-12..=12).map(|n| f64::from(n) + 0.015625) {
         let value = f(x);
-        if let Some((a, at_a)) = last {
-            if at_a.is_finite() && value.is_finite() && at_a.signum() != value.signum() {
-                let (mut low, mut high) = (a, x);
-                for _ in 0..80 {
-                    let middle = 0.5 * (low + high);
-                    if f(middle).signum() == at_a.signum() {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                return Some(0.5 * (low + high));
+        match last {
+            Some((a, at_a)) if at_a * value < 0.0 => {
+                return Some(false_position(&f, (a, at_a), (x, value)));
             }
+            _ => last = Some((x, value)),
         }
-        last = Some((x, value));
     }
     None
+}
+
+fn false_position(f: &impl Fn(f64) -> f64, mut a: (f64, f64), mut b: (f64, f64)) -> f64 {
+    let mut x = a.0;
+    for _ in 0..60 {
+        let next = (a.0 * b.1 - b.0 * a.1) / (b.1 - a.1);
+        if (next - x).abs() <= 1e-13 * (1.0 + x.abs()) {
+            return next;
+        }
+        x = next;
+        let value = f(x);
+        if value * b.1 < 0.0 {
+            a = b;
+        } else {
+            // The end that stays is drawn in, so that neither stays for long.
+            a.1 *= 0.5;
+        }
+        b = (x, value);
+    }
+    x
 }

@@ -10,4 +10,4 @@ pub mod unroll;
 mod walk;
 
 pub use numeric::{Point, Sample, Sampled, sample};
-pub use unroll::{unroll, unroll_nodes};
+pub use unroll::{unroll, unroll_nodes, write_out};

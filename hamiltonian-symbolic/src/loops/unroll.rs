@@ -5,7 +5,7 @@
 //! more than [`LARGEST`] nodes are made.
 
 use super::walk::{Meaning, Place, walk};
-use crate::dag::{Array, Dag, Kind, Node};
+use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
@@ -74,6 +74,39 @@ pub fn unroll_nodes(
     }
 }
 
+/// A node of the model without its loops, in the model's own arena. All sizes must be literal.
+///
+/// # Errors
+/// As [`unroll`].
+pub fn write_out(model: &mut Model, root: Node) -> Result<Node, String> {
+    let (unrolled, images) = unroll_nodes(model, &[], &[root])?;
+    let mut new: Map<Node, Node> = Map::default();
+    for node in unrolled.dag.reachable(&images) {
+        let kind = with_children(unrolled.dag.kind(node), &|child| new[&child]);
+        new.insert(node, model.dag.of_kind(kind));
+    }
+    Ok(new[&images[0]])
+}
+
+/// A kind over other children.
+fn with_children(kind: &Kind, child: &dyn Fn(Node) -> Node) -> Kind {
+    let mut kind = kind.clone();
+    match &mut kind {
+        Kind::Sum(_, terms) => terms.iter_mut().for_each(|(_, n)| *n = child(*n)),
+        Kind::Product(_, factors) => factors.iter_mut().for_each(|(n, _)| *n = child(*n)),
+        Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
+            arguments.iter_mut().for_each(|n| *n = child(*n));
+        }
+        Kind::Not(a) => *a = child(*a),
+        Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
+            (*a, *b) = (child(*a), child(*b));
+        }
+        Kind::Select(c, a, b) => (*c, *a, *b) = (child(*c), child(*a), child(*b)),
+        _ => {}
+    }
+    kind
+}
+
 struct Unroller {
     model: Model,
     trouble: Option<String>,
@@ -129,25 +162,7 @@ impl Meaning for Unroller {
             Kind::Variable(domain) => self.model.dag.integer(place.variable(*domain)),
             Kind::Extent(size) => self.model.dag.integer(place.size(*size)),
             Kind::Count(domain) => self.model.dag.integer(place.count(dag, *domain)),
-            kind => {
-                let mut kind = kind.clone();
-                match &mut kind {
-                    Kind::Sum(_, terms) => terms.iter_mut().for_each(|(_, n)| *n = child(*n)),
-                    Kind::Product(_, factors) => {
-                        factors.iter_mut().for_each(|(n, _)| *n = child(*n))
-                    }
-                    Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
-                        arguments.iter_mut().for_each(|n| *n = child(*n))
-                    }
-                    Kind::Not(a) => *a = child(*a),
-                    Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
-                        (*a, *b) = (child(*a), child(*b))
-                    }
-                    Kind::Select(c, a, b) => (*c, *a, *b) = (child(*c), child(*a), child(*b)),
-                    _ => {}
-                }
-                self.model.dag.of_kind(kind)
-            }
+            kind => self.model.dag.of_kind(with_children(kind, child)),
         }
     }
 

@@ -1,0 +1,311 @@
+//! From a Lagrangian to its Hamiltonian.
+//!
+//! Input: L(q, v, t), quadratic in the velocities, which stand where momenta stand in H
+//! ([`Side::P`] elements of the arena). Output: [`Legendre`]: H(q, p, t), p(q, v, t) and
+//! v(q, p, t); with L = ½vᵀMv + bᵀv − V that is p = Mv + b and H = ½(p − b)ᵀM⁻¹(p − b) + V.
+//! Invariant: M is proven not to depend on velocities, and not to be singular everywhere.
+//!
+//! All scalar coordinates together have one mass matrix, dense or not; array elements have one for
+//! each element k, over the columns of all arrays of that length. Arrays of literal length whose
+//! elements are coupled are written out, if they are short.
+
+mod form;
+
+use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
+use crate::diff;
+use crate::index::{Affine, Domain, Index};
+use crate::loops::{field, write_out};
+use crate::model::{Model, Shape};
+use crate::normal_form::{Proof, is_zero};
+use crate::print::{self, Notation};
+use form::{Form, Singular};
+
+/// Arrays that are written out have at most this many elements, scalars included.
+const LONGEST: i64 = 16;
+
+/// The momentum or velocity of one coordinate, or of each element of a column.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Component {
+    /// The element it belongs to, among momenta; in the loop `domain` where it is one of many.
+    pub element: Node,
+    /// The loop over elements, for arrays.
+    pub domain: Option<Domain>,
+    /// Its value.
+    pub value: Node,
+}
+
+/// What a Lagrangian becomes.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Legendre {
+    /// H(q, p, t): momentum elements are momenta.
+    pub hamiltonian: Node,
+    /// p(q, v, t): momentum elements stand for velocities.
+    pub momenta: Vec<Component>,
+    /// v(q, p, t): momentum elements are momenta.
+    pub velocities: Vec<Component>,
+}
+
+/// The Legendre transform of a Lagrangian in the model's arena; `velocities` names them, one for
+/// each group.
+///
+/// # Errors
+/// Why there is none, a sentence without a full stop: no velocities, not quadratic in them,
+/// elements coupled with each other, singular mass matrix.
+pub fn transform(
+    model: &mut Model,
+    lagrangian: Node,
+    velocities: &[String],
+) -> Result<Legendre, String> {
+    let mut transform = Transform { model, velocities };
+    if !transform.model.dag.dependence(lagrangian).on(Dependence::P) {
+        return Err("L has no velocities".to_owned());
+    }
+    match transform.blocks(lagrangian) {
+        Ok(blocks) => transform.solve(lagrangian, &blocks),
+        // Elements that are coupled are coordinates like any other, once they are written out.
+        Err(reason) => match transform.written_out(lagrangian) {
+            Some((written, block)) => transform.solve(written, &[block]),
+            None => Err(reason),
+        },
+    }
+}
+
+/// Velocities with a common mass matrix: of scalars, or of element k of arrays.
+#[derive(Default)]
+struct Block {
+    domain: Option<Domain>,
+    /// The velocities.
+    elements: Vec<Node>,
+    /// ∂L/∂(velocity).
+    momenta: Vec<Node>,
+}
+
+struct Transform<'a> {
+    model: &'a mut Model,
+    velocities: &'a [String],
+}
+
+impl Transform<'_> {
+    /// Scalars in one block, arrays by their length.
+    fn blocks(&mut self, lagrangian: Node) -> Result<Vec<Block>, String> {
+        let leaves = diff::gradient(&mut self.model.dag, lagrangian, Dependence::P);
+        let mut scalars = Block::default();
+        let mut arrays: Vec<Block> = Vec::new();
+        for group in 0..self.model.groups.len() {
+            let (rows, columns) = match self.model.groups[group].shape.clone() {
+                Shape::Scalar => {
+                    let element = self.model.scalar(Side::P, group);
+                    scalars.push(&mut self.model.dag, element, &leaves);
+                    continue;
+                }
+                Shape::Vector(rows) => (rows, 1),
+                Shape::Matrix(rows, columns) => (rows, columns.as_constant().unwrap_or(0)),
+            };
+            let dag = &mut self.model.dag;
+            let k = field::elements(dag, &rows);
+            let at = arrays
+                .iter()
+                .position(|block| block.domain == Some(k))
+                .unwrap_or_else(|| {
+                    arrays.push(Block {
+                        domain: Some(k),
+                        ..Block::default()
+                    });
+                    arrays.len() - 1
+                });
+            for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
+                let array = Array::Phase {
+                    side: Side::P,
+                    group: group as u16,
+                    column,
+                };
+                arrays[at].elements.push(dag.element(
+                    array,
+                    Index::plain(Affine::variable(k)),
+                    None,
+                ));
+                let momentum = field::field(dag, &leaves, array, &rows);
+                let name = &self.velocities[group];
+                arrays[at].momenta.push(momentum.ok_or_else(|| format!("no element of `{name}` has a momentum of its own: its indices cannot be solved"))?);
+            }
+        }
+        let mut blocks = arrays;
+        if !scalars.elements.is_empty() {
+            blocks.insert(0, scalars);
+        }
+        self.check_uncoupled(&blocks)?;
+        Ok(blocks)
+    }
+
+    /// Each momentum may depend on velocities of its own block and element only.
+    fn check_uncoupled(&mut self, blocks: &[Block]) -> Result<(), String> {
+        for block in blocks {
+            for (&element, &momentum) in block.elements.iter().zip(&block.momenta) {
+                for (leaf, slope) in diff::gradient(&mut self.model.dag, momentum, Dependence::P) {
+                    if block.elements.contains(&leaf) || is_zero(self.model, slope) == Proof::Zero {
+                        continue;
+                    }
+                    let (one, other) = (
+                        self.name(element, block.domain),
+                        self.name(leaf, block.domain),
+                    );
+                    return Err(format!(
+                        "the mass matrix couples {one} with {other}; in arrays only the columns of one row may be coupled"
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The Lagrangian with its loops written out and all elements in one block; `None` if there
+    /// are too many, or their number is not literal.
+    fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
+        let mut extents = Vec::new();
+        let mut count = 0i64;
+        for group in &self.model.groups {
+            let (rows, columns) = match &group.shape {
+                Shape::Scalar => (1, 1),
+                Shape::Vector(rows) => (rows.as_constant()?, 1),
+                Shape::Matrix(rows, columns) => (rows.as_constant()?, columns.as_constant()?),
+            };
+            count = count.saturating_add(rows.saturating_mul(columns));
+            extents.push((rows, columns));
+        }
+        if count > LONGEST || self.model.groups.iter().all(|g| g.shape == Shape::Scalar) {
+            return None;
+        }
+        let written = write_out(self.model, lagrangian).ok()?;
+        let leaves = diff::gradient(&mut self.model.dag, written, Dependence::P);
+        let mut block = Block::default();
+        for (group, (rows, columns)) in extents.into_iter().enumerate() {
+            for row in 0..rows {
+                for column in 0..columns as u16 {
+                    let array = Array::Phase {
+                        side: Side::P,
+                        group: group as u16,
+                        column,
+                    };
+                    let element = self.model.dag.element(array, Index::constant(row), None);
+                    block.push(&mut self.model.dag, element, &leaves);
+                }
+            }
+        }
+        Some((written, block))
+    }
+
+    fn solve(&mut self, lagrangian: Node, blocks: &[Block]) -> Result<Legendre, String> {
+        let mut momenta = Vec::new();
+        let mut velocities = Vec::new();
+        let mut kinetic = Vec::new();
+        for block in blocks {
+            let form = self.form(block)?;
+            let solved = form
+                .solve(self.model)
+                .map_err(|singular| self.explain(block, singular))?;
+            kinetic.push(match block.domain {
+                Some(domain) => self.model.dag.reduce(domain, solved.energy),
+                None => solved.energy,
+            });
+            for (at, &element) in block.elements.iter().enumerate() {
+                let component = |value| Component {
+                    element,
+                    domain: block.domain,
+                    value,
+                };
+                momenta.push(component(block.momenta[at]));
+                velocities.push(component(solved.velocities[at]));
+            }
+        }
+        let at_rest = at_rest(&mut self.model.dag, lagrangian);
+        let kinetic = self.model.dag.add(&kinetic);
+        let hamiltonian = self.model.dag.sub(kinetic, at_rest);
+        Ok(Legendre {
+            hamiltonian,
+            momenta,
+            velocities,
+        })
+    }
+
+    /// M and p − b of a block.
+    fn form(&mut self, block: &Block) -> Result<Form, String> {
+        let zero = self.model.dag.integer(0);
+        let count = block.elements.len();
+        let mut matrix = vec![vec![zero; count]; count];
+        let mut right = Vec::with_capacity(count);
+        for i in 0..count {
+            let slopes = diff::gradient(&mut self.model.dag, block.momenta[i], Dependence::P);
+            for j in i..count {
+                let slope = slopes
+                    .iter()
+                    .find(|(leaf, _)| *leaf == block.elements[j])
+                    .map_or(zero, |(_, slope)| *slope);
+                let entry = at_rest(&mut self.model.dag, slope);
+                let difference = self.model.dag.sub(slope, entry);
+                if is_zero(self.model, difference) != Proof::Zero {
+                    let (one, other) = (
+                        self.name(block.elements[i], block.domain),
+                        self.name(block.elements[j], block.domain),
+                    );
+                    return Err(format!(
+                        "L is not quadratic in the velocities: its second derivative with respect to {one} and {other} depends on them"
+                    ));
+                }
+                matrix[i][j] = entry;
+                matrix[j][i] = entry;
+            }
+            let offset = at_rest(&mut self.model.dag, block.momenta[i]);
+            right.push(self.model.dag.sub(block.elements[i], offset));
+        }
+        Ok(Form { matrix, right })
+    }
+
+    fn explain(&self, block: &Block, singular: Singular) -> String {
+        let names: Vec<String> = singular
+            .0
+            .iter()
+            .map(|at| self.name(block.elements[*at], block.domain))
+            .collect();
+        let names = names.join(" and ");
+        if singular.1 {
+            format!("the mass matrix is singular: L has no term that is quadratic in {names}")
+        } else {
+            format!(
+                "the mass matrix is singular: the momentum of {names} is determined by the other momenta"
+            )
+        }
+    }
+
+    /// A velocity as the user wrote it, in backticks.
+    fn name(&self, element: Node, domain: Option<Domain>) -> String {
+        let mut named = self.model.clone();
+        for (group, name) in named.groups.iter_mut().zip(self.velocities) {
+            group.momentum.clone_from(name);
+        }
+        let bound: Vec<(Domain, &str)> = domain.iter().map(|d| (*d, "k")).collect();
+        format!(
+            "`{}`",
+            print::write_within(&named, element, Notation::Text, &bound)
+        )
+    }
+}
+
+impl Block {
+    fn push(&mut self, dag: &mut Dag, element: Node, leaves: &[(Node, Node)]) {
+        let zero = dag.integer(0);
+        let momentum = leaves
+            .iter()
+            .find(|(leaf, _)| *leaf == element)
+            .map_or(zero, |(_, adjoint)| *adjoint);
+        self.elements.push(element);
+        self.momenta.push(momentum);
+    }
+}
+
+/// The expression where all velocities are 0.
+fn at_rest(dag: &mut Dag, node: Node) -> Node {
+    dag.substitute(node, |dag, leaf| match dag.kind(leaf) {
+        Kind::Element(Array::Phase { side: Side::P, .. }, ..) => Some(dag.integer(0)),
+        _ => None,
+    })
+}

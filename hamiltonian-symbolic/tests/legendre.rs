@@ -1,0 +1,273 @@
+//! Lagrangians become Hamiltonians, or are refused with the reason.
+
+mod common;
+
+use common::{model, parse};
+use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::legendre::{Legendre, transform};
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::normal_form::{Proof, is_zero};
+use hamiltonian_symbolic::print::text;
+
+/// A model whose momenta are called by the names of velocities, as its L is read.
+fn lagrangian(
+    signature: &str,
+    sizes: &str,
+    parameters: &str,
+    l: &str,
+) -> (Model, Node, Vec<String>) {
+    let mut m = model(signature, sizes, parameters);
+    let node = parse(&mut m, l);
+    let names = m.groups.iter().map(|g| g.momentum.clone()).collect();
+    for group in &mut m.groups {
+        group.momentum = format!("p_{}", group.coordinate);
+    }
+    (m, node, names)
+}
+
+fn transformed(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Legendre, Node) {
+    let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
+    let legendre = transform(&mut m, node, &names).unwrap_or_else(|reason| panic!("{l}: {reason}"));
+    (m, legendre, node)
+}
+
+fn refused(signature: &str, sizes: &str, parameters: &str, l: &str) -> String {
+    let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
+    transform(&mut m, node, &names).expect_err(l)
+}
+
+fn substituted(m: &mut Model, node: Node, values: &[(Node, Node)]) -> Node {
+    m.dag.substitute(node, |_, leaf| {
+        values
+            .iter()
+            .find(|(from, _)| *from == leaf)
+            .map(|(_, to)| *to)
+    })
+}
+
+/// v(q, p(q, v)) = v, ∂H/∂p = v and p·v − L = H, by normal form.
+fn check(m: &mut Model, legendre: &Legendre, l: Node) {
+    let momenta: Vec<(Node, Node)> = legendre
+        .momenta
+        .iter()
+        .map(|c| (c.element, c.value))
+        .collect();
+    let velocities: Vec<(Node, Node)> = legendre
+        .velocities
+        .iter()
+        .map(|c| (c.element, c.value))
+        .collect();
+    let gradient = diff::gradient(&mut m.dag, legendre.hamiltonian, Dependence::P);
+    for &(element, velocity) in &velocities {
+        let back = substituted(m, velocity, &momenta);
+        let difference = m.dag.sub(back, element);
+        assert_eq!(
+            is_zero(m, difference),
+            Proof::Zero,
+            "v(p(v)) of {}",
+            text(m, element)
+        );
+        let slope = gradient
+            .iter()
+            .find(|(leaf, _)| *leaf == element)
+            .map_or_else(|| m.dag.integer(0), |(_, slope)| *slope);
+        let difference = m.dag.sub(slope, velocity);
+        assert_eq!(
+            is_zero(m, difference),
+            Proof::Zero,
+            "∂H/∂p of {}",
+            text(m, element)
+        );
+    }
+    let mut sum: Vec<Node> = Vec::new();
+    for &(element, velocity) in &velocities {
+        sum.push(m.dag.mul(&[element, velocity]));
+    }
+    let l = substituted(m, l, &velocities);
+    let minus = m.dag.neg(l);
+    sum.push(minus);
+    let energy = m.dag.add(&sum);
+    let difference = m.dag.sub(energy, legendre.hamiltonian);
+    assert_eq!(is_zero(m, difference), Proof::Zero, "p·v − L = H");
+}
+
+#[test]
+fn constant_and_diagonal_masses() {
+    let (m, legendre, _) = transformed("x; v", "", "m k", "m*v^2/2 - k*x^2/2");
+    assert_eq!(text(&m, legendre.hamiltonian), "p_x^2/(2*m) + 0.5*k*x^2");
+    assert_eq!(text(&m, legendre.momenta[0].value), "m*p_x");
+    assert_eq!(text(&m, legendre.velocities[0].value), "p_x/m");
+    let (mut m, legendre, l) = transformed(
+        "r, phi; v_r, v_phi",
+        "",
+        "m k",
+        "m*(v_r^2 + r^2*v_phi^2)/2 + k/r",
+    );
+    assert_eq!(
+        text(&m, legendre.hamiltonian),
+        "p_r^2/(2*m) + p_phi^2/(2*m*r^2) - k/r"
+    );
+    check(&mut m, &legendre, l);
+}
+
+#[test]
+fn the_double_pendulum() {
+    let (mut m, legendre, l) = transformed(
+        "a, b; va, vb",
+        "",
+        "m1 m2 l1 l2 g",
+        "(m1 + m2)*l1^2*va^2/2 + m2*l2^2*vb^2/2 + m2*l1*l2*va*vb*cos(a - b) + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b)",
+    );
+    check(&mut m, &legendre, l);
+    let known = parse(
+        &mut m,
+        "(m2*l2^2*p_a^2 + (m1 + m2)*l1^2*p_b^2 - 2*m2*l1*l2*p_a*p_b*cos(a - b))/(2*m2*l1^2*l2^2*(m1 + m2*sin(a - b)^2)) - (m1 + m2)*g*l1*cos(a) - m2*g*l2*cos(b)",
+    );
+    let difference = m.dag.sub(legendre.hamiltonian, known);
+    assert_eq!(is_zero(&m, difference), Proof::Zero);
+}
+
+#[test]
+fn dense_matrices_up_to_four() {
+    let (mut m, legendre, l) = transformed(
+        "x, y, z; u, v, w",
+        "",
+        "a b c",
+        "u^2/2*(1 + x^2) + v^2*a/2 + w^2/2 + u*v*sin(z) + b*v*w*x + u*w*c - x*y*z",
+    );
+    check(&mut m, &legendre, l);
+    let (mut m, legendre, l) = transformed(
+        "x, y, z, s; u, v, w, r",
+        "",
+        "a",
+        "a*u^2/2 + v^2 + 3*w^2/2 + 2*r^2 + cos(x)*(u*v + w*r)/4 + u*w/3 + v*r/2 + u*r/7 + v*w/5 - x^2",
+    );
+    check(&mut m, &legendre, l);
+}
+
+#[test]
+fn gyroscopic_terms_shift_momenta() {
+    let (mut m, legendre, l) = transformed(
+        "x, y; u, v; t",
+        "",
+        "B m",
+        "m*(u^2 + v^2)/2 + B*(x*v - y*u)/2 + x*u*cos(t)",
+    );
+    assert_eq!(text(&m, legendre.momenta[1].value), "m*p_y + 0.5*B*x");
+    check(&mut m, &legendre, l);
+}
+
+#[test]
+fn a_vanishing_diagonal_is_no_obstacle() {
+    let (mut m, legendre, l) = transformed("x, y; u, v", "", "a", "a*u*v - x*y");
+    assert_eq!(text(&m, legendre.hamiltonian), "p_x*p_y/a + x*y");
+    check(&mut m, &legendre, l);
+    let (mut m, legendre, l) = transformed(
+        "x, y, z; u, v, w",
+        "",
+        "a b",
+        "a*u*v + b*x*u*w + w*v + u + w*y",
+    );
+    check(&mut m, &legendre, l);
+    let (mut m, legendre, l) =
+        transformed("x, y; u, v", "", "", "(u + v)^2/2 + (u - v)^2/2*(1 + x^2)");
+    check(&mut m, &legendre, l);
+}
+
+#[test]
+fn degenerate_ones_are_refused_with_the_reason() {
+    assert_eq!(refused("x; v", "", "", "x^2"), "L has no velocities");
+    assert_eq!(
+        refused("x, y; u, v", "", "", "u^2/2 + v*x"),
+        "the mass matrix is singular: L has no term that is quadratic in `v`"
+    );
+    assert_eq!(
+        refused("x, y; u, v", "", "", "(u + v)^2/2 - x"),
+        "the mass matrix is singular: the momentum of `v` is determined by the other momenta"
+    );
+    assert_eq!(
+        refused(
+            "x, y; u, v",
+            "",
+            "",
+            "(u*cos(x) + v*sin(x))^2/2 + 0*(u^2 + v^2)"
+        ),
+        "the mass matrix is singular: the momentum of `v` is determined by the other momenta"
+    );
+    assert_eq!(
+        refused("x; v", "", "", "v^4/4 - x"),
+        "L is not quadratic in the velocities: its second derivative with respect to `v` and `v` depends on them"
+    );
+    assert!(
+        refused("x; v", "", "m c", "-m*c^2*sqrt(1 - v^2/c^2)").starts_with("L is not quadratic")
+    );
+    // v² all the same.
+    let (mut m, legendre, l) = transformed("x; v", "", "", "v^4/(2*v^2) - x");
+    check(&mut m, &legendre, l);
+    let (mut m, legendre, l) = transformed("x; v", "", "", "(v^2 + 1)^2/4 - v^4/4");
+    check(&mut m, &legendre, l);
+}
+
+#[test]
+fn arrays_stay_loops() {
+    let (m, legendre, _) = transformed(
+        "q[N]; v[N]",
+        "N",
+        "m[N]",
+        "sum(i in 0..N) { m[i]*v[i]^2/2 - exp(q[i] - q[(i + 1) % N]) }",
+    );
+    assert_eq!(
+        text(&m, legendre.hamiltonian),
+        "sum(i in 0..N) { p_q[i]^2/m[i] }/2 + sum(i in 0..N) { exp(q[i] - q[(i + 1) % N]) }"
+    );
+    assert!(legendre.velocities[0].domain.is_some());
+    let Kind::Element(Array::Phase { side: Side::P, .. }, ..) =
+        m.dag.kind(legendre.velocities[0].element)
+    else {
+        panic!()
+    };
+    assert_eq!(text(&m, legendre.velocities[0].value), "p_q[i]/m[i]");
+    // The columns of one row, and a scalar beside.
+    let (m, legendre, _) = transformed(
+        "q[n][2], s; v[n][2], r",
+        "n",
+        "m[n]",
+        "sum(i in 0..n) { m[i]*(v[i][0]^2 + q[i][0]^2*v[i][1]^2)/2 + v[i][0]*q[i][1] } + r^2/2*(1 + s^2)",
+    );
+    assert_eq!(
+        text(&m, legendre.hamiltonian),
+        "p_s^2/(2*(s^2 + 1)) + sum(i in 0..n) { (p_q[i][0] - q[i][1])^2/(2*m[i]) + p_q[i][1]^2/(2*m[i]*q[i][0]^2) }"
+    );
+}
+
+#[test]
+fn coupled_elements_are_refused_or_written_out() {
+    assert_eq!(
+        refused(
+            "q[N]; v[N]",
+            "N",
+            "",
+            "sum(i in 0..N) { v[i]^2/2 + v[i]*v[(i + 1) % N]/4 }"
+        ),
+        "the mass matrix couples `v[k]` with `v[(k + 1) % N]`; in arrays only the columns of one row may be coupled"
+    );
+    assert!(
+        refused(
+            "q[N], s; v[N], r",
+            "N",
+            "",
+            "r^2/2 + sum(i in 0..N) { v[i]^2/2 + r*v[i] }"
+        )
+        .starts_with("the mass matrix couples `r` with")
+    );
+    let (mut m, legendre, l) = transformed(
+        "q[3]; v[3]",
+        "",
+        "",
+        "sum(i in 0..3) { v[i]^2/2 + v[i]*v[(i + 1) % 3]/4 } - q[0]*q[1]",
+    );
+    assert_eq!(legendre.momenta.len(), 3);
+    let written = hamiltonian_symbolic::loops::write_out(&mut m, l).unwrap();
+    check(&mut m, &legendre, written);
+}

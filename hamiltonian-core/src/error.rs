@@ -74,4 +74,50 @@ pub enum Error {
         /// The first reachable time beyond it; the present time if it lies behind.
         after: f64,
     },
+    /// An index of a component, or of an observable, that there is not.
+    #[error("there is no component {index}: there are {count}")]
+    Component {
+        /// The index given.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// No value of a momentum gives the energy asked for (on the branch asked for).
+    #[error(
+        "no `{name}` (component {index}) gives H = {energy}: the nearest H found is {reached}, at {at}"
+    )]
+    NoMomentum {
+        /// The name of the momentum.
+        name: &'static str,
+        /// Its flat index.
+        index: usize,
+        /// The energy asked for.
+        energy: f64,
+        /// The value of H nearest to it that was found; at a turning point the minimum of H.
+        reached: f64,
+        /// The momentum there.
+        at: f64,
+    },
+    /// No value of a coordinate was found where an event is 0.
+    #[error("`{event}` changes sign for no `{name}` (component {index}): it is {value} at {from}")]
+    NoCrossing {
+        /// The name of the event.
+        event: &'static str,
+        /// The name of the coordinate.
+        name: &'static str,
+        /// Its flat index.
+        index: usize,
+        /// The coordinate of the guess.
+        from: f64,
+        /// The event there.
+        value: f64,
+    },
+    /// Masses of bodies whose partial sums m_0 + … + m_i are not all positive and finite.
+    #[error("the masses of the bodies up to {body} add up to {sum}")]
+    Masses {
+        /// The last body of the sum.
+        body: usize,
+        /// The sum.
+        sum: f64,
+    },
 }

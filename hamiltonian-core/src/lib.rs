@@ -19,7 +19,7 @@
 //! ```
 //!
 //! The modules follow the data: vectors and states, the system at a state, the scheme made for
-//! it, the run, what is seen of the run.
+//! it, the run, what is seen of the run; starts on a surface and other coordinates of a state.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
@@ -38,6 +38,10 @@ mod integrator;
 
 mod observe;
 mod output;
+
+pub mod start;
+
+pub mod coordinates;
 
 mod error;
 

@@ -1,0 +1,597 @@
+//! Starts on an energy surface: one momentum from H = E, one coordinate from an event.
+//!
+//! Input: a system, a state as the guess, what is to be solved for. Output: the state with one
+//! momentum (and one coordinate) replaced. Invariant: a root is bracketed before it is refined, so
+//! a state that comes back lies on the surface to rounding; everything else of it is as it was.
+//!
+//! ```
+#![doc = include_str!("doc/oscillator.md")]
+//! use hamiltonian_core::State;
+//! use hamiltonian_core::start::{Branch, momentum_from_energy};
+//!
+//! let guess = State::new([0.6], [0.0]);
+//! let start = momentum_from_energy(&Oscillator, &guess, 0, 0.5, Branch::Forward)?;
+//! assert_eq!(start.p[0], 0.8);
+//! // Beyond the turning point there is none.
+//! let beyond = State::new([1.5], [0.0]);
+//! assert!(momentum_from_energy(&Oscillator, &beyond, 0, 0.5, Branch::Forward).is_err());
+//! # Ok::<(), hamiltonian_core::Error>(())
+//! ```
+
+use crate::error::Error;
+use crate::state::State;
+use crate::system::{Dynamics, Group, System};
+use crate::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+
+/// Which of several momenta with H = E.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Branch {
+    /// The one nearest to the guess; of two at the same distance the larger.
+    #[default]
+    Nearest,
+    /// The nearest with q̇ = ∂H/∂p ≥ 0: its coordinate grows.
+    Forward,
+    /// The nearest with q̇ = ∂H/∂p ≤ 0.
+    Backward,
+}
+
+/// A surface of section: where an event is 0 and H = E. Components are flat indices of the
+/// [`Vector`] ([`Vector::component`]).
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Section {
+    /// The event (or any observable) that is to be 0: its index in [`System::OBSERVABLES`].
+    pub event: usize,
+    /// The coordinate that is solved for from it.
+    pub coordinate: usize,
+    /// The momentum that is solved for from H = E.
+    pub momentum: usize,
+}
+
+/// The state with momentum `momentum` (a flat index) such that H = `energy`; the state's own value
+/// is the guess.
+///
+/// H may depend on that momentum in any smooth way; all roots are found where it is convex, concave
+/// or monotone in it (quadratic, relativistic, geodesic), otherwise those next to the guess. Over
+/// duals the result carries its derivatives. A minimum that touches E to rounding counts as a root.
+///
+/// # Errors
+/// [`Error::NoMomentum`] where H reaches E for no value (beyond a turning point), with the value of
+/// H nearest to E; [`Error::Component`], [`Error::Start`].
+pub fn momentum_from_energy<T: Real, S: System<T>>(
+    system: &S,
+    state: &State<S::Vector>,
+    momentum: usize,
+    energy: T,
+    branch: Branch,
+) -> Result<State<S::Vector>, Error> {
+    check(state)?;
+    check_component(momentum, state.p.len())?;
+    let prepared = system.prepare();
+    let mut found = state.clone();
+    let value = solve_momentum(
+        &prepared,
+        &found,
+        &mut system.zeros(),
+        momentum,
+        energy,
+        branch,
+    )
+    .map_err(|closest| no_momentum::<T, S>(momentum, energy, &closest))?;
+    *found.p.component_mut(momentum) = value;
+    Ok(found)
+}
+
+/// The state with coordinate `coordinate` (a flat index) such that observable `event` is 0: the
+/// zero nearest to the state's own value, found by its change of sign.
+///
+/// # Errors
+/// [`Error::NoCrossing`] where none was found; [`Error::Component`], [`Error::Start`].
+pub fn coordinate_on_event<T: Real, S: System<T>>(
+    system: &S,
+    state: &State<S::Vector>,
+    event: usize,
+    coordinate: usize,
+) -> Result<State<S::Vector>, Error> {
+    check(state)?;
+    check_component(event, S::OBSERVABLES.len())?;
+    check_component(coordinate, state.q.len())?;
+    let prepared = system.prepare();
+    let mut at = state.clone();
+    let value = crossing(state.q.component(coordinate), |x| {
+        *at.q.component_mut(coordinate) = x;
+        prepared.observable(event, at.t, &at.q, &at.p)
+    })
+    .map_err(|value| no_crossing::<T, S>(event, coordinate, state, value))?;
+    *at.q.component_mut(coordinate) = value;
+    Ok(at)
+}
+
+/// The state on a surface of section: its event is 0 and H = `energy`. The coordinate is solved
+/// for first, then the momentum; an event that depends on that momentum makes them one equation,
+/// with the momentum solved for inside.
+///
+/// # Errors
+/// Those of [`momentum_from_energy`] and [`coordinate_on_event`].
+pub fn on_section<T: Real, S: System<T>>(
+    system: &S,
+    state: &State<S::Vector>,
+    section: Section,
+    energy: T,
+    branch: Branch,
+) -> Result<State<S::Vector>, Error> {
+    let Section {
+        event,
+        coordinate,
+        momentum,
+    } = section;
+    check_component(momentum, state.p.len())?;
+    let placed = coordinate_on_event(system, state, event, coordinate)?;
+    let prepared = system.prepare();
+    let value = |s: &State<S::Vector>| prepared.observable(event, s.t, &s.q, &s.p);
+    let solved = momentum_from_energy(system, &placed, momentum, energy, branch);
+    if let Ok(solved) = &solved
+        && value(solved).equals(value(&placed)).all()
+    {
+        return Ok(solved.clone());
+    }
+    let mut scratch = system.zeros();
+    let mut at = state.clone();
+    let found = crossing(state.q.component(coordinate), |x| {
+        *at.q.component_mut(coordinate) = x;
+        let p = solve_momentum(&prepared, &at, &mut scratch, momentum, energy, branch);
+        match p {
+            Ok(p) => {
+                *at.p.component_mut(momentum) = p;
+                prepared.observable(event, at.t, &at.q, &at.p)
+            }
+            Err(_) => T::constant(f64::NAN, 0.0),
+        }
+    });
+    match found {
+        Ok(x) => {
+            *at.q.component_mut(coordinate) = x;
+            momentum_from_energy(system, &at, momentum, energy, branch)
+        }
+        Err(value) => {
+            // Without a momentum where the event is, that is what is missing.
+            solved?;
+            Err(no_crossing::<T, S>(event, coordinate, state, value))
+        }
+    }
+}
+
+/// H − E at one value of the momentum.
+#[derive(Debug, Clone, Copy)]
+struct Sample<T> {
+    x: T,
+    f: T,
+    slope: T,
+}
+
+/// The most samples of one walk; each doubles its step.
+const LONGEST: usize = 400;
+/// The most refinements of one bracket: bisection alone needs 64, or 110 in double-double.
+const FINEST: usize = 300;
+
+/// The momentum, or the sample nearest to H = E.
+fn solve_momentum<T: Real, D: Dynamics<T>>(
+    prepared: &D,
+    state: &State<D::Vector>,
+    slopes: &mut D::Vector,
+    momentum: usize,
+    energy: T,
+    branch: Branch,
+) -> Result<T, Sample<T>> {
+    let mut p = state.p.clone();
+    let mut at = |x: T| {
+        *p.component_mut(momentum) = x;
+        let f = prepared.energy(state.t, &state.q, &p) - energy;
+        prepared.gradient_p(state.t, &state.q, &p, slopes);
+        Sample {
+            x,
+            f,
+            slope: slopes.component(momentum),
+        }
+    };
+    // The size of the terms of H without the one that is solved for, by q·∂H/∂q and p·∂H/∂p.
+    let mut moved = state.clone();
+    let (mut dq, mut dp) = (state.q.zeros_like(), state.p.zeros_like());
+    let mut size = |x: T| {
+        *moved.p.component_mut(momentum) = x;
+        prepared.gradient(moved.t, &moved.q, &moved.p, &mut dq, &mut dp);
+        *dp.component_mut(momentum) = T::zero();
+        let mut size = 2.0 * energy.magnitude();
+        for (at, slope) in [(&moved.q, &dq), (&moved.p, &dp)] {
+            for (x, slope) in at.components().zip(slope.components()) {
+                size += (x * slope).magnitude();
+            }
+        }
+        size
+    };
+    let guess = at(state.p.component(momentum));
+    if !guess.f.is_finite() {
+        return Err(guess);
+    }
+    let mut search = Search {
+        at: &mut at,
+        size: &mut size,
+        roots: [None; 5],
+        closest: guess,
+    };
+    if guess.f.equals(T::zero()).all() {
+        search.push(guess);
+    }
+    search.walk(guess, T::one());
+    search.walk(guess, -T::one());
+    let fits = |root: &Sample<T>| match branch {
+        Branch::Nearest => true,
+        Branch::Forward => !is_negative(root.slope),
+        Branch::Backward => !is_negative(-root.slope),
+    };
+    let mut best: Option<Sample<T>> = None;
+    for root in search.roots.iter().flatten().filter(|root| fits(root)) {
+        let distance = |root: &Sample<T>| Real::abs((root.x - guess.x).to_f64());
+        let closer = best.is_none_or(|best| {
+            let (new, old) = (distance(root), distance(&best));
+            new < old || (new == old && best.x.lt(root.x).all())
+        });
+        if closer {
+            best = Some(*root);
+        }
+    }
+    let closest = search.closest;
+    best.map(|root| polished(root, &mut at)).ok_or(closest)
+}
+
+struct Search<'a, T, F, G> {
+    at: &'a mut F,
+    /// The size of the terms that cancel in H − E.
+    size: &'a mut G,
+    /// At most the guess and two on each side.
+    roots: [Option<Sample<T>>; 5],
+    closest: Sample<T>,
+}
+
+impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> {
+    fn push(&mut self, root: Sample<T>) {
+        if let Some(place) = self.roots.iter_mut().find(|place| place.is_none()) {
+            *place = Some(root);
+        }
+    }
+
+    /// Walks from the guess in one direction with doubling steps, and notes up to two roots.
+    fn walk(&mut self, guess: Sample<T>, direction: T) {
+        let mut last = guess;
+        // On a root, the sign is that of what follows.
+        let mut negative = sign_after(&last, direction);
+        let newton = Real::abs((last.f / last.slope).to_f64());
+        let default = Real::abs(last.x.to_f64()).max(1.0) / 1024.0;
+        let mut step = if newton.is_finite() && newton > 0.0 {
+            newton
+        } else {
+            default
+        };
+        let mut edge = 0;
+        let mut count = 0;
+        for _ in 0..LONGEST {
+            let next = (self.at)(direction.fma(T::constant(step, 0.0), last.x));
+            if next.x.equals(last.x).all() {
+                return;
+            }
+            if !next.f.is_finite() || !next.slope.is_finite() {
+                // The edge of the domain of H: towards it in ever smaller steps.
+                edge += 1;
+                step /= 4.0;
+                if edge > 30 {
+                    return;
+                }
+                continue;
+            }
+            self.note(next);
+            if next.f.equals(T::zero()).all() {
+                self.push(next);
+                count += 1;
+                negative = sign_after(&next, direction);
+            } else if is_negative(next.f) != negative {
+                let root = self.refine(last, next);
+                self.push(root);
+                count += 1;
+                negative = !negative;
+            } else {
+                // How fast |H − E| grows on the way.
+                let rate = |s: &Sample<T>| {
+                    let slope = s.slope * direction;
+                    (if negative { -slope } else { slope }).to_f64()
+                };
+                let (before, after) = (rate(&last), rate(&next));
+                if before < 0.0 && after > 0.0 {
+                    let turn = self.turn(last, next, negative);
+                    self.note(turn);
+                    if turn.f.magnitude() <= 8.0 * T::epsilon() * (self.size)(turn.x) {
+                        self.push(turn);
+                    } else if is_negative(turn.f) != negative {
+                        let (first, second) = (self.refine(last, turn), self.refine(turn, next));
+                        self.push(first);
+                        self.push(second);
+                    }
+                    return;
+                }
+                if before >= 0.0 && after >= before && after > 0.0 {
+                    // Away from E, and no slower than before.
+                    return;
+                }
+            }
+            if count == 2 {
+                return;
+            }
+            last = next;
+            if edge == 0 {
+                step *= 2.0;
+            }
+        }
+    }
+
+    fn note(&mut self, sample: Sample<T>) {
+        if sample.f.magnitude() < self.closest.f.magnitude() {
+            self.closest = sample;
+        }
+    }
+
+    /// The root between two samples of different signs: Newton's iteration, bisection where that
+    /// leaves the bracket or is slow.
+    fn refine(&mut self, a: Sample<T>, b: Sample<T>) -> Sample<T> {
+        let (mut low, mut high) = if is_negative(a.f) || is_negative(-b.f) {
+            (a, b)
+        } else {
+            (b, a)
+        };
+        let mut best = if low.f.magnitude() < high.f.magnitude() {
+            low
+        } else {
+            high
+        };
+        let mut width = Real::abs((high.x - low.x).to_f64());
+        for _ in 0..FINEST {
+            let newton = best.x - best.f / best.slope;
+            let between = |x: T| {
+                (low.x.lt(x).all() && x.lt(high.x).all())
+                    || (high.x.lt(x).all() && x.lt(low.x).all())
+            };
+            let half = low.x + (high.x - low.x) * T::constant(0.5, 0.0);
+            let now = Real::abs((high.x - low.x).to_f64());
+            let x = if between(newton) && now <= width {
+                newton
+            } else {
+                half
+            };
+            // Newton's steps must halve the bracket every other time on the average.
+            width = 0.7 * width.min(now);
+            if !between(x) {
+                break;
+            }
+            let step = Real::abs((x - best.x).to_f64());
+            let sample = (self.at)(x);
+            let better = sample.f.magnitude() < best.f.magnitude();
+            if is_negative(sample.f) {
+                low = sample;
+            } else {
+                high = sample;
+            }
+            if better {
+                best = sample;
+            }
+            let small = 0.5 * T::epsilon() * Real::abs(x.to_f64());
+            if sample.f.equals(T::zero()).all() || (step <= small && !better) {
+                break;
+            }
+        }
+        best
+    }
+
+    /// The extremum between two samples with slopes of different signs, or a sample on the other
+    /// side of E if one is met before.
+    fn turn(&mut self, a: Sample<T>, b: Sample<T>, negative: bool) -> Sample<T> {
+        let (mut a, mut b) = (a, b);
+        let mut best = if a.f.magnitude() < b.f.magnitude() {
+            a
+        } else {
+            b
+        };
+        for round in 0..FINEST {
+            let secant = a.x - a.slope * (b.x - a.x) / (b.slope - a.slope);
+            let half = a.x + (b.x - a.x) * T::constant(0.5, 0.0);
+            let between =
+                |x: T| (a.x.lt(x).all() && x.lt(b.x).all()) || (b.x.lt(x).all() && x.lt(a.x).all());
+            let x = if round % 2 == 0 && between(secant) {
+                secant
+            } else {
+                half
+            };
+            if !between(x) {
+                break;
+            }
+            let sample = (self.at)(x);
+            if sample.f.magnitude() < best.f.magnitude() {
+                best = sample;
+            }
+            if is_negative(sample.f) != negative || sample.slope.equals(T::zero()).all() {
+                return sample;
+            }
+            if is_negative(sample.slope) == is_negative(a.slope) {
+                a = sample;
+            } else {
+                b = sample;
+            }
+        }
+        best
+    }
+}
+
+/// The root after one more step of Newton's iteration, which gives it the derivative parts it has
+/// over duals; without, where it is worse.
+fn polished<T: Real>(root: Sample<T>, mut at: impl FnMut(T) -> Sample<T>) -> T {
+    let step = root.f / root.slope;
+    let next = root.x - step;
+    let small = 4.0 * T::epsilon() * Real::abs(root.x.to_f64());
+    if !step.is_finite() {
+        return root.x;
+    }
+    let gain = Real::abs(at(next).f.to_f64()) <= Real::abs(root.f.to_f64());
+    if gain || Real::abs(step.to_f64()) <= small {
+        next
+    } else {
+        root.x
+    }
+}
+
+/// The zero of `f` nearest to `x`, by its change of sign; the value at `x` where none is found.
+fn crossing<T: Real>(x: T, mut f: impl FnMut(T) -> T) -> Result<T, T> {
+    let start = f(x);
+    if start.equals(T::zero()).all() {
+        return Ok(x);
+    }
+    // The last finite sample on each side.
+    let mut last = [(x, start); 2];
+    let mut step = Real::abs(x.to_f64()).max(1.0) / 64.0;
+    let mut reach = step;
+    // 4/3 to the 100th: from 1/64 to some 10¹¹.
+    for _ in 0..100 {
+        for (side, sign) in last.iter_mut().zip([1.0, -1.0]) {
+            let at = x + T::constant(sign * reach, 0.0);
+            let value = f(at);
+            let (from, before) = *side;
+            *side = (at, value);
+            if !value.is_finite() || !before.is_finite() {
+                continue;
+            }
+            if value.equals(T::zero()).all() {
+                return Ok(at);
+            }
+            if is_negative(value) != is_negative(before) {
+                let (zero, left) = narrowed(from, before, at, value, &mut f);
+                // At a pole the values grow as the bracket shrinks.
+                if left <= before.magnitude().max(value.magnitude()) {
+                    return Ok(zero);
+                }
+            }
+        }
+        step *= 4.0 / 3.0;
+        reach += step;
+    }
+    Err(start)
+}
+
+/// The zero between a and b, where f has different signs, and the smaller value at the ends of the
+/// last bracket: the Illinois form of false position (Dowell & Jarratt, BIT 11, 168 (1971),
+/// doi:10.1007/BF01934364), bisection where that is slow.
+fn narrowed<T: Real>(a: T, fa: T, b: T, fb: T, f: &mut impl FnMut(T) -> T) -> (T, f64) {
+    let (mut a, mut fa, mut b, mut fb) = (a, fa, b, fb);
+    // The value at `a` as it counts for the secant.
+    let mut weighed = fa;
+    for round in 0..FINEST {
+        let between = |x: T| (a.lt(x).all() && x.lt(b).all()) || (b.lt(x).all() && x.lt(a).all());
+        let secant = b - fb * (b - a) / (fb - weighed);
+        let half = a + (b - a) * T::constant(0.5, 0.0);
+        let x = if round % 4 != 3 && between(secant) {
+            secant
+        } else {
+            half
+        };
+        if !between(x) {
+            break;
+        }
+        let value = f(x);
+        if value.equals(T::zero()).all() {
+            return (x, 0.0);
+        }
+        if !value.is_finite() {
+            return (x, f64::INFINITY);
+        }
+        if is_negative(value) == is_negative(fb) {
+            weighed *= T::constant(0.5, 0.0);
+        } else {
+            (a, fa) = (b, fb);
+            weighed = fa;
+        }
+        (b, fb) = (x, value);
+    }
+    if fa.magnitude() < fb.magnitude() {
+        (a, fa.magnitude())
+    } else {
+        (b, fb.magnitude())
+    }
+}
+
+fn is_negative<T: Real>(x: T) -> bool {
+    x.lt(T::zero()).all()
+}
+
+/// Whether H − E is negative just after a sample.
+fn sign_after<T: Real>(sample: &Sample<T>, direction: T) -> bool {
+    if sample.f.equals(T::zero()).all() {
+        is_negative(sample.slope * direction)
+    } else {
+        is_negative(sample.f)
+    }
+}
+
+fn check<V: Vector>(state: &State<V>) -> Result<(), Error> {
+    if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Start {
+        time: state.t.to_f64(),
+        q: state.q.components().map(Real::to_f64).collect(),
+        p: state.p.components().map(Real::to_f64).collect(),
+    })
+}
+
+fn check_component(index: usize, count: usize) -> Result<(), Error> {
+    if index < count {
+        Ok(())
+    } else {
+        Err(Error::Component { index, count })
+    }
+}
+
+fn no_momentum<T: Real, S: System<T>>(momentum: usize, energy: T, closest: &Sample<T>) -> Error {
+    Error::NoMomentum {
+        name: name::<T, S>(momentum, |group| group.momentum),
+        index: momentum,
+        energy: energy.to_f64(),
+        reached: (closest.f + energy).to_f64(),
+        at: closest.x.to_f64(),
+    }
+}
+
+fn no_crossing<T: Real, S: System<T>>(
+    event: usize,
+    coordinate: usize,
+    state: &State<S::Vector>,
+    value: T,
+) -> Error {
+    Error::NoCrossing {
+        event: S::OBSERVABLES.get(event).map_or("", |o| o.name),
+        name: name::<T, S>(coordinate, |group| group.coordinate),
+        index: coordinate,
+        from: state.q.component(coordinate).to_f64(),
+        value: value.to_f64(),
+    }
+}
+
+/// The name of the group a component of a system with one part belongs to; empty where the
+/// components are in several parts.
+fn name<T: Real, S: System<T>>(
+    index: usize,
+    name: impl Fn(&Group) -> &'static str,
+) -> &'static str {
+    if S::Vector::PARTS > 1 {
+        return "";
+    }
+    S::GROUPS
+        .iter()
+        .rev()
+        .find(|group| group.offset <= index)
+        .map_or("", name)
+}

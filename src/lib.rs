@@ -74,3 +74,11 @@ macro_rules! hamiltonian {
         $crate::__private_macros::hamiltonian_impl! { ($crate) $($definition)* }
     };
 }
+
+/// The language, construct by construct.
+#[doc = include_str!("../LANGUAGE.md")]
+pub mod language {}
+
+#[doc = include_str!("../README.md")]
+#[cfg(doctest)]
+struct Readme;

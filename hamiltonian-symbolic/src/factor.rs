@@ -5,6 +5,7 @@
 //! sums are regrouped by common factors only, which cannot introduce cancellation.
 
 use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::index::Domain;
 use crate::rational::Rational;
 
 /// How often each node is used, by parents or as a root.
@@ -71,32 +72,17 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
                     .collect();
                 factored_sum(dag, &c, &terms, &Rational::ONE, None)
             }
-            Kind::Product(k, factors) => match absorbing_sum(dag, &k, &factors, &uses) {
-                Some(at) => {
-                    let Kind::Sum(c, terms) = dag.kind(factors[at].0).clone() else {
-                        continue;
-                    };
-                    let (prepared, others): (Vec<_>, Vec<_>) = factors
-                        .iter()
-                        .enumerate()
-                        .filter(|(i, _)| *i != at)
-                        .map(|(_, f)| (new[&f.0], f.1))
-                        .partition(|(n, _)| is_prepared(dag, *n));
-                    let p = dag.product(&Rational::ONE, &prepared);
-                    let terms: Vec<_> = terms
-                        .into_iter()
-                        .map(|(k, n)| (k, new[&n], uses[&n] == 1))
-                        .collect();
-                    // The sign stays outside, where it becomes a subtraction.
-                    let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
-                    let mut all = vec![(sum, 1)];
-                    all.extend(others);
-                    dag.product(&k.sign(), &all)
+            Kind::Product(k, factors) => match gathered(dag, &k, &factors, &uses) {
+                Some((domain, body, negative)) => {
+                    // Its factors are these, so they are rewritten already.
+                    if let Kind::Product(k, factors) = dag.kind(body).clone() {
+                        let image = factored_product(dag, k, factors, &uses, &new);
+                        new.insert(body, image);
+                    }
+                    let sum = dag.intern(Kind::Reduce(domain, new[&body]));
+                    if negative { dag.neg(sum) } else { sum }
                 }
-                None => {
-                    let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new[&n], e)).collect();
-                    dag.product(&k, &factors)
-                }
+                None => factored_product(dag, k, factors, &uses, &new),
             },
             _ => dag.rebuild(node, &|child| new[&child]),
         };
@@ -105,6 +91,74 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
     for root in roots {
         *root = new[root];
     }
+}
+
+/// A product with a sum over a loop whose body, with the other factors in it, is computed inside
+/// that loop anyway (up to sign): the same force on both bodies of a pair.
+fn gathered(
+    dag: &Dag,
+    k: &Rational,
+    factors: &[(Node, i32)],
+    uses: &Map<Node, u32>,
+) -> Option<(Domain, Node, bool)> {
+    factors.iter().find_map(|&(sum, n)| {
+        let Kind::Reduce(domain, body) = *dag.kind(sum) else {
+            return None;
+        };
+        let others = || factors.iter().filter(|(node, _)| *node != sum);
+        if n != 1
+            || uses[&sum] != 1
+            || others().any(|(f, _)| dag.variables(*f) >> domain.0 & 1 == 1)
+        {
+            return None;
+        }
+        let mut all: Vec<(Node, i32)> = others().copied().collect();
+        match dag.kind(body) {
+            Kind::Product(c, inner) if c.is_one() => all.extend(inner),
+            _ => all.push((body, 1)),
+        }
+        all.sort_unstable();
+        if all.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+            return None;
+        }
+        [false, true].into_iter().find_map(|negative| {
+            let k = if negative { k.neg() } else { k.clone() };
+            let known = dag.known(&Kind::Product(k, all.clone()))?;
+            uses.contains_key(&known)
+                .then_some((domain, known, negative))
+        })
+    })
+}
+
+fn factored_product(
+    dag: &mut Dag,
+    k: Rational,
+    factors: Vec<(Node, i32)>,
+    uses: &Map<Node, u32>,
+    new: &Map<Node, Node>,
+) -> Node {
+    let place = absorbing_sum(dag, &k, &factors, uses);
+    let Some((at, Kind::Sum(c, terms))) = place.map(|at| (at, dag.kind(factors[at].0).clone()))
+    else {
+        let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new[&n], e)).collect();
+        return dag.product(&k, &factors);
+    };
+    let (prepared, others): (Vec<_>, Vec<_>) = factors
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| *i != at)
+        .map(|(_, f)| (new[&f.0], f.1))
+        .partition(|(n, _)| is_prepared(dag, *n));
+    let p = dag.product(&Rational::ONE, &prepared);
+    let terms: Vec<_> = terms
+        .into_iter()
+        .map(|(k, n)| (k, new[&n], uses[&n] == 1))
+        .collect();
+    // The sign stays outside, where it becomes a subtraction.
+    let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
+    let mut all = vec![(sum, 1)];
+    all.extend(others);
+    dag.product(&k.sign(), &all)
 }
 
 /// The factor of a product into which the product's coefficient can be multiplied for free: a

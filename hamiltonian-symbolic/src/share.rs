@@ -302,7 +302,7 @@ fn grouped(dag: &mut Dag, shop: &mut Workshop, k: Rational, factors: &[(Node, i3
     list
 }
 
-/// Divisors used more than once become one reciprocal. Powers of √x and of x share one division
+/// Divisors used more than once, or in a deeper loop than their own, become one reciprocal. Powers of √x and of x share one division
 /// where x ≥ 0 is known; where only (√x)⁻³ is needed the reciprocal is of x·√x.
 fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
     let mut occurrences: Map<Item, Vec<u32>> = Map::default();
@@ -326,7 +326,13 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
             .filter(|root| divides(*root)),
         _ => None,
     };
+    let depth = |item: &Item| match item {
+        Item::Node(node) => dag.path(dag.home(*node)).len(),
+        Item::Made(_) => 0,
+    };
     for list in lists.iter_mut() {
+        let all = list.items.iter().chain(&list.divisors);
+        let deepest = all.map(|(item, _)| depth(item)).max().unwrap_or(0);
         for (item, n) in std::mem::take(&mut list.divisors) {
             let powers = &occurrences[&item];
             let below = radicand(item);
@@ -340,7 +346,7 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
                 }
             } else if let Some(root) = root_of(item) {
                 list.multiply(shop.reciprocal(Item::Node(root)), 2 * n);
-            } else if powers.len() > 1 || n > 1 || with_square {
+            } else if powers.len() > 1 || n > 1 || with_square || depth(&item) < deepest {
                 list.multiply(shop.reciprocal(item), n);
             } else {
                 list.divisors.push((item, n));

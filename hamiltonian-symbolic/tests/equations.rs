@@ -114,3 +114,16 @@ fn an_index_that_cannot_be_solved_is_compared() {
     );
     assert_eq!(lines(&folded)[1], "dp[k]/dt = -∂H/∂q[k]");
 }
+
+#[test]
+fn what_nobody_would_read_is_named() {
+    let terms: Vec<String> = (0..300).map(|i| format!("p[{i}]^2*q[{i}]^3")).collect();
+    let long = system("q[300]; p[300]", "", "", &terms.join(" + "));
+    assert_eq!(
+        lines(&long),
+        ["dq[k]/dt = ∂H/∂p[k]", "dp[k]/dt = -∂H/∂q[k]"]
+    );
+    let terms: Vec<String> = (0..3000).map(|i| format!("sin({i}*q)")).collect();
+    let large = system("q; p", "", "", &format!("p^2/2 + {}", terms.join(" + ")));
+    assert_eq!(lines(&large), ["dq/dt = ∂H/∂p", "dp/dt = -∂H/∂q"]);
+}

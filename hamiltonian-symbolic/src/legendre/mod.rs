@@ -11,13 +11,14 @@
 
 mod form;
 
-use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, write_out};
 use crate::model::{Model, Shape};
 use crate::normal_form::{Proof, is_zero};
 use crate::print::{self, Notation};
+use crate::rational::Rational;
 use form::{Form, Singular};
 
 /// Arrays that are written out have at most this many elements, scalars included.
@@ -217,9 +218,20 @@ impl Transform<'_> {
                 velocities.push(component(solved.velocities[at]));
             }
         }
-        let at_rest = at_rest(&mut self.model.dag, lagrangian);
-        let kinetic = self.model.dag.add(&kinetic);
-        let hamiltonian = self.model.dag.sub(kinetic, at_rest);
+        let minus_potential = at_rest(&mut self.model.dag, lagrangian);
+        let dag = &mut self.model.dag;
+        let kinetic = dag.add(&kinetic);
+        // −(a − b) term by term, as one would write it.
+        let mut terms = vec![(Rational::ONE, kinetic)];
+        let mut constant = Rational::ZERO;
+        match dag.kind(minus_potential) {
+            Kind::Sum(c, parts) => {
+                constant = c.neg();
+                terms.extend(parts.iter().map(|(k, part)| (k.neg(), *part)));
+            }
+            _ => terms.push((Rational::MINUS_ONE, minus_potential)),
+        }
+        let hamiltonian = dag.linear(&constant, &terms);
         Ok(Legendre {
             hamiltonian,
             momenta,
@@ -302,10 +314,16 @@ impl Block {
     }
 }
 
-/// The expression where all velocities are 0.
-fn at_rest(dag: &mut Dag, node: Node) -> Node {
-    dag.substitute(node, |dag, leaf| match dag.kind(leaf) {
-        Kind::Element(Array::Phase { side: Side::P, .. }, ..) => Some(dag.integer(0)),
-        _ => None,
-    })
+/// The expression where all velocities are 0, with products of products multiplied together, so
+/// that factors which differentiation kept apart cancel.
+fn at_rest(dag: &mut Dag, root: Node) -> Node {
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[root]) {
+        let image = match dag.kind(node) {
+            Kind::Element(Array::Phase { side: Side::P, .. }, ..) => dag.integer(0),
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    new[&root]
 }

@@ -42,51 +42,42 @@ fn gather(
     k: Domain,
     rows: &Affine,
 ) -> Option<Node> {
-    let Some((&inner, outer)) = chain.split_last() else {
+    let Some(&outermost) = chain.first() else {
         return row
             .modulo
             .is_none()
             .then(|| where_equal(dag, &row.affine, k, adjoint));
     };
-    // Loops outside the innermost get numbers of their own first: one may be the loop over k.
+    let mut chain = chain.to_vec();
     let mut adjoint = adjoint;
     let mut row = row.clone();
-    let mut inner = inner;
-    let mut around: Vec<Domain> = Vec::new();
-    for &domain in outer {
-        let range = dag.range(domain).clone();
-        if !(range.start.loops.is_empty() && range.end.loops.is_empty()) {
-            return None;
+    if chain.len() > 1 {
+        // The loops around the innermost stand inside the loop over k, which one of them may be
+        // the same as: the outermost gets a number of its own, and the others move along.
+        let range = dag.range(outermost).clone();
+        let fresh = dag.domain(Some(k), range.start, range.end);
+        let by = Affine::variable(fresh);
+        let mut images = vec![fresh];
+        for &domain in &chain[1..] {
+            let variable = dag.variable(domain);
+            let moved = dag.replace(variable, outermost, &by);
+            let Kind::Variable(image) = *dag.kind(moved) else {
+                return None;
+            };
+            images.push(image);
         }
-        let fresh = dag.domain(
-            Some(around.last().copied().unwrap_or(k)),
-            range.start,
-            range.end,
-        );
+        adjoint = dag.replace(adjoint, outermost, &by);
+        row = row.substitute(&|d| match chain.iter().position(|other| *other == d) {
+            Some(at) => Affine::variable(images[at]),
+            None => Affine::variable(d),
+        });
+        chain = images;
         if dag.loop_count() >= 60 {
             return None;
         }
-        let by = Affine::variable(fresh);
-        // The innermost loop moves along; its image is found by moving its variable.
-        let variable = dag.variable(inner);
-        let moved = dag.replace(variable, domain, &by);
-        let Kind::Variable(image) = *dag.kind(moved) else {
-            return None;
-        };
-        let old = inner;
-        inner = image;
-        adjoint = dag.replace(adjoint, domain, &by);
-        row = row.substitute(&|d| {
-            if d == domain {
-                by.clone()
-            } else if d == old {
-                Affine::variable(image)
-            } else {
-                Affine::variable(d)
-            }
-        });
-        around.push(fresh);
     }
+    let inner = chain[chain.len() - 1];
+    let mut around = chain[..chain.len() - 1].to_vec();
     let range = dag.range(inner).clone();
     let factor = row.affine.factor(inner);
     let rest = row.affine.plus(-factor, &Affine::variable(inner));

@@ -195,13 +195,23 @@ fn number(value: &Rational) -> Sampled {
     }
 }
 
+/// Whether whole numbers of this size add and multiply without error, as indices must.
+fn is_whole(a: Sampled) -> bool {
+    a.error == 0.0 && a.value.fract() == 0.0 && a.value.abs() < 1e15
+}
+
 fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
     let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
+    let mut whole = true;
     for part in parts {
         value += part.value;
         error += part.error;
         size += part.value.abs();
         count += 1.0;
+        whole &= is_whole(part);
+    }
+    if whole && size < 1e15 {
+        return exact(value);
     }
     Sampled {
         value,
@@ -211,6 +221,9 @@ fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
 
 fn product(a: Sampled, b: Sampled) -> Sampled {
     let value = a.value * b.value;
+    if is_whole(a) && is_whole(b) && value.abs() < 1e15 {
+        return exact(value);
+    }
     Sampled {
         value,
         error: a.value.abs() * b.error

@@ -215,14 +215,20 @@ impl Poly {
     }
     /// The atoms that occur, ascending.
     pub(crate) fn atoms(&self) -> Vec<Atom> {
-        let mut atoms: Vec<Atom> = self
-            .terms
-            .iter()
-            .flat_map(|(m, _)| m.0.iter().map(|(a, _)| *a))
-            .collect();
-        atoms.sort_unstable();
-        atoms.dedup();
-        atoms
+        let mut occurs: Vec<bool> = Vec::new();
+        for (monomial, _) in &self.terms {
+            for &(atom, _) in &monomial.0 {
+                let at = atom as usize;
+                if at >= occurs.len() {
+                    occurs.resize(at + 1, false);
+                }
+                occurs[at] = true;
+            }
+        }
+        (0..occurs.len())
+            .filter(|at| occurs[*at])
+            .map(|at| at as Atom)
+            .collect()
     }
     /// The coefficients of the powers of an atom, ascending.
     pub(crate) fn by_power(&self, atom: Atom) -> Vec<(i32, Poly)> {

@@ -7,16 +7,20 @@
 use super::layout::Writer;
 use super::names::is_taken;
 use super::{Notation, latex, write_within};
-use crate::dag::{Array, Dependence, Kind, Node, Side};
+use crate::dag::{Array, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::field;
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
 
+/// An H of more nodes than this is differentiated by nobody by hand.
+const LARGEST: usize = 2048;
+
 /// Hamilton's equations: dq/dt = ∂H/∂p for all coordinates, then dp/dt = −∂H/∂q for all momenta.
 /// Elements of an array share one equation for element k. Where the derivative cannot be written
-/// as an expression of k, it is named instead: `-∂H/∂q[k]`.
+/// as an expression of k, or H is too large for derivatives to be read, it is named instead:
+/// `-∂H/∂q[k]`.
 #[must_use]
 pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, String)> {
     let Some(h) = model.hamiltonian else {
@@ -24,12 +28,26 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
     };
     let mut model = model.clone();
     let mut equations = Vec::new();
+    let is_large = model.dag.reachable(&[h]).len() > LARGEST;
     for side in [Side::Q, Side::P] {
         let (other, what, sign) = match side {
             Side::Q => (Side::P, Dependence::P, Rational::ONE),
             Side::P => (Side::Q, Dependence::Q, Rational::MINUS_ONE),
         };
-        let leaves = diff::gradient(&mut model.dag, h, what);
+        let leaves = if is_large {
+            Vec::new()
+        } else {
+            diff::gradient(&mut model.dag, h, what)
+        };
+        let mut of_array: Map<Array, Vec<(Index, Node)>> = Map::default();
+        for &(leaf, adjoint) in &leaves {
+            if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
+                of_array
+                    .entry(*of)
+                    .or_default()
+                    .push((row.clone(), adjoint));
+            }
+        }
         for group in 0..model.groups.len() {
             let (rows, columns) = match &model.groups[group].shape {
                 Shape::Scalar => (None, 1),
@@ -44,14 +62,7 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
                     group: group as u16,
                     column,
                 };
-                let mut own: Vec<(Index, Node)> = Vec::new();
-                for &(leaf, adjoint) in &leaves {
-                    if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
-                        if *of == array {
-                            own.push((row.clone(), adjoint));
-                        }
-                    }
-                }
+                let own = of_array.remove(&array).unwrap_or_default();
                 let of = Derivative {
                     side,
                     group,
@@ -60,6 +71,10 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
                     sign: sign.clone(),
                 };
                 match &rows {
+                    _ if is_large => {
+                        let row = rows.as_ref().map(|_| (index_name(&model).to_owned(), None));
+                        equations.push(of.equation(&model, row, None));
+                    }
                     None => {
                         let value = of.signed(&mut model, own.first().map(|(_, adjoint)| *adjoint));
                         equations.push(of.equation(&model, None, Some(value)));
@@ -72,6 +87,14 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
         }
     }
     equations
+}
+
+/// The name of an element's index.
+fn index_name(model: &Model) -> &'static str {
+    ["k", "i", "j", "l", "n"]
+        .into_iter()
+        .find(|name| !is_taken(model, name))
+        .unwrap_or("index")
 }
 
 struct Derivative {
@@ -148,12 +171,15 @@ impl Derivative {
             }
         }
         let domain = field::elements(&mut model.dag, rows);
-        let value = field::field(&mut model.dag, leaves, array, rows);
+        // A long one read at many numbers would be a list of conditions nobody reads.
+        let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables() == 0);
+        let value = if is_listed {
+            None
+        } else {
+            field::field(&mut model.dag, leaves, array, rows)
+        };
         let value = value.map(|value| self.signed(model, Some(value)));
-        let name = ["k", "i", "j", "l", "n"]
-            .into_iter()
-            .find(|name| !is_taken(model, name))
-            .unwrap_or("index");
+        let name = index_name(model);
         equations.push(self.equation(model, Some((name.to_owned(), Some(domain))), value));
     }
 

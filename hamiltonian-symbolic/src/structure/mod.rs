@@ -240,8 +240,10 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
                 // Rows can be told apart where all are named by number.
                 Some(used) if used.iter().all(Option::is_some) => {
                     let literal = rows.and_then(|rows| rows.as_constant()).unwrap_or(0);
+                    let mut used = used.clone();
+                    used.sort_unstable();
                     (0..literal.min(1024))
-                        .filter(|row| !used.contains(&Some(*row)))
+                        .filter(|row| used.binary_search(&Some(*row)).is_err())
                         .for_each(|row| push(Some(row)));
                 }
                 Some(_) => {}

@@ -4,6 +4,7 @@ mod common;
 
 use common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, bracket, is_invariant};
+use hamiltonian_symbolic::loops::{Sample, sample, unroll_nodes};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print::text;
@@ -246,6 +247,92 @@ fn the_discrete_nonlinear_schroedinger_chain_keeps_its_norm() {
     accepted(&mut chain, "sum(i in 0..N) { q[i]^2 + p[i]^2 }");
     rejected(&mut chain, "sum(i in 0..N) { q[i]^2 - p[i]^2 }");
     accepted(&mut chain, h);
+}
+
+/// The bracket over loops against the bracket of the same expressions written out.
+#[test]
+fn brackets_over_loops_are_those_of_the_expressions_written_out() {
+    let expressions = [
+        "sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) }",
+        "sum(i in 0..N) { q[i]*p[(i + 1) % N] - p[(i - 1) % N]^2*q[(i + 2) % N] }",
+        "sum(i in 0..N) { i*p[i] + q[i]^2 }",
+        "sum(i in 0..N, j in 0..i) { (q[i] - q[j])^3*p[i] + p[j]*q[i] }",
+        "sum(i in 0..N, j in i + 1..N) { sin(q[i]*p[j]) }",
+        "sum(i in 0..N - 1) { (q[i + 1] - q[i])^2 + p[i]*p[i + 1] } + q[0]*p[N - 1]",
+        "sqrt(1 + sum(i in 0..N) { p[i]^2 })*sum(i in 0..N) { q[i] }",
+        "sum(i in 0..N, j in 0..N) { q[i]*p[j]^2*i }",
+        "q[0]^2 + p[0]*q[N - 1]",
+    ];
+    let mut compared = 0;
+    for (at, a) in expressions.iter().enumerate() {
+        for b in &expressions[at..] {
+            let mut m = system("q[N]; p[N]", "N", "", "0");
+            let (x, y) = (parse(&mut m, a), parse(&mut m, b));
+            let Some(found) = bracket(&mut m, x, y) else {
+                continue;
+            };
+            for size in 1..=4 {
+                let how = Sample {
+                    seed: 3,
+                    signed: true,
+                    ..Sample::default()
+                };
+                let (mut written, images) = unroll_nodes(&m, &[size], &[x, y]).unwrap();
+                let expected = bracket(&mut written, images[0], images[1]).unwrap();
+                let expected = sample(&written, &[expected], &[], how, &[]).unwrap().0[0].value;
+                let value = sample(&m, &[found], &[size], how, &[]).unwrap().0[0].value;
+                let close = (value - expected).abs() <= 1e-11 * (1.0 + expected.abs());
+                assert!(
+                    close,
+                    "{{{a}, {b}}} at {size}: {value} and {expected}: {}",
+                    text(&m, found)
+                );
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared >= 4 * 40, "{compared}");
+}
+
+/// {a, b} = −{b, a}, {a, bc} = b{a, c} + {a, b}c, and Jacobi's identity.
+#[test]
+fn brackets_obey_their_laws() {
+    let m = system("x, y; u, v; t", "", "k", "u^2");
+    let expressions = [
+        "x^2*v - y*u",
+        "sin(x)*u + exp(y)",
+        "u^2/2 + v^2/(2*x^2) - k/x",
+        "x*u + y*v",
+        "sqrt(x^2 + y^2)",
+        "cos(x - y)*v",
+    ];
+    for a in expressions {
+        for b in expressions {
+            for c in expressions {
+                let mut m = m.clone();
+                let (a, b, c) = (parse(&mut m, a), parse(&mut m, b), parse(&mut m, c));
+                let mut of = |m: &mut Model, x, y| bracket(m, x, y).unwrap();
+                let (ab, ba, bc, ca) = (
+                    of(&mut m, a, b),
+                    of(&mut m, b, a),
+                    of(&mut m, b, c),
+                    of(&mut m, c, a),
+                );
+                let sum = m.dag.add(&[ab, ba]);
+                assert_eq!(is_zero(&m, sum), Proof::Zero);
+                let jacobi = [of(&mut m, a, bc), of(&mut m, b, ca), of(&mut m, c, ab)];
+                let jacobi = m.dag.add(&jacobi);
+                assert_eq!(is_zero(&m, jacobi), Proof::Zero);
+                let product = m.dag.mul(&[b, c]);
+                let whole = of(&mut m, a, product);
+                let ac = of(&mut m, a, c);
+                let (one, two) = (m.dag.mul(&[b, ac]), m.dag.mul(&[ab, c]));
+                let parts = m.dag.add(&[one, two]);
+                let difference = m.dag.sub(whole, parts);
+                assert_eq!(is_zero(&m, difference), Proof::Zero);
+            }
+        }
+    }
 }
 
 #[test]

@@ -71,6 +71,34 @@ pub struct Observable {
     pub components: Vec<Node>,
 }
 
+/// A vector of (q, p, t): velocities, momenta, a force, the gradient of an event, a change of
+/// coordinates.
+#[derive(Clone, Debug)]
+pub struct VectorFunction {
+    /// Its name.
+    pub name: String,
+    /// Whether it has a part shaped like the coordinates, and one shaped like the momenta.
+    pub sides: (bool, bool),
+    /// What is added to which element, in every iteration of the loops of value and row; elements
+    /// not named are 0.
+    pub entries: Vec<VectorEntry>,
+}
+
+/// A contribution to an element of a vector function.
+#[derive(Clone, Debug)]
+pub struct VectorEntry {
+    /// The part.
+    pub side: Side,
+    /// The group.
+    pub group: u16,
+    /// The column of a rank-2 group; 0 otherwise.
+    pub column: u16,
+    /// The row.
+    pub row: Index,
+    /// The value.
+    pub value: Node,
+}
+
 /// A system.
 #[derive(Clone, Debug, Default)]
 pub struct Model {
@@ -90,6 +118,8 @@ pub struct Model {
     pub externals: Vec<External>,
     /// Monitors, invariants and events in declaration order.
     pub observables: Vec<Observable>,
+    /// Vector functions the system offers.
+    pub vectors: Vec<VectorFunction>,
     /// H.
     pub hamiltonian: Option<Node>,
 }

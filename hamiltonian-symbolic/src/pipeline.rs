@@ -7,13 +7,16 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::factor::factor;
 use crate::index::Index;
-use crate::model::{Model, Shape};
+use crate::model::{Model, Shape, VectorEntry, VectorFunction};
 use crate::program::{Program, Purpose, Target};
 use crate::schedule::{Request, Store, schedule};
 use crate::share::share;
 
 /// The most operations a function may need after simplification.
 pub const CAP: usize = 1 << 15;
+
+/// Coordinates and momenta.
+const BOTH: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0);
 
 /// Why there is no program.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -80,15 +83,14 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
         stores: Vec::new(),
         cleared: Vec::new(),
     };
-    let both = Dependence(Dependence::Q.0 | Dependence::P.0);
     match purpose {
         Purpose::Energy => request.results.push(h),
         Purpose::GradientQ => derivatives(model, h, Dependence::Q, false, &mut request),
         Purpose::GradientP => derivatives(model, h, Dependence::P, false, &mut request),
-        Purpose::Gradient => derivatives(model, h, both, false, &mut request),
+        Purpose::Gradient => derivatives(model, h, BOTH, false, &mut request),
         Purpose::EnergyAndGradient => {
             request.results.push(h);
-            derivatives(model, h, both, false, &mut request);
+            derivatives(model, h, BOTH, false, &mut request);
         }
         Purpose::TimeDerivative => {
             let adjoints = diff::gradient(&mut model.dag, h, Dependence::TIME);
@@ -100,7 +102,7 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
         Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
         Purpose::HessianVector => {
             let along = diff::along_direction(&mut model.dag, h);
-            derivatives(model, along, both, false, &mut request);
+            derivatives(model, along, BOTH, false, &mut request);
         }
         Purpose::Observable(number) => {
             request.results = model
@@ -108,7 +110,12 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
                 .get(number as usize)
                 .map_or_else(Vec::new, |o| o.components.clone());
         }
-        Purpose::Flow => derivatives(model, h, both, true, &mut request),
+        Purpose::Vector(number) => {
+            if let Some(function) = model.vectors.get(usize::from(number)).cloned() {
+                vector(model, function.entries, function.sides, &mut request);
+            }
+        }
+        Purpose::Flow => derivatives(model, h, BOTH, true, &mut request),
         Purpose::Kick => derivatives(model, h, Dependence::Q, true, &mut request),
         Purpose::Drift => derivatives(model, h, Dependence::P, true, &mut request),
     }
@@ -137,6 +144,40 @@ fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
     all
 }
 
+/// The partial derivatives of a scalar, element by element.
+fn partials(model: &mut Model, root: Node, what: Dependence) -> Vec<VectorEntry> {
+    let adjoints = diff::gradient(&mut model.dag, root, what);
+    let entry = |(leaf, value): (Node, Node)| match model.dag.kind(leaf).clone() {
+        Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            _,
+        ) => Some(VectorEntry {
+            side,
+            group,
+            column,
+            row,
+            value,
+        }),
+        _ => None,
+    };
+    adjoints.into_iter().filter_map(entry).collect()
+}
+
+/// The gradient of a scalar expression as a vector function with both parts.
+#[must_use]
+pub fn gradient_of(model: &mut Model, name: String, root: Node) -> VectorFunction {
+    VectorFunction {
+        name,
+        sides: (true, true),
+        entries: partials(model, root, BOTH),
+    }
+}
+
 /// Stores of ∂root/∂q and ∂root/∂p: overwriting, or accumulating c·∂root/∂p into coordinates and
 /// −c·∂root/∂q into momenta.
 fn derivatives(
@@ -146,51 +187,51 @@ fn derivatives(
     accumulate: bool,
     request: &mut Request,
 ) {
-    let adjoints = diff::gradient(&mut model.dag, root, what);
-    let mut stores = Vec::new();
-    for (leaf, value) in adjoints {
-        let Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            _,
-        ) = model.dag.kind(leaf).clone()
-        else {
+    let mut entries = partials(model, root, what);
+    if !accumulate {
+        let sides = (what.on(Dependence::Q), what.on(Dependence::P));
+        return vector(model, entries, sides, request);
+    }
+    for entry in &mut entries {
+        (entry.side, entry.value) = scaled(&mut model.dag, entry.side, entry.value);
+    }
+    request.stores.extend(entries.into_iter().map(added));
+}
+
+/// The store that adds an entry.
+fn added(entry: VectorEntry) -> Store {
+    Store {
+        target: Target::Phase {
+            side: entry.side,
+            group: entry.group,
+            column: entry.column,
+        },
+        row: entry.row,
+        column: None,
+        value: entry.value,
+        add: true,
+    }
+}
+
+/// Stores that overwrite the outputs on the `sides` with a vector.
+fn vector(
+    model: &mut Model,
+    entries: Vec<VectorEntry>,
+    sides: (bool, bool),
+    request: &mut Request,
+) {
+    let mut stores: Vec<Store> = entries.into_iter().map(added).collect();
+    let mut places: Map<Target, Vec<usize>> = Map::default();
+    for (at, store) in stores.iter().enumerate() {
+        places.entry(store.target).or_default().push(at);
+    }
+    for (side, wanted) in [(Side::Q, sides.0), (Side::P, sides.1)] {
+        if !wanted {
             continue;
-        };
-        let (side, value) = if accumulate {
-            scaled(&mut model.dag, side, value)
-        } else {
-            (side, value)
-        };
-        stores.push(Store {
-            target: Target::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            column: None,
-            value,
-            add: true,
-        });
-    }
-    if accumulate {
-        request.stores.append(&mut stores);
-        return;
-    }
-    for side in [Side::Q, Side::P] {
-        if what.on(if side == Side::Q {
-            Dependence::Q
-        } else {
-            Dependence::P
-        }) {
-            for (target, shape) in columns(model, side) {
-                overwrite(&mut model.dag, target, &shape, &mut stores, request);
-            }
+        }
+        for (target, shape) in columns(model, side) {
+            let own = places.get(&target).map_or(&[][..], Vec::as_slice);
+            overwrite(&mut model.dag, target, &shape, own, &mut stores, request);
         }
     }
     request.stores.append(&mut stores);
@@ -206,21 +247,16 @@ fn scaled(dag: &mut Dag, side: Side, value: Node) -> (Side, Node) {
     }
 }
 
-/// Makes an output column be overwritten: by one store where that covers it all, else by clearing
-/// and adding.
+/// Makes an output column, to which the stores at `own` belong, be overwritten: by one store where
+/// that covers it all, else by clearing and adding.
 fn overwrite(
     dag: &mut Dag,
     target: Target,
     shape: &Shape,
+    own: &[usize],
     stores: &mut Vec<Store>,
     request: &mut Request,
 ) {
-    let own: Vec<usize> = stores
-        .iter()
-        .enumerate()
-        .filter(|(_, s)| s.target == target)
-        .map(|(at, _)| at)
-        .collect();
     if *shape == Shape::Scalar {
         match own.first() {
             Some(&at) => stores[at].add = false,
@@ -238,7 +274,7 @@ fn overwrite(
         Shape::Vector(rows) | Shape::Matrix(rows, _) => rows,
         Shape::Scalar => return,
     };
-    if let [at] = own.as_slice() {
+    if let [at] = own {
         let store = &mut stores[*at];
         if let ([(domain, 1)], None, [], 0) = (
             store.row.affine.loops.as_slice(),

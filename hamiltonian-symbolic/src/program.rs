@@ -160,6 +160,8 @@ pub enum Purpose {
     HessianVector,
     /// The components of observable n, returned.
     Observable(u16),
+    /// Vector function n of the model into the outputs it has.
+    Vector(u16),
     /// `into_q += c·∂H/∂p`, `into_p −= c·∂H/∂q`.
     Flow,
     /// `into_p −= c·∂H/∂q`.

@@ -314,7 +314,12 @@ impl Ord for Rational {
             (Form::Small(a, b), Form::Small(c, d)) => {
                 (i128::from(*a) * i128::from(*d)).cmp(&(i128::from(*c) * i128::from(*b)))
             }
-            _ => self.big().cmp(&other.big()),
+            // By the sign of the difference: comparing them as fractions recurses.
+            _ => match self.sub(other) {
+                difference if difference.is_negative() => Ordering::Less,
+                difference if difference.is_zero() => Ordering::Equal,
+                _ => Ordering::Greater,
+            },
         }
     }
 }

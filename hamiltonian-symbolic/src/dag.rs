@@ -295,12 +295,23 @@ impl Dag {
         while rest != 0 {
             let domain = Domain(rest.trailing_zeros());
             rest &= rest - 1;
-            let depth = self.path(Some(domain)).len();
+            let depth = self.depth(Some(domain));
             if best.is_none_or(|(d, _)| depth > d) {
                 best = Some((depth, domain));
             }
         }
         best.map(|(_, domain)| domain)
+    }
+    /// How many loops there are from the outermost to `domain`.
+    #[must_use]
+    pub fn depth(&self, domain: Option<Domain>) -> usize {
+        let mut depth = 0;
+        let mut at = domain;
+        while let Some(d) = at {
+            depth += 1;
+            at = self.range(d).parent;
+        }
+        depth
     }
     /// The loops from the outermost to `domain`.
     #[must_use]

@@ -17,13 +17,9 @@ enum Start {
     Term(usize),
 }
 
-fn is_unit(k: &Rational) -> bool {
-    k.is_one() || *k == Rational::MINUS_ONE
-}
-
 /// A term that can be added by a fused instruction.
 fn is_product(terms: &[(Rational, Node)], at: usize, can_fuse: &impl Fn(Node) -> bool) -> bool {
-    !is_unit(&terms[at].0) || can_fuse(terms[at].1)
+    !terms[at].0.is_unit() || can_fuse(terms[at].1)
 }
 
 fn start_of(c: &Rational, terms: &[(Rational, Node)], can_fuse: &impl Fn(Node) -> bool) -> Start {
@@ -54,7 +50,7 @@ pub(crate) fn fuses(
     at: usize,
     can_fuse: &impl Fn(Node) -> bool,
 ) -> bool {
-    is_unit(&terms[at].0)
+    terms[at].0.is_unit()
         && start_of(c, terms, can_fuse) != Start::Term(at)
         && can_fuse(terms[at].1)
 }
@@ -186,7 +182,7 @@ impl Placer<'_> {
                 continue;
             }
             let negative = k.is_negative();
-            if !is_unit(k) {
+            if !k.is_unit() {
                 let value = self.value(*node);
                 let factor = self.constant(steps, k.abs());
                 sum = self.push(
@@ -254,7 +250,7 @@ impl Placer<'_> {
         };
         let factors = self.early_first(&factors);
         let mut list: Vec<Value> = Vec::new();
-        if !is_unit(&k) {
+        if !k.is_unit() {
             list.push(self.constant(steps, k.abs()));
         }
         for (node, n) in factors {
@@ -271,9 +267,16 @@ impl Placer<'_> {
     fn early_first(&self, factors: &[(Node, i32)]) -> Vec<(Node, i32)> {
         let mut ordered = factors.to_vec();
         ordered.sort_by_key(|(node, _)| {
-            let depth = self.dag.path(self.dag.home(*node)).len();
+            let depth = self.dag.depth(self.dag.home(*node));
             let height = self.dag.height(*node);
-            (depth, if is_prepared(self.dag, *node) { 0 } else { 1 + height })
+            (
+                depth,
+                if is_prepared(self.dag, *node) {
+                    0
+                } else {
+                    1 + height
+                },
+            )
         });
         ordered
     }
@@ -298,7 +301,7 @@ impl Placer<'_> {
     ) -> Value {
         let mut above: Vec<Value> = Vec::new();
         let mut below: Vec<Value> = Vec::new();
-        if !is_unit(k) {
+        if !k.is_unit() {
             let factor = self.constant(steps, k.abs());
             above.push(factor);
         }

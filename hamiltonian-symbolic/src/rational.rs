@@ -199,6 +199,11 @@ impl Rational {
     pub fn is_one(&self) -> bool {
         matches!(self.0, Form::Small(1, 1))
     }
+    /// Whether this is 1 or −1.
+    #[must_use]
+    pub fn is_unit(&self) -> bool {
+        matches!(self.0, Form::Small(1 | -1, 1))
+    }
     /// Whether this is below 0.
     #[must_use]
     pub fn is_negative(&self) -> bool {

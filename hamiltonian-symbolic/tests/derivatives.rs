@@ -238,7 +238,7 @@ fn expected(purpose: Purpose, case: &Case) -> (Option<DoubleDouble>, Vec<(Target
         Purpose::Kick => (None, added(Side::P, -1.0)),
         Purpose::Drift => (None, added(Side::Q, 1.0)),
         Purpose::HessianVector => (None, [q(&case.hessian), p(&case.hessian)].concat()),
-        Purpose::Observable(_) => (None, vec![]),
+        _ => (None, vec![]),
     }
 }
 

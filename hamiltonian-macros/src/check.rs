@@ -246,15 +246,15 @@ impl<'a> Checker<'a> {
             return None;
         }
         let nearest = crate::names::nearest(&text, sizes.iter().map(String::as_str));
+        let mut parameters = self.ast.item.iter().flat_map(|item| &item.parameters);
+        let is_parameter = parameters.any(|parameter| parameter.name == *name);
+        let message = if is_parameter {
+            format!("`{text}` is a parameter, not a size")
+        } else {
+            format!("unknown size `{text}`")
+        };
         let help = match (nearest, &self.ast.item) {
-            _ if self
-                .out
-                .parameters
-                .iter()
-                .any(|parameter| parameter.name == *name) =>
-            {
-                format!("declare it as a size: `{text}: usize`")
-            }
+            _ if is_parameter => format!("declare it as a size: `{text}: usize`"),
             (Some(known), _) => format!("the nearest size is `{known}`"),
             (None, Some(item)) => format!(
                 "declare it: `struct {}<const {text}: usize>`, or `{text}: usize` among the parameters",
@@ -265,8 +265,7 @@ impl<'a> Checker<'a> {
                     .into()
             }
         };
-        self.report
-            .error(name.span(), format!("unknown size `{text}`"), help);
+        self.report.error(name.span(), message, help);
         self.unknown_sizes.push(text);
         None
     }

@@ -8,6 +8,7 @@
 //! fields, one of whose const arguments is the last `compile_error!`.
 
 use crate::ast::{Ast, Item, ParameterKind};
+use crate::names;
 use crate::report::Report;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -20,11 +21,12 @@ pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
         .map(|error| error.to_compile_error())
         .collect();
     match &ast.item {
-        Some(item) => {
+        Some(item) if is_name(&item.name) => {
             let last = errors.pop();
             let item = item_stub(item, last.unwrap_or_else(|| quote!(0)));
             quote!(#(#errors)* #item)
         }
+        Some(_) => quote!(#(#errors)*),
         None if ast.is_item || errors.len() == 1 => quote!(#(#errors)*),
         None => quote!({ #(#errors)* }),
     }
@@ -39,13 +41,13 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
     } = item;
     let docs = attributes.iter().filter(|attribute| is_doc(attribute));
     let hidden = format_ident!("__{name}", span = name.span());
-    // A bad header may repeat a name; the stub must not.
-    let sizes = distinct(item.generics.iter());
+    // A bad header may repeat a name, or name something by a keyword; the stub must not.
+    let sizes = distinct(item.generics.iter().filter(|name| is_name(name)));
     let mut seen: Vec<&Ident> = Vec::new();
     let mut scalar = false;
     let mut fields = Vec::new();
     for parameter in &item.parameters {
-        if seen.contains(&&parameter.name) {
+        if seen.contains(&&parameter.name) || !is_name(&parameter.name) {
             continue;
         }
         seen.push(&parameter.name);
@@ -69,6 +71,11 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
         #visibility type #name<#(const #sizes: usize,)* #with_default> =
             #hidden<#(#sizes,)* #parameter { #error }>;
     }
+}
+
+/// Not a keyword of Rust.
+fn is_name(name: &Ident) -> bool {
+    !names::is_rust_keyword(&name.to_string())
 }
 
 fn distinct<'a>(names: impl Iterator<Item = &'a Ident>) -> Vec<&'a Ident> {

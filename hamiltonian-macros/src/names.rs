@@ -169,6 +169,8 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("powi", "pow"),
     ("powf", "pow"),
     ("root", "sqrt"),
+    ("sqr", "x^2"),
+    ("square", "x^2"),
     ("length", "norm"),
     ("magnitude", "norm"),
     ("norm2", "norm_squared"),

@@ -39,6 +39,7 @@ pub fn parse(tokens: &Tokens, report: &mut Report) -> Ast {
         condition: None,
         pending: Vec::new(),
         remainders: Vec::new(),
+        refused: Vec::new(),
         ast: Ast::default(),
         report,
     };
@@ -66,6 +67,8 @@ struct Parser<'a> {
     pending: Vec<expr::Pending>,
     /// Nodes of `%` that are not yet the outermost of an index.
     remainders: Vec<ExprId>,
+    /// Words of the language that a statement wanted to declare.
+    refused: Vec<&'a str>,
     ast: Ast,
     report: &'a mut Report,
 }
@@ -250,6 +253,7 @@ impl<'a> Parser<'a> {
         if self.is_plain(token) {
             let name = token.text.as_str();
             if let Some(meaning) = names::meaning(name) {
+                self.refused.push(name);
                 self.report.error(
                     token.span,
                     format!("`{name}` is {meaning} and cannot be redeclared"),
@@ -308,6 +312,9 @@ impl<'a> Parser<'a> {
                 Some(TokenKind::Punct(a @ ('=' | ':' | '+' | '-' | '*' | '/'), true)),
                 Some(TokenKind::Punct('=', _)),
             ) => Some(format!("found `{a}=`")),
+            (Some(TokenKind::Punct('=', true)), Some(TokenKind::Punct('>', _))) => {
+                Some("found `=>`".into())
+            }
             _ => None,
         };
         let mut spans = Spans::from(self.here());
@@ -315,7 +322,12 @@ impl<'a> Parser<'a> {
             spans.end = self.tokens[self.position + 1].span;
         }
         let found = two.unwrap_or_else(|| self.found());
-        let help = format!("write `{left} = …`");
+        let help = match self.kind() {
+            Some(TokenKind::Open(Delimiter::Bracket | Delimiter::Brace)) if left == "H" => {
+                "write `H(q; p) = …`".into()
+            }
+            _ => format!("write `{left} = …`"),
+        };
         self.abort(spans, format!("expected `=` after `{left}`, {found}"), help)
     }
 

@@ -40,7 +40,7 @@ pub struct Diagnostic {
     /// What is wrong: one line, lower case, code in backticks.
     pub message: String,
     /// What to write instead.
-    pub help: Option<String>,
+    pub help: String,
     /// The narrowest tokens that are wrong.
     pub spans: Spans,
 }
@@ -48,10 +48,7 @@ pub struct Diagnostic {
 impl Diagnostic {
     /// The text rustc shows.
     pub fn text(&self) -> String {
-        match &self.help {
-            Some(help) => format!("{}\nhelp: {help}", self.message),
-            None => self.message.clone(),
-        }
+        format!("{}\nhelp: {}", self.message, self.help)
     }
 
     /// `::core::compile_error! { "text" }` on the spans. Braces, so that it may stand as an item,
@@ -97,24 +94,11 @@ impl Report {
         message: impl Into<String>,
         help: impl Into<String>,
     ) {
-        self.push(Diagnostic {
+        self.errors.push(Diagnostic {
             message: message.into(),
-            help: Some(help.into()),
+            help: help.into(),
             spans: spans.into(),
         });
-    }
-
-    /// Adds an error for which there is nothing to write instead.
-    pub fn error_without_help(&mut self, spans: impl Into<Spans>, message: impl Into<String>) {
-        self.push(Diagnostic {
-            message: message.into(),
-            help: None,
-            spans: spans.into(),
-        });
-    }
-
-    fn push(&mut self, diagnostic: Diagnostic) {
-        self.errors.push(diagnostic);
     }
 
     /// No error so far.

@@ -177,7 +177,12 @@ impl Checker<'_> {
                 "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`".into(),
             ),
         };
-        self.error(culprit, ast.nodes[culprit.0 as usize].at, &message, &help);
+        self.error(
+            culprit,
+            ast.nodes[culprit.0 as usize].spans,
+            &message,
+            &help,
+        );
         None
     }
 
@@ -194,15 +199,14 @@ impl Checker<'_> {
             Some(right) => Some(self.modulus(right, frame)?),
         };
         let size = extent_form(extent)?;
-        let at = self.ast.nodes[raw.0.0 as usize].at;
         let shown = self.extent_shown(extent);
-        if let Some(modulo) = modulo {
+        if let (Some(modulo), Some(right)) = (modulo, raw.1) {
             let room = size.plus(-1, &extent_form(modulo)?)?;
             if room.always_negative() {
                 let last = self.affine_shown(&extent_form(modulo)?.plus(-1, &Affine::constant(1))?);
                 self.error(
                     raw.0,
-                    at,
+                    self.ast.nodes[right.0 as usize].spans,
                     &format!("this index reaches {last}, but the extent is {shown}"),
                     &format!("write `% {shown}`"),
                 );
@@ -239,10 +243,13 @@ impl Checker<'_> {
             if form.always_negative() && self.takes_place(&affine, end) {
                 let reached = if end == End::Least { &least } else { &greatest };
                 let reached = reached.as_ref().map(|form| self.affine_shown(form));
-                let message = format!(
-                    "this index reaches {}, but the extent is {shown}",
-                    reached.unwrap_or_default()
-                );
+                let reached = reached.unwrap_or_default();
+                let message = if end == End::Least {
+                    format!("this index reaches {reached}, but indices begin at 0")
+                } else {
+                    format!("this index reaches {reached}, but the extent is {shown}")
+                };
+                let at = self.ast.nodes[raw.0.0 as usize].spans;
                 self.error(raw.0, at, &message, &help);
                 return None;
             }

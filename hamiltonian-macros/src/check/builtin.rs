@@ -6,7 +6,7 @@
 use super::expr::Frame;
 use super::lookup::Found;
 use super::{Binding, Checker};
-use crate::ast::{ExprId, ExprKind, ScopeId, Symbol};
+use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::{self, Builtin, Domain, Entry};
 
@@ -141,9 +141,12 @@ impl Checker<'_> {
             );
             let help = match (name, ty) {
                 ("abs", _) => "write `norm(…)` for the length of a vector".into(),
-                (_, Type::Vector(extent)) => {
+                (_, Type::Vector(extent)) if arguments.len() == 1 => {
                     let extent = self.extent_shown(extent);
-                    format!("write a component, or `sum(i in 0..{extent}) {{ {name}(…[i]) }}`")
+                    let vector = self.name_of(*argument).unwrap_or("…");
+                    format!(
+                        "write a component, or `sum(i in 0..{extent}) {{ {name}({vector}[i]) }}`"
+                    )
                 }
                 _ => "write a component".into(),
             };
@@ -159,9 +162,9 @@ impl Checker<'_> {
 
     /// A node for messages: its name if it is one.
     fn written(&self, raw: ExprId) -> String {
-        match &self.ast.nodes[raw.0 as usize].kind {
-            ExprKind::Name(symbol, _) => format!("`{}`", self.ast.symbols.name(*symbol)),
-            _ => "this".into(),
+        match self.name_of(raw) {
+            Some(name) => format!("`{name}`"),
+            None => "this".into(),
         }
     }
 
@@ -216,12 +219,14 @@ impl Checker<'_> {
                             self.type_shown(ty)
                         );
                         let at = self.ast.nodes[argument.0 as usize].spans;
-                        self.error(
-                            *argument,
-                            at,
-                            &message,
-                            "in the plane write `a[0]*b[1] - a[1]*b[0]`",
-                        );
+                        let help = if ty == Type::Vector(Extent::Literal(2)) {
+                            let [a, b] = [0, 1].map(|at| self.name_of(arguments[at]));
+                            let (a, b) = (a.unwrap_or("a"), b.unwrap_or("b"));
+                            format!("in the plane write `{a}[0]*{b}[1] - {a}[1]*{b}[0]`")
+                        } else {
+                            "a vector product is one of space".into()
+                        };
+                        self.error(*argument, at, &message, &help);
                         return None;
                     }
                 }
@@ -258,7 +263,8 @@ impl Checker<'_> {
                 (Builtin::Dot, Type::Scalar) => "write a product, `a*b`".into(),
                 (_, Type::Matrix(rows, _)) => {
                     let rows = self.extent_shown(rows);
-                    format!("write a row, `q[i]`, inside `sum(i in 0..{rows}) {{ … }}`")
+                    let matrix = self.name_of(*argument).unwrap_or("…");
+                    format!("write a row, `{matrix}[i]`, inside `sum(i in 0..{rows}) {{ … }}`")
                 }
                 _ => format!("write `{}` of vectors", entry.signature()),
             };

@@ -296,8 +296,15 @@ impl Checker<'_> {
         }
         for other in others.iter().skip(coordinates.len()) {
             let message = format!("the {partner} `{}` has no coordinate", other.name);
-            let help =
-                format!("write as many coordinates before the `;` as after it: `{word}(x, y; …)`");
+            let help = if other.name == "t" {
+                let others = list(&others[..coordinates.len()]);
+                format!(
+                    "write time after a `;`: `{word}({}; {others}; t)`",
+                    list(coordinates)
+                )
+            } else {
+                format!("write as many coordinates before the `;` as after it: `{word}(x, y; …)`")
+            };
             self.report.error(other.name.span(), message, help);
         }
     }

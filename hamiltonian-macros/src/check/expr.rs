@@ -55,10 +55,23 @@ impl Checker<'_> {
             self.condition_as_number(raw);
         } else {
             let message = format!("{what} is a scalar, but this is {}", self.type_shown(ty));
-            let help = "write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`";
-            self.error(raw, self.ast.nodes[raw.0 as usize].spans, &message, help);
+            let help = match self.name_of(raw) {
+                Some(name) if matches!(ty, Type::Vector(_)) => {
+                    format!("write `norm_squared({name})` or a component, `{name}[0]`")
+                }
+                _ => "write `norm_squared(…)`, `dot(a, b)` or a component".into(),
+            };
+            self.error(raw, self.ast.nodes[raw.0 as usize].spans, &message, &help);
         }
         None
+    }
+
+    /// The name that stands there, if nothing else does.
+    pub(super) fn name_of(&self, raw: ExprId) -> Option<&str> {
+        match self.ast.nodes[raw.0 as usize].kind {
+            ExprKind::Name(symbol, _) => Some(self.ast.symbols.name(symbol)),
+            _ => None,
+        }
     }
 
     /// Visits all nodes of an expression but `skipped`.
@@ -221,14 +234,14 @@ impl Checker<'_> {
                 {
                     (Kind::Mul(a, b), Type::Vector(rows))
                 }
-                _ => return self.shapes_differ(raw, op, left_type, right_type),
+                _ => return self.shapes_differ(raw, op, (left, left_type), (right, right_type)),
             },
             BinaryOp::Div if right_type == Type::Scalar => (Kind::Div(a, b), left_type),
             BinaryOp::Pow if scalars => (Kind::Pow(a, b), Type::Scalar),
             BinaryOp::Compare(comparison) if scalars => {
                 (Kind::Compare(comparison, a, b), Type::Bool)
             }
-            _ => return self.shapes_differ(raw, op, left_type, right_type),
+            _ => return self.shapes_differ(raw, op, (left, left_type), (right, right_type)),
         };
         self.push_affine(raw, kind, ty, affine)
     }
@@ -238,9 +251,10 @@ impl Checker<'_> {
         &mut self,
         raw: ExprId,
         op: BinaryOp,
-        left: Type,
-        right: Type,
+        (raw_left, left): (ExprId, Type),
+        (raw_right, right): (ExprId, Type),
     ) -> Option<NodeId> {
+        let name = |raw: ExprId, otherwise: &str| self.name_of(raw).unwrap_or(otherwise).to_owned();
         let (a, b) = (self.type_shown(left), self.type_shown(right));
         let both_vectors = matches!((left, right), (Type::Vector(x), Type::Vector(y)) if x == y);
         let (message, help) = match op {
@@ -251,42 +265,86 @@ impl Checker<'_> {
                     "subtracted from"
                 };
                 let (a, b) = if op == BinaryOp::Add { (a, b) } else { (b, a) };
-                let help = if left == Type::Scalar || right == Type::Scalar {
-                    "write a component, `q[i]`, or a length, `norm(q)`"
+                let array = if left == Type::Scalar {
+                    raw_right
                 } else {
-                    "both sides need the same extents"
+                    raw_left
+                };
+                let help = match (left, right, self.name_of(array)) {
+                    (Type::Scalar, Type::Vector(_), Some(name))
+                    | (Type::Vector(_), Type::Scalar, Some(name)) => {
+                        format!("write a component, `{name}[i]`, or a length, `norm({name})`")
+                    }
+                    (Type::Scalar, Type::Vector(_), None)
+                    | (Type::Vector(_), Type::Scalar, None) => {
+                        "write a component, or a length, `norm(…)`".into()
+                    }
+                    (Type::Scalar, ..) | (_, Type::Scalar, _) => "write one element".into(),
+                    _ => "both sides need the same extents".into(),
                 };
                 (format!("{a} cannot be {done} {b}"), help)
             }
-            BinaryOp::Mul if both_vectors => (
-                format!("{a} times {b} has no meaning"),
-                "write `dot(a, b)` or `cross(a, b)`",
-            ),
+            BinaryOp::Mul if both_vectors => (format!("{a} times {b} has no meaning"), {
+                let (x, y) = (name(raw_left, "a"), name(raw_right, "b"));
+                if left == Type::Vector(Extent::Literal(3)) {
+                    format!("write `dot({x}, {y})` or `cross({x}, {y})`")
+                } else {
+                    format!("write `dot({x}, {y})`")
+                }
+            }),
             BinaryOp::Mul if matches!((left, right), (Type::Matrix(_, x), Type::Vector(y)) if x == y) => {
-                (
-                    "only a matrix parameter multiplies a vector".into(),
-                    "write `sum(i in 0..N) { q[i]*v[i] }`",
-                )
+                ("only a matrix parameter multiplies a vector".into(), {
+                    let (m, v) = (name(raw_left, "m"), name(raw_right, "v"));
+                    format!("write its components: `[dot({m}[0], {v}), dot({m}[1], {v}), …]`")
+                })
             }
             BinaryOp::Mul => (
                 format!("{a} times {b} has no meaning"),
-                "a matrix parameter `[r][c]` multiplies a vector `[c]` from the left",
+                match (left, right) {
+                    (Type::Vector(extent), Type::Matrix(_, columns)) if extent == columns => {
+                        let (v, m) = (name(raw_left, "v"), name(raw_right, "m"));
+                        format!("write the matrix on the left: `{m}*{v}`")
+                    }
+                    (Type::Matrix(..), Type::Matrix(..)) => {
+                        "multiply a vector by one after the other: `a*(b*v)`".into()
+                    }
+                    _ => {
+                        "a matrix parameter `[r][c]` multiplies a vector `[c]` from the left".into()
+                    }
+                },
             ),
             BinaryOp::Div => (
                 format!("nothing can be divided by {b}"),
-                "divide by its `norm(…)`",
+                match right {
+                    Type::Vector(_) => {
+                        let x = name(raw_right, "a");
+                        format!("divide by a component, `{x}[i]`, or by its length, `norm({x})`")
+                    }
+                    _ => "divide by one element".into(),
+                },
             ),
             BinaryOp::Pow if right == Type::Scalar => (
                 format!("{a} has no powers"),
-                "write `norm_squared(a)`, or the power of a component",
+                match left {
+                    Type::Vector(_) => {
+                        let x = name(raw_left, "a");
+                        format!(
+                            "write `norm_squared({x})`, or the power of a component, `{x}[i]^2`"
+                        )
+                    }
+                    _ => "write the power of an element".into(),
+                },
             ),
-            BinaryOp::Pow => (format!("the exponent is {b}"), "write a scalar exponent"),
+            BinaryOp::Pow => (
+                format!("the exponent is {b}"),
+                "write a scalar exponent".into(),
+            ),
             _ => (
                 format!("{a} cannot be compared with {b}"),
-                "compare scalars, such as `norm(a)`",
+                "compare scalars, such as `norm(a)`".into(),
             ),
         };
-        self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, help);
+        self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, &help);
         None
     }
 
@@ -389,7 +447,9 @@ impl Checker<'_> {
                 self.type_shown(ty)
             );
             let at = self.ast.nodes[item.0 as usize].spans;
-            self.error(*item, at, &message, "write each component: `[q[0], q[1]]`");
+            let name = self.name_of(*item).unwrap_or("a");
+            let help = format!("write each component: `[{name}[0], {name}[1], …]`");
+            self.error(*item, at, &message, &help);
         }
         if values.len() != items.len() {
             return None;

@@ -182,13 +182,13 @@ impl Checker<'_> {
             self.error(raw, at, "`t` is not declared", &help);
             return None;
         }
+        if names::is_rust_keyword(name) {
+            let message = format!("`{name}` is a keyword of Rust and not a value");
+            self.error(raw, at, &message, "choose another name");
+            return None;
+        }
         if ast.item.is_none() {
             self.unknown[symbol.0 as usize] = false;
-            if names::is_rust_keyword(name) {
-                let message = format!("`{name}` is a keyword of Rust and not a value");
-                self.error(raw, at, &message, "choose another name");
-                return None;
-            }
             return self.capture(raw, symbol);
         }
         let help = self.help_for_unknown(name);

@@ -71,10 +71,6 @@ impl Parser<'_> {
                 "`=` does not compare".to_owned(),
                 "write `==` in a condition",
             ),
-            TokenKind::Punct(',', _) if expected == "one index" => (
-                "each index has brackets of its own".into(),
-                "write `q[i][j]`",
-            ),
             TokenKind::Punct(',', _) => (
                 "a list is not a value".into(),
                 "write `[a, b]` for a vector",
@@ -86,6 +82,10 @@ impl Parser<'_> {
             TokenKind::Punct('!', _) => (
                 "`!` stands before a condition".into(),
                 "there is no factorial; write the number",
+            ),
+            TokenKind::Ident if token.text == "in" => (
+                "a loop variable does not stand here".into(),
+                "write `sum(i in 0..N) { … }`",
             ),
             TokenKind::Punct('.', true) => (
                 "a range does not stand here".into(),

@@ -16,6 +16,9 @@ use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
 use proc_macro2::{Delimiter, Span};
 
+/// What follows a function.
+const CALL: TokenKind = TokenKind::Open(Delimiter::Parenthesis);
+
 /// An operator that waits for its right operand.
 pub(super) enum Pending {
     Unary(UnaryOp, Span),
@@ -31,6 +34,23 @@ impl Pending {
             Pending::Binary(op, ..) => left_binding(*op) + 1,
         }
     }
+}
+
+/// Whether a word is a keyword of Rust and none of the language.
+fn is_foreign(word: &str) -> bool {
+    names::is_rust_keyword(word)
+        && !names::is_statement_word(word)
+        && !matches!(word, "if" | "else" | "in")
+}
+
+/// Whether a value may begin with such a token.
+fn begins_operand(kind: TokenKind) -> bool {
+    matches!(
+        kind,
+        TokenKind::Ident
+            | TokenKind::Literal
+            | TokenKind::Open(Delimiter::Parenthesis | Delimiter::Bracket | Delimiter::None)
+    )
 }
 
 /// How tightly an operator holds the operand on its left.
@@ -218,6 +238,11 @@ impl Parser<'_> {
     fn word(&mut self, token: &Token) -> Result<ExprId> {
         let span = token.span;
         let name = token.text.as_str();
+        if self.refused.contains(&name) && self.kind_at(1) != Some(CALL) {
+            // Its declaration was reported.
+            self.position += 1;
+            return Ok(self.push(ExprKind::Error, Spans::from(span), span));
+        }
         match name {
             "if" => return self.conditional(),
             "sum" => return self.sum(),
@@ -240,7 +265,12 @@ impl Parser<'_> {
                 "choose another name, or write it as a statement of its own",
             );
         }
-        let plain = self.is_plain(token);
+        let receiver = matches!(self.kind_at(1), Some(TokenKind::Punct('.' | ':', _)));
+        let is_keyword = is_foreign(name) && !receiver;
+        let plain = !is_keyword && self.is_plain(token);
+        if is_keyword {
+            self.keyword(token, "and not a value")?;
+        }
         self.position += 1;
         if matches!(self.kind(), Some(TokenKind::Punct(':', true)))
             && matches!(self.kind_at(1), Some(TokenKind::Punct(':', _)))
@@ -266,6 +296,25 @@ impl Parser<'_> {
             names::function(name).map_or_else(|| format!("{name}(a, b)"), |f| f.signature());
         let arguments = self.list(&shown)?;
         Ok(self.push(ExprKind::Call(symbol, self.scope, arguments), spans, span))
+    }
+
+    /// A keyword of Rust inside an expression. What follows `for` and the like is not read.
+    fn keyword(&mut self, token: &Token, what: &str) -> Result<()> {
+        let name = &token.text;
+        let (help, is_clause) = match name.as_str() {
+            "for" | "while" | "loop" => ("write `sum(i in 0..N) { … }` to add terms", true),
+            "match" => ("write `if c { a } else { b }`", true),
+            "where" => ("name values above, `let name = …;`", true),
+            "as" => ("leave it out: numbers have no type", true),
+            _ => ("choose another name", false),
+        };
+        let message = format!("`{name}` is a keyword of Rust {what}");
+        if is_clause && self.kind_at(1).is_some_and(begins_operand) {
+            return self.abort(token.span, message, help);
+        }
+        self.report
+            .error(token.span, message, "choose another name");
+        Ok(())
     }
 
     /// `sin^2(q)`: refused, the cursor after the function.
@@ -311,6 +360,7 @@ impl Parser<'_> {
         };
         let help = match last {
             "PI" => "write `pi`".to_owned(),
+            _ if names::function(last).is_some() => format!("write `{last}`"),
             _ if self.ast.is_item => "declare a Rust function by `fn name(x) = path, (path)`, a \
                                       constant as a parameter"
                 .into(),
@@ -345,11 +395,24 @@ impl Parser<'_> {
         let group = self.group_spans();
         let spans = self.spans(base).to(group);
         let waiting = self.remainders.len();
+        let array = match self.ast.nodes[base.0 as usize].kind {
+            ExprKind::Name(symbol, _) => self.ast.symbols.name(symbol).to_owned(),
+            _ => "q".into(),
+        };
         let root = self.group("one index", |parser| {
             if parser.position == parser.limit {
-                return parser.abort(group, "an index is missing", "write `q[i]`");
+                let help = format!("write `{array}[i]`");
+                return parser.abort(group, "an index is missing", help);
             }
-            parser.expression()
+            let index = parser.expression()?;
+            if parser.at_punct(',') {
+                return parser.abort(
+                    parser.here(),
+                    "each index has brackets of its own",
+                    format!("write `{array}[i][j]`"),
+                );
+            }
+            Ok(index)
         })?;
         let (mut index, mut modulo) = (root, None);
         for id in self.remainders.split_off(waiting) {
@@ -363,7 +426,7 @@ impl Parser<'_> {
                 _ => self.report.error(
                     node.at,
                     "`%` binds like `*`: here it is not the last thing done",
-                    "write `q[(i + 1) % N]`",
+                    format!("write `{array}[(i + 1) % N]`"),
                 ),
             }
         }
@@ -397,13 +460,20 @@ impl Parser<'_> {
         let start = self.spans(base).start;
         self.position += 2;
         if !matches!(member.kind, TokenKind::Ident) {
+            let (message, help) = if before.kind == TokenKind::Literal {
+                let message = format!("`{receiver}.{}` is not a number", member.shown());
+                (message, "write a decimal number".to_owned())
+            } else {
+                let message = format!("`.{}` after a value means nothing", member.shown());
+                (message, format!("write `{receiver}[0]` for a component"))
+            };
             return self.abort(
                 Spans {
                     start,
                     end: member.span,
                 },
-                format!("`.{}` after a value means nothing", member.shown()),
-                format!("write `{receiver}[0]` for a component"),
+                message,
+                help,
             );
         }
         let spans = Spans {
@@ -413,12 +483,18 @@ impl Parser<'_> {
         if self.at_open(Delimiter::Parenthesis) {
             let argument = self.peek_at(1).map_or("", |token| token.text.as_str());
             let help = match (word, argument) {
-                ("powi" | "powf", "") => format!("write `{receiver}^n`"),
-                ("powi" | "powf", power) => format!("write `{receiver}^{power}`"),
-                _ => format!(
-                    "write `{}({receiver})`",
-                    names::synonym(word).unwrap_or(word)
-                ),
+                ("pow" | "powi" | "powf", "") => format!("write `{receiver}^n`"),
+                ("pow" | "powi" | "powf", power) => format!("write `{receiver}^{power}`"),
+                _ => {
+                    let known = names::synonym(word).unwrap_or(word);
+                    match names::function(known).map(|entry| entry.arguments) {
+                        Some([_, second]) => format!("write `{known}({receiver}, {second})`"),
+                        None if known != word => {
+                            format!("write `{}`", known.replace('x', &receiver))
+                        }
+                        _ => format!("write `{known}({receiver})`"),
+                    }
+                }
             };
             let end = self.group_spans().end;
             self.skip();
@@ -501,6 +577,9 @@ impl Parser<'_> {
             TokenKind::Ident
             | TokenKind::Literal
             | TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
+                if token.kind == TokenKind::Ident && is_foreign(&token.text) {
+                    self.keyword(token, "and means nothing here")?;
+                }
                 return Ok(self.missing_operator(token));
             }
             TokenKind::Punct('#', _) if self.limit == self.statement_limit => {

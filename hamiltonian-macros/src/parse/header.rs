@@ -21,6 +21,7 @@ pub(super) struct Attribute {
     rest: (usize, usize),
 }
 
+const SIZE: &str = "write a number or the name of a size: `[3]`, `[N]`";
 const STRUCT: &str = "write `pub struct Name { m = 1.0 }` and the statements after it";
 
 impl Parser<'_> {
@@ -115,15 +116,7 @@ impl Parser<'_> {
     fn item_attributes(&mut self, attributes: Vec<Attribute>) {
         for attribute in attributes {
             let taken = if attribute.word == "max_ops" {
-                let number = self.max_ops(&attribute);
-                if number.is_none() {
-                    self.report.error(
-                        attribute.spans,
-                        "`max_ops` takes a number of operations, once",
-                        "write `#[max_ops = 40]`",
-                    );
-                }
-                number
+                self.max_ops(&attribute)
             } else {
                 None
             };
@@ -138,16 +131,28 @@ impl Parser<'_> {
         }
     }
 
-    fn max_ops(&self, attribute: &Attribute) -> Option<(u64, Span)> {
-        if self.ast.item.as_ref()?.max_ops.is_some() {
-            return None;
-        }
-        match &self.tokens[attribute.rest.0..attribute.rest.1] {
+    /// `#[max_ops = 40]`, once.
+    fn max_ops(&mut self, attribute: &Attribute) -> Option<(u64, Span)> {
+        let number = match &self.tokens[attribute.rest.0..attribute.rest.1] {
             [equals, number] if matches!(equals.kind, TokenKind::Punct('=', _)) => {
-                Some((number.text.replace('_', "").parse().ok()?, number.span))
+                let value = number.text.replace('_', "").parse().ok();
+                value.map(|value| (value, number.span))
             }
             _ => None,
+        };
+        let twice = self.ast.item.as_ref()?.max_ops.is_some();
+        if twice || number.is_none() {
+            let (message, help) = if twice {
+                ("`max_ops` stands twice", "keep one")
+            } else {
+                (
+                    "`max_ops` takes a number of operations",
+                    "write `#[max_ops = 40]`",
+                )
+            };
+            self.report.error(attribute.spans, message, help);
         }
+        number
     }
 
     /// `const N: usize, …>`, the cursor after `<`.
@@ -243,16 +248,17 @@ impl Parser<'_> {
         };
         if self.position < self.limit && !self.at_punct(',') {
             let (message, help) = match self.kind() {
-                Some(TokenKind::Punct(';', _)) => {
-                    ("parameters are separated by `,`".to_owned(), "write `,`")
-                }
+                Some(TokenKind::Punct(';', _)) => (
+                    "parameters are separated by `,`".to_owned(),
+                    "write `,` instead of `;`",
+                ),
                 Some(TokenKind::Punct('=', _)) => (
                     "only scalars have a default".into(),
                     "remove it and give the value to `new`",
                 ),
                 _ if matches!(kind, ParameterKind::Scalar(Some(_))) => (
                     "a default is a number, not an expression".into(),
-                    "write its value, `0.5`",
+                    "write its value as one number, such as `0.5`",
                 ),
                 _ => (
                     format!("expected `,` after `{name}`, {}", self.found()),
@@ -342,7 +348,7 @@ impl Parser<'_> {
                     ),
                     _ => (
                         "a size is a number or a name, not an expression".into(),
-                        "declare a size of its own",
+                        SIZE,
                     ),
                 };
                 return self.abort(self.here(), message, help);
@@ -361,9 +367,8 @@ impl Parser<'_> {
     }
 
     fn size(&mut self, spans: Spans) -> Result<Size> {
-        const FORM: &str = "write a number or the name of a size: `[3]`, `[N]`";
         let Some(token) = self.peek() else {
-            return self.abort(spans, "a size is missing", FORM);
+            return self.abort(spans, "a size is missing", SIZE);
         };
         match (token.kind, &token.tree) {
             (TokenKind::Literal, _) => {
@@ -389,7 +394,7 @@ impl Parser<'_> {
             }
             _ => {
                 let message = format!("expected a size, {}", self.found());
-                self.abort(token.span, message, FORM)
+                self.abort(token.span, message, SIZE)
             }
         }
     }

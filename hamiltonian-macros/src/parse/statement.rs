@@ -124,9 +124,11 @@ impl Parser<'_> {
             return Ok(());
         }
         match self.kind() {
-            Some(TokenKind::Punct(',', _)) => {
-                self.abort(self.here(), "statements are separated by `;`", "write `;`")
-            }
+            Some(TokenKind::Punct(',', _)) => self.abort(
+                self.here(),
+                "statements are separated by `;`",
+                "write `;` instead of `,`",
+            ),
             Some(TokenKind::Punct('=', _)) => self.abort(
                 self.here(),
                 "a second `=` in one statement",
@@ -228,6 +230,7 @@ impl Parser<'_> {
                 "write `let name = …` without `mut`",
             );
         }
+        self.refuse_word_before_hamiltonian("H = …")?;
         let name = self.declared("a name", FORM)?;
         let arguments = if self.at_open(Delimiter::Parenthesis) {
             Some(self.arguments(&name)?)
@@ -250,6 +253,16 @@ impl Parser<'_> {
             arguments,
             value: self.right_side()?,
         })
+    }
+
+    /// `let H = …`, `fn H(q, p) …`, the cursor after the first word.
+    fn refuse_word_before_hamiltonian(&mut self, form: &str) -> Result<()> {
+        if !self.at_word("H") {
+            return Ok(());
+        }
+        let word = &self.tokens[self.position - 1];
+        let message = format!("`H` stands without `{}`", word.shown());
+        self.abort(word.span, message, format!("write `{form}`"))
     }
 
     /// `(a, b)`, names of arguments, each once.
@@ -346,6 +359,11 @@ impl Parser<'_> {
             if self.at_punct(',') {
                 self.position += 1;
             } else if self.position != self.limit && !self.at_punct(';') {
+                if self.at_punct(':') {
+                    let message = "coordinates and momenta have no type here";
+                    let help = "write a name, or `q[3]` for an array";
+                    return self.abort(self.here(), message, help);
+                }
                 let message = format!("expected `,` or `;`, {}", self.found());
                 return self.abort(self.here(), message, help);
             }
@@ -429,12 +447,20 @@ impl Parser<'_> {
     /// `name(a, …) = value, (first, …)[, (second, …)]`
     fn function(&mut self) -> Result<StatementKind> {
         const FORM: &str = "write `fn name(x) = value, (derivative)`, with paths of Rust functions";
+        self.refuse_word_before_hamiltonian("H(q; p) = …")?;
         let name = self.declared("a name", FORM)?;
         if !self.at_open(Delimiter::Parenthesis) {
             let message = format!("the arguments of `{name}` are missing");
             return self.abort(name.span(), message, FORM);
         }
         let arguments = self.arguments(&name)?;
+        if self.at_open(Delimiter::Brace) {
+            return self.abort(
+                self.here(),
+                "a function of the language has no body in braces",
+                format!("write `let {name}(…) = …`"),
+            );
+        }
         self.equals(&format!("fn {name}(…)"))?;
         let value = self.rust_path(FORM)?;
         let first = self.path_list("the partial derivatives", FORM)?;

@@ -187,7 +187,7 @@ help: write `pi`"##,
     (
         r##"H = p^2 + ⟦std::cmp::max⟧(q, p)"##,
         r##"a path is not a value here
-help: bind it before the macro, `let name = …;`, and write `name`"##,
+help: write `max`"##,
     ),
     (
         r##"H = p^2 + ⟦_⟧ + ⟦r#type⟧"##,
@@ -325,7 +325,7 @@ help: remove the `;`"##,
     (
         r##"H = p^2⟦,⟧ let a = 1"##,
         r##"statements are separated by `;`
-help: write `;`"##,
+help: write `;` instead of `,`"##,
     ),
     (
         r##"H = p^2 ⟦let⟧ a = 1"##,
@@ -433,9 +433,9 @@ help: choose another name"##,
 help: choose another name"##,
     ),
     (
-        r##"let ⟦H⟧ = 3; H = p^2"##,
-        r##"`H` is the Hamiltonian and cannot be redeclared
-help: choose another name"##,
+        r##"⟦let⟧ H = 3; H = p^2"##,
+        r##"`H` stands without `let`
+help: write `H = …`"##,
     ),
     (
         r##"let a = q ⟦>⟧ 1; H = p^2*a"##,
@@ -485,7 +485,7 @@ help: write `on H = …`"##,
     (
         r##"invariant e = H on H = ⟦[1, 2]⟧; H = p^2"##,
         r##"the energy of a shell is a scalar, but this is a vector `[2]`
-help: write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`"##,
+help: write `norm_squared(…)`, `dot(a, b)` or a component"##,
     ),
     (
         r##"monitor e = q ⟦on⟧ H = 1; H = p^2"##,
@@ -500,7 +500,7 @@ help: write `if a > b { … } else { … }`"##,
     (
         r##"event e = ⟦[q, p]⟧; H = p^2"##,
         r##"an event is a scalar, but this is a vector `[2]`
-help: write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`"##,
+help: write `norm_squared(…)`, `dot(a, b)` or a component"##,
     ),
     (
         r##"monitor a = q; monitor ⟦a⟧ = p; H = p^2"##,
@@ -530,7 +530,7 @@ help: give each piece a name of its own"##,
     (
         r##"split { A = p^2; B = ⟦[q, q]⟧ }; H = p^2 + q"##,
         r##"the piece `B` is a scalar, but this is a vector `[2]`
-help: write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`"##,
+help: write `norm_squared(…)`, `dot(a, b)` or a component"##,
     ),
     (
         r##"split { A = p^2; B = q }; ⟦split⟧ { A = p^2; B = q }; H = p^2 + q"##,
@@ -590,7 +590,7 @@ help: keep one"##,
     (
         r##"dt = ⟦[q, q]⟧*ds; H = p^2"##,
         r##"the factor of `ds` is a scalar, but this is a vector `[2]`
-help: write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`"##,
+help: write `norm_squared(…)`, `dot(a, b)` or a component"##,
     ),
     (
         r##"coordinates ⟦polar⟧; H = p^2"##,
@@ -750,7 +750,7 @@ help: write `[n][3]`"##,
     (
         r##"H(q[2 ⟦+⟧ 1]; p[3]) = norm(p)"##,
         r##"a size is a number or a name, not an expression
-help: declare a size of its own"##,
+help: write a number or the name of a size: `[3]`, `[N]`"##,
     ),
     (
         r##"H(q⟦[]⟧; p[]) = 1"##,
@@ -805,7 +805,7 @@ help: nothing would move: write a kinetic energy, such as `p^2/2`"##,
     (
         r##"H(q[3]; p[3]) = ⟦p⟧"##,
         r##"`H` is a scalar, but this is a vector `[3]`
-help: write `norm_squared(…)`, `dot(a, b)` or a component `q[0]`"##,
+help: write `norm_squared(p)` or a component, `p[0]`"##,
     ),
     (
         r##"H(q[3]; p[3]) = norm(p) ⟦+⟧ q"##,
@@ -815,17 +815,17 @@ help: write a component, `q[i]`, or a length, `norm(q)`"##,
     (
         r##"H(q[3]; p[3]) = p⟦*⟧q"##,
         r##"a vector `[3]` times a vector `[3]` has no meaning
-help: write `dot(a, b)` or `cross(a, b)`"##,
+help: write `dot(p, q)` or `cross(p, q)`"##,
     ),
     (
         r##"H(q[3]; p[3]) = norm(p*q[0] ⟦-⟧ 1)"##,
         r##"a scalar cannot be subtracted from a vector `[3]`
-help: write a component, `q[i]`, or a length, `norm(q)`"##,
+help: write a component, or a length, `norm(…)`"##,
     ),
     (
         r##"H(q[3]; p[3]) = p⟦^⟧2"##,
         r##"a vector `[3]` has no powers
-help: write `norm_squared(a)`, or the power of a component"##,
+help: write `norm_squared(p)`, or the power of a component, `p[i]^2`"##,
     ),
     (
         r##"H(q[3]; p[3]) = norm(p)⟦^⟧q"##,
@@ -835,12 +835,12 @@ help: write a scalar exponent"##,
     (
         r##"H(q[3]; p[3]) = 1⟦/⟧p"##,
         r##"nothing can be divided by a vector `[3]`
-help: divide by its `norm(…)`"##,
+help: divide by a component, `p[i]`, or by its length, `norm(p)`"##,
     ),
     (
         r##"H(q[3]; p[3]) = sin(⟦q⟧) + abs(⟦p⟧)"##,
         r##"`sin` takes scalars, but `q` is a vector `[3]`
-help: write a component, or `sum(i in 0..3) { sin(…[i]) }`
+help: write a component, or `sum(i in 0..3) { sin(q[i]) }`
 `abs` takes scalars, but `p` is a vector `[3]`
 help: write `norm(…)` for the length of a vector"##,
     ),
@@ -861,14 +861,14 @@ help: both need the same number of components"##,
     (
         r##"H(q[2]; p[2]) = norm(cross(⟦q⟧, p))"##,
         r##"`cross` needs vectors `[3]`, but this is a vector `[2]`
-help: in the plane write `a[0]*b[1] - a[1]*b[0]`"##,
+help: in the plane write `q[0]*p[1] - q[1]*p[0]`"##,
     ),
     (
         r##"H(q[3]; p[3]) = norm([⟦q⟧, ⟦p⟧])"##,
         r##"the components of a vector are scalars, but this is a vector `[3]`
-help: write each component: `[q[0], q[1]]`
+help: write each component: `[q[0], q[1], …]`
 the components of a vector are scalars, but this is a vector `[3]`
-help: write each component: `[q[0], q[1]]`"##,
+help: write each component: `[p[0], p[1], …]`"##,
     ),
     (
         r##"H(q[3]; p[3]) = norm(p) + norm(⟦[]⟧)"##,
@@ -878,12 +878,12 @@ help: write `[a, b, c]`"##,
     (
         r##"H(q[4][3]; p[4][3]) = norm_squared(⟦p⟧)"##,
         r##"`norm_squared` takes vectors, but `p` is a matrix `[4][3]`
-help: write a row, `q[i]`, inside `sum(i in 0..4) { … }`"##,
+help: write a row, `p[i]`, inside `sum(i in 0..4) { … }`"##,
     ),
     (
         r##"H(q[4][3]; p[4][3]) = norm(q⟦*⟧p[0])"##,
         r##"only a matrix parameter multiplies a vector
-help: write `sum(i in 0..N) { q[i]*v[i] }`"##,
+help: write its components: `[dot(q[0], v), dot(q[1], v), …]`"##,
     ),
     (
         r##"H = p⟦[⟧0]"##,
@@ -906,12 +906,12 @@ help: remove the index"##,
 help: indices run from 0 to 2"##,
     ),
     (
-        r##"H(q[3]; p[3]) = p[⟦-⟧1]"##,
-        r##"this index reaches -1, but the extent is 3
+        r##"H(q[3]; p[3]) = p[⟦-1⟧]"##,
+        r##"this index reaches -1, but indices begin at 0
 help: indices run from 0 to 2"##,
     ),
     (
-        r##"H(q[3]; p[3]) = p[q⟦[⟧0]]"##,
+        r##"H(q[3]; p[3]) = p[⟦q[0]⟧]"##,
         r##"indices and ranges are sums of whole multiples of loop variables and sizes
 help: write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`"##,
     ),
@@ -923,21 +923,21 @@ help: write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`"
     (
         r##"H(q[3]; p[3]) = p⟦[]⟧"##,
         r##"an index is missing
-help: write `q[i]`"##,
+help: write `p[i]`"##,
     ),
     (
         r##"H(q[3]; p[3]) = p[0⟦,⟧ 1]"##,
         r##"each index has brackets of its own
-help: write `q[i][j]`"##,
+help: write `p[i][j]`"##,
     ),
     (
-        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[i ⟦+⟧ 1] }"##,
+        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[⟦i + 1⟧] }"##,
         r##"this index reaches 3, but the extent is 3
 help: indices run from 0 to 2: change the range of the loop, or go round by `% 3`"##,
     ),
     (
-        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[i ⟦-⟧ 1] }"##,
-        r##"this index reaches -1, but the extent is 3
+        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[⟦i - 1⟧] }"##,
+        r##"this index reaches -1, but indices begin at 0
 help: indices run from 0 to 2: change the range of the loop, or go round by `% 3`"##,
     ),
     (
@@ -946,19 +946,19 @@ help: indices run from 0 to 2: change the range of the loop, or go round by `% 3
 help: indices run from 0 to 2: change the range of the loop, or go round by `% 3`"##,
     ),
     (
-        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[i⟦*⟧i] }"##,
+        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[⟦i*i⟧] }"##,
         r##"indices and ranges are sums of whole multiples of loop variables and sizes
 help: write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`"##,
     ),
     (
-        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[(i ⟦+⟧ 1) % 4] }"##,
+        r##"H(q[3]; p[3]) = sum(i in 0..3) { p[(i + 1) % ⟦4⟧] }"##,
         r##"this index reaches 3, but the extent is 3
 help: write `% 3`"##,
     ),
     (
         r##"H(q[3]; p[3]) = sum(i in 0..3) { p[i + 1 ⟦%⟧ 3] }"##,
         r##"`%` binds like `*`: here it is not the last thing done
-help: write `q[(i + 1) % N]`"##,
+help: write `p[(i + 1) % N]`"##,
     ),
     (
         r##"H(q[3]; p[3]) = sum(i in 0..3) { p[i % ⟦i⟧] }"##,
@@ -981,7 +981,7 @@ help: choose another loop variable"##,
 help: choose another loop variable"##,
     ),
     (
-        r##"H(q[3]; p[3]) = sum(i in 0..q⟦[⟧0]) { p[i] }"##,
+        r##"H(q[3]; p[3]) = sum(i in 0..⟦q[0]⟧) { p[i] }"##,
         r##"indices and ranges are sums of whole multiples of loop variables and sizes
 help: write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`"##,
     ),
@@ -1150,12 +1150,12 @@ help: remove `pub`"##,
     (
         r##"pub struct A { m = 1.0⟦;⟧ l = 2.0 } H = p^2/m"##,
         r##"parameters are separated by `,`
-help: write `,`"##,
+help: write `,` instead of `;`"##,
     ),
     (
         r##"pub struct A { m = 1⟦/⟧2, l = ⟦x⟧, k = ⟦1.0f32⟧ } H = p^2/m"##,
         r##"a default is a number, not an expression
-help: write its value, `0.5`
+help: write its value as one number, such as `0.5`
 expected a number as the default of `l`, found `x`
 help: write `l = 1.0`, or `l` for a parameter without default
 `1.0f32` has a type, but numbers are exact here and have none
@@ -1187,7 +1187,7 @@ help: declare it: `struct A<const k: usize>`, or `k: usize` among the parameters
     ),
     (
         r##"pub struct A { k = 1, m: [⟦k⟧] } H = p^2"##,
-        r##"unknown size `k`
+        r##"`k` is a parameter, not a size
 help: declare it as a size: `k: usize`"##,
     ),
     (
@@ -1234,16 +1234,16 @@ help: declare a Rust function by `fn name(x) = path, (path)`, a constant as a pa
     ),
     (
         r##"⟦#[max_ops = many]⟧ pub struct A {} H = p^2"##,
-        r##"`max_ops` takes a number of operations, once
+        r##"`max_ops` takes a number of operations
 help: write `#[max_ops = 40]`"##,
     ),
     (
         r##"#[max_ops = 4] ⟦#[max_ops = 4]⟧ pub struct A {} H = p^2"##,
-        r##"`max_ops` takes a number of operations, once
-help: write `#[max_ops = 40]`"##,
+        r##"`max_ops` stands twice
+help: keep one"##,
     ),
     (
-        r##"pub struct A<const N: usize> {} H(q[N]; p[N]) = sum(i in 0..N) { p[i] + q[i ⟦+⟧ 1] }"##,
+        r##"pub struct A<const N: usize> {} H(q[N]; p[N]) = sum(i in 0..N) { p[i] + q[⟦i + 1⟧] }"##,
         r##"this index reaches N, but the extent is N
 help: indices run from 0 to N - 1: change the range of the loop, or go round by `% N`"##,
     ),
@@ -1270,14 +1270,14 @@ help: write one component, or `sum(i in 0..N) { … }`"##,
     (
         r##"pub struct A<const N: usize> { m: [N] } H(q[N]; p[N]) = norm(p)⟦/⟧m"##,
         r##"nothing can be divided by a vector `[N]`
-help: divide by its `norm(…)`"##,
+help: divide by a component, `m[i]`, or by its length, `norm(m)`"##,
     ),
     (
         r##"pub struct A<const N: usize> { M: [N][N], v: [3] } H(q[N]; p[N]) = norm(M⟦*⟧v) + norm(p⟦*⟧M)"##,
         r##"a matrix `[N][N]` times a vector `[3]` has no meaning
 help: a matrix parameter `[r][c]` multiplies a vector `[c]` from the left
 a vector `[N]` times a matrix `[N][N]` has no meaning
-help: a matrix parameter `[r][c]` multiplies a vector `[c]` from the left"##,
+help: write the matrix on the left: `M*p`"##,
     ),
     (
         r##"pub struct A {} ⟦;⟧ H = p^2"##,
@@ -1352,7 +1352,7 @@ help: name the coordinates: `H(x; p_x) = …`"##,
     (
         r##"struct A { n: usize } H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2 } ⟦+⟧ n^2*p"##,
         r##"a scalar cannot be added to a vector `[n]`
-help: write a component, `q[i]`, or a length, `norm(q)`"##,
+help: write a component, or a length, `norm(…)`"##,
     ),
     (
         r##"struct A { r } let ⟦r⟧ = 1; H = p^2"##,
@@ -1382,7 +1382,7 @@ help: indices run from 0 to 2"##,
     (
         r##"let v = [1, 2, 3]; H = p^2 ⟦+⟧ v"##,
         r##"a scalar cannot be added to a vector `[3]`
-help: write a component, `q[i]`, or a length, `norm(q)`"##,
+help: write a component, `v[i]`, or a length, `norm(v)`"##,
     ),
     (
         r##"struct A {} L(q; v) = v^2; monitor m = ⟦vv⟧"##,
@@ -1402,7 +1402,7 @@ help: write `; let V` if it is a statement of its own"##,
     (
         r##"split { A = p^2⟦,⟧ B = q }; H = p^2 + q"##,
         r##"statements are separated by `;`
-help: write `;`"##,
+help: write `;` instead of `,`"##,
     ),
     (
         r##"H = p^2 + sum(i in 0..3, j in 0..⟦k⟧) { i*j }"##,
@@ -1637,5 +1637,89 @@ help: write `sin(2)`"##,
 help: write `sin(x)^2`
 `cos^n` is not a function: the power stands after the argument
 help: write `cos(x)^n`"##,
+    ),
+    (
+        r##"let ⟦force⟧ = q; let ⟦sum⟧ = q; H = p^2 + force + sum*q"##,
+        r##"`force` is a word of the language and cannot be redeclared
+help: choose another name
+`sum` is a word of the language and cannot be redeclared
+help: choose another name"##,
+    ),
+    (
+        r##"struct A {} H = p^2 + ⟦type⟧*q"##,
+        r##"`type` is a keyword of Rust and not a value
+help: choose another name"##,
+    ),
+    (
+        r##"H = p^2 + ⟦sqr⟧(q)"##,
+        r##"unknown function `sqr`
+help: write `x^2`"##,
+    ),
+    (
+        r##"H(q[4]; p[4]) = norm(cross(⟦q⟧, p))"##,
+        r##"`cross` needs vectors `[3]`, but this is a vector `[4]`
+help: a vector product is one of space"##,
+    ),
+    (
+        r##"H(q[3]; p[3]) = norm(p) + norm_squared(q⟦^⟧2) + dot(q, q)⟦/⟧p"##,
+        r##"a vector `[3]` has no powers
+help: write `norm_squared(q)`, or the power of a component, `q[i]^2`
+nothing can be divided by a vector `[3]`
+help: divide by a component, `p[i]`, or by its length, `norm(p)`"##,
+    ),
+    (
+        r##"⟦fn⟧ H(q, p) { p^2 }; let f(x) = x; fn g(x) ⟦{⟧ x }; H = p^2"##,
+        r##"`H` stands without `fn`
+help: write `H(q; p) = …`
+a function of the language has no body in braces
+help: write `let g(…) = …`"##,
+    ),
+    (
+        r##"H⟦[⟧q; p] = p^2; H ⟦=>⟧ p^2; H(x⟦:⟧ f64; p) = p^2"##,
+        r##"expected `=` after `H`, found `[`
+help: write `H(q; p) = …`
+expected `=` after `H`, found `=>`
+help: write `H = …`
+coordinates and momenta have no type here
+help: write a name, or `q[3]` for an array"##,
+    ),
+    (
+        r##"H(q; p, ⟦t⟧) = p^2"##,
+        r##"the momentum `t` has no coordinate
+help: write time after a `;`: `H(q; p; t)`"##,
+    ),
+    (
+        r##"H = p^2/2 ⟦where⟧ m = 1"##,
+        r##"`where` is a keyword of Rust and means nothing here
+help: name values above, `let name = …;`"##,
+    ),
+    (
+        r##"H = p^2 ⟦as⟧ f64; let a = ⟦for⟧ i in 0..3 { q }; let b = ⟦match⟧ q { _ => 1 }; let c = ⟦true⟧ + q"##,
+        r##"`as` is a keyword of Rust and means nothing here
+help: leave it out: numbers have no type
+`for` is a keyword of Rust and not a value
+help: write `sum(i in 0..N) { … }` to add terms
+`match` is a keyword of Rust and not a value
+help: write `if c { a } else { b }`
+`true` is a keyword of Rust and not a value
+help: choose another name"##,
+    ),
+    (
+        r##"H = Σ(i ⟦in⟧ 0..3) { p }; let a = ⟦1.5.2⟧"##,
+        r##"a loop variable does not stand here
+help: write `sum(i in 0..N) { … }`
+`1.5.2` is not a number
+help: write a decimal number"##,
+    ),
+    (
+        r##"H = ⟦p.pow(2)⟧ + ⟦q.sqr()⟧ + ⟦q.atan2(p)⟧ + ⟦f64::sin⟧(q)"##,
+        r##"`p.pow(…)`: a function stands before its argument
+help: write `p^2`
+`q.sqr(…)`: a function stands before its argument
+help: write `q^2`
+`q.atan2(…)`: a function stands before its argument
+help: write `atan2(q, x)`
+a path is not a value here
+help: write `sin`"##,
     ),
 ];

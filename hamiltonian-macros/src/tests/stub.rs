@@ -38,6 +38,9 @@ fn items_become_an_alias_with_their_fields() {
     // Without a name there is nothing to stand in for; without parameters no scalar.
     assert!(!expanded("pub struct {} H = p^2").contains("__"));
     assert!(!expanded("struct A {} H = q").contains("__P"));
+    // Keywords cannot stand where they stood.
+    assert!(!expanded("struct type {} H = p^2").contains("__"));
+    assert!(!expanded("struct A<const type: usize> { move, m } H = p^2").contains("type :"));
 }
 
 #[test]

@@ -5,65 +5,139 @@
 //! reported, the result is dropped for the stub.
 
 mod docs;
+mod proofs;
 mod surface;
+mod variables;
 mod verdicts;
 
-use crate::checked::{Checked, Definition};
+use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
 use crate::lower::lower;
 use crate::report::{Report, Spans};
+use variables::System;
+use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::{self, Structure};
 use proc_macro2::TokenStream;
 
+/// Past this many nodes H is large.
+const LARGE: usize = 1000;
+
 /// The code of a definition. `root` is the path of the library; emitted code names only
 /// `#root::private`.
 pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> TokenStream {
-    surface::refuse_unsupported(checked, report);
     let mut code = || {
+        let mut lowered = lower(checked, report)?;
+        proofs::prove(checked, &mut lowered, report);
+        surface::refuse_unsupported(checked, report);
         report.barrier(())?;
-        let mut model = lower(checked, report)?;
-        let structure = structure::analyse(&mut model);
-        let text = docs::text(&model, &structure);
-        let program = derive(checked, &mut model, &structure, report)?;
-        limit(checked, &program, report);
-        let definition = emit::Definition {
-            root: root.clone(),
-            form: surface::form(checked),
-            structure: verdicts::verdicts(&model, &structure),
-            externals: surface::externals(checked),
-            observables: surface::observables(checked),
-            model: &model,
-            program: &program,
-            text,
-        };
-        Some(emit::generate(&definition))
+        let System {
+            model,
+            vectors,
+            pieces,
+        } = variables::settle(checked, lowered, report)?;
+        let mut code = TokenStream::new();
+        for (name, hamiltonian) in &pieces {
+            let piece = surface::Part::piece(checked, name);
+            let model = surface::piece_model(&model, *hamiltonian);
+            code.extend(system(checked, root, model, piece, report)?);
+        }
+        let whole = surface::Part::whole(checked, vectors, &pieces);
+        code.extend(system(checked, root, model, whole, report)?);
+        Some(code)
     };
     code().unwrap_or_default()
 }
 
-/// The functions of a system.
-fn wanted(checked: &Checked, separable: bool) -> Vec<Purpose> {
+/// The code of one system: the definition's own, or a piece of its split.
+fn system(
+    checked: &Checked,
+    root: &TokenStream,
+    mut model: Model,
+    part: surface::Part,
+    report: &mut Report,
+) -> Option<TokenStream> {
+    let operations = operations(&model);
+    if operations > CAP {
+        too_large(checked, operations, report);
+        return None;
+    }
+    let structure = structure::analyse(&mut model);
+    let text = docs::text(&model, &structure, is_large(checked, &model));
+    let program = derive(checked, &mut model, &structure, report)?;
+    limit(checked, &program, report);
+    let definition = emit::Definition {
+        root: root.clone(),
+        form: part.form,
+        structure: verdicts::verdicts(&model, &structure),
+        externals: surface::externals(checked),
+        observables: part.observables,
+        vectors: part.vectors,
+        pieces: part.pieces,
+        model: &model,
+        program: &program,
+        text,
+    };
+    Some(emit::generate(&definition))
+}
+
+/// The operations of H by itself, each loop body counted once.
+fn operations(model: &Model) -> usize {
+    let roots: Vec<_> = model.hamiltonian.into_iter().collect();
+    let count = |node: &Node| match model.dag.kind(*node) {
+        NodeKind::Sum(_, terms) => terms.len().saturating_sub(1),
+        NodeKind::Product(_, factors) => factors.len().saturating_sub(1),
+        NodeKind::Call(..) | NodeKind::External(..) => 1,
+        _ => 0,
+    };
+    model.dag.reachable(&roots).iter().map(count).sum()
+}
+
+fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
+    report.error(
+        definition(checked),
+        format!("this system needs {operations} operations, more than {CAP}"),
+        "write sums with `sum(i in 0..N) { … }`, which stay loops",
+    );
+}
+
+/// The functions of a system. Those of a large one that the gradient can stand in for are left out.
+fn wanted(checked: &Checked, model: &Model, large: bool, separable: bool) -> Vec<Purpose> {
     let mut wanted = vec![
         Purpose::Energy,
-        Purpose::GradientQ,
-        Purpose::GradientP,
-        Purpose::Gradient,
         Purpose::EnergyAndGradient,
         Purpose::TimeDerivative,
         Purpose::HessianVector,
-        Purpose::Flow,
     ];
+    if !large {
+        wanted.extend([
+            Purpose::GradientQ,
+            Purpose::GradientP,
+            Purpose::Gradient,
+            Purpose::Flow,
+        ]);
+    }
     if separable {
         wanted.extend([Purpose::Kick, Purpose::Drift]);
     }
     if checked.item.is_some() && !checked.parameters.is_empty() {
         wanted.push(Purpose::ParameterGradient);
     }
-    wanted.extend((0..checked.observables.len()).map(|at| Purpose::Observable(at as u16)));
+    wanted.extend((0..model.observables.len()).map(|at| Purpose::Observable(at as u16)));
+    wanted.extend((0..model.vectors.len()).map(|at| Purpose::Vector(at as u16)));
     wanted
+}
+
+/// Whether H is so long that writing out every function would cost rustc more than it gives.
+fn is_large(checked: &Checked, model: &Model) -> bool {
+    let roots: Vec<_> = model.hamiltonian.into_iter().collect();
+    let is_static = checked
+        .sizes
+        .iter()
+        .all(|size| size.kind == SizeKind::Const);
+    is_static && model.dag.reachable(&roots).len() > LARGE
 }
 
 /// The program, without second derivatives where a Rust function came without them.
@@ -80,7 +154,12 @@ fn derive(
             model.hamiltonian = Some(split);
         }
     }
-    let mut wanted = wanted(checked, structure.separable.is_ok());
+    let mut wanted = wanted(
+        checked,
+        model,
+        is_large(checked, model),
+        structure.separable.is_ok(),
+    );
     let refusal = match pipeline::derive(model, &wanted) {
         Err(Refusal::NoSecondDerivative { .. }) => {
             wanted.retain(|purpose| *purpose != Purpose::HessianVector);
@@ -90,10 +169,10 @@ fn derive(
     };
     let (message, help) = match refusal {
         Ok(program) => return Some(program),
-        Err(Refusal::TooLarge { operations }) => (
-            format!("a function of this system needs {operations} operations, more than {CAP}"),
-            "write sums with `sum(i in 0..N) { … }`, which stay loops".to_owned(),
-        ),
+        Err(Refusal::TooLarge { operations }) => {
+            too_large(checked, operations, report);
+            return None;
+        }
         Err(Refusal::TooManyLoops) => (
             "derivatives of this system need more than 64 loops".to_owned(),
             "let several sums share a loop".to_owned(),

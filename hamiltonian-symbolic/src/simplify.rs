@@ -335,20 +335,20 @@ impl Dag {
         if self.is_one(x) {
             return x;
         }
-        if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small) {
-            if let Some(n) = i32::try_from(n).ok().filter(|n| n.abs() <= LARGEST_POWER) {
-                match d {
-                    1 => return self.powi(x, n),
-                    2 => {
-                        let root = self.call(Op::Sqrt, &[x]);
-                        return self.powi(root, n);
-                    }
-                    3 if self.is_nonnegative(x) => {
-                        let root = self.call(Op::Cbrt, &[x]);
-                        return self.powi(root, n);
-                    }
-                    _ => {}
+        if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small)
+            && let Some(n) = i32::try_from(n).ok().filter(|n| n.abs() <= LARGEST_POWER)
+        {
+            match d {
+                1 => return self.powi(x, n),
+                2 => {
+                    let root = self.call(Op::Sqrt, &[x]);
+                    return self.powi(root, n);
                 }
+                3 if self.is_nonnegative(x) => {
+                    let root = self.call(Op::Cbrt, &[x]);
+                    return self.powi(root, n);
+                }
+                _ => {}
             }
         }
         self.intern(Kind::Call(Op::Pow, vec![x, y]))
@@ -370,10 +370,10 @@ impl Dag {
             _ => {}
         }
         if arguments.len() == 1 {
-            if self.is_zero(x) {
-                if let Some(value) = op.at_zero() {
-                    return self.constant(value);
-                }
+            if self.is_zero(x)
+                && let Some(value) = op.at_zero()
+            {
+                return self.constant(value);
             }
             let parity = op.row().parity;
             if parity != Parity::None && self.is_negated(x) {
@@ -521,10 +521,10 @@ impl Dag {
             let count = self.count(domain);
             return self.mul(&[count, body]);
         }
-        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant()) {
-            if end <= start {
-                return self.integer(0);
-            }
+        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant())
+            && end <= start
+        {
+            return self.integer(0);
         }
         if let Kind::Product(k, factors) = self.kind(body) {
             let (k, factors) = (k.clone(), factors.clone());
@@ -562,7 +562,21 @@ impl Dag {
 
     /// The same node over other children.
     pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
-        match self.kind(node).clone() {
+        self.construct(self.kind(node).clone(), new)
+    }
+
+    /// An expression of another arena, which must not have loops.
+    pub fn import(&mut self, other: &Dag, root: Node) -> Node {
+        let mut new: Map<Node, Node> = Map::default();
+        for node in other.reachable(&[root]) {
+            let image = self.construct(other.kind(node).clone(), &|child| new[&child]);
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    fn construct(&mut self, kind: Kind, new: &impl Fn(Node) -> Node) -> Node {
+        match kind {
             Kind::Sum(c, terms) => {
                 let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();
                 self.linear(&c, &terms)
@@ -585,7 +599,7 @@ impl Dag {
             Kind::And(a, b) => self.and(new(a), new(b)),
             Kind::Or(a, b) => self.or(new(a), new(b)),
             Kind::Select(c, a, b) => self.select(new(c), new(a), new(b)),
-            _ => node,
+            leaf => self.intern(leaf),
         }
     }
 

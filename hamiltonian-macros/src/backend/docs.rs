@@ -8,12 +8,15 @@ use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::print::{self, Notation};
 use hamiltonian_symbolic::structure::Structure;
 
-/// The texts.
-pub fn text(model: &Model, structure: &Structure) -> Text {
+/// The texts; equations of motion only where H is not large.
+pub fn text(model: &Model, structure: &Structure, large: bool) -> Text {
     let Some(h) = model.hamiltonian else {
         return Text::default();
     };
     let equations = |notation| {
+        if large {
+            return Vec::new();
+        }
         let equations = print::hamilton_equations(model, notation).into_iter();
         equations
             .map(|(left, right)| format!("{left} = {right}"))

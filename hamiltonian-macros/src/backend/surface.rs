@@ -3,13 +3,18 @@
 //! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
 //! numbering. Invariant: tokens keep their spans.
 
-use crate::checked::{self, Checked, Definition, SizeKind};
-use crate::emit::{External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem};
+use crate::checked::{self, Checked, SizeKind};
+use crate::emit::{
+    External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
+};
 use crate::lower::number;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
+use proc_macro2::Ident;
+use quote::{format_ident, quote};
 
 /// The header, or the captured names.
 pub fn form(checked: &Checked) -> Form {
@@ -82,28 +87,74 @@ pub fn separates_as_written(model: &mut Model) -> bool {
         .all(|(_, value)| !model.dag.dependence(*value).on(Dependence::P))
 }
 
-/// Statements that are part of the language and that this version checks but cannot compile.
+/// What the user's tokens say of one system.
+#[derive(Debug)]
+pub struct Part {
+    /// Its header.
+    pub form: Form,
+    /// Its observables.
+    pub observables: Vec<ObservableItem>,
+    /// Its vector functions.
+    pub vectors: Vec<VectorItem>,
+    /// The pieces of its split and their types.
+    pub pieces: Vec<(Ident, Ident)>,
+}
+
+impl Part {
+    /// The system of the definition.
+    pub fn whole(checked: &Checked, vectors: Vec<VectorItem>, pieces: &[(Ident, Node)]) -> Part {
+        let pieces = pieces
+            .iter()
+            .map(|(name, _)| (name.clone(), type_of(checked, name)));
+        Part {
+            form: form(checked),
+            observables: observables(checked),
+            vectors,
+            pieces: pieces.collect(),
+        }
+    }
+
+    /// A piece of its split: a type of its own with the same parameters.
+    pub fn piece(checked: &Checked, name: &Ident) -> Part {
+        let mut form = form(checked);
+        if let Form::Item(item) = &mut form {
+            let text = format!(" The piece `{name}` of the split of [`{}`].", item.name);
+            item.attributes = vec![quote! { #[doc = #text] }];
+            item.name = type_of(checked, name);
+        }
+        Part {
+            form,
+            observables: Vec::new(),
+            vectors: Vec::new(),
+            pieces: Vec::new(),
+        }
+    }
+}
+
+/// The type of a piece.
+fn type_of(checked: &Checked, piece: &Ident) -> Ident {
+    match &checked.item {
+        Some(item) => format_ident!("{}{}", item.name, piece, span = piece.span()),
+        None => piece.clone(),
+    }
+}
+
+/// The model of a piece.
+pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
+    let mut model = model.clone();
+    model.hamiltonian = Some(hamiltonian);
+    model.observables.clear();
+    model.vectors.clear();
+    model
+}
+
+/// Combinations that have no meaning.
 pub fn refuse_unsupported(checked: &Checked, report: &mut Report) {
-    let mut refuse = |spans: crate::report::Spans, what: &str| {
+    if let (None, Some((name, _))) = (&checked.item, checked.split.first()) {
         report.error(
-            spans,
-            format!("{what} cannot be compiled by this version"),
-            "leave it out",
+            name.span(),
+            "the pieces of a split are types, which a value cannot declare",
+            "use the item form: `pub struct Name {} H = …; split { … }`",
         );
-    };
-    if let Definition::Lagrangian(root) = checked.definition {
-        refuse(checked.node(root).spans, "`L(q; v) = …`");
-    }
-    if let Some((name, _)) = checked.split.first() {
-        refuse(name.span().into(), "`split { … }`");
-    }
-    if let Some(root) = checked.force.first() {
-        refuse(checked.node(*root).spans, "`force(q; p) = …`");
-    }
-    if let Some((_, span)) = checked.time_factor {
-        refuse(span.into(), "`dt = g*ds`");
-    }
-    if let Some(chart) = checked.charts.first() {
-        refuse(chart.name.span().into(), "`coordinates …`");
     }
 }

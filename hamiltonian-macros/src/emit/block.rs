@@ -6,7 +6,7 @@
 
 use super::index::{Indices, variable};
 use super::layout::{Layout, Slice};
-use super::number;
+use super::number::{self, Numbers};
 use super::scan::is_number;
 use hamiltonian_symbolic::dag::{Array, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
@@ -27,6 +27,8 @@ pub struct Context<'a> {
     pub indices: Indices<'a>,
     /// Which sizes are set at run time.
     pub is_run_time: &'a [bool],
+    /// The numbers met so far.
+    pub numbers: &'a Numbers,
 }
 
 /// The name of a value.
@@ -44,9 +46,9 @@ pub fn external(number: u16, part: Part) -> String {
 }
 
 /// A value where it is used.
-pub fn operand(program: &Program, value: Value) -> String {
-    match program.instruction(value) {
-        Instruction::Constant(number) => number::constant(number),
+pub fn operand(context: Context, value: Value) -> String {
+    match context.program.instruction(value) {
+        Instruction::Constant(number) => context.numbers.constant(number).to_string(),
         Instruction::Pi => number::pi(),
         _ => name(value),
     }
@@ -100,7 +102,7 @@ impl<'a> Writer<'a> {
     }
 
     fn operand(&self, value: Value) -> String {
-        operand(self.context.program, value)
+        operand(self.context, value)
     }
 
     fn compute(&mut self, value: Value) {
@@ -130,7 +132,7 @@ impl<'a> Writer<'a> {
     fn instruction(&self, instruction: &Instruction) -> String {
         let v = |value: &Value| self.operand(*value);
         match instruction {
-            Instruction::Constant(value) => number::constant(value),
+            Instruction::Constant(value) => self.context.numbers.constant(value).to_string(),
             Instruction::Pi => number::pi(),
             Instruction::Scalar(parameter) => (self.scalar)(parameter.0),
             Instruction::Time => "_t".into(),

@@ -11,7 +11,7 @@ use super::holder::{Holder, Receiver};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
-use super::{Definition, Form, observables};
+use super::{Definition, Form, derived, observables};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
@@ -244,11 +244,7 @@ impl<'a> Emission<'a> {
                 };
                 line!(self, "let _self = self;\n{text}{results}");
             }
-            None => line!(
-                self,
-                "const {{ __h::core::panic!({:?}) }}",
-                missing(purpose)
-            ),
+            None => line!(self, "{}", derived::body(purpose)),
         }
         line!(self, "}}");
     }
@@ -277,11 +273,7 @@ impl<'a> Emission<'a> {
     /// The body that makes the holder of a function from prepared values and the coefficient.
     fn coefficients(&mut self, purpose: Purpose, name: &'static str) {
         let Some(function) = self.context.program.function(purpose) else {
-            line!(
-                self,
-                "const {{ __h::core::panic!({:?}) }}",
-                missing(purpose)
-            );
+            line!(self, "{}", derived::FLOW);
             return;
         };
         let Some(holder) = self.holder(purpose, name) else {
@@ -312,8 +304,15 @@ impl<'a> Emission<'a> {
             _ => ("__Flow", "flow", &["_q", "_p"], &["_oq", "_op"]),
         };
         let generics = self.generics;
-        let holder = self.holder(purpose, name);
-        let holder = holder.unwrap_or_else(|| Holder::new(self.context, name, &[], Vec::new()));
+        let Some((function, holder)) = self
+            .context
+            .program
+            .function(purpose)
+            .zip(self.holder(purpose, name))
+        else {
+            self.out.push_str(&derived::flow(generics, &self.vector));
+            return;
+        };
         holder.declare(&mut self.out, self.context, generics);
         let mut arguments = vec![("_t", "T".to_owned())];
         for name in inputs.iter().chain(outputs).copied() {
@@ -334,18 +333,9 @@ impl<'a> Emission<'a> {
             generics.holder_arguments(),
             list.join(", "),
         );
-        match self.context.program.function(purpose) {
-            Some(function) => {
-                let receiver = Receiver::Holder(&holder);
-                let text = evaluation(&mut self.bodies, method, receiver, &arguments, function);
-                line!(self, "let _self = self;\n{text}");
-            }
-            None => line!(
-                self,
-                "const {{ __h::core::panic!({:?}) }}",
-                missing(purpose)
-            ),
-        }
+        let receiver = Receiver::Holder(&holder);
+        let text = evaluation(&mut self.bodies, method, receiver, &arguments, function);
+        line!(self, "let _self = self;\n{text}");
         line!(self, "}}\n}}");
     }
 
@@ -405,6 +395,15 @@ impl<'a> Emission<'a> {
                 observable.components.len(),
                 results(self.context, &function.results),
             );
+        }
+        for (at, vector) in self.context.model.vectors.iter().enumerate() {
+            let outputs: &[&'static str] = match vector.sides {
+                (true, true) => &["_oq", "_op"],
+                (true, false) => &["_oq"],
+                _ => &["_op"],
+            };
+            let name = format!("v{at}");
+            self.method(&name, Purpose::Vector(at as u16), outputs, false);
         }
         if let Some(function) = self.parameter_gradient() {
             let ty = self.generics.system_type_over(&["T".to_owned()]);
@@ -481,18 +480,6 @@ fn evaluation(
     };
     bodies.write(&mut text, body);
     text
-}
-
-/// What rustc says where a function is used that could not be made.
-fn missing(purpose: Purpose) -> String {
-    match purpose {
-        Purpose::HessianVector => {
-            "second derivatives of H are needed here, but a function of the system was declared without them: \
-             give them after the first, `fn f(x) = f, (df), (ddf)`"
-                .into()
-        }
-        _ => format!("{purpose:?} of this system could not be derived"),
-    }
 }
 
 /// The entries of `System::GROUPS`.

@@ -6,7 +6,7 @@
 
 use super::block::Context;
 use super::generics::Generics;
-use super::{Definition, dynamics, externals, item, layout, lex, markers, mixed, observables};
+use super::{Definition, dynamics, externals, item, layout, lex, markers, mixed, observables, vectors};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
@@ -63,7 +63,8 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
 /// outside.
 fn inherent(definition: &Definition, context: Context, generics: &Generics) -> TokenStream {
     let visibility = quote! { pub };
-    let methods = observables::methods(definition, context, generics, &visibility);
+    let mut methods = observables::methods(definition, context, generics, &visibility);
+    methods.extend(vectors::methods(definition, context, generics, &visibility));
     let mixed = context.layout == layout::Layout::Mixed;
     if methods.is_empty() && !mixed {
         return TokenStream::new();

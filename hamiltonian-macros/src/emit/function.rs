@@ -10,12 +10,12 @@ use super::holder::Receiver;
 use super::layout::{self, Slice};
 use super::scan::{Scan, is_mask, scan};
 use hamiltonian_symbolic::model::Shape;
-use hamiltonian_symbolic::program::{Instruction, Step, Target, Value};
+use hamiltonian_symbolic::program::{Instruction, Program, Step, Target, Value};
 use std::fmt::Write;
 use std::ops::Range;
 
 /// The longest straight line of values.
-const LONGEST: usize = 1000;
+const LONGEST: usize = 500;
 
 /// A function to be written.
 #[derive(Debug, Clone, Copy)]
@@ -51,7 +51,7 @@ impl Bodies<'_> {
     /// Writes a body after `let _self = …;`. All `results` are in scope at its end.
     pub fn write(&mut self, out: &mut String, body: Body) {
         let context = self.context;
-        let parts = cut(body.steps);
+        let parts = cut(context.program, body.steps);
         if parts.len() <= 1 {
             let scan = scan(context.program, context.layout, body.steps, body.results);
             let mut slices = scan.slices;
@@ -169,7 +169,11 @@ impl Bodies<'_> {
             slots.numbers.len(),
             slots.masks.len()
         );
-        let names: Vec<&str> = body.arguments.iter().map(|(name, _)| *name).collect();
+        let names: String = body
+            .arguments
+            .iter()
+            .map(|(name, _)| format!("{name}, "))
+            .collect();
         for (at, (part, scan)) in parts.iter().zip(&scans).enumerate() {
             let steps = &body.steps[part.clone()];
             let mut text = String::new();
@@ -205,12 +209,7 @@ impl Bodies<'_> {
                 body.receiver.declaration(self.generics),
                 body.receiver.ty(self.generics),
             );
-            let _ = writeln!(
-                out,
-                "__{}_{at}(_self, {}, _s, _m);",
-                body.name,
-                names.join(", ")
-            );
+            let _ = writeln!(out, "__{}_{at}(_self, {names}_s, _m);", body.name);
         }
         let mut slices: Vec<Slice> = body
             .arrays
@@ -235,7 +234,7 @@ impl Bodies<'_> {
 pub fn results(context: Context, results: &[Value]) -> String {
     let texts: Vec<String> = results
         .iter()
-        .map(|value| operand(context.program, *value))
+        .map(|value| operand(context, *value))
         .collect();
     texts.join(", ")
 }
@@ -253,13 +252,17 @@ fn is_leaf(instruction: &Instruction) -> bool {
     )
 }
 
-/// Runs of steps of at most about [`LONGEST`] values each.
-fn cut(steps: &[Step]) -> Vec<Range<usize>> {
+/// Runs of steps of at most about [`LONGEST`] values each; a cosine stays with its sine.
+fn cut(program: &Program, steps: &[Step]) -> Vec<Range<usize>> {
+    let is_cosine = |step: &Step| match step {
+        Step::Let(value) => matches!(program.instruction(*value), Instruction::PairedCos(_)),
+        _ => false,
+    };
     let mut parts = Vec::new();
     let (mut start, mut length) = (0, 0);
     for (at, step) in steps.iter().enumerate() {
         length += weight(step);
-        if length >= LONGEST {
+        if length >= LONGEST && !steps.get(at + 1).is_some_and(is_cosine) {
             parts.push(start..at + 1);
             (start, length) = (at + 1, 0);
         }

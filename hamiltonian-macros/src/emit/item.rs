@@ -8,10 +8,10 @@ use super::block::Context;
 use super::generics::Generics;
 use super::index::Indices;
 use super::layout::{self, Layout, layout};
-use super::number::float;
+use super::number::{Numbers, float};
 use super::{
     Definition, Field, Form, Item, allowances, dynamics, externals, lex, markers, mixed,
-    observables,
+    observables, vectors,
 };
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -23,6 +23,7 @@ use std::fmt::Write;
 pub struct Parts {
     sizes: Vec<String>,
     is_run_time: Vec<bool>,
+    numbers: Numbers,
 }
 
 impl Parts {
@@ -43,6 +44,7 @@ impl Parts {
         Parts {
             sizes: sizes.collect(),
             is_run_time,
+            numbers: Numbers::default(),
         }
     }
 
@@ -54,6 +56,7 @@ impl Parts {
             layout: layout(&definition.model.groups),
             indices: Indices { sizes: &self.sizes },
             is_run_time: &self.is_run_time,
+            numbers: &self.numbers,
         }
     }
 }
@@ -324,6 +327,8 @@ fn inherent(
     ));
     let visibility = &item.visibility;
     let methods = observables::methods(definition, context, generics, visibility);
+    let vectors = vectors::methods(definition, context, generics, visibility);
+    let pieces = pieces(definition, item, generics);
     let new = new(item, context, generics);
     let getters = getters(item, context, generics);
     let derivatives = if item.parameters.is_empty() {
@@ -351,9 +356,39 @@ fn inherent(
             #new
             #getters
             #methods
+            #vectors
+            #pieces
             #derivatives
         }
     }
+}
+
+/// The pieces of a split as systems with the same parameters.
+fn pieces(definition: &Definition, item: &Item, generics: &Generics) -> TokenStream {
+    let (visibility, own) = (&item.visibility, &item.name);
+    let fields: Vec<&Ident> = item
+        .fields
+        .iter()
+        .map(|field| match field {
+            Field::Size(number) => &item.sizes[*number].name,
+            Field::Parameter(number) => &item.parameters[*number].name,
+        })
+        .collect();
+    let mut out = TokenStream::new();
+    for (name, ty) in &definition.pieces {
+        let method = Ident::new(&format!("piece_{}", name.to_string().to_lowercase()), name.span());
+        let result = generics.system_type().replacen(&own.to_string(), &ty.to_string(), 1);
+        let result = lex(&result);
+        let text = format!(" The piece `{name}` of the split as a system of its own.");
+        out.extend(quote! {
+            #[doc = #text]
+            #[must_use]
+            #visibility fn #method(&self) -> #result {
+                #ty { #(#fields: __h::core::clone::Clone::clone(&self.#fields),)* }
+            }
+        });
+    }
+    out
 }
 
 /// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.

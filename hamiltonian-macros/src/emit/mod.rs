@@ -12,6 +12,7 @@
 //! - The same definition gives the same tokens.
 
 mod block;
+mod derived;
 mod dynamics;
 mod expression;
 mod externals;
@@ -26,9 +27,12 @@ mod mixed;
 mod number;
 mod observables;
 mod scan;
+mod vectors;
 
 #[cfg(test)]
 mod tests;
+
+pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::Program;
@@ -54,6 +58,10 @@ pub struct Definition<'a> {
     pub externals: Vec<External>,
     /// Monitors, invariants and events, in the model's order.
     pub observables: Vec<ObservableItem>,
+    /// Vector functions, in the model's order.
+    pub vectors: Vec<VectorItem>,
+    /// The systems of a split's pieces: (name of the piece, name of its type).
+    pub pieces: Vec<(Ident, Ident)>,
 }
 
 /// Item form or expression form.

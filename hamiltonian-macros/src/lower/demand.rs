@@ -208,6 +208,29 @@ impl Evaluator<'_> {
         Some(all)
     }
 
+    /// The terms of a sum in the order of the source, with their signs. Sums in front that nothing
+    /// else uses are part of it: `a + b - c` is one sum of three terms, and 50 000 terms are not as
+    /// many sums.
+    pub fn terms(&self, node: NodeId) -> Vec<(bool, NodeId)> {
+        let mut terms = Vec::new();
+        let mut at = node;
+        loop {
+            let (first, second, negative) = match &self.checked.node(at).kind {
+                Kind::Add(a, b) => (*a, *b, false),
+                Kind::Sub(a, b) => (*a, *b, true),
+                _ => break,
+            };
+            terms.push((negative, second));
+            at = first;
+            if self.uses[at.0 as usize] > 1 {
+                break;
+            }
+        }
+        terms.push((false, at));
+        terms.reverse();
+        terms
+    }
+
     /// The demands a demand makes on the children of its node.
     pub fn children(
         &mut self,
@@ -250,7 +273,10 @@ impl Evaluator<'_> {
                 _ => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             },
             Kind::Neg(a) | Kind::Not(a) => wanted.push((*a, same(*a))),
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
+            Kind::Add(..) | Kind::Sub(..) => {
+                wanted.extend(self.terms(node).into_iter().map(|(_, term)| (term, same(term))));
+            }
+            Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             Kind::Pow(a, b)
             | Kind::Compare(_, a, b)
             | Kind::And(a, b)

@@ -9,6 +9,7 @@ use super::bracket::bracket;
 use super::demand::{Demand, Run};
 use super::loops::Loops;
 use super::scope::number;
+use super::velocity;
 use crate::ast::Comparison;
 use crate::checked::{Checked, Kind, LoopId, NodeId, Type};
 use crate::names::{Builtin, FUNCTIONS};
@@ -27,6 +28,8 @@ pub struct Evaluator<'a> {
     report: &'a mut Report,
     /// Whether something was refused: then there is no model.
     refused: bool,
+    /// How many nodes each node is a child of.
+    pub(super) uses: Vec<u32>,
     /// Answers to demands for the whole of a node outside loops that are written out.
     plain: Vec<Option<Node>>,
     /// All other answers.
@@ -46,6 +49,7 @@ impl<'a> Evaluator<'a> {
             },
             report,
             refused: false,
+            uses: uses(checked),
             plain: vec![None; checked.nodes.len()],
             answers: Map::default(),
         };
@@ -166,6 +170,10 @@ impl<'a> Evaluator<'a> {
             (Kind::Momentum(group), _) => {
                 self.phase(model, node, Side::P, group.0 as usize, demand)
             }
+            (Kind::Velocity(group), _) => {
+                let element = self.phase(model, node, Side::P, group.0 as usize, demand);
+                velocity::marked(&mut model.dag, element)
+            }
             (Kind::Time, _) => dag.time(),
             (Kind::Parameter(parameter), _) => {
                 let parameter = Parameter(parameter.0 as u16);
@@ -196,8 +204,17 @@ impl<'a> Evaluator<'a> {
             },
             (Kind::Neg(_), [a]) => dag.neg(*a),
             (Kind::Not(_), [a]) => dag.not(*a),
-            (Kind::Add(..), [a, b]) => dag.add(&[*a, *b]),
-            (Kind::Sub(..), [a, b]) => dag.sub(*a, *b),
+            (Kind::Add(..) | Kind::Sub(..), values) => {
+                let signs = self
+                    .terms(node)
+                    .into_iter()
+                    .map(|(negative, _)| match negative {
+                        true => Rational::MINUS_ONE,
+                        false => Rational::ONE,
+                    });
+                let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
+                dag.linear(&Rational::ZERO, &terms)
+            }
             (Kind::Div(..), [a, b]) => dag.div(*a, *b),
             (Kind::Pow(..), [a, b]) => dag.pow(*a, *b),
             (Kind::And(..), [a, b]) => dag.and(*a, *b),
@@ -358,6 +375,15 @@ impl<'a> Evaluator<'a> {
             .collect();
         dag.add(&terms)
     }
+}
+
+fn uses(checked: &Checked) -> Vec<u32> {
+    let mut uses = vec![0; checked.nodes.len()];
+    for node in &checked.nodes {
+        node.kind
+            .for_each_child(|child| uses[child.0 as usize] += 1);
+    }
+    uses
 }
 
 fn compare(dag: &mut Dag, comparison: Comparison, a: Node, b: Node) -> Node {

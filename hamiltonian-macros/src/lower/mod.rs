@@ -12,6 +12,7 @@ mod demand;
 mod evaluate;
 mod loops;
 mod scope;
+mod velocity;
 
 pub use scope::number;
 
@@ -20,10 +21,12 @@ use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
 use evaluate::Evaluator;
-use hamiltonian_symbolic::dag::Node;
-use hamiltonian_symbolic::index::Index;
+use hamiltonian_symbolic::dag::{Node, Side};
+use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::model::{
-    External, Group, Model, Observable, ObservableKind, ParameterDeclaration,
+    External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
+    VectorFunction,
 };
 use scope::{shape, size_affine};
 
@@ -31,15 +34,135 @@ use scope::{shape, size_affine};
 /// over.
 const LARGEST: usize = 1 << 18;
 
-/// The model of a definition, if it could be made; what is wrong goes into the report.
-pub fn lower(checked: &Checked, report: &mut Report) -> Option<Model> {
+/// What a definition is as mathematics.
+#[derive(Debug)]
+pub struct Lowered {
+    /// H with names, shapes and observables; p(q, v) and v(q, p) of a Lagrangian as its first two
+    /// vector functions.
+    pub model: Model,
+    /// The shell of each observable, where one is declared.
+    pub shells: Vec<Option<Node>>,
+    /// The pieces of a split, in order.
+    pub split: Vec<Node>,
+    /// The force on each momentum.
+    pub force: Vec<VectorEntry>,
+    /// g of `dt = g*ds`.
+    pub factor: Option<Node>,
+}
+
+/// The mathematics of a definition, if it could be made; what is wrong goes into the report.
+pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let mut model = declarations(checked);
     let mut evaluator = Evaluator::new(checked, report);
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
     model.hamiltonian = value.first().copied();
-    observables(checked, &mut model, &mut evaluator)?;
-    Some(model)
+    let velocities = match checked.definition {
+        Definition::Hamiltonian(_) => Vec::new(),
+        Definition::Lagrangian(root) => {
+            let spans = checked.node(root).spans;
+            match legendre(checked, &mut model) {
+                Ok(velocities) => velocities,
+                Err(reason) => {
+                    let help = "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)";
+                    evaluator.refuse(spans, &format!("this Lagrangian has no Hamiltonian: {reason}"), help);
+                    return None;
+                }
+            }
+        }
+    };
+    let mut rest = Rest { checked, evaluator, velocities };
+    let observables: Vec<_> = checked.observables.iter().flat_map(|o| components(checked, o.value)).collect();
+    let values = rest.values(&mut model, &observables)?;
+    observables_of(checked, &mut model, values);
+    let mut shells = Vec::new();
+    for observable in &checked.observables {
+        let shell: Vec<_> = observable.shell.iter().map(|shell| (*shell, Demand::default())).collect();
+        shells.push(rest.values(&mut model, &shell)?.first().copied());
+    }
+    let split: Vec<_> = checked.split.iter().map(|(_, piece)| (*piece, Demand::default())).collect();
+    let split = rest.values(&mut model, &split)?;
+    let factor: Vec<_> = checked.time_factor.iter().map(|(g, _)| (*g, Demand::default())).collect();
+    let factor = rest.values(&mut model, &factor)?.first().copied();
+    let force = rest.force(&mut model)?;
+    Some(Lowered { model, shells, split, force, factor })
+}
+
+/// H in the place of L; p(q, v) and v(q, p) become vector functions. The velocities as functions.
+fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, String> {
+    let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
+    let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
+    let name = |group: &crate::checked::Group| group.velocity.as_ref().map_or_else(String::new, ToString::to_string);
+    let names: Vec<String> = checked.groups.iter().map(name).collect();
+    let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian, &names)?;
+    model.hamiltonian = Some(legendre.hamiltonian);
+    for (name, components, side) in [("conjugate_momentum", &legendre.momenta, Side::P), ("velocity", &legendre.velocities, Side::Q)] {
+        let entries = velocity::entries(&model.dag, components, side);
+        let sides = (side == Side::Q, side == Side::P);
+        model.vectors.push(VectorFunction { name: name.to_owned(), sides, entries });
+    }
+    Ok(legendre.velocities)
+}
+
+/// What is declared beside H.
+struct Rest<'a> {
+    checked: &'a Checked,
+    evaluator: Evaluator<'a>,
+    velocities: Vec<Component>,
+}
+
+impl Rest<'_> {
+    /// The values of roots, velocities as functions of (q, p, t).
+    fn values(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
+        let values = self.evaluator.evaluate(model, roots)?;
+        if matches!(self.checked.definition, Definition::Hamiltonian(_)) {
+            return Some(values);
+        }
+        let mut images = Vec::with_capacity(values.len());
+        for ((root, _), value) in roots.iter().zip(values) {
+            match velocity::as_functions(&mut model.dag, value, &self.velocities) {
+                Some(image) => images.push(image),
+                None => {
+                    let spans = self.checked.node(*root).spans;
+                    self.evaluator.refuse(spans, "a velocity with an index that wraps around cannot be written in terms of momenta here", "write it without `%`, or in terms of momenta");
+                    return None;
+                }
+            }
+        }
+        Some(images)
+    }
+
+    /// The force on each momentum, element by element.
+    fn force(&mut self, model: &mut Model) -> Option<Vec<VectorEntry>> {
+        let mut entries = Vec::new();
+        for (group, root) in self.checked.force.iter().enumerate() {
+            let shape = model.groups[group].shape.clone();
+            let (rows, columns) = match &shape {
+                Shape::Scalar => (None, 1),
+                Shape::Vector(rows) => (Some(rows.clone()), 1),
+                Shape::Matrix(rows, columns) => (Some(rows.clone()), columns.as_constant().unwrap_or(1)),
+            };
+            let row = match rows {
+                None => Index::constant(0),
+                Some(rows) => {
+                    let domain = model.dag.domain(None, Affine::constant(0), rows);
+                    Index::plain(Affine::variable(domain))
+                }
+            };
+            for column in 0..columns {
+                let mut demand = Demand::default();
+                if shape != Shape::Scalar {
+                    demand.indices.push(row.clone());
+                }
+                if matches!(shape, Shape::Matrix(..)) {
+                    demand.indices.push(Index::constant(column));
+                }
+                let value = self.values(model, &[(*root, demand)])?.first().copied()?;
+                entries.push(VectorEntry { side: Side::P, group: group as u16, column: column as u16, row: row.clone(), value });
+            }
+        }
+        Some(entries)
+    }
 }
 
 /// Names and shapes.
@@ -102,13 +225,9 @@ fn components(checked: &Checked, root: NodeId) -> Vec<(NodeId, Demand)> {
     }
 }
 
-fn observables(checked: &Checked, model: &mut Model, evaluator: &mut Evaluator) -> Option<()> {
-    let roots: Vec<(NodeId, Demand)> = checked
-        .observables
-        .iter()
-        .flat_map(|observable| components(checked, observable.value))
-        .collect();
-    let mut values: std::vec::IntoIter<Node> = evaluator.evaluate(model, &roots)?.into_iter();
+/// The observables of the model, from the values of their components.
+fn observables_of(checked: &Checked, model: &mut Model, values: Vec<Node>) {
+    let mut values = values.into_iter();
     for observable in &checked.observables {
         let count = components(checked, observable.value).len();
         model.observables.push(Observable {
@@ -121,5 +240,4 @@ fn observables(checked: &Checked, model: &mut Model, evaluator: &mut Evaluator) 
             components: values.by_ref().take(count).collect(),
         });
     }
-    Some(())
 }

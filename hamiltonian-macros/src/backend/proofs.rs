@@ -1,0 +1,97 @@
+//! Claims that are proven or refused: invariants, and that pieces add up to H.
+//!
+//! Input: the lowered definition. Output: errors with the residual and, where one was found, a
+//! point. Invariant: `#[assume]` silences only what could not be decided, never what is false.
+
+use crate::ast::ObservableKind;
+use crate::checked::Checked;
+use crate::lower::Lowered;
+use crate::report::Report;
+use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::loops::Point;
+use hamiltonian_symbolic::transform::check_split;
+
+/// Proves what the definition claims.
+pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
+    invariants(checked, lowered, report);
+    split(checked, lowered, report);
+}
+
+fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
+    for (at, observable) in checked.observables.iter().enumerate() {
+        if observable.kind != ObservableKind::Invariant {
+            continue;
+        }
+        let (name, shell) = (&observable.name, lowered.shells[at]);
+        let components = &lowered.model.observables[at].components;
+        for (component, value) in components.iter().enumerate() {
+            let what = match components.len() {
+                1 => format!("`{name}`"),
+                _ => format!("component {component} of `{name}`"),
+            };
+            match is_invariant(&lowered.model, *value, shell) {
+                Verdict::Proven => {}
+                Verdict::Disproven {
+                    residual,
+                    point,
+                    value,
+                } => {
+                    report.error(
+                        name.span(),
+                        format!(
+                            "{what} is not conserved: its time derivative is `{residual}`, which is {value:.6} at {}",
+                            listed(&point)
+                        ),
+                        "correct it or H, or declare it as `monitor`",
+                    );
+                    break;
+                }
+                Verdict::Undecided { residual } if !observable.assumed => {
+                    report.error(
+                        name.span(),
+                        format!(
+                            "it is neither proven nor disproven that {what} is conserved: its time derivative is `{residual}`"
+                        ),
+                        format!(
+                            "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
+                        ),
+                    );
+                    break;
+                }
+                Verdict::Undecided { .. } => {}
+            }
+        }
+    }
+}
+
+fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
+    let Some((first, _)) = checked.split.first() else {
+        return;
+    };
+    let names = checked.split.iter().map(|(name, _)| name.to_string());
+    let pieces: Vec<_> = names.zip(lowered.split.iter().copied()).collect();
+    if let Err(difference) = check_split(&mut lowered.model, &pieces) {
+        let (text, help) = (&difference.text, "change the pieces so that their sum is H");
+        let message = match &difference.point {
+            Some((point, value)) => format!(
+                "the pieces do not add up to H: `{text}` is left, which is {value:.6} at {}",
+                listed(point)
+            ),
+            None => format!("it could not be shown that the pieces add up to H: `{text}` is left"),
+        };
+        report.error(first.span(), message, help);
+    }
+}
+
+/// `q = 0.5, p = -1.25`
+fn listed(point: &Point) -> String {
+    let values: Vec<String> = point
+        .iter()
+        .map(|(name, value)| format!("{name} = {value}"))
+        .collect();
+    if values.is_empty() {
+        "every point".to_owned()
+    } else {
+        values.join(", ")
+    }
+}

@@ -1,0 +1,361 @@
+//! The variables a system is integrated in: canonical coordinates, another time; and the vector
+//! functions it offers in them.
+//!
+//! Input: the lowered definition. Output: the model in its final variables with its vector
+//! functions, what each of them is for, and the pieces of a split. Invariant: signs stay
+//! q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order is coordinates, then time.
+
+use crate::ast::ObservableKind;
+use crate::checked::{self, Checked, ChartKind, Definition};
+use crate::emit::{VectorItem, VectorUse};
+use crate::lower::Lowered;
+use crate::report::Report;
+use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
+use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
+use hamiltonian_symbolic::pipeline::gradient_of;
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry};
+use proc_macro2::Ident;
+use quote::format_ident;
+
+/// A definition in its final variables.
+#[derive(Debug)]
+pub struct System {
+    /// H, observables and vector functions.
+    pub model: Model,
+    /// What each vector function of the model is for.
+    pub vectors: Vec<VectorItem>,
+    /// The pieces of a split.
+    pub pieces: Vec<(Ident, Node)>,
+}
+
+/// Carries a definition into its final variables.
+pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
+    let Lowered {
+        model,
+        split,
+        force,
+        factor,
+        ..
+    } = lowered;
+    let mut vectors = Vec::new();
+    if matches!(checked.definition, Definition::Lagrangian(_)) {
+        vectors.push(VectorItem::of(VectorUse::ConjugateMomentum));
+        vectors.push(VectorItem::of(VectorUse::Velocity));
+    }
+    let mut state = Settling {
+        model,
+        vectors,
+        pieces: split,
+        force,
+        factor,
+    };
+    if !checked.charts.is_empty() {
+        state.charts(checked, report)?;
+    }
+    if let (Some(factor), Some((_, span))) = (state.factor, checked.time_factor) {
+        if let Err(reason) = state.time(factor) {
+            report.error(
+                span,
+                format!("this time cannot be introduced: {reason}"),
+                "write `dt = g(q, p)*ds` with g > 0",
+            );
+            return None;
+        }
+    }
+    if !state.force.is_empty() {
+        state.offer(
+            VectorItem::of(VectorUse::Force),
+            "force",
+            (false, true),
+            state.force.clone(),
+        );
+    }
+    state.gradients(checked);
+    let mut names: Vec<Ident> = checked.split.iter().map(|(name, _)| name.clone()).collect();
+    if let (Some((_, span)), true) = (checked.time_factor, !names.is_empty()) {
+        names.push(Ident::new("Clock", span));
+    }
+    Some(System {
+        model: state.model,
+        vectors: state.vectors,
+        pieces: names.into_iter().zip(state.pieces).collect(),
+    })
+}
+
+struct Settling {
+    model: Model,
+    vectors: Vec<VectorItem>,
+    pieces: Vec<Node>,
+    force: Vec<VectorEntry>,
+    factor: Option<Node>,
+}
+
+impl Settling {
+    fn offer(
+        &mut self,
+        item: VectorItem,
+        name: &str,
+        sides: (bool, bool),
+        entries: Vec<VectorEntry>,
+    ) {
+        self.vectors.push(item);
+        self.model.vectors.push(VectorFunction {
+            name: name.to_owned(),
+            sides,
+            entries,
+        });
+    }
+
+    /// The gradients of events and monitors.
+    fn gradients(&mut self, checked: &Checked) {
+        for (at, observable) in checked.observables.iter().enumerate() {
+            let components = self.model.observables[at].components.clone();
+            if let (ObservableKind::Event | ObservableKind::Monitor, [value]) =
+                (observable.kind, components.as_slice())
+            {
+                let name = format_ident!("{}_gradient", observable.name);
+                let gradient = gradient_of(&mut self.model, name.to_string(), *value);
+                self.model.vectors.push(gradient);
+                self.vectors.push(VectorItem {
+                    usage: VectorUse::Gradient,
+                    name,
+                });
+            }
+        }
+    }
+
+    /// Everything that is carried along: pieces, force, factor, values of vector functions.
+    fn carried(&self) -> Vec<Node> {
+        let vectors = self.model.vectors.iter().flat_map(|v| &v.entries);
+        self.pieces
+            .iter()
+            .copied()
+            .chain(self.force.iter().map(|entry| entry.value))
+            .chain(self.factor)
+            .chain(vectors.map(|entry| entry.value))
+            .collect()
+    }
+
+    /// Puts back what was carried, into a model that may have lost its vector functions.
+    fn put_back(&mut self, mut model: Model, carried: Vec<Node>) {
+        let mut values = carried.into_iter();
+        let mut vectors = std::mem::take(&mut self.model.vectors);
+        let entries = vectors.iter_mut().flat_map(|v| &mut v.entries);
+        let places = self
+            .pieces
+            .iter_mut()
+            .chain(self.force.iter_mut().map(|entry| &mut entry.value))
+            .chain(self.factor.iter_mut())
+            .chain(entries.map(|entry| &mut entry.value));
+        for place in places {
+            if let Some(value) = values.next() {
+                *place = value;
+            }
+        }
+        model.vectors = vectors;
+        self.model = model;
+    }
+
+    fn charts(&mut self, checked: &Checked, report: &mut Report) -> Option<()> {
+        let spans = checked.charts[0].name.span();
+        let mut refuse = |message: String, help: &str| {
+            report.error(spans, message, help);
+        };
+        if matches!(checked.definition, Definition::Lagrangian(_)) {
+            refuse(
+                "coordinates of a Lagrangian are not changed".to_owned(),
+                "write L in the coordinates you want: any are allowed",
+            );
+            return None;
+        }
+        let charts: Vec<Chart> = checked.charts.iter().map(chart).collect();
+        let transformed = match transform::apply(&self.model, &charts, &self.carried()) {
+            Ok(transformed) => transformed,
+            Err(reason) => {
+                refuse(
+                    format!("these coordinates cannot be introduced: {reason}"),
+                    "see the language chapter for what each change of coordinates asks for",
+                );
+                return None;
+            }
+        };
+        let mut transformed = transformed;
+        let shapes = |model: &Model| -> Vec<Shape> {
+            model.groups.iter().map(|g| g.shape.clone()).collect()
+        };
+        if shapes(&transformed.source) != shapes(&transformed.model) {
+            refuse(
+                "the old and the new coordinates have different shapes".to_owned(),
+                "declare the coordinates of the change as scalars: `H(x, y; p_x, p_y)`",
+            );
+            return None;
+        }
+        let carried = std::mem::take(&mut transformed.carried);
+        let from = self.map_from(&mut transformed);
+        let inverse = transformed.inverse.clone();
+        let to = map(&mut transformed, &inverse);
+        self.put_back(transformed.model.clone(), carried);
+        let Some(forces) = literal(&self.force) else {
+            refuse(
+                "a force in a loop is not carried into other coordinates".to_owned(),
+                "write the coordinates out as scalars",
+            );
+            return None;
+        };
+        let kept: Vec<u16> = transformed.kept.iter().map(|(old, _)| *old).collect();
+        let (kept, replaced): (Vec<Entry>, Vec<Entry>) =
+            forces.into_iter().partition(|entry| kept.contains(&entry.group));
+        let replaced = transformed.force(&replaced);
+        self.model.dag = transformed.model.dag;
+        self.force = entries(&kept)
+            .into_iter()
+            .chain(entries(&replaced))
+            .collect();
+        let both = (true, true);
+        self.offer(VectorItem::of(VectorUse::FromDeclared), "from_declared", both, from);
+        self.offer(VectorItem::of(VectorUse::ToDeclared), "to_declared", both, to);
+        Some(())
+    }
+
+    /// New coordinates from the declared ones, which are read where the new ones stand.
+    fn map_from(&self, transformed: &mut transform::Transformed) -> Vec<VectorEntry> {
+        let forward = transformed.forward.clone();
+        let mut all = map(transformed, &forward);
+        let wanted = all.iter_mut().filter(|entry| {
+            let place = (entry.side, entry.group, entry.column);
+            forward.iter().any(|f| (f.side, f.group, f.column) == place)
+        });
+        for entry in wanted {
+            entry.value = transformed.model.dag.import(&transformed.source.dag, entry.value);
+        }
+        all
+    }
+
+    fn time(&mut self, factor: Node) -> Result<(), String> {
+        let retimed = transform::retime(&self.model, factor, &self.carried());
+        let mut retimed = retimed.map_err(|reason| reason.to_string())?;
+        let names: Vec<(String, Node)> = {
+            let pieces = retimed.carried[..self.pieces.len()].iter();
+            pieces.map(|piece| (String::new(), *piece)).collect()
+        };
+        let pieces = if names.is_empty() {
+            Vec::new()
+        } else {
+            retimed.pieces(&names)
+        };
+        let carried = std::mem::take(&mut retimed.carried);
+        let (group, start) = (retimed.group, retimed.start);
+        self.put_back(retimed.model.clone(), carried);
+        self.pieces = pieces.into_iter().map(|(_, piece)| piece).collect();
+        if !self.force.is_empty() {
+            let forces = literal(&self.force).ok_or("a force in a loop is not carried along")?;
+            let forces = retimed.force(&forces);
+            self.force = entries(&forces);
+        }
+        self.model.dag = retimed.model.dag;
+        let mut on_shell = identity(&mut self.model, Side::P, &|other| other != group);
+        on_shell.push(VectorEntry {
+            side: Side::P,
+            group,
+            column: 0,
+            row: Index::constant(0),
+            value: start,
+        });
+        self.offer(VectorItem::of(VectorUse::OnShell), "on_shell", (false, true), on_shell);
+        Ok(())
+    }
+}
+
+/// The chart in the engine's terms.
+fn chart(chart: &checked::Chart) -> Chart {
+    let component = |c: &checked::Component| Component {
+        group: c.group.0 as u16,
+        row: c.index.map(|row| row as u32),
+    };
+    let bodies = |group: &checked::GroupId, masses: &checked::ParameterId| Bodies {
+        group: group.0 as u16,
+        masses: Parameter(masses.0 as u16),
+    };
+    match &chart.kind {
+        ChartKind::Polar(plane) => Chart::Polar([component(&plane[0]), component(&plane[1])]),
+        ChartKind::Spherical(space) => Chart::Spherical([
+            component(&space[0]),
+            component(&space[1]),
+            component(&space[2]),
+        ]),
+        ChartKind::Jacobi(group, masses) => Chart::Jacobi(bodies(group, masses)),
+        ChartKind::Heliocentric(group, masses) => Chart::Heliocentric(bodies(group, masses)),
+    }
+}
+
+/// The images of a change of coordinates, and what it keeps.
+fn map(transformed: &mut transform::Transformed, images: &[Entry]) -> Vec<VectorEntry> {
+    let groups: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
+    let kept = |group: u16| groups.contains(&group);
+    let mut all = identity(&mut transformed.model, Side::Q, &kept);
+    all.extend(identity(&mut transformed.model, Side::P, &kept));
+    all.extend(entries(images));
+    all
+}
+
+/// Every element of the wanted groups as it is.
+fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<VectorEntry> {
+    let mut all = Vec::new();
+    for group in (0..model.groups.len() as u16).filter(|group| wanted(*group)) {
+        let (rows, columns) = match model.groups[usize::from(group)].shape.clone() {
+            Shape::Scalar => (None, 1),
+            Shape::Vector(rows) => (Some(rows), 1),
+            Shape::Matrix(rows, columns) => (Some(rows), columns.as_constant().unwrap_or(1)),
+        };
+        let row = match rows {
+            None => Index::constant(0),
+            Some(rows) => {
+                let domain = model.dag.domain(None, Affine::constant(0), rows);
+                Index::plain(Affine::variable(domain))
+            }
+        };
+        for column in 0..columns as u16 {
+            let array = Array::Phase {
+                side,
+                group,
+                column,
+            };
+            let value = model.dag.element(array, row.clone(), None);
+            all.push(VectorEntry {
+                side,
+                group,
+                column,
+                row: row.clone(),
+                value,
+            });
+        }
+    }
+    all
+}
+
+fn entries(list: &[Entry]) -> Vec<VectorEntry> {
+    let entry = |entry: &Entry| VectorEntry {
+        side: entry.side,
+        group: entry.group,
+        column: entry.column,
+        row: Index::constant(i64::from(entry.row)),
+        value: entry.value,
+    };
+    list.iter().map(entry).collect()
+}
+
+/// Entries whose rows are numbers.
+fn literal(list: &[VectorEntry]) -> Option<Vec<Entry>> {
+    let entry = |entry: &VectorEntry| {
+        let row = entry.row.affine.as_constant()?;
+        Some(Entry {
+            side: entry.side,
+            group: entry.group,
+            row: u32::try_from(row).ok()?,
+            column: entry.column,
+            value: entry.value,
+        })
+    };
+    list.iter().map(entry).collect()
+}

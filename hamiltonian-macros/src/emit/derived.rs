@@ -1,0 +1,51 @@
+//! Functions of large systems that are made from the gradient at run time instead of being written
+//! out: so that what rustc reads grows with H once and not nine times.
+//!
+//! Input: a purpose without a function of its own. Output: the text of its body. Invariant: no
+//! memory is allocated: the vectors of such systems have no size set at run time.
+
+use super::generics::Generics;
+use hamiltonian_symbolic::program::Purpose;
+
+/// The body of a method of prepared systems whose function is not in the program.
+pub fn body(purpose: Purpose) -> String {
+    const CALL: &str = "<Self as __h::Dynamics<T>>::energy_and_gradient(self, _t, _q, _p,";
+    match purpose {
+        Purpose::Gradient => format!("let _ = {CALL} _oq, _op);"),
+        Purpose::GradientQ => {
+            format!("let mut _x = *_oq;\nlet _ = {CALL} _oq, &mut _x);")
+        }
+        Purpose::GradientP => {
+            format!("let mut _x = *_op;\nlet _ = {CALL} &mut _x, _op);")
+        }
+        Purpose::HessianVector => refusal(
+            "second derivatives of H are needed here, but a function of the system was declared \
+             without them: give them after the first, `fn f(x) = f, (df), (ddf)`",
+        ),
+        _ => refusal("this function of the system was not derived"),
+    }
+}
+
+/// A compile error where a function is used, and nowhere else.
+fn refusal(message: &str) -> String {
+    format!("const {{ __h::core::panic!({message:?}) }}")
+}
+
+/// The expression that makes the flow for coefficient `_c`.
+pub const FLOW: &str = "__Flow { prepared: __h::core::clone::Clone::clone(_self), c: _c }";
+
+/// The flow: a gradient, then two accumulations.
+pub fn flow(generics: &Generics, vector: &str) -> String {
+    let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
+    let visibility = &generics.visibility;
+    format!(
+        "#[doc(hidden)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
+         {visibility} struct __Flow{declaration} {{ prepared: __Prepared{arguments}, c: T }}\n\
+         #[automatically_derived]\nimpl{declaration} __h::Flow<{vector}> for __Flow{arguments} {{\n\
+         #[inline(always)]\nfn flow(&self, _t: T, _q: &{vector}, _p: &{vector}, _oq: &mut {vector}, _op: &mut {vector}) {{\n\
+         let (mut _x, mut _y) = (*_oq, *_op);\n\
+         let _ = __h::Dynamics::energy_and_gradient(&self.prepared, _t, _q, _p, &mut _x, &mut _y);\n\
+         __h::Vector::accumulate(_oq, self.c, &_y);\n\
+         __h::Vector::accumulate(_op, -self.c, &_x);\n}}\n}}\n"
+    )
+}

@@ -1,0 +1,152 @@
+//! Vector functions as methods of the type: velocities and momenta of a Lagrangian, forces,
+//! gradients of events and monitors, maps between coordinates, starts on a shell.
+//!
+//! Input: a definition. Output: tokens of the methods, each over one function of the prepared
+//! system. Invariant: vectors have the system's shape.
+
+use super::block::Context;
+use super::dynamics::vector;
+use super::generics::Generics;
+use super::{Definition, allowances, lex};
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+
+/// A vector function of the model, in its order.
+#[derive(Debug)]
+pub struct VectorItem {
+    /// What it is for.
+    pub usage: VectorUse,
+    /// The name of its method.
+    pub name: Ident,
+}
+
+/// What a vector function is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum VectorUse {
+    /// p(q, v)
+    ConjugateMomentum,
+    /// v(q, p)
+    Velocity,
+    /// The force on the momenta.
+    Force,
+    /// The gradient of an event or a monitor.
+    Gradient,
+    /// The coordinates the system is integrated in, from the declared ones.
+    FromDeclared,
+    /// The declared coordinates.
+    ToDeclared,
+    /// The momentum of time on the shell.
+    OnShell,
+}
+
+impl VectorItem {
+    /// A vector function with the name its use has.
+    pub fn of(usage: VectorUse) -> VectorItem {
+        let name = match usage {
+            VectorUse::ConjugateMomentum => "conjugate_momentum",
+            VectorUse::Velocity => "velocity",
+            VectorUse::Force => "force",
+            VectorUse::Gradient => "gradient",
+            VectorUse::FromDeclared => "from_declared",
+            VectorUse::ToDeclared => "to_declared",
+            VectorUse::OnShell => "on_shell",
+        };
+        let name = Ident::new(name, Span::call_site());
+        VectorItem { usage, name }
+    }
+}
+
+/// The methods of the type.
+pub fn methods(
+    definition: &Definition,
+    context: Context,
+    generics: &Generics,
+    visibility: &TokenStream,
+) -> TokenStream {
+    let bound = lex(&generics.state_bound());
+    let vector = lex(&vector(context, generics, "T", "__h"));
+    let zeros = quote! { <Self as __h::System<T>>::zeros(self) };
+    let prepared = quote! { <Self as __h::System<T>>::prepare(self) };
+    let mut out = TokenStream::new();
+    for (at, item) in definition.vectors.iter().enumerate() {
+        let (name, function) = (&item.name, Ident::new(&format!("v{at}"), Span::call_site()));
+        let allow = allowances(&[name]);
+        let method = match item.usage {
+            VectorUse::ConjugateMomentum => quote! {
+                /// The momenta ∂L/∂v at coordinates `_q` and velocities `_v`.
+                #[must_use]
+                #visibility fn #name<T: #bound>(&self, _t: T, _q: &#vector, _v: &#vector) -> #vector {
+                    let mut _p = #zeros;
+                    #prepared.#function(_t, _q, _v, &mut _p);
+                    _p
+                }
+                /// The state at time `_t` with coordinates `_q` and velocities `_v`.
+                #visibility fn state_from_velocity<T: #bound, __M, __A: __h::IntoVector<__M, Vector = #vector>>(
+                    &self, _t: T, _q: __A, _v: __A,
+                ) -> __h::State<#vector> {
+                    let (_q, _v) = (__h::IntoVector::into_vector(_q), __h::IntoVector::into_vector(_v));
+                    let _p = self.conjugate_momentum(_t, &_q, &_v);
+                    __h::State { t: _t, q: _q, p: _p }
+                }
+            },
+            VectorUse::Velocity => quote! {
+                /// The velocities dq/dt at a state.
+                #[must_use]
+                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> #vector {
+                    let mut _v = #zeros;
+                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _v);
+                    _v
+                }
+            },
+            VectorUse::Force => quote! {
+                /// The force f on the momenta at a state: dp/dt = −∂H/∂q + f.
+                #[must_use]
+                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> #vector {
+                    let mut _f = #zeros;
+                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _f);
+                    _f
+                }
+            },
+            VectorUse::Gradient => {
+                let text = format!(" The gradient of `{}` at a state.", name.to_string().trim_end_matches("_gradient"));
+                quote! {
+                    #[doc = #text]
+                    #allow
+                    #[must_use]
+                    #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::Gradient<#vector> {
+                        let mut _g = __h::Gradient { q: #zeros, p: #zeros };
+                        #prepared.#function(_state.t, &_state.q, &_state.p, &mut _g.q, &mut _g.p);
+                        _g
+                    }
+                }
+            }
+            VectorUse::FromDeclared | VectorUse::ToDeclared => {
+                let text = if item.usage == VectorUse::FromDeclared {
+                    " The state in the coordinates the system is integrated in, from the coordinates H was declared in."
+                } else {
+                    " The state in the coordinates H was declared in, from those the system is integrated in."
+                };
+                quote! {
+                    #[doc = #text]
+                    #[must_use]
+                    #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::State<#vector> {
+                        let mut _new = __h::State { t: _state.t, q: #zeros, p: #zeros };
+                        #prepared.#function(_state.t, &_state.q, &_state.p, &mut _new.q, &mut _new.p);
+                        _new
+                    }
+                }
+            }
+            VectorUse::OnShell => quote! {
+                /// The state with the momentum of time set to −H, so that it moves as the system does.
+                #[must_use]
+                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::State<#vector> {
+                    let mut _p = #zeros;
+                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _p);
+                    __h::State { t: _state.t, q: __h::core::clone::Clone::clone(&_state.q), p: _p }
+                }
+            },
+        };
+        out.extend(method);
+    }
+    out
+}

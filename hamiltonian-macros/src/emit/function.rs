@@ -204,7 +204,7 @@ impl Bodies<'_> {
                 .collect();
             let _ = write!(
                 self.pieces,
-                "#[inline(never)]\nfn __{}_{at}{}(_self: &{}, {arguments}{scratch}) {{\n{text}}}\n",
+                "#[inline(never)]\n#[allow(clippy::too_many_arguments)]\nfn __{}_{at}{}(_self: &{}, {arguments}{scratch}) {{\n{text}}}\n",
                 body.name,
                 body.receiver.declaration(self.generics),
                 body.receiver.ty(self.generics),

@@ -75,7 +75,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
         text.push_str(&mixed::implementations(context, &generics));
     }
     text.push_str(&default(item, context, &generics));
-    let implementations = lex(&text);
+    let implementations = located(lex(&text), item.name.span(), true);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, item, context, &generics);
     quote! {
@@ -145,12 +145,15 @@ fn declaration(
     } else {
         TokenStream::new()
     };
+    let before = located(quote!(#visibility struct), name.span(), false);
+    let parameters = located(parameters, name.span(), true);
+    let fields = located(quote!({ #(#fields)* }), name.span(), false);
     quote! {
         #(#attributes)*
         #docs
         #allow
         #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
-        #visibility struct #name #parameters { #(#fields)* }
+        #before #name #parameters #fields
         #vector
     }
 }
@@ -232,6 +235,24 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
         }
     }
     out
+}
+
+/// Tokens, with or without what is inside of groups, that rustc is to show at the name of the type
+/// instead of at the whole definition.
+fn located(tokens: TokenStream, name: Span, inside: bool) -> TokenStream {
+    use proc_macro2::{Group, TokenTree};
+    let span = Span::call_site().located_at(name);
+    let moved = tokens.into_iter().map(|mut token| {
+        if let TokenTree::Group(group) = &token
+            && inside
+        {
+            let inner = located(group.stream(), name, inside);
+            token = Group::new(group.delimiter(), inner).into();
+        }
+        token.set_span(span);
+        token
+    });
+    moved.collect()
 }
 
 /// H and Hamilton's equations, as docs.

@@ -43,6 +43,11 @@ pub trait Mask:
 /// assert_eq!(twice(2.5, Dual::variable(2.0)).eps, 2.5);
 /// assert_eq!(twice(2u32, DoubleDouble::from(2.0)).to_f64(), 4.0);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{P}` is not a number from which a scalar `{Self}` is made",
+    label = "a parameter or a captured value is `{P}`",
+    note = "parameters and captured values are `f64`, `f32`, integers or of the state's own scalar"
+)]
 pub trait Lift<P> {
     /// The value as this scalar.
     fn lift(value: P) -> Self;

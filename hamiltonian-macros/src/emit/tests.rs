@@ -132,6 +132,8 @@ fn emit(model: &mut Model, form: Form, separable: bool) -> TokenStream {
             ..Text::default()
         },
         externals: Vec::new(),
+        vectors: Vec::new(),
+        pieces: Vec::new(),
     })
 }
 

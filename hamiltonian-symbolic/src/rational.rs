@@ -9,15 +9,39 @@ use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
+use std::hash::{Hash, Hasher};
 
 /// An exact rational number, ordered by value.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Rational(Form);
 
-#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+#[derive(Clone, Debug)]
 enum Form {
     Small(i64, i64),
     Big(Box<BigRational>),
+}
+
+/// In lowest terms equal values have equal parts; `BigRational` compares and hashes as continued
+/// fractions, which recurses.
+impl PartialEq for Form {
+    fn eq(&self, other: &Form) -> bool {
+        match (self, other) {
+            (Form::Small(a, b), Form::Small(c, d)) => (a, b) == (c, d),
+            (Form::Big(a), Form::Big(b)) => a.numer() == b.numer() && a.denom() == b.denom(),
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Form {}
+
+impl Hash for Form {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        match self {
+            Form::Small(n, d) => (n, d).hash(state),
+            Form::Big(value) => (value.numer(), value.denom()).hash(state),
+        }
+    }
 }
 
 impl Rational {

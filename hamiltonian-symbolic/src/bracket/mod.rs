@@ -43,6 +43,21 @@ pub enum Verdict {
 /// `shell` the statement is about points with H = shell only.
 #[must_use]
 pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
+    let roots: Vec<Node> = model.hamiltonian.into_iter().chain([expression]).collect();
+    let has_rust = model
+        .dag
+        .reachable(&roots)
+        .iter()
+        .any(|n| matches!(model.dag.kind(*n), Kind::External(..)));
+    match judge(model, expression, shell) {
+        // A point refutes for the function that was tried, which is not the one in Rust.
+        Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided { residual },
+        verdict => verdict,
+    }
+}
+
+/// The verdict for functions in Rust of which nothing is known.
+fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     let mut model = model.clone();
     let h = match model.hamiltonian {
         Some(h) => h,

@@ -30,6 +30,7 @@ const LARGE: usize = 1000;
 pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> TokenStream {
     let mut code = || {
         let mut lowered = lower(checked, report)?;
+        surface::refuse_motionless(checked, &lowered.model, report);
         proofs::prove(checked, &mut lowered, report);
         surface::refuse_unsupported(checked, report);
         report.barrier(())?;

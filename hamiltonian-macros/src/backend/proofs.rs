@@ -39,7 +39,8 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     report.error(
                         name.span(),
                         format!(
-                            "{what} is not conserved: its time derivative is `{residual}`, which is {value:.6} at {}",
+                            "{what} is not conserved: its time derivative is `{}`, which is {value:.6} at {}",
+                            shortened(&residual),
                             listed(&point)
                         ),
                         "correct it or H, or declare it as `monitor`",
@@ -50,7 +51,8 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     report.error(
                         name.span(),
                         format!(
-                            "it is neither proven nor disproven that {what} is conserved: its time derivative is `{residual}`"
+                            "it is neither proven nor disproven that {what} is conserved: its time derivative is `{}`",
+                            shortened(&residual)
                         ),
                         format!(
                             "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
@@ -71,7 +73,7 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     let names = checked.split.iter().map(|(name, _)| name.to_string());
     let pieces: Vec<_> = names.zip(lowered.split.iter().copied()).collect();
     if let Err(difference) = check_split(&mut lowered.model, &pieces) {
-        let (text, help) = (&difference.text, "change the pieces so that their sum is H");
+        let (text, help) = (shortened(&difference.text), "change the pieces so that their sum is H");
         let message = match &difference.point {
             Some((point, value)) => format!(
                 "the pieces do not add up to H: `{text}` is left, which is {value:.6} at {}",
@@ -83,12 +85,24 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     }
 }
 
+/// A formula, cut off where nobody would read on.
+fn shortened(formula: &str) -> String {
+    const LENGTH: usize = 200;
+    match formula.char_indices().nth(LENGTH) {
+        Some((end, _)) => format!("{}…", &formula[..end]),
+        None => formula.to_owned(),
+    }
+}
+
 /// `q = 0.5, p = -1.25`
 fn listed(point: &Point) -> String {
-    let values: Vec<String> = point
-        .iter()
-        .map(|(name, value)| format!("{name} = {value}"))
-        .collect();
+    let mut values: Vec<String> = Vec::new();
+    for (name, value) in point {
+        let value = format!("{name} = {value}");
+        if !values.contains(&value) {
+            values.push(value);
+        }
+    }
     if values.is_empty() {
         "every point".to_owned()
     } else {

@@ -3,7 +3,7 @@
 //! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
 //! numbering. Invariant: tokens keep their spans.
 
-use crate::checked::{self, Checked, SizeKind};
+use crate::checked::{self, Checked, Definition, SizeKind};
 use crate::emit::{
     External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
 };
@@ -146,6 +146,19 @@ pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
     model.observables.clear();
     model.vectors.clear();
     model
+}
+
+/// An H whose momenta cancel.
+pub fn refuse_motionless(checked: &Checked, model: &Model, report: &mut Report) {
+    if let (Definition::Hamiltonian(root), Some(h)) = (&checked.definition, model.hamiltonian)
+        && !model.dag.dependence(h).on(Dependence::P)
+    {
+        report.error(
+            checked.node(*root).spans,
+            "`H` depends on no momentum: its momenta cancel",
+            "nothing would move: write a kinetic energy, such as `p^2/2`",
+        );
+    }
 }
 
 /// Combinations that have no meaning.

@@ -14,7 +14,7 @@ use crate::ast::Comparison;
 use crate::checked::{Checked, Kind, LoopId, NodeId, Type};
 use crate::names::{Builtin, FUNCTIONS};
 use crate::report::{Report, Spans};
-use hamiltonian_symbolic::dag::{Array, Dag, Map, Node, Parameter, Part, Side};
+use hamiltonian_symbolic::dag::{self, Array, Dag, Map, Node, Parameter, Part, Side};
 use hamiltonian_symbolic::index::{Domain, Index, Size};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
@@ -215,7 +215,13 @@ impl<'a> Evaluator<'a> {
                 let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
                 dag.linear(&Rational::ZERO, &terms)
             }
-            (Kind::Div(..), [a, b]) => dag.div(*a, *b),
+            (Kind::Div(_, divisor), [a, b]) => {
+                if is_zero(dag, *b) {
+                    let spans = checked.node(*divisor).spans;
+                    self.refuse(spans, "nothing can be divided by 0", "write another divisor");
+                }
+                dag.div(*a, *b)
+            }
             (Kind::Pow(..), [a, b]) => dag.pow(*a, *b),
             (Kind::And(..), [a, b]) => dag.and(*a, *b),
             (Kind::Or(..), [a, b]) => dag.or(*a, *b),
@@ -384,6 +390,10 @@ fn uses(checked: &Checked) -> Vec<u32> {
             .for_each_child(|child| uses[child.0 as usize] += 1);
     }
     uses
+}
+
+fn is_zero(dag: &Dag, node: Node) -> bool {
+    matches!(dag.kind(node), dag::Kind::Constant(value) if value.is_zero())
 }
 
 fn compare(dag: &mut Dag, comparison: Comparison, a: Node, b: Node) -> Node {

@@ -303,18 +303,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         title: "Figure 1: pendulum, Δt = 0.001",
         x: time,
         y: error,
-        logarithmic: false,
-        range: None,
         curves: curves(&rows[..pendulum_rows], &AS_THE_PAPER),
+        ..Default::default()
     }
     .write(&folder.join("figure1.svg"))?;
     Figure {
         title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001",
         x: time,
         y: error,
-        logarithmic: false,
-        range: None,
         curves: curves(&short, &AS_THE_PAPER),
+        ..Default::default()
     }
     .write(&folder.join("figure2.svg"))?;
     let beside = [
@@ -328,8 +326,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         x: time,
         y: "|H/H(0) − 1|",
         logarithmic: true,
-        range: None,
         curves: curves(&long, &beside),
+        ..Default::default()
     }
     .write(&folder.join("figure3.svg"))?;
 

@@ -1,4 +1,5 @@
-//! Line plots as SVG: curves with names, axes with labels, a legend, a logarithmic axis on request.
+//! Plots as SVG: curves with names, axes with labels, a legend; on request points instead of lines,
+//! a logarithmic axis, one scale for both axes.
 
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -13,15 +14,37 @@ pub struct Curve {
 }
 
 /// A figure.
+#[derive(Default)]
 pub struct Figure<'a> {
     pub title: &'a str,
     pub x: &'a str,
     pub y: &'a str,
+    /// Points instead of lines.
+    pub dots: bool,
+    /// One scale for both axes: an orbit in a plane, round where it is round.
+    pub equal: bool,
     /// Whether y is |y| on a logarithmic axis.
     pub logarithmic: bool,
     /// The range of y; of all curves if `None`.
     pub range: Option<Range<f64>>,
     pub curves: Vec<Curve>,
+}
+
+/// Everything is drawn so many times larger and shown smaller: the backend draws to whole pixels,
+/// of which curves would get steps.
+const FINE: u32 = 8;
+
+/// A number on an axis, as short as it is exact to a few digits.
+fn tick(x: &f64) -> String {
+    let size = x.abs();
+    if size < 1e-12 {
+        "0".into()
+    } else if (0.01..1e5).contains(&size) {
+        // Rust writes the shortest decimal; rounding first drops what counting up the axis left.
+        format!("{}", (x * 1e6).round() / 1e6)
+    } else {
+        format!("{x:.1e}")
+    }
 }
 
 /// Told apart by people who see colours differently too (Okabe and Ito).
@@ -38,23 +61,44 @@ const COLOURS: [RGBColor; 7] = [
 impl Figure<'_> {
     /// Writes the figure.
     pub fn write(&self, path: &Path) -> Result<(), Box<dyn Error>> {
-        let drawing = SVGBackend::new(path, (900, 560)).into_drawing_area();
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        // With the margins below, a square of 640 for what has one scale.
+        let size = if self.equal { (756, 756) } else { (900, 580) };
+        let (width, height) = (size.0 * FINE, size.1 * FINE);
+        let mut text = String::new();
+        self.draw_all(&mut text, (width, height))?;
+        // Shown at the size it is meant for.
+        let drawn = format!("width=\"{width}\" height=\"{height}\"");
+        let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
+        std::fs::write(path, text.replacen(&drawn, &shown, 1))?;
+        Ok(())
+    }
+
+    fn draw_all(&self, text: &mut String, size: (u32, u32)) -> Result<(), Box<dyn Error>> {
+        let drawing = SVGBackend::with_string(text, size).into_drawing_area();
         drawing.fill(&WHITE)?;
+        let body = drawing
+            .margin(14 * FINE, 0, 0, 0)
+            .titled(self.title, ("sans-serif", 20 * FINE))?;
         let all = || {
             self.curves
                 .iter()
                 .flat_map(|curve| &curve.points)
                 .filter(|(_, y)| y.is_finite())
         };
-        let x = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (x, _)| {
-            r.start.min(*x)..r.end.max(*x)
-        });
-        let mut builder = ChartBuilder::on(&drawing);
+        let range = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold(f64::INFINITY..f64::NEG_INFINITY, |r, v| {
+                r.start.min(v)..r.end.max(v)
+            })
+        };
+        let mut x = range(&mut all().map(|(x, _)| *x));
+        let mut builder = ChartBuilder::on(&body);
         builder
-            .caption(self.title, ("sans-serif", 20))
-            .margin(16)
-            .x_label_area_size(44)
-            .y_label_area_size(84);
+            .margin(16 * FINE)
+            .x_label_area_size(44 * FINE)
+            .y_label_area_size(84 * FINE);
         if self.logarithmic {
             let shown = || all().map(|(_, y)| y.abs()).filter(|y| *y > 0.0);
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
@@ -70,11 +114,17 @@ impl Figure<'_> {
             })
         } else {
             let y = self.range.clone().unwrap_or_else(|| {
-                let y = all().fold(f64::INFINITY..f64::NEG_INFINITY, |r, (_, y)| {
-                    r.start.min(*y)..r.end.max(*y)
-                });
+                let y = range(&mut all().map(|(_, y)| *y));
                 let span = (y.end - y.start).max(f64::MIN_POSITIVE);
-                y.start - 0.05 * span..y.end + 0.3 * span
+                if self.equal {
+                    // A square about the middle, with a margin, the legend's room on top.
+                    let half = 0.53 * span.max(x.end - x.start);
+                    let (middle, across) = (0.5 * (y.start + y.end), 0.5 * (x.start + x.end));
+                    x = across - half..across + half;
+                    middle - half..middle + half
+                } else {
+                    y.start - 0.05 * span..y.end + 0.3 * span
+                }
             });
             let mut chart = builder.build_cartesian_2d(x, y.clone())?;
             self.draw(&mut chart, |y_value| {
@@ -101,18 +151,36 @@ impl Figure<'_> {
             .configure_mesh()
             .x_desc(self.x)
             .y_desc(self.y)
+            .x_label_formatter(&tick)
             .y_label_formatter(&|y| {
-                if *y == 0.0 {
-                    "0".into()
+                if self.logarithmic {
+                    format!("{y:.0e}")
                 } else {
-                    format!("{y:.1e}")
+                    tick(y)
                 }
             })
+            .label_style(("sans-serif", 12 * FINE))
+            .axis_desc_style(("sans-serif", 13 * FINE))
+            .axis_style(BLACK.stroke_width(FINE))
+            .set_all_tick_mark_size(5 * FINE)
             .light_line_style(WHITE.mix(0.0))
-            .bold_line_style(BLACK.mix(0.12))
+            .bold_line_style(BLACK.mix(0.12).stroke_width(FINE))
             .draw()?;
         for (curve, colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
             let colour = *colour;
+            if self.dots {
+                let points = curve.points.iter();
+                let dots = points.filter_map(|(x, y)| {
+                    visible(*y).map(|y| Circle::new((*x, y), FINE, colour.filled()))
+                });
+                chart
+                    .draw_series(dots)?
+                    .label(&curve.name)
+                    .legend(move |(x, y)| {
+                        Circle::new((x + 12 * FINE as i32, y), 4 * FINE, colour.filled())
+                    });
+                continue;
+            }
             // A curve that leaves the range is cut there, not joined across.
             let pieces = curve.points.split(|(_, y)| visible(*y).is_none());
             for (number, piece) in pieces.filter(|piece| piece.len() > 1).enumerate() {
@@ -120,23 +188,30 @@ impl Figure<'_> {
                     piece
                         .iter()
                         .filter_map(|(x, y)| visible(*y).map(|y| (*x, y))),
-                    colour.stroke_width(2),
+                    colour.stroke_width(2 * FINE),
                 );
                 let drawn = chart.draw_series(line)?;
                 if number == 0 {
                     drawn.label(&curve.name).legend(move |(x, y)| {
-                        PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(3))
+                        PathElement::new(
+                            [(x, y), (x + 24 * FINE as i32, y)],
+                            colour.stroke_width(3 * FINE),
+                        )
                     });
                 }
             }
         }
+        if self.curves.iter().all(|curve| curve.name.is_empty()) {
+            return Ok(());
+        }
         chart
             .configure_series_labels()
             .position(SeriesLabelPosition::UpperLeft)
-            .legend_area_size(34)
+            .margin(10 * FINE)
+            .legend_area_size(34 * FINE)
             .background_style(WHITE.mix(0.85))
-            .border_style(BLACK.mix(0.3))
-            .label_font(("sans-serif", 14))
+            .border_style(BLACK.mix(0.3).stroke_width(FINE))
+            .label_font(("sans-serif", 14 * FINE))
             .draw()?;
         Ok(())
     }

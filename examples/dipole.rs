@@ -1,0 +1,125 @@
+//! Størmer's problem: a charged particle in the field of a magnetic dipole, trapped as in the
+//! radiation belts of the Earth.
+//!
+//! The force does no work, so H is the kinetic energy; turning about the axis changes nothing, so
+//! the angular momentum about it is conserved, which is proven when this is compiled. The
+//! magnetic moment of the gyration, |v × B|²/(2|B|³), is conserved only nearly, as long as the
+//! orbit is narrow, and it is what mirrors the particle before the poles.
+//!
+//! Prints one orbit beside a solution in quadruple precision, and the period of the bounce between
+//! the mirrors beside the approximation 4R/v·(1.30 − 0.56 sin α) (W. N. Hess, The Radiation Belt and
+//! Magnetosphere, 1968). Look at `target/dipole/meridian.svg`: gyration, bounce and mirror in the
+//! plane that turns with the particle.
+
+use checks::Checks;
+use hamiltonian::prelude::*;
+use plot::{Curve, Figure};
+use std::path::Path;
+
+#[path = "support/checks.rs"]
+mod checks;
+#[path = "support/plot.rs"]
+mod plot;
+
+hamiltonian! {
+    /// Charge and mass 1 in the field of a dipole `mu` at the origin, along z.
+    pub struct Dipole { mu = 1.0 }
+    let r = sqrt(x^2 + y^2 + z^2);
+    let v_x = p_x + mu*y/r^3;
+    let v_y = p_y - mu*x/r^3;
+    H(x, y, z; p_x, p_y, p_z) = norm_squared([v_x, v_y, p_z])/2;
+    invariant l_z = x*p_y - y*p_x;
+    let B = [3*mu*x*z/r^5, 3*mu*y*z/r^5, mu*(3*z^2 - r^2)/r^5];
+    monitor magnetic_moment = norm_squared(cross([v_x, v_y, p_z], B))/(2*norm(B)^3)
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let dipole = Dipole::default();
+    let mut checks = Checks::default();
+    println!("{dipole}");
+
+    // v mixes q and p, so H is not separable: Runge–Kutta where a short orbit is to be exact, the
+    // implicit midpoint rule, which is symplectic for every H, where the run is long.
+    let start = State::new([1.2, 0.3, 0.2], [0.1, -0.2, 0.3]);
+    let mut run = Integrator::new(&dipole, RungeKutta4, start, 1e-3)?;
+    let end = run.advance_to(20.0)?;
+    let known = [
+        ("x", end.q[0], 12.085803855002737),
+        ("y", end.q[1], -9.394898242086061),
+        ("z", end.q[2], 10.641560792938645),
+        ("p_x", end.p[0], 0.5623643087949075),
+        ("p_y", end.p[1], -0.459494090979351),
+        ("p_z", end.p[2], 0.5313978164539163),
+    ];
+    for (name, found, known) in known {
+        checks.compare(format!("{name} at t = 20"), found, known, 1e-9);
+    }
+
+    // At the equator, 45° to the field, slow enough to gyrate on 1/70 of the distance.
+    let speed = 0.02_f64;
+    let pitch = 45.0_f64.to_radians();
+    // p = v + A, where A = μ(−y, x, 0)/r³.
+    let start = State::new(
+        [1.0, 0.0, 0.0],
+        [speed * pitch.sin(), 1.0, speed * pitch.cos()],
+    );
+    let mut run = Integrator::new(&dipole, ImplicitMidpoint::default(), start, 0.1)?
+        .observe((EnergyDrift::new(), Monitors::new()));
+    let mut meridian = Vec::new();
+    let mut crossings = Vec::new();
+    let mut before = (0.0, 0.0);
+    for state in run.states(1).take(20_000) {
+        let state = state?;
+        let now = (state.t, state.q[2]);
+        // Upwards through the equator.
+        if before.1 < 0.0 && now.1 >= 0.0 {
+            crossings.push(now.0 - now.1 * (now.0 - before.0) / (now.1 - before.1));
+        }
+        before = now;
+        if crossings.len() < 2 {
+            meridian.push((state.q[0].hypot(state.q[1]), state.q[2]));
+        }
+    }
+    let bounce = match (crossings.first(), crossings.last()) {
+        (Some(first), Some(last)) => (last - first) / (crossings.len() - 1) as f64,
+        _ => f64::NAN,
+    };
+    let known = 4.0 / speed * (1.30 - 0.56 * pitch.sin());
+    checks.compare("period of the bounce", bounce, known, 0.02 * known);
+    let (drift, monitors) = run.observer();
+    let drift_of = |name| monitors.get(name);
+    let l_z = drift_of("l_z").map_or(f64::NAN, |l| l.max_relative());
+    let moment = drift_of("magnetic_moment").map_or(f64::NAN, |m| m.max_relative());
+    checks.compare(
+        "max |ΔH/H₀| over ten bounces",
+        drift.max_relative(),
+        0.0,
+        1e-2,
+    );
+    checks.compare("max |Δl_z/l_z|, exact", l_z, 0.0, 1e-10);
+    checks.compare("the same of the magnetic moment, nearly", moment, 0.0, 0.2);
+
+    let line = (-60..=60).map(|degrees| f64::from(degrees).to_radians().sin_cos());
+    Figure {
+        title: "Trapped: one bounce in the plane that turns with the particle",
+        x: "distance from the axis",
+        y: "z",
+        equal: true,
+        curves: vec![
+            Curve {
+                name: "particle".into(),
+                points: meridian,
+            },
+            Curve {
+                name: "line of the field, r = cos²λ".into(),
+                points: line
+                    .map(|(sin, cos)| (cos.powi(3), cos.powi(2) * sin))
+                    .collect(),
+            },
+        ],
+        ..Default::default()
+    }
+    .write(Path::new("target/dipole/meridian.svg"))?;
+    println!("Written to target/dipole/meridian.svg");
+    checks.finish()
+}

@@ -1,0 +1,169 @@
+//! A pendulum that stands on its head: its pivot shaken up and down (P. L. Kapitza, 1951).
+//!
+//! H depends on time. Shaken as a·cos(ωt), upside down is stable when (aω)² > 2gl; the pendulum then
+//! swings slowly about its highest point. Seen once a period of the drive, at the same phase
+//! each time, the motion is a map of the plane to itself: curves where it is regular, a cloud where
+//! it is chaotic.
+//!
+//! Prints on which side of the limit it falls, and how fast it swings, beside the theory of fast
+//! driving. Look at `target/driven_pendulum/section.svg`: hanging (0), upside down (±π), islands
+//! in a chaotic sea.
+
+use checks::Checks;
+use hamiltonian::prelude::*;
+use plot::{Curve, Figure};
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+#[path = "support/checks.rs"]
+mod checks;
+#[path = "support/plot.rs"]
+mod plot;
+
+hamiltonian! {
+    /// A pendulum of mass 1 in the frame of its pivot, which is at height a·cos(ω t).
+    pub struct DrivenPendulum {
+        /// Length of the rod.
+        l = 1.0,
+        /// Acceleration of gravity.
+        g = 1.0,
+        /// How far the pivot is shaken, up and down.
+        a,
+        /// How fast.
+        omega,
+    }
+    // The frame's acceleration is added to gravity.
+    let weight = g - a*omega^2*cos(omega*t);
+    H(theta; p; t) = p^2/(2*l^2) - weight*l*cos(theta);
+    monitor height = -l*cos(theta)
+}
+
+/// Steps to a period of the drive, so that the section needs no interpolation.
+const STEPS: u64 = 200;
+
+/// The lowest height reached from near the highest point, and the mean period of the swing about it.
+fn upside_down(pendulum: &DrivenPendulum) -> Result<(f64, f64), Error> {
+    let step = TAU / pendulum.omega / STEPS as f64;
+    // On the fast wobble that belongs to a displacement of 0.02.
+    let start = State::new([PI - 0.02 * (1.0 - pendulum.a)], [0.0]);
+    let mut lowest = f64::INFINITY;
+    let mut crossings = Vec::new();
+    let mut before = 0.0;
+    // H = T(p) + V(θ, t) is separable at every time: explicit and symplectic.
+    let mut run = Integrator::new(pendulum, StormerVerlet::default(), start, step)?;
+    // Once a period the wobble is out of sight.
+    for state in run.states(STEPS).take(1000) {
+        let state = state?;
+        lowest = pendulum.height(&state).min(lowest);
+        let lean = state.q[0] - PI;
+        if before < 0.0 && lean >= 0.0 {
+            crossings.push(state.t - lean / (lean - before) * TAU / pendulum.omega);
+        }
+        before = lean;
+    }
+    let swing = match (crossings.first(), crossings.last()) {
+        (Some(first), Some(last)) => (last - first) / (crossings.len() as f64 - 1.0),
+        _ => f64::NAN,
+    };
+    Ok((lowest, swing))
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut checks = Checks::default();
+    let omega = 50.0;
+    let shaken = |a_omega: f64| DrivenPendulum::new(a_omega / omega, omega);
+    println!("{}", shaken(2.0));
+    let limit = 2.0_f64.sqrt();
+
+    let (lowest, _) = upside_down(&shaken(0.95 * limit))?;
+    checks.compare(
+        "5 % below the limit: falls to the height",
+        lowest,
+        -1.0,
+        0.1,
+    );
+    let (lowest, _) = upside_down(&shaken(1.05 * limit))?;
+    checks.compare(
+        "5 % above the limit: stays at the height",
+        lowest,
+        1.0,
+        0.01,
+    );
+    let (_, swing) = upside_down(&shaken(2.0))?;
+    // The mean force of fast shaking: frequency² = (aω)²/2l² − g/l.
+    checks.compare(
+        "aω = 2: period of the swing about the top",
+        swing,
+        TAU,
+        0.02,
+    );
+
+    // Slower shaking, where islands of both resting points lie in chaos.
+    let pendulum = DrivenPendulum::new(0.3, 6.0);
+    let step = TAU / pendulum.omega / STEPS as f64;
+    let mut curves = Vec::new();
+    // Starts (θ, p).
+    let chaotic: &[(f64, f64)] = &[(1.8, 0.0), (1.0, 1.0), (1.2, 3.0), (-1.2, -3.0)];
+    let hanging = &[
+        (0.07, 0.0),
+        (0.15, 0.0),
+        (0.2, 0.0),
+        (0.62, 0.0),
+        (0.7, 0.0),
+    ];
+    let upright = &[
+        (PI - 0.1, 0.0),
+        (PI - 0.2, 0.0),
+        (PI - 0.3, 0.0),
+        (PI - 0.4, 0.0),
+    ];
+    let carried = &[
+        (PI, 6.5),
+        (PI, 7.5),
+        (PI, 8.5),
+        (PI, -6.5),
+        (PI, -7.5),
+        (PI, -8.5),
+    ];
+    let free = &[
+        (0.0, 6.5),
+        (0.0, 7.5),
+        (0.0, 8.5),
+        (0.0, -6.5),
+        (0.0, -7.5),
+        (0.0, -8.5),
+    ];
+    for (name, starts) in [
+        ("chaotic", chaotic),
+        ("about the lowest point", hanging),
+        ("about the highest point", upright),
+        ("carried round, a turn a period", carried),
+        ("rotating", free),
+    ] {
+        let mut points = Vec::new();
+        for &(theta, p) in starts {
+            let start = State::new([theta], [p]);
+            let mut run = Integrator::new(&pendulum, StormerVerlet::default(), start, step)?;
+            for state in run.states(STEPS).take(1500) {
+                let state = state?;
+                points.push((state.q[0] - TAU * (state.q[0] / TAU).round(), state.p[0]));
+            }
+        }
+        curves.push(Curve {
+            name: name.into(),
+            points,
+        });
+    }
+    Figure {
+        title: "A pendulum with a shaken pivot, seen once a period: l = g = 1, a = 0.3, ω = 6",
+        x: "θ",
+        y: "p",
+        dots: true,
+        range: Some(-14.0..18.0),
+        curves,
+        ..Default::default()
+    }
+    .write(Path::new("target/driven_pendulum/section.svg"))?;
+    println!("Written to target/driven_pendulum/section.svg");
+    checks.finish()
+}

@@ -262,6 +262,18 @@ impl Rational {
             _ => None,
         }
     }
+    /// How many bits the longer of numerator and denominator has, rounded up to 64.
+    #[must_use]
+    pub fn bits(&self) -> u64 {
+        match &self.0 {
+            Form::Small(..) => 64,
+            Form::Big(value) => value
+                .numer()
+                .bits()
+                .max(value.denom().bits())
+                .next_multiple_of(64),
+        }
+    }
     /// Numerator and denominator where both fit `i64`.
     #[must_use]
     pub fn to_small(&self) -> Option<(i64, i64)> {

@@ -2,6 +2,13 @@ use hamiltonian::hamiltonian;
 
 fn main() {
     let _ = hamiltonian! {
-        H = p^2/2 + q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q
+        H = p^2/2
+            +
+            q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^
+            q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^
+            q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^
+            q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^q^
+            q^
+            q
     };
 }

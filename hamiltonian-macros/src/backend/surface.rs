@@ -76,15 +76,19 @@ pub fn observables(checked: &Checked) -> Vec<ObservableItem> {
     observables.collect()
 }
 
-/// Whether ∂H/∂q is free of momenta as H is written.
+/// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written. Neither says so
+/// alone: a condition couples without a derivative.
 pub fn separates_as_written(model: &mut Model) -> bool {
     let Some(h) = model.hamiltonian else {
         return true;
     };
-    let adjoints = diff::gradient(&mut model.dag, h, Dependence::Q);
-    adjoints
-        .iter()
-        .all(|(_, value)| !model.dag.dependence(*value).on(Dependence::P))
+    let mut is_free = |by: Dependence, of: Dependence| {
+        let adjoints = diff::gradient(&mut model.dag, h, by);
+        adjoints
+            .iter()
+            .all(|(_, value)| !model.dag.dependence(*value).on(of))
+    };
+    is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
 }
 
 /// What the user's tokens say of one system.

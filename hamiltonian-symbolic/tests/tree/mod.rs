@@ -3,7 +3,7 @@
 //! Input: a seed. Output: [`Tree`], which builds itself in an arena, evaluates itself over any
 //! scalar by the rules of that scalar alone, says where it is on an edge, and prints itself.
 //! Invariant: nothing here simplifies; the same seed gives the same tree.
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports)]
 
 mod edges;
 mod grow;
@@ -265,6 +265,8 @@ impl Tree {
         };
         match self.0[at] {
             Part::Variable(n) => NAMES[n].into(),
+            // −1^2 is −(1^2).
+            Part::Number(n, 1) if n < 0 => format!("({n})"),
             Part::Number(n, 1) => n.to_string(),
             Part::Number(n, d) => format!("({n}/{d})"),
             Part::Pi => "pi".into(),

@@ -311,7 +311,7 @@ fn brackets_obey_their_laws() {
             for c in expressions {
                 let mut m = m.clone();
                 let (a, b, c) = (parse(&mut m, a), parse(&mut m, b), parse(&mut m, c));
-                let mut of = |m: &mut Model, x, y| bracket(m, x, y).unwrap();
+                let of = |m: &mut Model, x, y| bracket(m, x, y).unwrap();
                 let (ab, ba, bc, ca) = (
                     of(&mut m, a, b),
                     of(&mut m, b, a),

@@ -51,7 +51,7 @@ impl Random {
             };
             return self.pick(leaves).to_owned();
         }
-        let mut inner = |random: &mut Random| random.expression(depth - 1, in_loop);
+        let inner = |random: &mut Random| random.expression(depth - 1, in_loop);
         match self.below(13) {
             0 | 1 => format!("({}) + ({})", inner(self), inner(self)),
             2 | 3 => format!("({}) - ({})", inner(self), inner(self)),
@@ -184,7 +184,7 @@ fn expansion_and_split_are_the_same_function() {
             }
         }
         assert_eq!(hamilton_equations(&m, Notation::Text).len(), 6);
-        hamilton_equations(&m, Notation::Latex);
+        let _ = hamilton_equations(&m, Notation::Latex);
     }
     assert!(split > 50, "{split}");
 }

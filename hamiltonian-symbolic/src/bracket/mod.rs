@@ -113,18 +113,18 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
             };
         }
     }
-    if let Some(residual) = general {
-        if normal_form::vanishes(&mut model.dag, residual) {
-            return Verdict::Proven;
-        }
+    if let Some(residual) = general
+        && normal_form::vanishes(&mut model.dag, residual)
+    {
+        return Verdict::Proven;
     }
     if model.sizes.is_empty() {
         let mut roots = vec![h, expression];
         roots.extend(difference);
-        if let Ok((mut written, images)) = unroll_nodes(&model, &[], &roots) {
-            if let Some(residual) = derivative(&mut written, images[1], images[0]) {
-                return decide(&mut written, residual, images.get(2).copied(), undecided);
-            }
+        if let Ok((mut written, images)) = unroll_nodes(&model, &[], &roots)
+            && let Some(residual) = derivative(&mut written, images[1], images[0])
+        {
+            return decide(&mut written, residual, images.get(2).copied(), undecided);
         }
     }
     Verdict::Undecided {

@@ -34,14 +34,13 @@ pub(super) fn vanishes(
             _ => false,
         };
         let powers = shell.by_power(atom);
-        if let (true, Some((degree @ 1.., leading))) = (is_momentum, powers.last()) {
-            if powers[0].0 >= 0
-                && !leading.is_zero()
-                && !mentions(algebra, &shell, atom)
-                && !mentions(algebra, &residual, atom)
-            {
-                momenta.push((*degree, atom));
-            }
+        if let (true, Some((degree @ 1.., leading))) = (is_momentum, powers.last())
+            && powers[0].0 >= 0
+            && !leading.is_zero()
+            && !mentions(algebra, &shell, atom)
+            && !mentions(algebra, &residual, atom)
+        {
+            momenta.push((*degree, atom));
         }
     }
     momenta.sort_unstable();

@@ -61,6 +61,7 @@ pub fn transform(
     if !transform.model.dag.dependence(lagrangian).on(Dependence::P) {
         return Err("L has no velocities".to_owned());
     }
+    transform.check_polynomial(lagrangian)?;
     match transform.blocks(lagrangian) {
         Ok(blocks) => transform.solve(lagrangian, &blocks),
         // Elements that are coupled are coordinates like any other, once they are written out.
@@ -87,6 +88,30 @@ struct Transform<'a> {
 }
 
 impl Transform<'_> {
+    /// Refuses functions of velocities: second derivatives of large ones are dear, and none is
+    /// quadratic that would not be written as a polynomial.
+    fn check_polynomial(&self, lagrangian: Node) -> Result<(), String> {
+        let dag = &self.model.dag;
+        let moves = |node: Node| dag.dependence(node).on(Dependence::P);
+        for node in dag.reachable(&[lagrangian]) {
+            let is_polynomial = match dag.kind(node) {
+                Kind::Sum(..) | Kind::Element(..) | Kind::Reduce(..) => true,
+                Kind::Product(_, factors) => {
+                    factors.iter().all(|(n, power)| *power > 0 || !moves(*n))
+                }
+                Kind::Select(condition, ..) => !moves(*condition),
+                _ => !moves(node),
+            };
+            if !is_polynomial {
+                let name = self.name(node, None);
+                return Err(format!(
+                    "L is not quadratic in the velocities: {name} is not a polynomial in them"
+                ));
+            }
+        }
+        Ok(())
+    }
+
     /// Scalars in one block, arrays by their length.
     fn blocks(&mut self, lagrangian: Node) -> Result<Vec<Block>, String> {
         let leaves = diff::gradient(&mut self.model.dag, lagrangian, Dependence::P);
@@ -245,20 +270,18 @@ impl Transform<'_> {
         let count = block.elements.len();
         let mut matrix = vec![vec![zero; count]; count];
         let mut right = Vec::with_capacity(count);
-        for i in 0..count {
-            let slopes = diff::gradient(&mut self.model.dag, block.momenta[i], Dependence::P);
-            for j in i..count {
+        for (i, &momentum) in block.momenta.iter().enumerate() {
+            let slopes = diff::gradient(&mut self.model.dag, momentum, Dependence::P);
+            for (j, &velocity) in block.elements.iter().enumerate().skip(i) {
                 let slope = slopes
                     .iter()
-                    .find(|(leaf, _)| *leaf == block.elements[j])
+                    .find(|(leaf, _)| *leaf == velocity)
                     .map_or(zero, |(_, slope)| *slope);
                 let entry = at_rest(&mut self.model.dag, slope);
                 let difference = self.model.dag.sub(slope, entry);
                 if is_zero(self.model, difference) != Proof::Zero {
-                    let (one, other) = (
-                        self.name(block.elements[i], block.domain),
-                        self.name(block.elements[j], block.domain),
-                    );
+                    let one = self.name(block.elements[i], block.domain);
+                    let other = self.name(velocity, block.domain);
                     return Err(format!(
                         "L is not quadratic in the velocities: its second derivative with respect to {one} and {other} depends on them"
                     ));
@@ -266,7 +289,7 @@ impl Transform<'_> {
                 matrix[i][j] = entry;
                 matrix[j][i] = entry;
             }
-            let offset = at_rest(&mut self.model.dag, block.momenta[i]);
+            let offset = at_rest(&mut self.model.dag, momentum);
             right.push(self.model.dag.sub(block.elements[i], offset));
         }
         Ok(Form { matrix, right })

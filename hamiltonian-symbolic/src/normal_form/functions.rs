@@ -213,10 +213,10 @@ impl Algebra {
             let sin = self.sine(angle, cos);
             return Ok((Poly::atom(cos, 1), Poly::atom(sin, 1), n.signum()));
         }
-        if let (1, [(atom, 1)]) = (d, monomial.0.as_slice()) {
-            if let Some((cos, sin)) = self.inverse_angle(*atom)? {
-                return Ok((cos, sin, n));
-            }
+        if let (1, [(atom, 1)]) = (d, monomial.0.as_slice())
+            && let Some((cos, sin)) = self.inverse_angle(*atom)?
+        {
+            return Ok((cos, sin, n));
         }
         let known = self.angles.get(monomial).copied();
         let base = match known {

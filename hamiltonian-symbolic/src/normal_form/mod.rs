@@ -31,6 +31,12 @@ pub(crate) const BUDGET: Budget = Budget {
     products: 400_000,
 };
 
+/// What an expansion may cost that every definition makes.
+const SMALL_BUDGET: Budget = Budget {
+    terms: 4_000,
+    products: 40_000,
+};
+
 /// Whether an expression is identically zero.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Proof {
@@ -62,12 +68,12 @@ pub fn is_zero(model: &Model, node: Node) -> Proof {
         return Proof::Zero;
     }
     // Loops over literal ranges are sums like any other.
-    if model.sizes.is_empty() && has_loops(&model.dag, node) {
-        if let Ok((mut written, images)) = unroll_nodes(model, &[], &[node]) {
-            if vanishes(&mut written.dag, images[0]) {
-                return Proof::Zero;
-            }
-        }
+    if model.sizes.is_empty()
+        && has_loops(&model.dag, node)
+        && let Ok((mut written, images)) = unroll_nodes(model, &[], &[node])
+        && vanishes(&mut written.dag, images[0])
+    {
+        return Proof::Zero;
     }
     Proof::Undecided
 }
@@ -128,7 +134,7 @@ pub(crate) fn witness(model: &Model, node: Node) -> Option<(Point, f64)> {
 
 /// T and V of an H that its normal form separates.
 pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
-    let mut algebra = Algebra::new(BUDGET);
+    let mut algebra = Algebra::new(SMALL_BUDGET);
     let poly = algebra
         .convert(&model.dag, h)
         .and_then(|poly| algebra.canonical(&poly))

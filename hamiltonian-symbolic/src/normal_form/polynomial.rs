@@ -24,7 +24,7 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    fn charge(&mut self, products: usize) -> Result<(), Undecided> {
+    pub(super) fn charge(&mut self, products: usize) -> Result<(), Undecided> {
         self.products = self.products.checked_sub(products).ok_or(Undecided)?;
         Ok(())
     }
@@ -130,6 +130,10 @@ impl Poly {
     pub(crate) fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
+    /// What reading it once costs, in products of terms.
+    pub(super) fn cost(&self) -> usize {
+        self.terms.iter().map(|(m, _)| 1 + m.0.len() / 8).sum()
+    }
     /// The value, of a constant.
     pub(crate) fn as_constant(&self) -> Option<Rational> {
         match self.terms.as_slice() {
@@ -196,7 +200,7 @@ impl Poly {
             .iter()
             .map(|(m, k)| (m.mul(monomial), k.clone()))
             .collect();
-        terms.sort_unstable();
+        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
         Poly { terms }
     }
     /// The power, n ≥ 0.
@@ -245,7 +249,7 @@ impl Poly {
         groups
             .into_iter()
             .map(|(n, mut terms)| {
-                terms.sort_unstable();
+                terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
                 (n, Poly { terms })
             })
             .collect()
@@ -287,7 +291,11 @@ impl Sum {
         budget.charge(a.terms.len().saturating_mul(b.terms.len()))?;
         for (m, k) in &a.terms {
             for (n, l) in &b.terms {
-                self.add_term(m.mul(n), k.mul(l));
+                let k = k.mul(l);
+                // Long monomials and long numbers cost more than their count says.
+                let words = (k.bits() / 64) as usize;
+                budget.charge((m.0.len() + n.0.len()) / 16 + (words - 1) * words)?;
+                self.add_term(m.mul(n), k);
             }
         }
         self.check(budget)
@@ -307,7 +315,7 @@ impl Sum {
             .into_iter()
             .filter(|(_, k)| !k.is_zero())
             .collect();
-        terms.sort_unstable();
+        terms.sort_unstable_by(|a, b| a.0.cmp(&b.0));
         Ok(Poly { terms })
     }
 }

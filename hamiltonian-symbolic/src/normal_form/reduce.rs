@@ -17,6 +17,7 @@ impl Algebra {
     /// The polynomial with relations applied; divisors stay.
     pub(crate) fn canonical(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         let mut poly = self.settled(poly)?;
+        self.budget.charge(poly.cost())?;
         for _ in 0..PASSES {
             let mut changed = false;
             for atom in poly.atoms().into_iter().rev() {

@@ -153,22 +153,18 @@ impl Derivative {
             })
             .collect();
         // A short array that is read by number has an equation for each element.
-        if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant()) {
-            if !own.is_empty() {
-                for row in 0..count {
-                    let value = numbered
-                        .iter()
-                        .position(|at| *at == row)
-                        .map(|at| own[at].1);
-                    let value = self.signed(model, value);
-                    equations.push(self.equation(
-                        model,
-                        Some((row.to_string(), None)),
-                        Some(value),
-                    ));
-                }
-                return;
+        if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant())
+            && !own.is_empty()
+        {
+            for row in 0..count {
+                let value = numbered
+                    .iter()
+                    .position(|at| *at == row)
+                    .map(|at| own[at].1);
+                let value = self.signed(model, value);
+                equations.push(self.equation(model, Some((row.to_string(), None)), Some(value)));
             }
+            return;
         }
         let domain = field::elements(&mut model.dag, rows);
         // A long one read at many numbers would be a list of conditions nobody reads.

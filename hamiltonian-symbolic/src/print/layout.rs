@@ -400,11 +400,11 @@ impl<'a> Writer<'a> {
         if affine.constant != 0 || terms.is_empty() {
             terms.push((affine.constant, String::new()));
         }
-        if terms[0].0 < 0 {
-            if let Some(positive) = terms.iter().position(|(k, _)| *k > 0) {
-                let term = terms.remove(positive);
-                terms.insert(0, term);
-            }
+        if terms[0].0 < 0
+            && let Some(positive) = terms.iter().position(|(k, _)| *k > 0)
+        {
+            let term = terms.remove(positive);
+            terms.insert(0, term);
         }
         let mut text = String::new();
         for (at, (k, name)) in terms.iter().enumerate() {
@@ -454,8 +454,11 @@ pub(super) fn negated_sum(dag: &Dag, node: Node) -> Option<Node> {
     }
 }
 
+/// Nodes with their powers.
+pub(super) type Factors = Vec<(Node, i32)>;
+
 /// The factors above and below the line.
-pub(super) fn fraction(factors: &[(Node, i32)]) -> (Vec<(Node, i32)>, Vec<(Node, i32)>) {
+pub(super) fn fraction(factors: &[(Node, i32)]) -> (Factors, Factors) {
     let above = factors.iter().filter(|(_, n)| *n > 0).copied().collect();
     let below = factors
         .iter()

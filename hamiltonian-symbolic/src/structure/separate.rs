@@ -53,10 +53,10 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
             potential: model.dag.add(&potential),
         });
     };
-    if !is_certainly_coupled(model, h) {
-        if let Some((kinetic, potential)) = normal_form::separated(model, h) {
-            return Ok(Split { kinetic, potential });
-        }
+    if !is_certainly_coupled(model, h)
+        && let Some((kinetic, potential)) = normal_form::separated(model, h)
+    {
+        return Ok(Split { kinetic, potential });
     }
     Err(Coupling {
         term,

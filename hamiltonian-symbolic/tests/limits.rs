@@ -1,0 +1,144 @@
+//! Depth costs no stack, size is bounded, nothing panics.
+
+mod common;
+
+use common::{model, parse, system};
+use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::legendre::transform;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::normal_form::{Proof, is_zero};
+use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::print::{Notation, hamilton_equations, latex, text};
+use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::structure::analyse;
+
+/// Runs on a stack no larger than a main thread's smallest.
+fn on_a_small_stack(work: impl FnOnce() + Send) {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new()
+            .stack_size(256 * 1024)
+            .spawn_scoped(scope, work)
+            .unwrap();
+        thread.join().unwrap();
+    });
+}
+
+/// A chain of this many functions, each of which is of a kind with rules of its own.
+fn chain(m: &mut Model, from: Node, ops: &[Op], count: usize) -> Node {
+    let mut node = from;
+    for at in 0..count {
+        node = m.dag.call(ops[at % ops.len()], &[node]);
+    }
+    node
+}
+
+fn everything(m: &mut Model, h: Node) {
+    m.hamiltonian = Some(h);
+    let x = parse(m, "q");
+    let _ = is_zero(m, h);
+    let _ = is_invariant(m, x, None);
+    let _ = is_invariant(m, x, Some(x));
+    let _ = analyse(m);
+    let _ = text(m, h);
+    let _ = latex(m, h);
+    let _ = hamilton_equations(m, Notation::Text);
+    let _ = transform(m, h, &["v".into(), "w".into()]);
+}
+
+#[test]
+fn depth_costs_no_stack() {
+    on_a_small_stack(|| {
+        for ops in [
+            &[Op::Sin][..],
+            &[Op::Sqrt],
+            &[Op::Exp],
+            &[Op::Ln],
+            &[Op::Ln, Op::Sqrt],
+            &[Op::Abs, Op::Cbrt],
+            &[Op::Cbrt, Op::Sign],
+            &[Op::Tanh, Op::Atan, Op::Asinh],
+        ] {
+            let mut m = model("q, x; p, u", "", "a");
+            let from = parse(&mut m, "q + p");
+            let h = chain(&mut m, from, ops, 1500);
+            everything(&mut m, h);
+        }
+        let mut m = model("q, x; p, u", "", "a");
+        let mut node = parse(&mut m, "q*p");
+        let one = m.dag.integer(1);
+        for _ in 0..3000 {
+            let sum = m.dag.add(&[one, node]);
+            node = m.dag.powi(sum, -1);
+        }
+        everything(&mut m, node);
+    });
+}
+
+#[test]
+fn size_is_bounded() {
+    let mut m = model("q, x; p, u", "", "a");
+    let h = parse(&mut m, "(q + x + p + u + a + 1)^40/(q + p)^30");
+    everything(&mut m, h);
+    assert_eq!(is_zero(&m, h), is_zero(&m, h));
+    let x = parse(&mut m, "q");
+    let terms: Vec<_> = (2..6000)
+        .map(|n| (Rational::integer(n), m.dag.powi(x, (n % 1000) as i32)))
+        .collect();
+    let sum = m.dag.linear(&Rational::ONE, &terms);
+    let p = parse(&mut m, "p");
+    let h = m.dag.mul(&[sum, p]);
+    everything(&mut m, h);
+}
+
+#[test]
+fn edges_are_answered() {
+    let mut m = model("q; p", "", "a");
+    assert!(matches!(analyse(&mut m).separable, Ok(split) if m.dag.is_zero(split.kinetic)));
+    assert!(hamilton_equations(&m, Notation::Text).is_empty());
+    let q = parse(&mut m, "q");
+    assert_eq!(is_invariant(&m, q, None), Verdict::Proven);
+    for source in [
+        "1/0*q",
+        "0^-1 + q",
+        "1/(q - q)",
+        "sqrt(-1)*q",
+        "ln(0) + q",
+        "q^(1/0)",
+        "1e400*q",
+        "q^1e9",
+        "2^q/0",
+    ] {
+        let mut m = model("q, x; p, u", "", "a");
+        let h = parse(&mut m, source);
+        assert_ne!(is_zero(&m, h), Proof::Zero, "{source}");
+        everything(&mut m, h);
+    }
+    // An empty loop, a loop that never runs, a size of its own.
+    let mut m = system(
+        "q[N], s; p[N], r",
+        "N",
+        "",
+        "sum(i in 3..1) { q[i] } + sum(i in N..N) { p[i] } + sum(i in 0..N - 5) { q[i]*p[i] } + r^2",
+    );
+    let _ = analyse(&mut m);
+    let _ = hamilton_equations(&m, Notation::Latex);
+    let s = parse(&mut m, "r");
+    assert_eq!(is_invariant(&m, s, None), Verdict::Proven);
+}
+
+#[test]
+fn the_same_question_has_the_same_answer() {
+    let ask = || {
+        let mut m = system("x, y; u, v", "", "k", "(u^2 + v^2)/2 - k/sqrt(x^2 + y^2)");
+        let good = parse(&mut m, "x*v - y*u");
+        let bad = parse(&mut m, "x*v + y*u");
+        format!(
+            "{:?} {:?} {:?}",
+            is_invariant(&m, good, None),
+            is_invariant(&m, bad, None),
+            analyse(&mut m)
+        )
+    };
+    assert_eq!(ask(), ask());
+}

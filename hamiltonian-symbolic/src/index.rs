@@ -129,10 +129,10 @@ impl Index {
     #[must_use]
     pub fn wrapped(affine: Affine, modulo: Affine) -> Index {
         let mut affine = affine;
-        if let (Some(n), Some(m)) = (affine.as_constant(), modulo.as_constant()) {
-            if m > 0 {
-                return Index::plain(Affine::constant(n.rem_euclid(m)));
-            }
+        if let (Some(n), Some(m)) = (affine.as_constant(), modulo.as_constant())
+            && m > 0
+        {
+            return Index::plain(Affine::constant(n.rem_euclid(m)));
         }
         if modulo.loops.is_empty()
             && modulo.constant == 0

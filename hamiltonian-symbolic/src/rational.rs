@@ -300,10 +300,10 @@ impl Rational {
     #[must_use]
     pub fn to_words(&self) -> (f64, f64) {
         let hi = self.to_f64();
-        if let Form::Small(n, 1) = self.0 {
-            if n.unsigned_abs() <= 1 << 53 {
-                return (hi, 0.0);
-            }
+        if let Form::Small(n, 1) = self.0
+            && n.unsigned_abs() <= 1 << 53
+        {
+            return (hi, 0.0);
         }
         match BigRational::from_float(hi) {
             Some(word) => (hi, round(&(self.big() - word))),

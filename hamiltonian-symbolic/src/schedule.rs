@@ -239,11 +239,11 @@ impl Placer<'_> {
             self.dag.for_children(node, |child| {
                 own = own.max(level.get(&child).copied().unwrap_or(0))
             });
-            if self.dag.home(node) == here {
-                if let Kind::Reduce(domain, _) = self.dag.kind(node) {
-                    own += 1;
-                    Nest::at(&mut nests, own, *domain).sums.push(node);
-                }
+            if self.dag.home(node) == here
+                && let Kind::Reduce(domain, _) = self.dag.kind(node)
+            {
+                own += 1;
+                Nest::at(&mut nests, own, *domain).sums.push(node);
             }
             last = last.max(own);
             level.insert(node, own);

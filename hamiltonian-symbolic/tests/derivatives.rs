@@ -297,7 +297,7 @@ fn judge(
                         tally.agree += 1;
                     } else if left_range {
                         tally.range += 1;
-                    } else if !(bound <= 1e-3 * want.to_f64().abs()) {
+                    } else if bound.is_nan() || bound > 1e-3 * want.to_f64().abs() {
                         tally.wide += 1;
                     } else if error <= bound {
                         tally.agree += 1;
@@ -336,7 +336,7 @@ fn close(a: f64, b: f64) -> bool {
 
 fn many(default: usize) -> usize {
     match std::env::var_os("HAMILTONIAN_HEAVY") {
-        Some(_) => 4 * default,
+        Some(_) => 5 * default,
         None => default,
     }
 }
@@ -400,14 +400,14 @@ fn accept(tally: Tally, undecided: usize, count: usize) {
 
 #[test]
 fn first_derivatives_of_random_expressions() {
-    let count = many(25_000);
+    let count = many(20_000);
     let (tally, undecided) = campaign(1, count, &FIRST);
     accept(tally, undecided, count);
 }
 
 #[test]
 fn second_derivatives_of_random_expressions() {
-    let count = many(5_000);
+    let count = many(4_000);
     let (tally, undecided) = campaign(2, count, &SECOND);
     accept(tally, undecided, count);
 }

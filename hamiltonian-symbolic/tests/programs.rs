@@ -77,7 +77,7 @@ fn simplification_adds_no_operation() {
         }
     }
     println!("{written} operations written, {left} left; {more} expressions have more");
-    assert!(left <= written && more * 40 <= 10_000);
+    assert!(left <= written && more * 80 <= 10_000);
 }
 
 /// The derived program of an H over scalar groups.

@@ -131,12 +131,13 @@ impl Plan {
                 plain.push((*term, k.is_negative()));
                 continue;
             }
-            if let Kind::Product(c, factors) = dag.kind(*term).clone() {
-                if alone(*term) && factors.iter().any(|(n, _)| is_prepared(dag, *n)) {
-                    let at = self.product_at[term];
-                    self.lists[at] = shop.grouped(dag, &c.mul(k), &factors);
-                    self.absorbed_at.insert((sum, *term), at);
-                }
+            if let Kind::Product(c, factors) = dag.kind(*term).clone()
+                && alone(*term)
+                && factors.iter().any(|(n, _)| is_prepared(dag, *n))
+            {
+                let at = self.product_at[term];
+                self.lists[at] = shop.grouped(dag, &c.mul(k), &factors);
+                self.absorbed_at.insert((sum, *term), at);
             }
         }
         self.plain.insert(sum, plain);

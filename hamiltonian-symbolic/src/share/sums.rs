@@ -61,16 +61,16 @@ pub(super) fn raw_sum(dag: &mut Dag, c: Rational, list: Vec<(Rational, Node)>) -
     let mut terms: Vec<(Rational, Node)> = Vec::with_capacity(list.len());
     let mut place: Map<Node, usize> = Map::default();
     for (mut k, mut node) in list {
-        if let Kind::Product(sign, factors) = dag.kind(node) {
-            if *sign == Rational::MINUS_ONE {
-                k = k.neg();
-                node = if let [(single, 1)] = factors.as_slice() {
-                    *single
-                } else {
-                    let factors = factors.clone();
-                    dag.intern(Kind::Product(Rational::ONE, factors))
-                };
-            }
+        if let Kind::Product(sign, factors) = dag.kind(node)
+            && *sign == Rational::MINUS_ONE
+        {
+            k = k.neg();
+            node = if let [(single, 1)] = factors.as_slice() {
+                *single
+            } else {
+                let factors = factors.clone();
+                dag.intern(Kind::Product(Rational::ONE, factors))
+            };
         }
         match place.get(&node) {
             Some(&at) => terms[at].0 = terms[at].0.add(&k),

@@ -73,7 +73,10 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     let names = checked.split.iter().map(|(name, _)| name.to_string());
     let pieces: Vec<_> = names.zip(lowered.split.iter().copied()).collect();
     if let Err(difference) = check_split(&mut lowered.model, &pieces) {
-        let (text, help) = (shortened(&difference.text), "change the pieces so that their sum is H");
+        let (text, help) = (
+            shortened(&difference.text),
+            "change the pieces so that their sum is H",
+        );
         let message = match &difference.point {
             Some((point, value)) => format!(
                 "the pieces do not add up to H: `{text}` is left, which is {value:.6} at {}",

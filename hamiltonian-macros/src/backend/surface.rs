@@ -10,8 +10,8 @@ use crate::emit::{
 use crate::lower::number;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
-use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::Model;
 use proc_macro2::Ident;
 use quote::{format_ident, quote};

@@ -6,7 +6,7 @@
 //! q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order is coordinates, then time.
 
 use crate::ast::ObservableKind;
-use crate::checked::{self, Checked, ChartKind, Definition};
+use crate::checked::{self, ChartKind, Checked, Definition};
 use crate::emit::{VectorItem, VectorUse};
 use crate::lower::Lowered;
 use crate::report::Report;
@@ -53,15 +53,15 @@ pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
     if !checked.charts.is_empty() {
         state.charts(checked, report)?;
     }
-    if let (Some(factor), Some((_, span))) = (state.factor, checked.time_factor) {
-        if let Err(reason) = state.time(factor) {
-            report.error(
-                span,
-                format!("this time cannot be introduced: {reason}"),
-                "write `dt = g(q, p)*ds` with g > 0",
-            );
-            return None;
-        }
+    if let (Some(factor), Some((_, span))) = (state.factor, checked.time_factor)
+        && let Err(reason) = state.time(factor)
+    {
+        report.error(
+            span,
+            format!("this time cannot be introduced: {reason}"),
+            "write `dt = g(q, p)*ds` with g > 0",
+        );
+        return None;
     }
     if !state.force.is_empty() {
         state.offer(
@@ -204,8 +204,9 @@ impl Settling {
             return None;
         };
         let kept: Vec<u16> = transformed.kept.iter().map(|(old, _)| *old).collect();
-        let (kept, replaced): (Vec<Entry>, Vec<Entry>) =
-            forces.into_iter().partition(|entry| kept.contains(&entry.group));
+        let (kept, replaced): (Vec<Entry>, Vec<Entry>) = forces
+            .into_iter()
+            .partition(|entry| kept.contains(&entry.group));
         let replaced = transformed.force(&replaced);
         self.model.dag = transformed.model.dag;
         self.force = entries(&kept)
@@ -213,8 +214,18 @@ impl Settling {
             .chain(entries(&replaced))
             .collect();
         let both = (true, true);
-        self.offer(VectorItem::of(VectorUse::FromDeclared), "from_declared", both, from);
-        self.offer(VectorItem::of(VectorUse::ToDeclared), "to_declared", both, to);
+        self.offer(
+            VectorItem::of(VectorUse::FromDeclared),
+            "from_declared",
+            both,
+            from,
+        );
+        self.offer(
+            VectorItem::of(VectorUse::ToDeclared),
+            "to_declared",
+            both,
+            to,
+        );
         Some(())
     }
 
@@ -227,7 +238,10 @@ impl Settling {
             forward.iter().any(|f| (f.side, f.group, f.column) == place)
         });
         for entry in wanted {
-            entry.value = transformed.model.dag.import(&transformed.source.dag, entry.value);
+            entry.value = transformed
+                .model
+                .dag
+                .import(&transformed.source.dag, entry.value);
         }
         all
     }
@@ -262,7 +276,12 @@ impl Settling {
             row: Index::constant(0),
             value: start,
         });
-        self.offer(VectorItem::of(VectorUse::OnShell), "on_shell", (false, true), on_shell);
+        self.offer(
+            VectorItem::of(VectorUse::OnShell),
+            "on_shell",
+            (false, true),
+            on_shell,
+        );
         Ok(())
     }
 }

@@ -108,7 +108,10 @@ pub fn methods(
                 }
             },
             VectorUse::Gradient => {
-                let text = format!(" The gradient of `{}` at a state.", name.to_string().trim_end_matches("_gradient"));
+                let text = format!(
+                    " The gradient of `{}` at a state.",
+                    name.to_string().trim_end_matches("_gradient")
+                );
                 quote! {
                     #[doc = #text]
                     #allow

@@ -65,41 +65,83 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
                 Ok(velocities) => velocities,
                 Err(reason) => {
                     let help = "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)";
-                    evaluator.refuse(spans, &format!("this Lagrangian has no Hamiltonian: {reason}"), help);
+                    evaluator.refuse(
+                        spans,
+                        &format!("this Lagrangian has no Hamiltonian: {reason}"),
+                        help,
+                    );
                     return None;
                 }
             }
         }
     };
-    let mut rest = Rest { checked, evaluator, velocities };
-    let observables: Vec<_> = checked.observables.iter().flat_map(|o| components(checked, o.value)).collect();
+    let mut rest = Rest {
+        checked,
+        evaluator,
+        velocities,
+    };
+    let observables: Vec<_> = checked
+        .observables
+        .iter()
+        .flat_map(|o| components(checked, o.value))
+        .collect();
     let values = rest.values(&mut model, &observables)?;
     observables_of(checked, &mut model, values);
     let mut shells = Vec::new();
     for observable in &checked.observables {
-        let shell: Vec<_> = observable.shell.iter().map(|shell| (*shell, Demand::default())).collect();
+        let shell: Vec<_> = observable
+            .shell
+            .iter()
+            .map(|shell| (*shell, Demand::default()))
+            .collect();
         shells.push(rest.values(&mut model, &shell)?.first().copied());
     }
-    let split: Vec<_> = checked.split.iter().map(|(_, piece)| (*piece, Demand::default())).collect();
+    let split: Vec<_> = checked
+        .split
+        .iter()
+        .map(|(_, piece)| (*piece, Demand::default()))
+        .collect();
     let split = rest.values(&mut model, &split)?;
-    let factor: Vec<_> = checked.time_factor.iter().map(|(g, _)| (*g, Demand::default())).collect();
+    let factor: Vec<_> = checked
+        .time_factor
+        .iter()
+        .map(|(g, _)| (*g, Demand::default()))
+        .collect();
     let factor = rest.values(&mut model, &factor)?.first().copied();
     let force = rest.force(&mut model)?;
-    Some(Lowered { model, shells, split, force, factor })
+    Some(Lowered {
+        model,
+        shells,
+        split,
+        force,
+        factor,
+    })
 }
 
 /// H in the place of L; p(q, v) and v(q, p) become vector functions. The velocities as functions.
 fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, String> {
     let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
-    let name = |group: &crate::checked::Group| group.velocity.as_ref().map_or_else(String::new, ToString::to_string);
+    let name = |group: &crate::checked::Group| {
+        group
+            .velocity
+            .as_ref()
+            .map_or_else(String::new, ToString::to_string)
+    };
     let names: Vec<String> = checked.groups.iter().map(name).collect();
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian, &names)?;
     model.hamiltonian = Some(legendre.hamiltonian);
-    for (name, components, side) in [("conjugate_momentum", &legendre.momenta, Side::P), ("velocity", &legendre.velocities, Side::Q)] {
+    for (name, components, side) in [
+        ("conjugate_momentum", &legendre.momenta, Side::P),
+        ("velocity", &legendre.velocities, Side::Q),
+    ] {
         let entries = velocity::entries(&model.dag, components, side);
         let sides = (side == Side::Q, side == Side::P);
-        model.vectors.push(VectorFunction { name: name.to_owned(), sides, entries });
+        model.vectors.push(VectorFunction {
+            name: name.to_owned(),
+            sides,
+            entries,
+        });
     }
     Ok(legendre.velocities)
 }
@@ -140,7 +182,9 @@ impl Rest<'_> {
             let (rows, columns) = match &shape {
                 Shape::Scalar => (None, 1),
                 Shape::Vector(rows) => (Some(rows.clone()), 1),
-                Shape::Matrix(rows, columns) => (Some(rows.clone()), columns.as_constant().unwrap_or(1)),
+                Shape::Matrix(rows, columns) => {
+                    (Some(rows.clone()), columns.as_constant().unwrap_or(1))
+                }
             };
             let row = match rows {
                 None => Index::constant(0),
@@ -158,7 +202,13 @@ impl Rest<'_> {
                     demand.indices.push(Index::constant(column));
                 }
                 let value = self.values(model, &[(*root, demand)])?.first().copied()?;
-                entries.push(VectorEntry { side: Side::P, group: group as u16, column: column as u16, row: row.clone(), value });
+                entries.push(VectorEntry {
+                    side: Side::P,
+                    group: group as u16,
+                    column: column as u16,
+                    row: row.clone(),
+                    value,
+                });
             }
         }
         Some(entries)

@@ -1,0 +1,296 @@
+//! Systems from their Lagrangians: the same H as written by hand, momenta from velocities and back.
+
+use hamiltonian::prelude::*;
+use hamiltonian::{Dual, Vector};
+
+hamiltonian! {
+    /// A double pendulum from its Lagrangian.
+    pub struct DoublePendulum { m1 = 1.0, m2 = 0.8, l1 = 1.2, l2 = 0.9, g = 9.81 }
+    L(a, b; va, vb) = (m1 + m2)*l1^2*va^2/2 + m2*l2^2*vb^2/2 + m2*l1*l2*va*vb*cos(a - b)
+        + (m1 + m2)*g*l1*cos(a) + m2*g*l2*cos(b);
+    /// The height of the lower bob grows at this rate.
+    monitor rise = l1*sin(a)*va + l2*sin(b)*vb;
+    monitor twice_kinetic = p_a*va + p_b*vb
+}
+
+hamiltonian! {
+    /// The same from its Hamiltonian.
+    pub struct ByHand { m1 = 1.0, m2 = 0.8, l1 = 1.2, l2 = 0.9, g = 9.81 }
+    H(q1, q2; p1, p2) = (m2*l2^2*p1^2 + (m1 + m2)*l1^2*p2^2 - 2*m2*l1*l2*p1*p2*cos(q1 - q2))
+        /(2*m2*l1^2*l2^2*(m1 + m2*sin(q1 - q2)^2))
+        - (m1 + m2)*g*l1*cos(q1) - m2*g*l2*cos(q2)
+}
+
+hamiltonian! {
+    /// A full mass matrix of three, which depends on the coordinates.
+    pub struct Dense3 { m = 2.0 }
+    L(x, y, z; u, v, w) = m*u^2/2 + (1 + x^2)*v^2 + (2 + sin(y)^2)*w^2/2
+        + x*u*v/2 + cos(z)*v*w/3 + y*u*w/4 - x^2 - y^2*z^2
+}
+
+hamiltonian! {
+    /// A full mass matrix of four.
+    pub struct Dense4 {}
+    L(a, b, c, d; va, vb, vc, vd) = 2*va^2 + (3 + a^2)*vb^2 + (2 + cos(d))*vc^2 + 2*vd^2
+        + va*vb*sin(c)/2 + va*vc/3 + va*vd*b/4 + vb*vc*d/5 + vb*vd/2 + vc*vd*cos(a)
+        - a^2 - b^2/2 - c^4 - cos(d) + va*b - vc*a*d
+}
+
+hamiltonian! {
+    /// A charge in a uniform magnetic field along z and a potential.
+    pub struct Charge { m = 1.5, e = -2.0, B = 0.7, k = 0.3 }
+    L(x, y, z; u, v, w) = m*(u^2 + v^2 + w^2)/2 + e*B*(x*v - y*u)/2 - k*(x^2 + y^2 - 2*z^2)
+}
+
+hamiltonian! {
+    /// The same charge from its Hamiltonian.
+    pub struct ChargeByHand { m = 1.5, e = -2.0, B = 0.7, k = 0.3 }
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + e*B*y/2)^2 + (p_y - e*B*x/2)^2 + p_z^2)/(2*m)
+        + k*(x^2 + y^2 - 2*z^2)
+}
+
+hamiltonian! {
+    /// A chain of different masses, how many is known at run time.
+    pub struct Chain { n: usize, m: [n], k = 2.0 }
+    L(q[n]; v[n]) = sum(i in 0..n) { m[i]*v[i]^2/2 }
+        - sum(i in 1..n) { k*(q[i] - q[i - 1])^2/2 + (q[i] - q[i - 1])^4/4 };
+    monitor kinetic = sum(i in 0..n) { m[i]*v[i]^2/2 };
+    invariant momentum = sum(i in 0..n) { m[i]*v[i] }
+}
+
+hamiltonian! {
+    /// Bodies in space.
+    pub struct Bodies<const N: usize> { m: [N] }
+    L(q[N][3]; v[N][3]) = sum(i in 0..N) { m[i]*norm_squared(v[i])/2 }
+        + sum(i in 0..N, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    invariant angular_momentum = sum(i in 0..N) { m[i]*cross(q[i], v[i]) }
+}
+
+hamiltonian! {
+    /// A pendulum whose pivot is shaken, with a mass that grows.
+    pub struct Shaken { a = 0.2, omega = 3.0, l = 1.1, g = 9.81, growth = 0.05 }
+    L(q; v; t) = (1 + growth*t)*(l^2*v^2/2 + a*omega*cos(omega*t)*l*sin(q)*v + g*l*cos(q));
+    monitor speed = l*v
+}
+
+hamiltonian! {
+    /// The same from its Hamiltonian.
+    pub struct ShakenByHand { a = 0.2, omega = 3.0, l = 1.1, g = 9.81, growth = 0.05 }
+    let M = 1 + growth*t;
+    let A = M*a*omega*cos(omega*t)*l*sin(q);
+    H(q; p; t) = (p - A)^2/(2*M*l^2) - M*g*l*cos(q)
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-13 * (1.0 + a.abs()), "{a} is not {b}");
+}
+
+/// Energies and gradients at many points of the cube.
+#[track_caller]
+fn same<const N: usize, A, B>(a: &A, b: &B)
+where
+    A: System<f64, Vector = Scalars<f64, N>>,
+    B: System<f64, Vector = Scalars<f64, N>>,
+    [f64; N]: hamiltonian::IntoVector<hamiltonian::shape::Array>,
+    Scalars<f64, N>: Vector<Scalar = f64>,
+{
+    for point in 0..20 {
+        let at = |k: usize| (1.7 * k as f64 + 0.37 * f64::from(point)).sin() * 1.5;
+        let q: [f64; N] = std::array::from_fn(at);
+        let p: [f64; N] = std::array::from_fn(|k| at(k + N));
+        let state = State::new(q, p).at(f64::from(point) / 10.0);
+        close(a.energy(&state), b.energy(&state));
+        let (ga, gb) = (a.gradient(&state), b.gradient(&state));
+        for k in 0..N {
+            close(ga.q.component(k), gb.q.component(k));
+            close(ga.p.component(k), gb.p.component(k));
+        }
+    }
+}
+
+type Scalars<T, const N: usize> =
+    <[T; N] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector;
+
+/// (q, v) → (q, p) → v, H = p·v − L, and dH/dp = v: all that a Legendre transform promises.
+macro_rules! check {
+    ($system:expr, $q:expr, $v:expr, $lagrangian:expr) => {{
+        let (system, q, v) = ($system, $q, $v);
+        let state = system.state_from_velocity(0.25, q.clone(), v.clone());
+        let velocity = system.velocity(&state);
+        let back = system.conjugate_momentum(0.25, &state.q, &velocity);
+        let wanted = State::new(q, v);
+        let lagrangian: f64 = $lagrangian(&wanted.q, &wanted.p);
+        let gradient = System::<f64>::gradient(&system, &state);
+        let mut legendre = -lagrangian;
+        for k in 0..state.q.len() {
+            close(velocity.component(k), wanted.p.component(k));
+            close(back.component(k), state.p.component(k));
+            close(gradient.p.component(k), velocity.component(k));
+            legendre += state.p.component(k) * velocity.component(k);
+        }
+        close(legendre, System::<f64>::energy(&system, &state));
+        // The gradient against duals of H.
+        for k in 0..2 * state.q.len() {
+            let lift = |vector: &_| {
+                let mut lifted = System::<Dual<f64>>::zeros(&system);
+                for j in 0..Vector::len(vector) {
+                    *lifted.component_mut(j) = Dual::fixed(Vector::component(vector, j));
+                }
+                lifted
+            };
+            let (mut q, mut p) = (lift(&state.q), lift(&state.p));
+            let n = state.q.len();
+            let expected = if k < n {
+                q.component_mut(k).eps = 1.0;
+                gradient.q.component(k)
+            } else {
+                p.component_mut(k - n).eps = 1.0;
+                gradient.p.component(k - n)
+            };
+            let dual = State {
+                t: Dual::fixed(0.25),
+                q,
+                p,
+            };
+            close(System::<Dual<f64>>::energy(&system, &dual).eps, expected);
+        }
+        state
+    }};
+}
+
+#[test]
+fn double_pendulum() {
+    same(&DoublePendulum::default(), &ByHand::default());
+    let (m1, m2, l1, l2, g) = (1.0, 0.8, 1.2, 0.9, 9.81);
+    let system = DoublePendulum::default();
+    let state = check!(system.clone(), [0.5, -0.3], [1.1, 0.4], |q: &_, v: &_| {
+        let (q, v): (&Scalars<f64, 2>, &Scalars<f64, 2>) = (q, v);
+        (m1 + m2) * l1 * l1 * v[0] * v[0] / 2.0
+            + m2 * l2 * l2 * v[1] * v[1] / 2.0
+            + m2 * l1 * l2 * v[0] * v[1] * (q[0] - q[1]).cos()
+            + (m1 + m2) * g * l1 * q[0].cos()
+            + m2 * g * l2 * q[1].cos()
+    });
+    let rise: f64 = system.rise(&state);
+    close(rise, l1 * 0.5f64.sin() * 1.1 + l2 * (-0.3f64).sin() * 0.4);
+    let twice: f64 = system.twice_kinetic(&state);
+    close(twice, state.p[0] * 1.1 + state.p[1] * 0.4);
+    // A monitor's gradient is one in q and p.
+    let gradient = system.twice_kinetic_gradient(&state);
+    close(gradient.p[0], 2.0 * 1.1);
+    close(gradient.p[1], 2.0 * 0.4);
+}
+
+#[test]
+fn dense_mass_matrices() {
+    for x in [-0.9, 0.2, 1.3] {
+        check!(
+            Dense3::default(),
+            [x, 0.7, -0.4],
+            [0.3, -0.8, x],
+            |q: &Scalars<f64, 3>, s: &Scalars<f64, 3>| {
+                let ([x, y, z], [u, v, w]): ([f64; 3], [f64; 3]) = ((*q).into(), (*s).into());
+                u * u
+                    + (1.0 + x * x) * v * v
+                    + (2.0 + y.sin().powi(2)) * w * w / 2.0
+                    + x * u * v / 2.0
+                    + z.cos() * v * w / 3.0
+                    + y * u * w / 4.0
+                    - x * x
+                    - y * y * z * z
+            }
+        );
+        check!(
+            Dense4 {},
+            [x, 0.7, -0.4, 0.6],
+            [0.3, -0.8, x, 0.5],
+            |q: &Scalars<f64, 4>, s: &Scalars<f64, 4>| {
+                let ([a, b, c, d], [va, vb, vc, vd]): ([f64; 4], [f64; 4]) =
+                    ((*q).into(), (*s).into());
+                2.0 * va * va
+                    + (3.0 + a * a) * vb * vb
+                    + (2.0 + d.cos()) * vc * vc
+                    + 2.0 * vd * vd
+                    + va * vb * c.sin() / 2.0
+                    + va * vc / 3.0
+                    + va * vd * b / 4.0
+                    + vb * vc * d / 5.0
+                    + vb * vd / 2.0
+                    + vc * vd * a.cos()
+                    - a * a
+                    - b * b / 2.0
+                    - c.powi(4)
+                    - d.cos()
+                    + va * b
+                    - vc * a * d
+            }
+        );
+    }
+}
+
+#[test]
+fn gyroscopic_terms() {
+    same(&Charge::default(), &ChargeByHand::default());
+    let charge = Charge::default();
+    let state = charge.state_from_velocity(0.0, [1.0, 2.0, 3.0], [0.1, 0.2, 0.3]);
+    close(state.p[0], 1.5 * 0.1 + 2.0 * 0.7 * 2.0 / 2.0);
+}
+
+#[test]
+fn loops() {
+    for n in [1, 2, 5] {
+        let masses: Vec<f64> = (1..=n).map(|i| i as f64).collect();
+        let chain = Chain::new(n, masses.clone()).unwrap();
+        let q: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let v: Vec<f64> = (0..n).map(|i| (i as f64).cos()).collect();
+        let kinetic: f64 = (0..n).map(|i| masses[i] * v[i] * v[i] / 2.0).sum();
+        let m = masses.clone();
+        let state = check!(chain.clone(), q, v.clone(), |q: &_, _: &_| {
+            let spring = |i: usize| {
+                let r: f64 = Vector::component(q, i) - Vector::component(q, i - 1);
+                r * r + r.powi(4) / 4.0
+            };
+            kinetic - (1..n).map(spring).sum::<f64>()
+        });
+        close(chain.kinetic(&state), kinetic);
+        close(chain.momentum(&state), (0..n).map(|i| m[i] * v[i]).sum());
+    }
+    let bodies = Bodies::<3> {
+        m: [1.0, 2.0, 3.0].into(),
+    };
+    let q = [[1.0, 0.0, 0.2], [0.0, 1.5, 0.1], [-1.0, 0.3, 0.0]];
+    let v = [[0.1, 0.2, 0.3], [0.4, -0.5, 0.6], [-0.7, 0.8, -0.9]];
+    let state = bodies.state_from_velocity(0.0, q, v);
+    let velocity = bodies.velocity(&state);
+    for (i, row) in v.iter().enumerate() {
+        for (c, value) in row.iter().enumerate() {
+            close(state.p[(i, c)], (i + 1) as f64 * value);
+            close(velocity[(i, c)], *value);
+        }
+    }
+}
+
+#[test]
+fn depending_on_time() {
+    same(&Shaken::default(), &ShakenByHand::default());
+    let shaken = Shaken::default();
+    let state = shaken.state_from_velocity(0.7, [0.4], [-1.3]);
+    assert_eq!(state.t, 0.7);
+    close(shaken.velocity(&state)[0], -1.3);
+    close(shaken.speed(&state), -1.3 * 1.1);
+}
+
+#[test]
+fn runs_are_those_of_the_hamiltonian() {
+    let system = DoublePendulum::default();
+    let start = system.state_from_velocity(0.0, [0.5, -0.3], [0.2, 0.1]);
+    let step = 1e-3;
+    let mut ours =
+        Integrator::new(&system, ImplicitMidpoint::default(), start.clone(), step).unwrap();
+    let by_hand = ByHand::default();
+    let mut theirs = Integrator::new(&by_hand, ImplicitMidpoint::default(), start, step).unwrap();
+    ours.advance(2000).unwrap();
+    theirs.advance(2000).unwrap();
+    assert!((ours.state().q - theirs.state().q).norm() < 1e-11);
+}

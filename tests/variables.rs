@@ -1,0 +1,493 @@
+//! Other variables: coordinates, times, and what is carried along (forces, pieces, events).
+
+use hamiltonian::prelude::*;
+use hamiltonian::start::{Branch, Section, momentum_from_energy, on_section};
+use hamiltonian::{Dual, Dynamics, Vector};
+
+hamiltonian! {
+    /// A planet in the plane, with drag and an event.
+    pub struct Flat { mu = 1.2, drag = 0.1, B = 0.3 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
+    force(x, y; p_x, p_y) = [-drag*p_x, -drag*p_y + x*y];
+    invariant angular_momentum = x*p_y - y*p_x;
+    event crossing = x - y^2;
+    split { K = (p_x^2 + p_y^2)/2 + B*(x*p_y - y*p_x); V = -mu/sqrt(x^2 + y^2) }
+}
+
+hamiltonian! {
+    /// The same in polar coordinates.
+    pub struct Polar { mu = 1.2, drag = 0.1, B = 0.3 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
+    coordinates polar(x, y);
+    force(x, y; p_x, p_y) = [-drag*p_x, -drag*p_y + x*y];
+    invariant angular_momentum = x*p_y - y*p_x;
+    event crossing = x - y^2;
+    split { K = (p_x^2 + p_y^2)/2 + B*(x*p_y - y*p_x); V = -mu/sqrt(x^2 + y^2) }
+}
+
+hamiltonian! {
+    /// A magnetic dipole's field and a linear potential along z.
+    pub struct Space { mu = 0.8, g = 0.2 }
+    let r = sqrt(x^2 + y^2 + z^2);
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r
+}
+
+hamiltonian! {
+    /// The same in spherical coordinates.
+    pub struct Spherical { mu = 0.8, g = 0.2 }
+    let r = sqrt(x^2 + y^2 + z^2);
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r;
+    coordinates spherical(x, y, z)
+}
+
+hamiltonian! {
+    /// Four bodies.
+    pub struct Bodies { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Four bodies in Jacobi coordinates.
+    pub struct Jacobi { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates jacobi(q, m);
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Four bodies in heliocentric coordinates.
+    pub struct Heliocentric { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates heliocentric(q, m);
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Kepler in the time s with dt = r ds.
+    pub struct Sundman { mu = 1.0, drag = 0.1 }
+    let r = sqrt(x^2 + y^2);
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/r;
+    dt = r*ds;
+    force(x, y; p_x, p_y) = [-drag*p_x, -drag*p_y];
+    event pericentre = x*p_x + y*p_y;
+    split { K = (p_x^2 + p_y^2)/2; V = -mu/r }
+}
+
+hamiltonian! {
+    /// A driven oscillator in a time that runs with its phase.
+    pub struct Driven { a = 0.3 }
+    H(q; p; t) = p^2/2 + q^2/2 - a*q*cos(t);
+    dt = (2 + q^2)*ds
+}
+
+hamiltonian! {
+    /// A geodesic of Kerr in proper time.
+    pub struct Kerr { a = 0.9, M = 1.0, E = 0.95, L = 3.0 }
+    let Sigma = r^2 + a^2*cos(theta)^2;
+    let Delta = r^2 - 2*M*r + a^2;
+    H(r, theta; p_r, p_theta) = (Delta*p_r^2 + p_theta^2 - ((r^2 + a^2)*E - a*L)^2/Delta
+        + (L - a*E*sin(theta)^2)^2/sin(theta)^2)/(2*Sigma)
+}
+
+hamiltonian! {
+    /// The same in Mino's time.
+    pub struct Mino { a = 0.9, M = 1.0, E = 0.95, L = 3.0 }
+    let Sigma = r^2 + a^2*cos(theta)^2;
+    let Delta = r^2 - 2*M*r + a^2;
+    H(r, theta; p_r, p_theta) = (Delta*p_r^2 + p_theta^2 - ((r^2 + a^2)*E - a*L)^2/Delta
+        + (L - a*E*sin(theta)^2)^2/sin(theta)^2)/(2*Sigma);
+    dt = Sigma*ds
+}
+
+hamiltonian! {
+    /// Polar coordinates, then Sundman's time.
+    pub struct Both { mu = 1.0 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2);
+    coordinates polar(x, y);
+    dt = sqrt(x^2 + y^2)*ds
+}
+
+#[track_caller]
+fn close(a: f64, b: f64) {
+    assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()), "{a} is not {b}");
+}
+
+#[track_caller]
+fn equal<V: Vector<Scalar = f64>>(a: &V, b: &V) {
+    for k in 0..a.len() {
+        close(a.component(k), b.component(k));
+    }
+}
+
+/// A state as 2n numbers.
+fn flat<V: Vector>(state: &State<V>) -> Vec<V::Scalar> {
+    state.q.components().chain(state.p.components()).collect()
+}
+
+/// The energy is the same in both, the maps undo each other and are canonical, and the dynamics
+/// agree. `$declared` is the system as it was written.
+macro_rules! same_system {
+    ($declared:expr, $new:expr, $state:expr) => {{
+        let (declared, new, old) = ($declared, $new, $state);
+        let there = new.from_declared(&old);
+        let back = new.to_declared(&there);
+        assert_eq!((there.t, back.t), (old.t, old.t));
+        equal(&back.q, &old.q);
+        equal(&back.p, &old.p);
+        close(
+            System::<f64>::energy(&declared, &old),
+            System::<f64>::energy(&new, &there),
+        );
+
+        // MᵀJM = J.
+        let n = old.q.len();
+        let lifted = |state: &State<_>| {
+            let mut dual = State {
+                t: Dual::fixed(state.t),
+                q: System::<Dual<f64>>::zeros(&declared),
+                p: System::<Dual<f64>>::zeros(&declared),
+            };
+            for k in 0..n {
+                *dual.q.component_mut(k) = Dual::fixed(Vector::component(&state.q, k));
+                *dual.p.component_mut(k) = Dual::fixed(Vector::component(&state.p, k));
+            }
+            dual
+        };
+        let columns: Vec<Vec<f64>> = (0..2 * n)
+            .map(|k| {
+                let mut dual = lifted(&old);
+                if k < n {
+                    dual.q.component_mut(k).eps = 1.0;
+                } else {
+                    dual.p.component_mut(k - n).eps = 1.0;
+                }
+                flat(&new.from_declared(&dual))
+                    .iter()
+                    .map(|x| x.eps)
+                    .collect()
+            })
+            .collect();
+        for (i, a) in columns.iter().enumerate() {
+            for (j, b) in columns.iter().enumerate() {
+                let form: f64 = (0..n).map(|k| a[k] * b[k + n] - a[k + n] * b[k]).sum();
+                let wanted = f64::from(i8::from(j == i + n)) - f64::from(i8::from(i == j + n));
+                close(wanted, form);
+            }
+        }
+
+        // Both runs end at the same place.
+        let rk = || RungeKutta4;
+        let mut ours = Integrator::new(&new, rk(), there, 1e-3).unwrap();
+        let mut theirs = Integrator::new(&declared, rk(), old, 1e-3).unwrap();
+        ours.advance(500).unwrap();
+        theirs.advance(500).unwrap();
+        let end = new.to_declared(ours.state());
+        for (a, b) in flat(&end).iter().zip(flat(theirs.state())) {
+            assert!((a - b).abs() < 1e-9, "{a} is not {b}");
+        }
+    }};
+}
+
+fn planet() -> State<<[f64; 2] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector> {
+    State::new([0.7, -0.4], [0.3, 1.1])
+}
+
+#[test]
+fn polar() {
+    for (x, y) in [(0.7, -0.4), (-0.8, 0.6), (-0.5, -0.9), (0.0, 1.0)] {
+        same_system!(
+            Flat::default(),
+            Polar::default(),
+            State::new([x, y], [0.3, 1.1])
+        );
+    }
+    let polar = Polar::default();
+    let names: Vec<_> = <Polar as System<f64>>::GROUPS
+        .iter()
+        .map(|g| g.coordinate)
+        .collect();
+    assert_eq!(names, ["r", "phi"]);
+    let state = polar.from_declared(&planet());
+    let l: f64 = Flat::default().angular_momentum(&planet());
+    close(polar.angular_momentum(&state), l);
+    close(state.p[1], l);
+    assert!(state.q[0] > 0.0);
+}
+
+#[test]
+fn spherical() {
+    for z in [-0.6, 0.1, 0.9] {
+        let state = State::new([0.7, -0.4, z], [0.3, 1.1, -0.5]);
+        same_system!(Space::default(), Spherical::default(), state);
+    }
+}
+
+#[test]
+fn bodies() {
+    let m = [3.0, 1.0, 0.5, 0.2];
+    let q = [
+        [0.1, 0.0, 0.2],
+        [1.0, 0.3, -0.2],
+        [-1.5, 0.4, 0.5],
+        [0.3, 2.2, 0.1],
+    ];
+    let p = [
+        [0.1, -0.3, 0.2],
+        [0.0, 1.3, -0.2],
+        [-0.1, -0.4, 0.1],
+        [0.05, 0.02, 0.01],
+    ];
+    let bodies = Bodies { m: m.into() };
+    let (jacobi, helio) = (Jacobi { m: m.into() }, Heliocentric { m: m.into() });
+    let state = State::new(q, p);
+    same_system!(bodies.clone(), jacobi.clone(), state.clone());
+    same_system!(bodies.clone(), helio.clone(), state.clone());
+    // The same as the maps of the library.
+    let ours = jacobi.from_declared(&state);
+    let theirs = hamiltonian::coordinates::to_jacobi(&state, &m).unwrap();
+    equal(&ours.q, &theirs.q);
+    equal(&ours.p, &theirs.p);
+    let ours = helio.from_declared(&state);
+    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+    equal(&ours.q, &theirs.q);
+    equal(&ours.p, &theirs.p);
+    equal(
+        &jacobi.total_momentum(&jacobi.from_declared(&state)),
+        &bodies.total_momentum(&state),
+    );
+}
+
+#[test]
+fn forces_are_carried() {
+    // A force f on p does the power f·q̇; in other coordinates it does the same.
+    let (flat, polar) = (Flat::default(), Polar::default());
+    let (old, new) = (planet(), polar.from_declared(&planet()));
+    let power = |f: [f64; 2], v: [f64; 2]| f[0] * v[0] + f[1] * v[1];
+    let f = flat.force(&old);
+    close(f[0], -0.1 * 0.3);
+    close(f[1], -0.1 * 1.1 + 0.7 * -0.4);
+    let here = power(f.into(), flat.gradient(&old).p.into());
+    let there = power(polar.force(&new).into(), polar.gradient(&new).p.into());
+    close(here, there);
+    // And to the momenta by the derivative of the map.
+    let pushed = polar.from_declared(&State::new(
+        [Dual::fixed(0.7), Dual::fixed(-0.4)],
+        [Dual::new(0.3, f[0]), Dual::new(1.1, f[1])],
+    ));
+    for k in 0..2 {
+        close(polar.force(&new)[k], pushed.p[k].eps);
+    }
+    // In another time: g·f, and the energy is followed by p_t.
+    let sundman = Sundman::default();
+    let state = sundman.on_shell(&State::new([0.7, -0.4, 0.0], [0.3, 1.1, 0.0]));
+    let r = 0.7f64.hypot(0.4);
+    let f = sundman.force(&state);
+    close(f[0], -0.1 * 0.3 * r);
+    close(f[1], -0.1 * 1.1 * r);
+    close(f[2], 0.1 * (0.3 * 0.3 + 1.1 * 1.1) * r);
+}
+
+#[test]
+fn pieces_add_up() {
+    let (flat, polar, sundman) = (Flat::default(), Polar::default(), Sundman::default());
+    let here = planet();
+    close(
+        flat.energy(&here),
+        flat.piece_k().energy(&here) + flat.piece_v().energy(&here),
+    );
+    let there = polar.from_declared(&here);
+    let (k, v) = (polar.piece_k(), polar.piece_v());
+    close(polar.energy(&there), k.energy(&there) + v.energy(&there));
+    close(v.energy(&there), flat.piece_v().energy(&here));
+    let (g, a, b) = (
+        polar.gradient(&there),
+        k.gradient(&there),
+        v.gradient(&there),
+    );
+    equal(&g.q, &(a.q + b.q));
+    equal(&g.p, &(a.p + b.p));
+    let state = State::new([0.7, -0.4, 0.3], [0.3, 1.1, 0.9]);
+    let (k, v, c) = (sundman.piece_k(), sundman.piece_v(), sundman.piece_clock());
+    let g = sundman.gradient(&state);
+    let (a, b, c) = (k.gradient(&state), v.gradient(&state), c.gradient(&state));
+    equal(&g.q, &(a.q + b.q + c.q));
+    equal(&g.p, &(a.p + b.p + c.p));
+}
+
+#[test]
+fn gradients_of_events() {
+    let (flat, polar) = (Flat::default(), Polar::default());
+    let here = planet();
+    let gradient = flat.crossing_gradient(&here);
+    equal(&gradient.q, &[1.0, 0.8].into());
+    equal(&gradient.p, &[0.0, 0.0].into());
+    let there = polar.from_declared(&here);
+    close(polar.crossing(&there), flat.crossing(&here));
+    let gradient = polar.crossing_gradient(&there);
+    for k in 0..4 {
+        let mut q = [Dual::fixed(there.q[0]), Dual::fixed(there.q[1])];
+        let mut p = [Dual::fixed(there.p[0]), Dual::fixed(there.p[1])];
+        let expected = if k < 2 {
+            q[k].eps = 1.0;
+            gradient.q[k]
+        } else {
+            p[k - 2].eps = 1.0;
+            gradient.p[k - 2]
+        };
+        close(polar.crossing(&State::new(q, p)).eps, expected);
+    }
+}
+
+#[test]
+fn sundman() {
+    // a = 1, e = 0.6: the period is 2π in t, and 2π in s, as dt = r ds and the mean of 1/r is 1/a.
+    let period = 2.0 * std::f64::consts::PI;
+    let kepler = Sundman {
+        drag: 0.0,
+        ..Default::default()
+    };
+    let start = kepler.on_shell(&State::new([0.4, 0.0, 0.0], [0.0, 2.0, 0.0]));
+    close(start.p[2], 0.5);
+    close(kepler.energy(&start), 0.0);
+    let steps = 20_000u32;
+    let mut run = Integrator::new(
+        &kepler,
+        RungeKutta4,
+        start.clone(),
+        period / f64::from(steps),
+    )
+    .unwrap();
+    run.advance(u64::from(steps)).unwrap();
+    let end = run.state();
+    assert!((end.q[2] - period).abs() < 1e-11, "{}", end.q[2]);
+    assert!((end.q[0] - 0.4).abs() < 1e-11 && end.q[1].abs() < 1e-10);
+    assert!((end.t - period).abs() < 1e-12);
+    assert!((end.p[2] - 0.5).abs() < 1e-11);
+    let names: Vec<_> = <Sundman as System<f64>>::GROUPS
+        .iter()
+        .map(|g| (g.coordinate, g.momentum))
+        .collect();
+    assert_eq!(names[2], ("t", "p_t"));
+    close(kepler.pericentre(&start), 0.0);
+}
+
+#[test]
+fn times_of_a_driven_system() {
+    hamiltonian! {
+        /// As it was before.
+        struct Before { a = 0.3 }
+        H(q; p; t) = p^2/2 + q^2/2 - a*q*cos(t)
+    }
+    let (driven, before) = (Driven::default(), Before::default());
+    let start = driven.on_shell(&State::new([0.5, 0.2], [0.1, 0.0]));
+    close(
+        start.p[1],
+        -before.energy(&State::new([0.5], [0.1]).at(0.2)),
+    );
+    let mut run = Integrator::new(&driven, RungeKutta4, start, 1e-3).unwrap();
+    run.advance(1000).unwrap();
+    let end = run.state().clone();
+    let span = end.q[1] - 0.2;
+    assert!(span > 1.0);
+    let state = State::new([0.5], [0.1]).at(0.2);
+    let mut run = Integrator::new(&before, RungeKutta4, state, span / 1000.0).unwrap();
+    run.advance(1000).unwrap();
+    assert!((run.state().q[0] - end.q[0]).abs() < 1e-10);
+    assert!((run.state().p[0] - end.p[0]).abs() < 1e-10);
+}
+
+#[test]
+fn mino() {
+    let (kerr, mino) = (Kerr::default(), Mino::default());
+    let guess = State::new([8.0, 1.4], [0.05, 0.6]);
+    let start = momentum_from_energy(&kerr, &guess, 0, -0.5, Branch::Forward).unwrap();
+    let again = State::new([8.0, 1.4, 0.0], [start.p[0], 0.6, 0.0]);
+    let again = mino.on_shell(&again);
+    close(again.p[2], 0.5);
+    let mut run = Integrator::new(&mino, RungeKutta4, again, 1e-4).unwrap();
+    run.advance(2000).unwrap();
+    let end = run.state().clone();
+    let tau = end.q[2];
+    let mut run = Integrator::new(&kerr, RungeKutta4, start, tau / 2000.0).unwrap();
+    run.advance(2000).unwrap();
+    assert!((run.state().q[0] - end.q[0]).abs() < 1e-9);
+    assert!((run.state().q[1] - end.q[1]).abs() < 1e-9);
+    // H splits in Mino's time into a part of r and one of theta.
+    let gradient = mino.gradient(&end);
+    close(
+        gradient.p[2],
+        end.q[0].powi(2) + 0.81 * end.q[1].cos().powi(2),
+    );
+}
+
+#[test]
+fn coordinates_then_time() {
+    let both = Both::default();
+    let start = both.on_shell(&State::new([0.4, 0.0, 0.0], [0.0, 0.8, 0.0]));
+    close(start.p[2], 0.5);
+    let period = 2.0 * std::f64::consts::PI;
+    let mut run = Integrator::new(&both, RungeKutta4, start, period / 20_000.0).unwrap();
+    run.advance(20_000).unwrap();
+    let end = run.state();
+    assert!((end.q[0] - 0.4).abs() < 1e-10);
+    assert!((end.q[1] - period).abs() < 1e-10);
+    assert!((end.q[2] - period).abs() < 1e-10);
+}
+
+#[test]
+fn starts() {
+    let flat = Flat::default();
+    let guess = State::new([0.7, -0.4], [0.3, 1.0]);
+    let start = momentum_from_energy(&flat, &guess, 1, -0.9, Branch::Nearest).unwrap();
+    close(flat.energy(&start), -0.9);
+    assert_eq!((start.p[0], start.q[0]), (0.3, 0.7));
+    let section = Section {
+        event: 1,
+        coordinate: 0,
+        momentum: 1,
+    };
+    let start = on_section(&flat, &guess, section, -0.9, Branch::Forward).unwrap();
+    close(start.q[0], 0.16);
+    close(flat.energy(&start), -0.9);
+    assert!(flat.gradient(&start).p[1] > 0.0);
+    // Below the least value of H there is none.
+    let none = momentum_from_energy(&flat, &guess, 1, -9.0, Branch::Nearest);
+    assert!(matches!(
+        none,
+        Err(Error::NoMomentum {
+            name: "p_y",
+            index: 1,
+            ..
+        })
+    ));
+    // In another time the shell is K = 0, which fixes p_t, or any other momentum with p_t = −E.
+    let sundman = Sundman::default();
+    let guess = State::new([0.4, 0.0, 0.0], [0.0, 1.5, 0.5]);
+    let start = momentum_from_energy(&sundman, &guess, 1, 0.0, Branch::Forward).unwrap();
+    close(start.p[1], 2.0);
+    let p_t = momentum_from_energy(
+        &sundman,
+        &State::new([0.4, 0.0, 0.0], [0.0, 2.0, 0.0]),
+        2,
+        0.0,
+        Branch::Nearest,
+    );
+    close(p_t.unwrap().p[2], 0.5);
+    // And over duals the start carries its derivatives: p_y ∂p_y/∂E = 1.
+    let guess = State::new(
+        [Dual::fixed(0.4), Dual::fixed(0.0), Dual::fixed(0.0)],
+        [Dual::fixed(0.0), Dual::fixed(1.5), Dual::new(0.5, -1.0)],
+    );
+    let start =
+        momentum_from_energy(&sundman, &guess, 1, Dual::fixed(0.0), Branch::Forward).unwrap();
+    close(start.p[1].eps, 0.5);
+    let prepared = System::<f64>::prepare(&sundman);
+    close(
+        prepared.time_derivative(0.0, &[0.4, 0.0, 0.0].into(), &[0.0, 2.0, 0.5].into()),
+        0.0,
+    );
+}

@@ -4,9 +4,10 @@
 //! a function generic over the scalar, so that what rustc says of it points at the path.
 
 use super::block;
+use super::item::located;
 use super::{Definition, lex};
 use hamiltonian_symbolic::dag::Part;
-use proc_macro2::TokenStream;
+use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;
 
 /// The wrappers of all functions.
@@ -23,10 +24,16 @@ pub fn wrappers(definition: &Definition) -> TokenStream {
             let name = lex(&block::external(number, part));
             let arguments: Vec<TokenStream> =
                 (0..arity).map(|at| lex(&format!("_x{at}"))).collect();
+            let at = path.clone().into_iter().last();
+            let at = at.map_or_else(Span::call_site, |token| token.span());
+            let scalar = located(quote!(T), at, false);
+            let call = located(quote!(#(#arguments),*), at, false);
+            let mut call = Group::new(Delimiter::Parenthesis, call);
+            call.set_span(at);
             out.extend(quote! {
                 #[inline(always)]
                 #[allow(dead_code)]
-                fn #name<T: __h::Real>(#(#arguments: T),*) -> T { #path(#(#arguments),*) }
+                fn #name<#scalar: __h::Real>(#(#arguments: T),*) -> #scalar { #path #call }
             });
         };
         wrap(Part::Value, &external.value);

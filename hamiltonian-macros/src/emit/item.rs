@@ -239,7 +239,7 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
 
 /// Tokens, with or without what is inside of groups, that rustc is to show at the name of the type
 /// instead of at the whole definition.
-fn located(tokens: TokenStream, name: Span, inside: bool) -> TokenStream {
+pub(super) fn located(tokens: TokenStream, name: Span, inside: bool) -> TokenStream {
     use proc_macro2::{Group, TokenTree};
     let span = Span::call_site().located_at(name);
     let moved = tokens.into_iter().map(|mut token| {

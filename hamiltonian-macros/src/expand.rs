@@ -14,6 +14,9 @@ use quote::quote;
 /// Expands one call of the macro.
 pub fn expand(input: TokenStream) -> TokenStream {
     let (root, definition) = forwarded(input);
+    if let Some((conditions, definition)) = conditional(&definition) {
+        return quote!(#(#conditions)* #root::hamiltonian! { #definition });
+    }
     let mut report = Report::default();
     let (ast, checked) = front(definition, &mut report);
     let code = checked.map(|checked| backend::generate(&checked, &root, &mut report));
@@ -33,6 +36,40 @@ pub fn front(definition: TokenStream, report: &mut Report) -> (Ast, Option<Check
     let checked = check::check(&ast, report);
     let checked = report.barrier(checked);
     (ast, checked)
+}
+
+/// `#[cfg(…)]` before a type stands before everything that is made of it: such a definition becomes
+/// a call without the condition, under the condition.
+fn conditional(definition: &TokenStream) -> Option<(Vec<TokenStream>, TokenStream)> {
+    let mut conditions = Vec::new();
+    let mut rest = Vec::new();
+    let mut trees = definition.clone().into_iter().peekable();
+    while let Some(TokenTree::Punct(hash)) = trees.peek()
+        && hash.as_char() == '#'
+    {
+        let attribute: TokenStream = trees.by_ref().take(2).collect();
+        if is_condition(&attribute) {
+            conditions.push(attribute);
+        } else {
+            rest.push(attribute);
+        }
+    }
+    let is_item = match trees.peek() {
+        Some(TokenTree::Ident(word)) => word == "struct" || word == "pub",
+        Some(TokenTree::Group(fragment)) => fragment.delimiter() == Delimiter::None,
+        _ => false,
+    };
+    rest.push(trees.collect());
+    (is_item && !conditions.is_empty()).then(|| (conditions, rest.into_iter().collect()))
+}
+
+/// `#[cfg(…)]`, whose inside may come from another macro.
+fn is_condition(attribute: &TokenStream) -> bool {
+    let mut inside = attribute.clone().into_iter().nth(1);
+    while let Some(TokenTree::Group(group)) = inside {
+        inside = group.stream().into_iter().next();
+    }
+    matches!(inside, Some(TokenTree::Ident(word)) if word == "cfg")
 }
 
 /// Separates the path of the library, `($crate)`, from the definition.

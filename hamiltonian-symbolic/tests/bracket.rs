@@ -116,6 +116,25 @@ fn kerr_keeps_carters_constant() {
 }
 
 #[test]
+fn sizes_are_chosen_so_that_something_happens() {
+    let mut far = system(
+        "q[N], s[n]; p[N], r[n]",
+        "N n",
+        "",
+        "sum(i in 0..N) { p[i]^2/2 } + sum(i in 0..N - 5) { q[i]*q[i + 5] } + q[9]^2 + sum(i in 0..n) { r[i]^2/2 }",
+    );
+    rejected(&mut far, "sum(i in 0..N) { p[i] }");
+    accepted(&mut far, "sum(i in 0..n) { r[i] }");
+    let mut uneven = system(
+        "q[N], s[n]; p[N], r[n]",
+        "N n",
+        "",
+        "sum(i in 0..N) { p[i]^2 } + (N - n)*sum(i in 0..N) { q[i] }",
+    );
+    rejected(&mut uneven, "sum(i in 0..N) { p[i] }");
+}
+
+#[test]
 fn time_counts() {
     let mut driven = system("q; p; t", "", "omega", "p^2/2 + omega^2*q^2/2");
     accepted(&mut driven, "q*cos(omega*t) - p*sin(omega*t)/omega");

@@ -13,7 +13,7 @@ use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::loops::{Point, unroll_nodes};
 use crate::model::Model;
-use crate::normal_form::{self, Algebra, BUDGET, TRIED, witness};
+use crate::normal_form::{self, Algebra, BUDGET, Effort, named, trials, witness};
 use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand;
@@ -65,7 +65,16 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     };
     let difference = shell.map(|e| model.dag.sub(h, e));
     let general = derivative(&mut model, expression, h);
-    let mut undecided = general.map_or_else(
+    // A proof for all points, and all sizes, is the common case and the cheapest; a glance at two
+    // points guards it against branches of roots that formal rules cannot see.
+    if let Some(residual) = general
+        && (model.dag.is_zero(residual)
+            || (normal_form::vanishes(&mut model.dag, residual)
+                && witness(&model, residual, Effort::Glance).is_none()))
+    {
+        return Verdict::Proven;
+    }
+    let mut text = general.map_or_else(
         || "the bracket with H".to_owned(),
         |node| readable(&mut model, node),
     );
@@ -76,60 +85,41 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
     if !has_loops && model.sizes.is_empty() {
         return match general {
-            Some(residual) => decide(&mut model, residual, difference, undecided),
-            None => Verdict::Undecided {
-                residual: undecided,
-            },
+            Some(residual) => decide(&mut model, residual, difference, text),
+            None => Verdict::Undecided { residual: text },
         };
     }
-    // Small sizes may refute; only the loops as they stand may prove, unless the sizes are literal.
-    let tried: &[i64] = if model.sizes.is_empty() { &[0] } else { &TRIED };
-    for &size in tried {
-        let sizes = vec![size; model.sizes.len()];
-        let mut roots = vec![h, expression];
-        roots.extend(difference);
+    // Small sizes may refute; literal ones may also prove.
+    let mut roots = vec![h, expression];
+    roots.extend(difference);
+    for sizes in trials(&model, &roots) {
         let Ok((mut small, images)) = unroll_nodes(&model, &sizes, &roots) else {
             continue;
         };
         let Some(residual) = derivative(&mut small, images[1], images[0]) else {
             continue;
         };
-        let found = match images.get(2) {
-            None => witness(&small, residual),
-            Some(difference) => shell::witness(&small, residual, *difference),
-        };
-        if let Some((mut point, value)) = found {
-            point.splice(
-                0..0,
-                model.sizes.iter().map(|name| (name.clone(), size as f64)),
-            );
-            if general.is_none() {
-                undecided = readable(&mut small, residual);
-            }
-            return Verdict::Disproven {
-                residual: undecided,
-                point,
+        if general.is_none() {
+            text = readable(&mut small, residual);
+        }
+        match decide(&mut small, residual, images.get(2).copied(), text.clone()) {
+            Verdict::Disproven {
+                residual,
+                mut point,
                 value,
-            };
+            } => {
+                point.splice(0..0, named(&model, &sizes));
+                return Verdict::Disproven {
+                    residual,
+                    point,
+                    value,
+                };
+            }
+            Verdict::Proven if model.sizes.is_empty() => return Verdict::Proven,
+            _ => {}
         }
     }
-    if let Some(residual) = general
-        && normal_form::vanishes(&mut model.dag, residual)
-    {
-        return Verdict::Proven;
-    }
-    if model.sizes.is_empty() {
-        let mut roots = vec![h, expression];
-        roots.extend(difference);
-        if let Ok((mut written, images)) = unroll_nodes(&model, &[], &roots)
-            && let Some(residual) = derivative(&mut written, images[1], images[0])
-        {
-            return decide(&mut written, residual, images.get(2).copied(), undecided);
-        }
-    }
-    Verdict::Undecided {
-        residual: undecided,
-    }
+    Verdict::Undecided { residual: text }
 }
 
 /// {I, H} + ∂I/∂t
@@ -148,7 +138,7 @@ fn decide(model: &mut Model, residual: Node, difference: Option<Node>, text: Str
         return Verdict::Proven;
     }
     let found = match difference {
-        None => witness(model, residual),
+        None => witness(model, residual, Effort::Search),
         Some(difference) => shell::witness(model, residual, difference),
     };
     if let Some((point, value)) = found {

@@ -60,7 +60,8 @@ pub fn is_zero(model: &Model, node: Node) -> Proof {
     if model.dag.is_zero(node) {
         return Proof::Zero;
     }
-    if let Some((point, value)) = witness(model, node) {
+    // Two points usually tell; the others are for what the normal form does not decide.
+    if let Some((point, value)) = witness(model, node, Effort::Glance) {
         return Proof::NonZero { point, value };
     }
     let mut dag = model.dag.clone();
@@ -75,7 +76,10 @@ pub fn is_zero(model: &Model, node: Node) -> Proof {
     {
         return Proof::Zero;
     }
-    Proof::Undecided
+    match witness(model, node, Effort::Search) {
+        Some((point, value)) => Proof::NonZero { point, value },
+        None => Proof::Undecided,
+    }
 }
 
 fn has_loops(dag: &Dag, node: Node) -> bool {
@@ -102,16 +106,52 @@ pub(crate) fn vanishes(dag: &mut Dag, node: Node) -> bool {
     decide() == Ok::<bool, Undecided>(true)
 }
 
-/// The sizes at which a statement about all sizes is tried.
-pub(crate) const TRIED: [i64; 4] = [3, 2, 4, 1];
+/// The sizes at which a statement about all sizes is tried: small ones, one past every index that
+/// is given by number, and, where there are several sizes, different ones.
+pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
+    let count = model.sizes.len();
+    if count == 0 {
+        return vec![Vec::new()];
+    }
+    let mut last = 0;
+    for node in model.dag.reachable(roots) {
+        if let Kind::Element(_, row, _) = model.dag.kind(node) {
+            last = last.max(row.affine.constant.abs());
+        }
+    }
+    let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).collect();
+    if (4..64).contains(&last) {
+        trials.push(vec![last + 3; count]);
+    }
+    if count > 1 {
+        trials.push((3..).take(count).collect());
+        trials.push((3..3 + count as i64).rev().collect());
+    }
+    trials
+}
+
+/// How hard to look for a point.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Effort {
+    /// Two points at the first of the sizes tried.
+    Glance,
+    /// Four points at each of the sizes tried.
+    Search,
+}
 
 /// A point where a node is certainly not zero.
 #[must_use]
-pub(crate) fn witness(model: &Model, node: Node) -> Option<(Point, f64)> {
-    let tried: &[i64] = if model.sizes.is_empty() { &[0] } else { &TRIED };
-    for &size in tried {
-        let sizes = vec![size; model.sizes.len()];
-        for seed in 0..4 {
+pub(crate) fn witness(model: &Model, node: Node, effort: Effort) -> Option<(Point, f64)> {
+    let mut trials = trials(model, &[node]);
+    let seeds = match effort {
+        Effort::Glance => 2,
+        Effort::Search => 4,
+    };
+    if effort == Effort::Glance {
+        trials.truncate(1);
+    }
+    for sizes in trials {
+        for seed in 0..seeds {
             let how = Sample {
                 seed,
                 signed: seed % 2 == 1,
@@ -121,15 +161,18 @@ pub(crate) fn witness(model: &Model, node: Node) -> Option<(Point, f64)> {
                 break;
             };
             if values[0].is_nonzero() {
-                point.splice(
-                    0..0,
-                    model.sizes.iter().map(|name| (name.clone(), size as f64)),
-                );
+                point.splice(0..0, named(model, &sizes));
                 return Some((point, values[0].value));
             }
         }
     }
     None
+}
+
+/// Sizes with their names, as the beginning of a point.
+pub(crate) fn named(model: &Model, sizes: &[i64]) -> Point {
+    let names = model.sizes.iter().cloned();
+    names.zip(sizes.iter().map(|n| *n as f64)).collect()
 }
 
 /// T and V of an H that its normal form separates.

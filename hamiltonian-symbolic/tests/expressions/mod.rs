@@ -8,9 +8,16 @@ use hamiltonian_symbolic::rational::Rational;
 
 /// A model with scalar coordinates `q`, momenta `p`, all other names parameters (`t` is time).
 pub fn model(q: &[&str], p: &[&str], text: &str) -> Model {
-    let mut model = Model { name: "Test".into(), ..Model::default() };
+    let mut model = Model {
+        name: "Test".into(),
+        ..Model::default()
+    };
     for (q, p) in q.iter().zip(p) {
-        model.groups.push(Group { coordinate: (*q).into(), momentum: (*p).into(), shape: Shape::Scalar });
+        model.groups.push(Group {
+            coordinate: (*q).into(),
+            momentum: (*p).into(),
+            shape: Shape::Scalar,
+        });
     }
     let h = parse(&mut model, text);
     model.hamiltonian = Some(h);
@@ -19,7 +26,11 @@ pub fn model(q: &[&str], p: &[&str], text: &str) -> Model {
 
 /// An expression over a model; unknown names become parameters.
 pub fn parse(model: &mut Model, text: &str) -> Node {
-    let mut parser = Parser { model, text: text.as_bytes(), at: 0 };
+    let mut parser = Parser {
+        model,
+        text: text.as_bytes(),
+        at: 0,
+    };
     let node = parser.expression(0);
     parser.skip();
     assert_eq!(parser.at, text.len(), "unparsed: {}", &text[parser.at..]);
@@ -73,7 +84,11 @@ impl Parser<'_> {
             if binding < power {
                 return left;
             }
-            self.at += if self.text[self.at] == b'*' && op == b'^' { 2 } else { 1 };
+            self.at += if self.text[self.at] == b'*' && op == b'^' {
+                2
+            } else {
+                1
+            };
             let right = self.expression(if op == b'^' { 6 } else { binding + 1 });
             let dag = &mut self.model.dag;
             left = match op {
@@ -87,7 +102,11 @@ impl Parser<'_> {
     }
     fn number(&mut self) -> Node {
         let start = self.at;
-        while self.text.get(self.at).is_some_and(|c| c.is_ascii_digit() || *c == b'.') {
+        while self
+            .text
+            .get(self.at)
+            .is_some_and(|c| c.is_ascii_digit() || *c == b'.')
+        {
             self.at += 1;
         }
         let text = std::str::from_utf8(&self.text[start..self.at]).unwrap();
@@ -97,10 +116,16 @@ impl Parser<'_> {
     }
     fn name(&mut self) -> Node {
         let start = self.at;
-        while self.text.get(self.at).is_some_and(|c| c.is_ascii_alphanumeric() || *c == b'_') {
+        while self
+            .text
+            .get(self.at)
+            .is_some_and(|c| c.is_ascii_alphanumeric() || *c == b'_')
+        {
             self.at += 1;
         }
-        let name = std::str::from_utf8(&self.text[start..self.at]).unwrap().to_string();
+        let name = std::str::from_utf8(&self.text[start..self.at])
+            .unwrap()
+            .to_string();
         assert!(!name.is_empty(), "at {start}");
         if self.peek() == b'(' {
             let op = Op::named(&name).unwrap_or_else(|| panic!("no function {name}"));
@@ -131,7 +156,10 @@ impl Parser<'_> {
             }
         }
         if self.model.parameter_named(&name).is_none() {
-            self.model.parameters.push(ParameterDeclaration { name: name.clone(), shape: Shape::Scalar });
+            self.model.parameters.push(ParameterDeclaration {
+                name: name.clone(),
+                shape: Shape::Scalar,
+            });
         }
         let parameter = self.model.parameter_named(&name).unwrap();
         self.model.dag.parameter(parameter)

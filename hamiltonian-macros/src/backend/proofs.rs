@@ -23,6 +23,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
             continue;
         }
         let (name, shell) = (&observable.name, lowered.shells[at]);
+        let on = if shell.is_some() { " on its shell" } else { "" };
         let components = &lowered.model.observables[at].components;
         for (component, value) in components.iter().enumerate() {
             let what = match components.len() {
@@ -39,7 +40,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     report.error(
                         name.span(),
                         format!(
-                            "{what} is not conserved: its time derivative is `{}`, which is {value:.6} at {}",
+                            "{what} is not conserved{on}: its time derivative is `{}`, which is {value:.6} at {}",
                             shortened(&residual),
                             listed(&point)
                         ),
@@ -51,7 +52,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     report.error(
                         name.span(),
                         format!(
-                            "it is neither proven nor disproven that {what} is conserved: its time derivative is `{}`",
+                            "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`",
                             shortened(&residual)
                         ),
                         format!(
@@ -79,10 +80,12 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
         );
         let message = match &difference.point {
             Some((point, value)) => format!(
-                "the pieces do not add up to H: `{text}` is left, which is {value:.6} at {}",
+                "the pieces do not add up to H: H minus their sum is `{text}`, which is {value:.6} at {}",
                 listed(point)
             ),
-            None => format!("it could not be shown that the pieces add up to H: `{text}` is left"),
+            None => format!(
+                "it could not be shown that the pieces add up to H: H minus their sum is `{text}`"
+            ),
         };
         report.error(first.span(), message, help);
     }

@@ -14,7 +14,7 @@ use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
-use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry};
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry, Refusal};
 use proc_macro2::Ident;
 use quote::format_ident;
 
@@ -175,7 +175,7 @@ impl Settling {
             Err(reason) => {
                 refuse(
                     format!("these coordinates cannot be introduced: {reason}"),
-                    "see the language chapter for what each change of coordinates asks for",
+                    remedy(&reason),
                 );
                 return None;
             }
@@ -283,6 +283,22 @@ impl Settling {
             on_shell,
         );
         Ok(())
+    }
+}
+
+/// What to write instead.
+fn remedy(reason: &Refusal) -> &'static str {
+    match reason {
+        Refusal::NameTaken { .. } => "give what has that name another one",
+        Refusal::Shape { .. } => {
+            "declare the coordinates as scalars, or the bodies as `q[4][3]` with masses `m: [4]`"
+        }
+        Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
+        Refusal::Loops { .. } => "give the loop literal bounds, so that it can be written out",
+        Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
+        Refusal::Unverified { .. } => {
+            "this is a fault of the transformation: please report it with the definition"
+        }
     }
 }
 

@@ -6,7 +6,7 @@
 use alloc::vec::Vec;
 
 /// What can go wrong in a run. Memory is allocated only when something did.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
     /// The step is zero, NaN or infinite.
@@ -120,4 +120,11 @@ pub enum Error {
         /// The sum.
         sum: f64,
     },
+}
+
+/// The message, because that is what `fn main() -> Result<(), Error>` shows.
+impl core::fmt::Debug for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        core::fmt::Display::fmt(self, f)
+    }
 }

@@ -216,6 +216,11 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows. `M` only tells these
 /// cases apart and is always inferred.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no list of coordinates",
+    label = "expected coordinates",
+    note = "write `[1.0]` for one coordinate, `[x, y]` for several, `[[x, y, z], …]` for bodies, a `Vec` of either where the size is set at run time"
+)]
 pub trait IntoVector<M> {
     /// The storage it becomes.
     type Vector: Vector;

@@ -22,10 +22,10 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
         let _ = write!(
             out,
             "#[automatically_derived]\n\
-             impl{generics} __h::Separable<T> for {system} where for<'a> {system}: __NotSeparable<'a> {{\n\
+             impl{generics} __h::Separable<T> for {system} where for<'a> &'a {system}: __NotSeparable {{\n\
              type Kick = __h::Never;\ntype Drift = __h::Never;\n\
-             fn kick(_: &Self::Prepared, _: T) -> __h::Never {{ <Self as __NotSeparable<'_>>::never() }}\n\
-             fn drift(_: &Self::Prepared, _: T) -> __h::Never {{ <Self as __NotSeparable<'_>>::never() }}\n}}\n",
+             fn kick(_: &Self::Prepared, _: T) -> __h::Never {{ <&Self as __NotSeparable>::never() }}\n\
+             fn drift(_: &Self::Prepared, _: T) -> __h::Never {{ <&Self as __NotSeparable>::never() }}\n}}\n",
             generics = generics.declaration_with_scalar(),
         );
     }
@@ -66,7 +66,7 @@ fn marker(
         Ok(()) => String::new(),
         Err(reason) => {
             reason_trait(out, bound, reason, "");
-            format!(" where for<'a> {system}: {bound}<'a>")
+            format!(" where for<'a> &'a {system}: {bound}")
         }
     };
     let _ = write!(
@@ -76,15 +76,15 @@ fn marker(
     );
 }
 
-/// A trait nothing implements. Its lifetime keeps rustc from deciding the bound where it is
-/// written, so that the message comes where the marker is asked for.
+/// A trait nothing implements. It is asked of references of all lifetimes: that keeps rustc from
+/// deciding the bound where it is written, and from speaking of the marker instead of the reason.
 fn reason_trait(out: &mut String, name: &str, reason: &super::Reason, items: &str) {
     // Braces are placeholders in these texts.
     let escape = |text: &str| text.replace('{', "{{").replace('}', "}}");
     let _ = write!(
         out,
         "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?})]\n\
-         #[doc(hidden)]\npub trait {name}<'a> {{ {items} }}\n",
+         #[doc(hidden)]\npub trait {name} {{ {items} }}\n",
         escape(&reason.message),
         escape(&reason.label),
         escape(&reason.note),

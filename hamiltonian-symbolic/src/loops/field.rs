@@ -14,7 +14,7 @@ pub fn elements(dag: &mut Dag, rows: &Affine) -> Domain {
     dag.domain(None, Affine::constant(0), rows.clone())
 }
 
-/// ∂/∂array[k] for k in 0..rows, in the loop that [`elements`] gives, from the adjoints of all
+/// `∂/∂array[k]` for k in 0..rows, in the loop that [`elements`] gives, from the adjoints of all
 /// leaves; `None` where an index can be neither solved nor compared.
 pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine) -> Option<Node> {
     let k = elements(dag, rows);

@@ -43,14 +43,39 @@ fn crates_compile_with_lints_denied() {
 fn documentation_reads_well() {
     let workspace = workspace("crates", PACKAGES);
     demand(workspace.cargo(&["doc", "--no-deps", "--package", "systems_2024"]));
-    let page = workspace.doc("systems_2024/struct.Driven.html");
-    for due in [
-        "A driven oscillator.",
-        "H(q; p; t) = ",
-        "cos(omega*t)",
-        "dq/dt = p",
-        "dp/dt = ",
-    ] {
-        assert!(page.contains(due), "`{due}` is not on the page:\n{page}");
+    let pages: [(&str, &[&str]); 3] = [
+        (
+            "Driven",
+            &[
+                "A driven oscillator.",
+                "H(q; p; t) = p^2/2 + (q^2/2 + q^4/4) - a*q*cos(omega*t)",
+                "H is separable",
+                "H depends on time",
+                "dq/dt = p",
+                "dp/dt = -q - q^3 + a*cos(omega*t)",
+                r"\frac{p^{2}}{2}",
+            ],
+        ),
+        (
+            "Coupled",
+            &["H is not separable: see the term <code>0.5*q^2*p^2</code>"],
+        ),
+        (
+            "Toda",
+            &[
+                "H(q[N]; p[N]) = sum(i in 0..N) { ",
+                "dq[k]/dt = p[k]",
+                r"\sum_{i=0}^{N - 1}",
+            ],
+        ),
+    ];
+    for (system, due) in pages {
+        let page = workspace.doc(&format!("systems_2024/struct.{system}.html"));
+        for due in due {
+            assert!(
+                page.contains(due),
+                "`{due}` is not on the page of {system}:\n{page}"
+            );
+        }
     }
 }

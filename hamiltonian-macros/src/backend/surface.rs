@@ -3,7 +3,8 @@
 //! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
 //! numbering. Invariant: tokens keep their spans.
 
-use crate::checked::{self, Checked, Definition, SizeKind};
+use crate::ast::ObservableKind;
+use crate::checked::{self, Checked, Definition, SizeKind, Type};
 use crate::emit::{
     External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
 };
@@ -174,4 +175,53 @@ pub fn refuse_unsupported(checked: &Checked, report: &mut Report) {
             "use the item form: `pub struct Name {} H = …; split { … }`",
         );
     }
+    refuse_same_methods(checked, report);
+}
+
+/// Methods whose names follow from those of the definition must differ too.
+fn refuse_same_methods(checked: &Checked, report: &mut Report) {
+    let mut methods: Vec<String> = Vec::new();
+    if checked.item.is_some() && !checked.parameters.is_empty() {
+        methods.push("parameter_gradient".to_owned());
+    }
+    if checked.time_factor.is_some() {
+        methods.extend([piece_method(CLOCK), "on_shell".to_owned()]);
+    }
+    if !checked.charts.is_empty() {
+        methods.extend(["from_declared", "to_declared"].map(str::to_owned));
+    }
+    if matches!(checked.definition, Definition::Lagrangian(_)) {
+        methods.push("state_from_velocity".to_owned());
+    }
+    let mut add = |name: &Ident, method: String| {
+        if methods.contains(&method) {
+            let message = if *name == method {
+                format!("`{name}` is a method of this system already")
+            } else {
+                format!("`{name}` makes a method `{method}`, which there is already")
+            };
+            report.error(name.span(), message, "choose another name");
+        }
+        methods.push(method);
+    };
+    for (name, _) in &checked.split {
+        add(name, piece_method(&name.to_string()));
+    }
+    for observable in &checked.observables {
+        add(&observable.name, observable.name.to_string());
+    }
+    for observable in &checked.observables {
+        let is_vector = matches!(checked.node(observable.value).ty, Type::Vector(_));
+        if observable.kind != ObservableKind::Invariant && !is_vector {
+            add(&observable.name, format!("{}_gradient", observable.name));
+        }
+    }
+}
+
+/// The piece that carries time along where `dt = g*ds` makes time a coordinate.
+pub const CLOCK: &str = "Clock";
+
+/// The method that gives a piece.
+fn piece_method(piece: &str) -> String {
+    format!("piece_{}", piece.to_lowercase())
 }

@@ -5,6 +5,7 @@
 //! functions, what each of them is for, and the pieces of a split. Invariant: signs stay
 //! q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order is coordinates, then time.
 
+use super::surface::CLOCK;
 use crate::ast::ObservableKind;
 use crate::checked::{self, ChartKind, Checked, Definition};
 use crate::emit::{VectorItem, VectorUse};
@@ -74,7 +75,7 @@ pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
     state.gradients(checked);
     let mut names: Vec<Ident> = checked.split.iter().map(|(name, _)| name.clone()).collect();
     if let (Some((_, span)), true) = (checked.time_factor, !names.is_empty()) {
-        names.push(Ident::new("Clock", span));
+        names.push(Ident::new(CLOCK, span));
     }
     Some(System {
         model: state.model,

@@ -14,13 +14,13 @@ use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
 use crate::lower::lower;
 use crate::report::{Report, Spans};
-use variables::System;
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::{self, Structure};
 use proc_macro2::TokenStream;
+use variables::System;
 
 /// Past this many nodes H is large.
 const LARGE: usize = 1000;

@@ -195,25 +195,30 @@ impl Settling {
         let carried = std::mem::take(&mut transformed.carried);
         let from = self.map_from(&mut transformed);
         let inverse = transformed.inverse.clone();
-        let to = map(&mut transformed, &inverse);
+        let to = map(&mut transformed, &inverse, |(old, new)| (old, new));
         self.put_back(transformed.model.clone(), carried);
-        let Some(forces) = literal(&self.force) else {
+        let number = |old: u16| transformed.kept.iter().find(|(kept, _)| *kept == old);
+        let mut force = Vec::new();
+        let mut replaced = Vec::new();
+        for entry in std::mem::take(&mut self.force) {
+            match number(entry.group) {
+                Some((_, new)) => force.push(VectorEntry {
+                    group: *new,
+                    ..entry
+                }),
+                None => replaced.push(entry),
+            }
+        }
+        let Some(replaced) = literal(&replaced) else {
             refuse(
                 "a force in a loop is not carried into other coordinates".to_owned(),
-                "write the coordinates out as scalars",
+                "give the coordinates a literal number of elements",
             );
             return None;
         };
-        let kept: Vec<u16> = transformed.kept.iter().map(|(old, _)| *old).collect();
-        let (kept, replaced): (Vec<Entry>, Vec<Entry>) = forces
-            .into_iter()
-            .partition(|entry| kept.contains(&entry.group));
-        let replaced = transformed.force(&replaced);
+        force.extend(entries(&transformed.force(&replaced)));
         self.model.dag = transformed.model.dag;
-        self.force = entries(&kept)
-            .into_iter()
-            .chain(entries(&replaced))
-            .collect();
+        self.force = force;
         let both = (true, true);
         self.offer(
             VectorItem::of(VectorUse::FromDeclared),
@@ -233,7 +238,7 @@ impl Settling {
     /// New coordinates from the declared ones, which are read where the new ones stand.
     fn map_from(&self, transformed: &mut transform::Transformed) -> Vec<VectorEntry> {
         let forward = transformed.forward.clone();
-        let mut all = map(transformed, &forward);
+        let mut all = map(transformed, &forward, |(old, new)| (new, old));
         let wanted = all.iter_mut().filter(|entry| {
             let place = (entry.side, entry.group, entry.column);
             forward.iter().any(|f| (f.side, f.group, f.column) == place)
@@ -325,12 +330,22 @@ fn chart(chart: &checked::Chart) -> Chart {
     }
 }
 
-/// The images of a change of coordinates, and what it keeps.
-fn map(transformed: &mut transform::Transformed, images: &[Entry]) -> Vec<VectorEntry> {
-    let groups: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
-    let kept = |group: u16| groups.contains(&group);
-    let mut all = identity(&mut transformed.model, Side::Q, &kept);
-    all.extend(identity(&mut transformed.model, Side::P, &kept));
+/// The images of a change of coordinates, and what it keeps: `written` orders the numbers (old, new)
+/// of a group that is kept into that of the image and that which is read.
+fn map(
+    transformed: &mut transform::Transformed,
+    images: &[Entry],
+    written: fn((u16, u16)) -> (u16, u16),
+) -> Vec<VectorEntry> {
+    let pairs: Vec<(u16, u16)> = transformed.kept.iter().copied().map(written).collect();
+    let read = |group: u16| pairs.iter().any(|(_, read)| *read == group);
+    let mut all = identity(&mut transformed.model, Side::Q, &read);
+    all.extend(identity(&mut transformed.model, Side::P, &read));
+    for entry in &mut all {
+        if let Some((image, _)) = pairs.iter().find(|(_, read)| *read == entry.group) {
+            entry.group = *image;
+        }
+    }
     all.extend(entries(images));
     all
 }

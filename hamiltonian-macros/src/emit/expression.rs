@@ -6,7 +6,9 @@
 
 use super::block::Context;
 use super::generics::Generics;
-use super::{Definition, dynamics, externals, item, layout, lex, markers, mixed, observables, vectors};
+use super::{
+    Definition, dynamics, externals, item, layout, lex, markers, mixed, observables, vectors,
+};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 

@@ -397,8 +397,13 @@ fn pieces(definition: &Definition, item: &Item, generics: &Generics) -> TokenStr
         .collect();
     let mut out = TokenStream::new();
     for (name, ty) in &definition.pieces {
-        let method = Ident::new(&format!("piece_{}", name.to_string().to_lowercase()), name.span());
-        let result = generics.system_type().replacen(&own.to_string(), &ty.to_string(), 1);
+        let method = Ident::new(
+            &format!("piece_{}", name.to_string().to_lowercase()),
+            name.span(),
+        );
+        let result = generics
+            .system_type()
+            .replacen(&own.to_string(), &ty.to_string(), 1);
         let result = lex(&result);
         let text = format!(" The piece `{name}` of the split as a system of its own.");
         out.extend(quote! {

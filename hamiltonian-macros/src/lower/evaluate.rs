@@ -218,7 +218,11 @@ impl<'a> Evaluator<'a> {
             (Kind::Div(_, divisor), [a, b]) => {
                 if is_zero(dag, *b) {
                     let spans = checked.node(*divisor).spans;
-                    self.refuse(spans, "nothing can be divided by 0", "write another divisor");
+                    self.refuse(
+                        spans,
+                        "nothing can be divided by 0",
+                        "write another divisor",
+                    );
                 }
                 dag.div(*a, *b)
             }

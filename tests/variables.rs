@@ -111,6 +111,31 @@ hamiltonian! {
     dt = sqrt(x^2 + y^2)*ds
 }
 
+hamiltonian! {
+    /// Coordinates that are replaced around one that stays, with forces on all.
+    pub struct Around {}
+    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
+    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
+}
+
+hamiltonian! {
+    /// The same with two of them polar.
+    pub struct AroundPolar {}
+    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
+    coordinates polar(x, y);
+    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
+}
+
+hamiltonian! {
+    /// Bodies with a force, in Jacobi coordinates and in another time.
+    pub struct Dragged { m: [3], g = 0.1 }
+    H(q[3][2]; p[3][2]) = sum(i in 0..3) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..3, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates jacobi(q, m);
+    dt = norm(q[1] - q[0])*ds;
+    force(q; p) = -g*norm_squared(q[0])*p
+}
+
 #[track_caller]
 fn close(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()), "{a} is not {b}");
@@ -289,6 +314,61 @@ fn forces_are_carried() {
     close(f[0], -0.1 * 0.3 * r);
     close(f[1], -0.1 * 1.1 * r);
     close(f[2], 0.1 * (0.3 * 0.3 + 1.1 * 1.1) * r);
+}
+
+#[test]
+fn groups_that_stay_change_their_number() {
+    let (around, polar) = (Around {}, AroundPolar {});
+    let names = <AroundPolar as System<f64>>::GROUPS.iter();
+    let names: Vec<_> = names.map(|g| g.coordinate).collect();
+    assert_eq!(names, ["r", "phi", "u"]);
+    let old = State::new([0.7, 0.2, -0.4], [0.3, -0.6, 1.1]);
+    let there = polar.from_declared(&old);
+    close(there.q[2], 0.2);
+    close(there.p[2], -0.6);
+    let back = polar.to_declared(&there);
+    equal(&back.q, &old.q);
+    equal(&back.p, &old.p);
+    close(around.energy(&old), polar.energy(&there));
+    let (f, g) = (around.force(&old), polar.force(&there));
+    close(g[2], f[1]);
+    let power: f64 = f.dot(&around.gradient(&old).p);
+    close(power, g.dot(&polar.gradient(&there).p));
+}
+
+#[test]
+fn forces_on_arrays() {
+    let m = [3.0, 1.0, 0.5];
+    let system = Dragged {
+        m: m.into(),
+        g: 0.1,
+    };
+    let q = [[0.1, 0.2], [1.0, 0.3], [-1.5, 0.4]];
+    let p = [[0.1, -0.3], [0.2, 1.3], [-0.1, -0.4]];
+    let bodies = State::new(q, p);
+    let jacobi = hamiltonian::coordinates::to_jacobi(&bodies, &m).unwrap();
+    let state = State {
+        t: 0.0,
+        q: DraggedVector {
+            q_jacobi: jacobi.q,
+            t: 0.0,
+        },
+        p: DraggedVector {
+            q_jacobi: jacobi.p,
+            t: 0.0,
+        },
+    };
+    let state = system.on_shell(&state);
+    let force = system.force(&state);
+    // The map is linear: a force is carried as the momenta are.
+    let factor = 0.9f64.hypot(0.1);
+    let pull = -0.1 * (0.01 + 0.04) * factor;
+    equal(&force.q_jacobi, &(state.p.q_jacobi * pull));
+    let kinetic: f64 = (0..3)
+        .map(|i| (p[i][0] * p[i][0] + p[i][1] * p[i][1]) / m[i])
+        .sum();
+    close(force.t, -pull * kinetic);
+    close(system.energy(&state), 0.0);
 }
 
 #[test]

@@ -55,12 +55,12 @@ pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
         state.charts(checked, report)?;
     }
     if let (Some(factor), Some((_, span))) = (state.factor, checked.time_factor)
-        && let Err(reason) = state.time(factor)
+        && let Err((reason, help)) = state.time(factor)
     {
         report.error(
             span,
             format!("this time cannot be introduced: {reason}"),
-            "write `dt = g(q, p)*ds` with g > 0",
+            help,
         );
         return None;
     }
@@ -252,9 +252,9 @@ impl Settling {
         all
     }
 
-    fn time(&mut self, factor: Node) -> Result<(), String> {
+    fn time(&mut self, factor: Node) -> Result<(), (String, &'static str)> {
         let retimed = transform::retime(&self.model, factor, &self.carried());
-        let mut retimed = retimed.map_err(|reason| reason.to_string())?;
+        let mut retimed = retimed.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
         let names: Vec<(String, Node)> = {
             let pieces = retimed.carried[..self.pieces.len()].iter();
             pieces.map(|piece| (String::new(), *piece)).collect()
@@ -269,7 +269,13 @@ impl Settling {
         self.put_back(retimed.model.clone(), carried);
         self.pieces = pieces.into_iter().map(|(_, piece)| piece).collect();
         if !self.force.is_empty() {
-            let forces = literal(&self.force).ok_or("a force in a loop is not carried along")?;
+            let forces = literal(&self.force).ok_or_else(|| {
+                let reason = "a force on arrays whose length is not literal is not carried along";
+                (
+                    reason.to_owned(),
+                    "give the coordinates a literal number of elements",
+                )
+            })?;
             let forces = retimed.force(&forces);
             self.force = entries(&forces);
         }

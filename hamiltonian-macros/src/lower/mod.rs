@@ -186,14 +186,22 @@ impl Rest<'_> {
                     (Some(rows.clone()), columns.as_constant().unwrap_or(1))
                 }
             };
-            let row = match rows {
-                None => Index::constant(0),
-                Some(rows) => {
-                    let domain = model.dag.domain(None, Affine::constant(0), rows);
-                    Index::plain(Affine::variable(domain))
-                }
+            // In other variables a force is carried element by element where its length is known.
+            let moved = !self.checked.charts.is_empty() || self.checked.time_factor.is_some();
+            let places: Vec<Index> = match rows {
+                None => vec![Index::constant(0)],
+                Some(rows) => match rows.as_constant().filter(|_| moved) {
+                    Some(count) => (0..count).map(Index::constant).collect(),
+                    None => {
+                        let domain = model.dag.domain(None, Affine::constant(0), rows);
+                        vec![Index::plain(Affine::variable(domain))]
+                    }
+                },
             };
-            for column in 0..columns {
+            for (row, column) in places
+                .iter()
+                .flat_map(|row| (0..columns).map(move |column| (row, column)))
+            {
                 let mut demand = Demand::default();
                 if shape != Shape::Scalar {
                     demand.indices.push(row.clone());

@@ -2,8 +2,8 @@
 
 mod common;
 
-use common::checks::start;
 use common::systems::*;
+use common::{difference, start};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
 use hamiltonian_core::{Real, Scheme, Vector, private::SVector, watch};
@@ -79,7 +79,7 @@ fn negative_steps_integrate_backwards() {
         let end = there.advance_to(50.0).unwrap().clone();
         let mut back = Integrator::new(&system, scheme, end, -0.05).unwrap();
         let end = back.advance_to(0.0).unwrap();
-        let error = common::reference::difference(end, &oscillating());
+        let error = difference(end, &oscillating());
         // A regular orbit: 2000 steps of a few roundings each, growing linearly.
         assert!(error <= 1e-11, "{error:e}");
         assert!(end.t.abs() <= 50.0 * f64::EPSILON);

@@ -271,19 +271,6 @@ impl Formula<1> for Paper34 {
     }
 }
 
-/// (34) with a clock: H = ½(q² + 1)(p² + 1)(1 + ½ sin 2t).
-#[derive(Debug, Clone)]
-pub struct Shaken34;
-
-impl Formula<1> for Shaken34 {
-    const NAME: &'static str = "Shaken34";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
-    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
-        let factor = T::one() + number::<T>(0.5) * (t + t).sin();
-        Paper34.energy(t, q, p) * factor
-    }
-}
-
 /// H = (p_x² + p_y²)/2 + (x² + y²)/2 + x²y − y³/3.
 #[derive(Debug, Clone)]
 pub struct HenonHeiles;
@@ -328,34 +315,6 @@ impl Split<1> for Relativistic {
     }
     fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
         [p[0] / (T::one() + p[0] * p[0]).sqrt()]
-    }
-}
-
-/// H = p²/2 + q²/2 + q⁴/4 − a q cos ωt.
-#[derive(Debug, Clone)]
-pub struct Driven {
-    pub a: f64,
-    pub omega: f64,
-}
-
-impl Formula<1> for Driven {
-    const NAME: &'static str = "Driven";
-    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
-    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
-        let square = q[0] * q[0];
-        number::<T>(0.5) * (p[0] * p[0] + square) + number::<T>(0.25) * square * square
-            - number::<T>(self.a) * q[0] * (number::<T>(self.omega) * t).cos()
-    }
-    gradient_of_halves!(1);
-}
-
-impl Split<1> for Driven {
-    fn force<T: Real>(&self, t: T, q: &[T; 1]) -> [T; 1] {
-        let drive = number::<T>(self.a) * (number::<T>(self.omega) * t).cos();
-        [q[0] + q[0] * q[0] * q[0] - drive]
-    }
-    fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
-        *p
     }
 }
 

@@ -2,57 +2,50 @@
 
 mod common;
 
-use common::checks::*;
+use common::geometry::*;
 use common::systems::*;
-use hamiltonian_core::schemes::*;
-use hamiltonian_core::{Dual, System};
+use hamiltonian::schemes::*;
+use hamiltonian::{Dual, Separable};
 
-fn geometry<S: System<Dual<f64>>>(system: S, q: &[f64], p: &[f64], h: f64) -> Geometry<S> {
-    Geometry {
-        system,
-        q: q.to_vec(),
-        p: p.to_vec(),
-        h,
-        measured: Vec::new(),
-    }
-}
-
-#[test]
-fn of_all_schemes_on_separable_systems() {
-    let mut geometry = geometry(Hand(Relativistic), &[0.9], &[0.4], 0.2);
+fn separable<S: Separable<Dual<f64>>>(mut geometry: Geometry<S>) {
     visit_any(&mut geometry);
     visit_separable(&mut geometry);
+    assert_eq!(geometry.measured.len(), 3 * catalogue().count());
     for (entry, defect) in geometry.measured {
         println!("{} {}: {defect:.1e}", entry.name, entry.variant);
     }
-    let mut geometry = self::geometry(Hand(HenonHeiles), &[0.1, -0.25], &[0.42, 0.1], 0.2);
-    visit_any(&mut geometry);
-    visit_separable(&mut geometry);
 }
 
 #[test]
-fn of_all_schemes_with_time_in_both_halves() {
-    let mut geometry = geometry(Hand(Pumped), &[0.9], &[0.4], 0.2);
-    visit_any(&mut geometry);
-    visit_separable(&mut geometry);
+fn on_separable_systems() {
+    separable(Geometry::new(Relativistic::default(), &[0.9], &[0.4], 0.2));
+    let (q, p) = ([0.1, -0.25], [0.42, 0.1]);
+    separable(Geometry::new(HenonHeiles::default(), &q, &p, 0.2));
+}
+
+#[test]
+fn with_time() {
+    separable(Geometry::new(Pumped::default(), &[0.9], &[0.4], 0.2));
+    separable(Geometry::new(Driven::default(), &[1.0], &[0.3], 0.2));
 }
 
 #[test]
 fn on_systems_that_are_not_separable() {
-    visit_any(&mut geometry(Hand(Paper34), &[-3.0], &[0.5], 0.05));
-    visit_any(&mut geometry(Hand(Shaken34), &[1.0], &[0.5], 0.1));
-    visit_any(&mut geometry(
-        Hand(DoublePendulum),
-        &[0.8, -0.4],
-        &[0.3, 0.2],
+    visit_any(&mut Geometry::new(
+        Paper34::default(),
+        &[-3.0],
+        &[0.5],
         0.05,
     ));
+    visit_any(&mut Geometry::new(Shaken34::default(), &[1.0], &[0.5], 0.1));
+    let (q, p) = ([0.8, -0.4], [0.3, 0.2]);
+    visit_any(&mut Geometry::new(DoublePendulum::default(), &q, &p, 0.05));
 }
 
 /// In the extended space of both copies at one time, (29) and (30) preserve dq∧dp + dq̃∧dp̃.
 #[test]
 fn of_the_synchronised_copies() {
-    let system = Hand(DoublePendulum);
+    let system = DoublePendulum::default();
     let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
     for scheme in [Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst] {
         let columns = copies_tangent(&system, &scheme, &start, 0.05);
@@ -64,9 +57,8 @@ fn of_the_synchronised_copies() {
 /// The wrong forms are not preserved: the checks can fail.
 #[test]
 fn negative_controls() {
-    let system = Hand(Paper34);
-    let (q, p) = ([-3.0], [0.5]);
-    let start = start(&system, &q, &p);
+    let system = Paper34::default();
+    let start = start(&system, &[-3.0], &[0.5]);
     // What is seen of (29) after three steps is no symplectic map of the start.
     let columns = visible_tangent(&system, &Pihajoki::default(), &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));

@@ -1,71 +1,8 @@
-//! Order and symplecticity, measured, for any scheme on any system.
+//! The 2-form a scheme preserves, measured by exact tangents.
 
-use super::reference::{difference, solution};
-use hamiltonian_core::schemes::Visitor;
-use hamiltonian_core::{
-    Copies, DoubleDouble, Dual, Entry, Form, Integrator, Real, Scheme, State, Stepper, System,
-    Vector,
-};
-
-/// The exponent of the error against the step, by least squares over all points.
-pub fn slope(points: &[(f64, f64)]) -> f64 {
-    let n = points.len() as f64;
-    let logs: Vec<_> = points
-        .iter()
-        .map(|(h, error)| (h.ln(), error.ln()))
-        .collect();
-    let mean = |of: fn(&(f64, f64)) -> f64| logs.iter().map(of).sum::<f64>() / n;
-    let (x, y) = (mean(|log| log.0), mean(|log| log.1));
-    let covariance: f64 = logs.iter().map(|log| (log.0 - x) * (log.1 - y)).sum();
-    covariance / logs.iter().map(|log| (log.0 - x).powi(2)).sum::<f64>()
-}
-
-/// The order of every visited scheme: errors at eight times up to `span` against the reference,
-/// with `coarsest`, and four halvings of it.
-///
-/// The maximum over several times keeps a zero of the leading error term from passing for order;
-/// double-double keeps rounding out of the errors.
-pub struct Order<S: System<DoubleDouble>> {
-    pub system: S,
-    pub start: State<S::Vector>,
-    pub span: f64,
-    pub coarsest: f64,
-    pub measured: Vec<(&'static Entry, f64)>,
-}
-
-impl<S: System<DoubleDouble>> Visitor<DoubleDouble, S> for Order<S> {
-    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
-        const TIMES: u32 = 8;
-        let between = DoubleDouble::from(self.span) / DoubleDouble::from(f64::from(TIMES));
-        let mut exact = vec![self.start.clone()];
-        for _ in 0..TIMES {
-            let last = exact.last().expect("the start");
-            exact.push(solution(&self.system, last, last.t + between));
-        }
-        let mut points = Vec::new();
-        for halving in 0..5 {
-            // An even number of steps to each time: some schemes advance by two of them.
-            let steps = 2 * (between.to_f64() / self.coarsest / 2.0).ceil() as u32 * (1 << halving);
-            let h = between / DoubleDouble::from(f64::from(steps));
-            let run = Integrator::new(&self.system, scheme.clone(), self.start.clone(), h);
-            let mut run = run.expect("a good start");
-            let error = run
-                .states(u64::from(steps / scheme.entry().duration))
-                .zip(&exact[1..])
-                .map(|(state, exact)| difference(&state.expect("a good step"), exact))
-                .fold(0.0, f64::max);
-            points.push((h.to_f64(), error));
-        }
-        let slope = slope(&points);
-        let entry = scheme.entry();
-        let name = format!("{} {} on {}", entry.name, entry.variant, S::NAME);
-        assert!(
-            (slope - f64::from(entry.order)).abs() <= 0.1,
-            "{name}: slope {slope}, {points:?}"
-        );
-        self.measured.push((entry, slope));
-    }
-}
+use super::state;
+use hamiltonian::schemes::Visitor;
+use hamiltonian::{Copies, Dual, Entry, Form, Integrator, Scheme, State, Stepper, System, Vector};
 
 /// MᵀJM − J, and ‖M‖², both in the maximum norm of entries; columns of M are `columns`.
 pub fn defect(columns: &[Vec<f64>], form: impl Fn(usize, usize) -> f64) -> (f64, f64) {
@@ -234,27 +171,32 @@ fn seeded(value: f64, seed: bool) -> Dual<f64> {
     }
 }
 
-/// A start at t = 0.3 in any scalar.
-pub fn start<T: Real, S: System<T>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
-    let mut state = State {
-        t: T::constant(0.3, 0.0),
-        q: system.zeros(),
-        p: system.zeros(),
-    };
-    for (i, (q, p)) in q.iter().zip(p).enumerate() {
-        *state.q.component_mut(i) = T::constant(*q, 0.0);
-        *state.p.component_mut(i) = T::constant(*p, 0.0);
-    }
-    state
+/// A start at t = 0.3.
+pub fn start<S: System<Dual<f64>>>(system: &S, q: &[f64], p: &[f64]) -> State<S::Vector> {
+    let numbers = |v: &[f64]| v.iter().copied().map(Dual::fixed).collect::<Vec<_>>();
+    state(system, Dual::fixed(0.3), numbers(q), numbers(p))
 }
 
 /// The form each visited scheme says it preserves, over the first, second and third step.
 pub struct Geometry<S> {
-    pub system: S,
-    pub q: Vec<f64>,
-    pub p: Vec<f64>,
-    pub h: f64,
+    system: S,
+    q: Vec<f64>,
+    p: Vec<f64>,
+    h: f64,
     pub measured: Vec<(&'static Entry, f64)>,
+}
+
+impl<S> Geometry<S> {
+    /// From (q, p) at t = 0.3, with the step `h`.
+    pub fn new(system: S, q: &[f64], p: &[f64], h: f64) -> Geometry<S> {
+        Geometry {
+            system,
+            q: q.to_vec(),
+            p: p.to_vec(),
+            h,
+            measured: Vec::new(),
+        }
+    }
 }
 
 impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
@@ -264,7 +206,7 @@ impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
         const BOUND: f64 = 1e-13;
         let entry = scheme.entry();
         let n = self.q.len();
-        let start = start::<Dual<f64>, S>(&self.system, &self.q, &self.p);
+        let start = start(&self.system, &self.q, &self.p);
         for made in 0..3 {
             let (worst, size) = match entry.preserves {
                 Form::TwoPoint => defect(

@@ -1,0 +1,48 @@
+//! What the tests share: the systems, a reference solution, and checks that are generic over
+//! system and scheme.
+#![allow(dead_code)]
+
+pub mod geometry;
+pub mod order;
+pub mod reference;
+pub mod systems;
+
+use hamiltonian::{Real, State, System, Vector};
+
+/// A point in any scalar.
+pub fn state<T: Real, S: System<T>>(
+    system: &S,
+    t: T,
+    q: impl IntoIterator<Item = T>,
+    p: impl IntoIterator<Item = T>,
+) -> State<S::Vector> {
+    let fill = |values: &mut dyn Iterator<Item = T>| {
+        let mut vector = system.zeros();
+        for at in 0..vector.len() {
+            *vector.component_mut(at) = values.next().expect("as many values as components");
+        }
+        assert!(values.next().is_none(), "more values than components");
+        vector
+    };
+    State {
+        t,
+        q: fill(&mut q.into_iter()),
+        p: fill(&mut p.into_iter()),
+    }
+}
+
+/// Whether `value` rounds to `quoted`, a number given to so many significant digits.
+#[track_caller]
+pub fn assert_digits(what: &str, value: f64, quoted: f64, digits: i32) {
+    let unit = 10f64.powi(quoted.abs().log10().floor() as i32 - digits + 1);
+    // Half a unit for the rounding of the quoted number, and no more.
+    assert!(
+        (value - quoted).abs() <= 0.5 * unit,
+        "{what}: {value:e}, quoted {quoted:e}"
+    );
+}
+
+/// Whether the long versions of the tests were asked for.
+pub fn is_heavy() -> bool {
+    std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1")
+}

@@ -1,0 +1,54 @@
+//! The order of every scheme of the catalogue, measured by slopes over five steps, on systems
+//! that are neither linear nor quadratic, with and without time in H.
+
+mod common;
+
+use common::order::Order;
+use common::systems::*;
+use hamiltonian::schemes::{catalogue, visit_any, visit_separable};
+use hamiltonian::{DoubleDouble, Separable};
+
+fn separable<S: Separable<DoubleDouble>>(mut order: Order<S>) {
+    visit_any(&mut order);
+    visit_separable(&mut order);
+    assert_eq!(order.measured.len(), catalogue().count());
+    for (entry, slope) in order.measured {
+        println!("{} {}: {slope:.3}", entry.name, entry.variant);
+    }
+}
+
+#[test]
+fn on_a_separable_system() {
+    let system = Relativistic::default();
+    separable(Order::new(system, &[0.9], &[0.4], 2.0, 0.02));
+}
+
+#[test]
+fn where_both_halves_depend_on_time() {
+    let system = Pumped::default();
+    separable(Order::new(system, &[0.9], &[0.4], 2.0, 0.02));
+}
+
+#[test]
+fn on_the_driven_oscillator() {
+    let system = Driven::default();
+    separable(Order::new(system, &[1.0], &[0.0], 2.0, 0.02));
+}
+
+#[test]
+fn on_the_papers_nonseparable_system() {
+    let system = Paper34::default();
+    visit_any(&mut Order::new(system, &[-3.0], &[0.0], 1.0, 0.002));
+}
+
+#[test]
+fn on_a_nonseparable_system_with_time() {
+    let system = Shaken34::default();
+    visit_any(&mut Order::new(system, &[1.0], &[0.5], 2.0, 0.01));
+}
+
+#[test]
+fn on_the_double_pendulum() {
+    let (system, q, p) = (DoublePendulum::default(), [0.8, -0.4], [0.3, 0.2]);
+    visit_any(&mut Order::new(system, &q, &p, 1.0, 0.005));
+}

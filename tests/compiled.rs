@@ -1,0 +1,217 @@
+//! Random expressions compiled through the macro, bit-equal to the interpreter.
+//!
+//! `compiled/expressions.rs` is written by the generator here (a test asks for the file to be what
+//! it makes). The macro reads the text of a tree; the interpreter runs the program derived from
+//! the same tree. Both go H → structure → program with the same purposes in the same order, so
+//! every value computed ahead agrees, and over `f64` every bit must.
+
+mod compiled {
+    pub mod expressions;
+    pub mod generate;
+    pub mod interpret;
+}
+#[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
+mod tree;
+
+use compiled::expressions::compiled;
+use compiled::generate::{COUNT, TESTS, file, trees};
+use compiled::interpret::Interpreted;
+use hamiltonian::private::SVector;
+use hamiltonian::{Drift, Dynamics, Flow, Kick, Separable, System};
+
+/// Where everything is evaluated.
+#[derive(Clone, Debug)]
+pub struct At {
+    /// Time.
+    pub t: f64,
+    /// Coordinates.
+    pub q: [f64; 2],
+    /// Momenta.
+    pub p: [f64; 2],
+    /// Values of a, b and c.
+    pub parameters: [f64; 3],
+    /// The step coefficient of flows.
+    pub c: f64,
+    /// What the Hessian is multiplied with.
+    pub direction: [[f64; 2]; 2],
+    /// What flows add to.
+    pub into: [[f64; 2]; 2],
+}
+
+/// Named outputs.
+pub type Outputs = Vec<(&'static str, f64)>;
+
+fn two(outputs: &mut Outputs, name: &'static str, values: SVector<f64, 2>) {
+    outputs.extend(values.iter().map(|value| (name, *value)));
+}
+
+/// What every system gives, in the order of [`interpret`](compiled::interpret).
+fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs {
+    let prepared = system.prepare();
+    let (t, q, p) = (at.t, SVector::from(at.q), SVector::from(at.p));
+    let zero = SVector::from([f64::NAN; 2]);
+    let (mut a, mut b) = (zero, zero);
+    let mut outputs = vec![("energy", prepared.energy(t, &q, &p))];
+    let energy = prepared.energy_and_gradient(t, &q, &p, &mut a, &mut b);
+    outputs.push(("energy with gradient", energy));
+    two(&mut outputs, "gradient with energy, q", a);
+    two(&mut outputs, "gradient with energy, p", b);
+    outputs.push(("time derivative", prepared.time_derivative(t, &q, &p)));
+    let [vq, vp] = at.direction.map(SVector::from);
+    (a, b) = (zero, zero);
+    prepared.hessian_vector(t, &q, &p, &vq, &vp, &mut a, &mut b);
+    two(&mut outputs, "Hessian, q", a);
+    two(&mut outputs, "Hessian, p", b);
+    (a, b) = (zero, zero);
+    prepared.gradient_q(t, &q, &p, &mut a);
+    two(&mut outputs, "gradient by q", a);
+    prepared.gradient_p(t, &q, &p, &mut b);
+    two(&mut outputs, "gradient by p", b);
+    (a, b) = (zero, zero);
+    prepared.gradient(t, &q, &p, &mut a, &mut b);
+    two(&mut outputs, "gradient, q", a);
+    two(&mut outputs, "gradient, p", b);
+    [a, b] = at.into.map(SVector::from);
+    prepared.flow(at.c).flow(t, &q, &p, &mut a, &mut b);
+    two(&mut outputs, "flow, q", a);
+    two(&mut outputs, "flow, p", b);
+    outputs
+}
+
+/// What separable systems give besides.
+fn separable<S>(system: &S, at: &At) -> Outputs
+where
+    S: Separable<f64> + System<f64, Vector = SVector<f64, 2>>,
+{
+    let mut outputs = any(system, at);
+    let prepared = system.prepare();
+    let [mut a, mut b] = at.into.map(SVector::from);
+    S::kick(&prepared, at.c).kick(at.t, &SVector::from(at.q), &mut b);
+    two(&mut outputs, "kick", b);
+    S::drift(&prepared, at.c).drift(at.t, &SVector::from(at.p), &mut a);
+    two(&mut outputs, "drift", a);
+    outputs
+}
+
+/// `compiled(number)` evaluates that expression; made in the generated file.
+macro_rules! list {
+    ($($number:literal $name:ident $kind:ident)*) => {
+        /// The evaluation of an expression as the macro compiled it.
+        pub fn compiled(number: usize) -> fn(&crate::At) -> crate::Outputs {
+            match number {
+                $($number => |at| {
+                    let [a, b, c] = at.parameters;
+                    let system = $name { a, b, c };
+                    let mut outputs = crate::$kind(&system, at);
+                    let state = hamiltonian::State::new(at.q, at.p).at(at.t);
+                    let gradient = system.parameter_gradient(&state);
+                    let values = [gradient.a, gradient.b, gradient.c];
+                    outputs.extend(values.map(|value| ("parameters", value)));
+                    outputs
+                },)*
+                _ => unreachable!("there are no more"),
+            }
+        }
+    };
+}
+use list;
+
+/// The committed file is what the generator makes. `HAMILTONIAN_GENERATE=1` writes it.
+#[test]
+fn the_file_is_what_is_generated() {
+    let made = file();
+    if std::env::var_os("HAMILTONIAN_GENERATE").is_some() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/compiled/expressions.rs");
+        std::fs::write(path, &made).expect("the file can be written");
+    }
+    let committed = include_str!("compiled/expressions.rs");
+    assert!(made == committed, "run with HAMILTONIAN_GENERATE=1 once");
+}
+
+#[test]
+fn bits_are_those_of_the_interpreter() {
+    let mut random = tree::Random(0xB175);
+    let (mut compared, mut finite, mut separated) = (0, 0, 0);
+    let mut wrong = Vec::new();
+    let trees = trees();
+    assert_eq!(trees.len(), COUNT);
+    for (number, (tree, kind)) in trees.iter().enumerate() {
+        let interpreted = Interpreted::of(tree);
+        assert_eq!(
+            interpreted.is_separable(),
+            *kind == "separable",
+            "{}",
+            tree.text()
+        );
+        separated += usize::from(*kind == "separable");
+        for _ in 0..TESTS {
+            let at = point(&mut random);
+            let expected = interpreted.evaluate(&at);
+            let found = compiled(number)(&at);
+            assert_eq!(found.len(), expected.len());
+            for ((name, found), (same, expected)) in found.into_iter().zip(expected) {
+                assert_eq!(name, same);
+                compared += 1;
+                finite += usize::from(expected.is_finite());
+                let both = found.is_nan() && expected.is_nan();
+                if !both && found.to_bits() != expected.to_bits() {
+                    wrong.push(format!(
+                        "{number} {name}: {found:e} is not {expected:e}: {} at {at:?}",
+                        tree.text()
+                    ));
+                }
+            }
+        }
+    }
+    println!("{compared} outputs, {finite} finite, {separated} of {COUNT} expressions separable");
+    assert!(
+        wrong.is_empty(),
+        "{} of {compared}:\n{}",
+        wrong.len(),
+        wrong[..wrong.len().min(20)].join("\n")
+    );
+    assert!(
+        finite * 4 > compared * 3,
+        "{finite} of {compared} say something"
+    );
+}
+
+/// Mostly numbers of order 1 of either sign, now and then one on an edge.
+fn point(random: &mut tree::Random) -> At {
+    let edges = random.chance(0.1);
+    let mut number = || {
+        if edges && random.chance(0.5) {
+            return random.one_of(&[0.0, -0.0, 1.0, -1.0, 0.5, 2.0]);
+        }
+        let size = 2.0 * random.unit() + 0.01;
+        if random.chance(0.3) { -size } else { size }
+    };
+    let mut two = || [number(), number()];
+    let (q, p, direction, into) = (two(), two(), [two(), two()], [two(), two()]);
+    let [t, c] = two();
+    let ([a, b], [third, _]) = (two(), two());
+    At {
+        t,
+        q,
+        p,
+        parameters: [a, b, third],
+        c,
+        direction,
+        into,
+    }
+}
+
+hamiltonian::hamiltonian! {
+    /// Almost everywhere H = p, but the condition reads both.
+    pub struct Conditional { a = 1.0 }
+    H = if a/(if q <= p { q } else { 2 }) == 3 { 5 } else { p }
+}
+
+/// A condition couples q and p without a derivative that does: the drift must not read q.
+#[test]
+fn conditions_couple_without_a_derivative() {
+    let prepared = System::<f64>::prepare(&Conditional::default());
+    let mut q = SVector::from([0.5]);
+    Conditional::<f64>::drift(&prepared, 2.0).drift(0.0, &SVector::from([0.25]), &mut q);
+    assert_eq!(q[0], 2.5);
+}

@@ -1,0 +1,121 @@
+//! The generator: trees from seeds, and the file the macro reads them from.
+
+use super::interpret::Interpreted;
+use crate::tree::{PAIRS, Part, Random, TIME, Test, Tree, grow};
+use std::fmt::Write;
+
+/// How many expressions there are.
+pub const COUNT: usize = 256;
+/// How many points each is evaluated at.
+pub const TESTS: usize = 16;
+
+/// The trees, each with the function of `compiled.rs` that evaluates it. Every third one is made
+/// a sum T(p, t) + V(q, t), all others couple. What the language refuses, an H without momenta, is
+/// left out.
+pub fn trees() -> Vec<(Tree, &'static str)> {
+    let mut random = Random(0x5EED);
+    let mut trees = Vec::new();
+    while trees.len() < COUNT {
+        let (mut tree, _) = grow(&mut random);
+        let splits = trees.len() % 3 == 0;
+        if splits {
+            let (potential, _) = grow(&mut random);
+            tree = sum(&on_side(&tree, PAIRS), &on_side(&potential, 0));
+        }
+        tree = in_source_order(&tree);
+        let has_momentum = (PAIRS..2 * PAIRS).any(|at| tree.mentions(at));
+        if has_momentum
+            && tree.text().len() < 2000
+            && Interpreted::of(&tree).is_separable() == splits
+        {
+            trees.push((tree, if splits { "separable" } else { "any" }));
+        }
+    }
+    trees
+}
+
+/// The same expression, its places in the order in which the text names them: the order of
+/// contributions to a derivative is that of the source.
+fn in_source_order(tree: &Tree) -> Tree {
+    let mut parts = Vec::new();
+    let mut places = vec![None; tree.0.len()];
+    let mut open = vec![(tree.0.len() - 1, false)];
+    while let Some((at, is_seen)) = open.pop() {
+        let operands = tree.0[at].operands();
+        if places[at].is_some() {
+            continue;
+        }
+        if is_seen {
+            places[at] = Some(parts.len());
+            let moved = |at: usize| places[at].expect("operands come first");
+            parts.push(with_places(tree.0[at], moved));
+        } else {
+            open.push((at, true));
+            open.extend(operands.into_iter().rev().map(|operand| (operand, false)));
+        }
+    }
+    Tree(parts)
+}
+
+/// The tree with coordinates and momenta all on the side that begins at `start`.
+fn on_side(tree: &Tree, start: usize) -> Tree {
+    let parts = tree.0.iter().map(|part| match *part {
+        Part::Variable(at) if at < TIME => Part::Variable(start + at % PAIRS),
+        part => part,
+    });
+    Tree(parts.collect())
+}
+
+/// The sum of two trees.
+fn sum(a: &Tree, b: &Tree) -> Tree {
+    let by = a.0.len();
+    let moved = b.0.iter().map(|part| with_places(*part, |at| at + by));
+    let mut parts: Vec<_> = a.0.iter().copied().chain(moved).collect();
+    parts.push(Part::Add(by - 1, parts.len() - 1));
+    Tree(parts)
+}
+
+/// The part with its operands at other places.
+fn with_places(part: Part, m: impl Fn(usize) -> usize) -> Part {
+    let test = |test| match test {
+        Test::Less(a, b) => Test::Less(m(a), m(b)),
+        Test::LessEqual(a, b) => Test::LessEqual(m(a), m(b)),
+        Test::Equal(a, b) => Test::Equal(m(a), m(b)),
+    };
+    match part {
+        Part::Variable(_) | Part::Number(..) | Part::Pi => part,
+        Part::Neg(a) => Part::Neg(m(a)),
+        Part::Add(a, b) => Part::Add(m(a), m(b)),
+        Part::Sub(a, b) => Part::Sub(m(a), m(b)),
+        Part::Mul(a, b) => Part::Mul(m(a), m(b)),
+        Part::Div(a, b) => Part::Div(m(a), m(b)),
+        Part::Power(a, n, d) => Part::Power(m(a), n, d),
+        Part::Call(op, a) => Part::Call(op, m(a)),
+        Part::Call2(op, a, b) => Part::Call2(op, m(a), m(b)),
+        Part::If(c, negated, a, b) => Part::If(test(c), negated, m(a), m(b)),
+        Part::IfBoth(c, d, either, a, b) => Part::IfBoth(test(c), test(d), either, m(a), m(b)),
+    }
+}
+
+/// The text of `expressions.rs`.
+pub fn file() -> String {
+    let mut text = String::from(
+        "//! Random expressions for the macro. Made by `generate.rs`; not to be edited.\n\n\
+         use hamiltonian::hamiltonian;\n",
+    );
+    let trees = trees();
+    for (number, (tree, _)) in trees.iter().enumerate() {
+        let h = tree.text();
+        // Writing to a string does not fail.
+        let _ = write!(
+            text,
+            "\nhamiltonian! {{\n    pub struct E{number} {{ a, b, c }}\n    H(x, y; px, py; t) = {h}\n}}\n"
+        );
+    }
+    text.push_str("\ncrate::list! {\n");
+    for (number, (_, kind)) in trees.iter().enumerate() {
+        let _ = writeln!(text, "    {number} E{number} {kind}");
+    }
+    text.push_str("}\n");
+    text
+}

@@ -1,0 +1,187 @@
+//! The same trees through the engine and its interpreter, as the macro's back end drives it.
+
+use crate::tree::{PAIRS, PARAMETERS, Tree};
+use crate::{At, Outputs};
+use hamiltonian_symbolic::dag::{Array, Dependence, Parameter, Side};
+use hamiltonian_symbolic::eval::{Outcome, Point, run};
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::pipeline::derive;
+use hamiltonian_symbolic::program::{Program, Purpose, Target};
+use hamiltonian_symbolic::{diff, structure};
+
+/// A tree as a program.
+pub struct Interpreted {
+    program: Program,
+    is_separable: bool,
+}
+
+impl Interpreted {
+    /// Structure, then the program for all purposes, in the order of the back end.
+    pub fn of(tree: &Tree) -> Interpreted {
+        let mut model = tree.model();
+        let structure = structure::analyse(&mut model);
+        let mut wanted = vec![
+            Purpose::Energy,
+            Purpose::EnergyAndGradient,
+            Purpose::TimeDerivative,
+            Purpose::HessianVector,
+            Purpose::GradientQ,
+            Purpose::GradientP,
+            Purpose::Gradient,
+            Purpose::Flow,
+        ];
+        if let Ok(split) = &structure.separable {
+            let split = model.dag.add(&[split.kinetic, split.potential]);
+            if !separates_as_written(&mut model) {
+                model.hamiltonian = Some(split);
+            }
+            wanted.extend([Purpose::Kick, Purpose::Drift]);
+        }
+        wanted.push(Purpose::ParameterGradient);
+        Interpreted {
+            program: derive(&mut model, &wanted).expect("a program"),
+            is_separable: structure.separable.is_ok(),
+        }
+    }
+
+    pub fn is_separable(&self) -> bool {
+        self.is_separable
+    }
+
+    /// Every output at a point.
+    pub fn evaluate(&self, at: &At) -> Outputs {
+        let mut outputs = Outputs::new();
+        self.add(&mut outputs, at, Purpose::Energy, Some("energy"), &[]);
+        let names = ["gradient with energy, q", "gradient with energy, p"];
+        let energy = Some("energy with gradient");
+        self.add(
+            &mut outputs,
+            at,
+            Purpose::EnergyAndGradient,
+            energy,
+            &sides(names),
+        );
+        let time = Some("time derivative");
+        self.add(&mut outputs, at, Purpose::TimeDerivative, time, &[]);
+        let names = ["Hessian, q", "Hessian, p"];
+        self.add(
+            &mut outputs,
+            at,
+            Purpose::HessianVector,
+            None,
+            &sides(names),
+        );
+        let [by_q, by_p] = sides(["gradient by q", "gradient by p"]);
+        self.add(&mut outputs, at, Purpose::GradientQ, None, &[by_q]);
+        self.add(&mut outputs, at, Purpose::GradientP, None, &[by_p]);
+        let names = ["gradient, q", "gradient, p"];
+        self.add(&mut outputs, at, Purpose::Gradient, None, &sides(names));
+        self.add(
+            &mut outputs,
+            at,
+            Purpose::Flow,
+            None,
+            &sides(["flow, q", "flow, p"]),
+        );
+        if self.is_separable {
+            self.add(&mut outputs, at, Purpose::Kick, None, &[("kick", Side::P)]);
+            self.add(
+                &mut outputs,
+                at,
+                Purpose::Drift,
+                None,
+                &[("drift", Side::Q)],
+            );
+        }
+        let outcome = self.outcome(at, Purpose::ParameterGradient);
+        for number in 0..PARAMETERS {
+            let target = Target::Parameter(Parameter(number as u16));
+            outputs.push(("parameters", outcome.outputs[&target][0][0]));
+        }
+        outputs
+    }
+
+    /// What a purpose returns and stores.
+    fn add(
+        &self,
+        outputs: &mut Outputs,
+        at: &At,
+        purpose: Purpose,
+        result: Option<&'static str>,
+        stores: &[(&'static str, Side)],
+    ) {
+        let outcome = self.outcome(at, purpose);
+        outputs.extend(result.map(|name| (name, outcome.results[0])));
+        for (name, side) in stores {
+            for group in 0..PAIRS as u16 {
+                outputs.push((*name, outcome.outputs[&phase(*side, group)][0][0]));
+            }
+        }
+    }
+
+    fn outcome(&self, at: &At, purpose: Purpose) -> Outcome<f64> {
+        let function = self.program.function(purpose).expect("it was asked for");
+        let adds = matches!(purpose, Purpose::Flow | Purpose::Kick | Purpose::Drift);
+        run(&self.program, function, &point(at, adds))
+    }
+}
+
+fn sides(names: [&'static str; 2]) -> [(&'static str, Side); 2] {
+    [(names[0], Side::Q), (names[1], Side::P)]
+}
+
+fn phase(side: Side, group: u16) -> Target {
+    Target::Phase {
+        side,
+        group,
+        column: 0,
+    }
+}
+
+/// The point as the interpreter reads it; outputs that are not added to start as NaN.
+fn point(at: &At, adds: bool) -> Point<f64> {
+    let mut point = Point::new();
+    (point.t, point.c) = (at.t, at.c);
+    point.scalars = at.parameters.to_vec();
+    for (number, side) in [Side::Q, Side::P].into_iter().enumerate() {
+        for group in 0..PAIRS {
+            let values = [at.q, at.p][number][group];
+            let direction = at.direction[number][group];
+            let into = if adds {
+                at.into[number][group]
+            } else {
+                f64::NAN
+            };
+            let (group, column) = (group as u16, 0);
+            let array = Array::Phase {
+                side,
+                group,
+                column,
+            };
+            point.arrays.insert(array, vec![vec![values]]);
+            let array = Array::Direction {
+                side,
+                group,
+                column,
+            };
+            point.arrays.insert(array, vec![vec![direction]]);
+            point.outputs.insert(phase(side, group), vec![vec![into]]);
+        }
+    }
+    for number in 0..PARAMETERS {
+        let target = Target::Parameter(Parameter(number as u16));
+        point.outputs.insert(target, vec![vec![f64::NAN]]);
+    }
+    point
+}
+
+/// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written.
+fn separates_as_written(model: &mut Model) -> bool {
+    let h = model.hamiltonian.expect("there is an H");
+    let mut is_free = |by: Dependence, of: Dependence| {
+        let adjoints = diff::gradient(&mut model.dag, h, by);
+        let mut values = adjoints.iter().map(|(_, value)| *value);
+        values.all(|value| !model.dag.dependence(value).on(of))
+    };
+    is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
+}

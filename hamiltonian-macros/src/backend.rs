@@ -66,8 +66,9 @@ fn system(
         return None;
     }
     let structure = structure::analyse(&mut model);
-    let text = docs::text(&model, &structure, is_large(checked, &model));
+    let mut text = docs::text(&model, &structure, is_large(checked, &model));
     let program = derive(checked, &mut model, &structure, report)?;
+    text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     let definition = emit::Definition {
         root: root.clone(),

@@ -2,6 +2,7 @@
 
 mod accepted;
 mod diagnostics;
+mod docs;
 mod limits;
 mod precedence;
 mod refused;

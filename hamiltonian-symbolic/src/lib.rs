@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod bracket;
+pub mod count;
 pub mod dag;
 pub mod diff;
 pub mod eval;

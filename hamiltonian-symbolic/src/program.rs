@@ -206,26 +206,6 @@ pub struct Program {
     pub functions: Vec<Function>,
 }
 
-/// Operations of one evaluation, as a reader would count them: negation is free, a fused
-/// multiply–add is two, sine and cosine of one angle are one.
-#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Operations {
-    /// Additions, subtractions and multiplications.
-    pub arithmetic: usize,
-    /// Divisions.
-    pub divisions: usize,
-    /// Roots and transcendental functions.
-    pub functions: usize,
-}
-
-impl Operations {
-    /// All of them.
-    #[must_use]
-    pub fn total(self) -> usize {
-        self.arithmetic + self.divisions + self.functions
-    }
-}
-
 impl Program {
     /// The instruction of a value.
     #[must_use]
@@ -236,43 +216,5 @@ impl Program {
     #[must_use]
     pub fn function(&self, purpose: Purpose) -> Option<&Function> {
         self.functions.iter().find(|f| f.purpose == purpose)
-    }
-    /// The operations of one evaluation, each loop body counted once.
-    #[must_use]
-    pub fn operations(&self, function: &Function) -> Operations {
-        let mut count = Operations::default();
-        self.count(&function.evaluation, &mut count);
-        count
-    }
-
-    fn count(&self, steps: &[Step], count: &mut Operations) {
-        for step in steps {
-            match step {
-                Step::Let(value) => match self.instruction(*value) {
-                    Instruction::Add(..) | Instruction::Sub(..) | Instruction::Mul(..) => {
-                        count.arithmetic += 1
-                    }
-                    Instruction::MulAdd(..)
-                    | Instruction::MulSub(..)
-                    | Instruction::NegMulAdd(..) => count.arithmetic += 2,
-                    Instruction::Div(..) | Instruction::Recip(..) => count.divisions += 1,
-                    Instruction::Call(op, _) if !matches!(op, Op::Abs | Op::Sign) => {
-                        count.functions += 1
-                    }
-                    Instruction::Call2(op, ..) if !matches!(op, Op::Min | Op::Max) => {
-                        count.functions += 1
-                    }
-                    Instruction::PairedSin(_) | Instruction::External(..) => count.functions += 1,
-                    _ => {}
-                },
-                Step::Accumulate(..) => count.arithmetic += 1,
-                Step::Store(_, _, _, update) => match update {
-                    Update::Set(_) => {}
-                    Update::Add(_) | Update::Sub(_) => count.arithmetic += 1,
-                    Update::AddProduct(..) | Update::SubProduct(..) => count.arithmetic += 2,
-                },
-                Step::Loop(l) => self.count(&l.body, count),
-            }
-        }
     }
 }

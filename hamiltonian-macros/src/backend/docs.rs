@@ -4,8 +4,10 @@
 //! constants. Invariant: none of it is read by the program.
 
 use crate::emit::Text;
+use hamiltonian_symbolic::count::Operations;
 use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::print::{self, Notation};
+use hamiltonian_symbolic::print::{self, Count, Notation};
+use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The texts; equations of motion only where H is not large.
@@ -28,7 +30,45 @@ pub fn text(model: &Model, structure: &Structure, large: bool) -> Text {
         latex: format!("H = {}", print::latex(model, h)),
         latex_equations: equations(Notation::Latex),
         facts: facts(structure),
+        operations: Vec::new(),
     }
+}
+
+/// A table of what value and gradient cost, one row a line. What `#[max_ops]` is held against is
+/// what the rows of `energy_and_gradient` add up to.
+pub fn operations(model: &Model, program: &Program) -> Vec<String> {
+    let mut rows = vec![
+        "| | + − × | ÷ | √ | functions | together |".to_owned(),
+        "|---|--:|--:|--:|--:|--:|".to_owned(),
+    ];
+    for (method, purpose) in [
+        ("`energy`", Purpose::Energy),
+        ("`gradient`", Purpose::Gradient),
+        ("`energy_and_gradient`", Purpose::EnergyAndGradient),
+    ] {
+        let Some(function) = program.function(purpose) else {
+            continue;
+        };
+        let counts = print::operations(model, program, function);
+        rows.extend(counts.iter().map(|count| row(method, count)));
+    }
+    rows
+}
+
+/// `| each i in 0..n | 6 | 1 | 0 | 0 | 7 |`
+fn row(method: &str, count: &Count) -> String {
+    let place = match count.place.as_str() {
+        "" => method.to_owned(),
+        place => format!("each {place}"),
+    };
+    let Operations {
+        arithmetic,
+        divisions,
+        roots,
+        functions,
+    } = count.operations;
+    let together = count.operations.total();
+    format!("| {place} | {arithmetic} | {divisions} | {roots} | {functions} | {together} |")
 }
 
 /// `H(x, q[N]; p_x, p[N]; t)`
@@ -75,9 +115,10 @@ fn facts(structure: &Structure) -> Vec<String> {
         (Ok(_), Err(_)) => "H is separable.".to_owned(),
         (Err(coupling), _) => format!("H is not separable: see the term `{}`.", coupling.text),
     });
-    if let Err(why) = &structure.autonomous {
-        facts.push(format!("H depends on time: {why}."));
-    }
+    facts.push(match &structure.autonomous {
+        Ok(()) => "H does not depend on time: it is conserved.".to_owned(),
+        Err(why) => format!("H depends on time: {why}."),
+    });
     for cyclic in &structure.cyclic {
         facts.push(format!(
             "`{}` does not appear in H: `{}` is conserved.",

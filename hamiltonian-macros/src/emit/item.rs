@@ -255,7 +255,7 @@ pub(super) fn located(tokens: TokenStream, name: Span, inside: bool) -> TokenStr
     moved.collect()
 }
 
-/// H and Hamilton's equations, as docs.
+/// H, what is known of it, Hamilton's equations and what they cost, as docs.
 fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
     let text = &definition.text;
     let mut doc = String::new();
@@ -283,6 +283,14 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
             let _ = writeln!(doc, "{line}");
         }
         doc.push_str("```\n");
+    }
+    if !text.operations.is_empty() {
+        let _ = write!(
+            doc,
+            "\n# Operations\n\nOf one evaluation, without what parameters alone decide, which is done once a run. \
+             A fused multiply–add is two, the sine and cosine of an angle are one.\n\n{}\n",
+            text.operations.join("\n")
+        );
     }
     if context.is_run_time.contains(&true) {
         doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system; runs check it once.\n");

@@ -178,6 +178,8 @@ pub struct Text {
     pub latex_equations: Vec<String>,
     /// What is known about H, one sentence a line.
     pub facts: Vec<String>,
+    /// A table of the operations of value and gradient, one row a line.
+    pub operations: Vec<String>,
 }
 
 /// The tokens of a definition.

@@ -8,9 +8,11 @@ mod equations;
 mod latex;
 mod layout;
 mod names;
+mod operations;
 mod text;
 
 pub use equations::hamilton_equations;
+pub use operations::{Count, operations};
 
 use crate::dag::Node;
 use crate::index::Domain;

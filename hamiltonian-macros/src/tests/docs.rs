@@ -1,0 +1,158 @@
+//! What the documentation of a generated type says.
+
+use crate::expand::expand;
+use crate::tests::unmarked;
+use proc_macro2::TokenStream;
+use std::str::FromStr;
+
+/// The documentation of the type a definition declares.
+fn docs(source: &str) -> String {
+    let source = format!("(::hamiltonian) {}", unmarked(source).0);
+    let code = expand(TokenStream::from_str(&source).unwrap());
+    let file: syn::File = syn::parse2(code).unwrap();
+    let of_struct = file.items.into_iter().find_map(|item| match item {
+        syn::Item::Struct(item) => Some(item.attrs),
+        _ => None,
+    });
+    let mut text = String::new();
+    for attribute in of_struct.expect("the definition is of item form and right") {
+        if let syn::Meta::NameValue(pair) = attribute.meta
+            && pair.path.is_ident("doc")
+            && let syn::Expr::Lit(syn::ExprLit {
+                lit: syn::Lit::Str(line),
+                ..
+            }) = pair.value
+        {
+            text.push_str(&line.value());
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// A section of the documentation, by its heading.
+fn section(docs: &str, heading: &str) -> String {
+    let start = docs.find(&format!("# {heading}\n")).expect(heading);
+    let rest = &docs[start + heading.len() + 3..];
+    rest[..rest.find("\n# ").unwrap_or(rest.len())]
+        .trim()
+        .to_owned()
+}
+
+/// The rows of the table of operations.
+fn operations(source: &str) -> Vec<String> {
+    let docs = docs(source);
+    let section = section(&docs, "Operations");
+    let rows = section.lines().filter(|line| line.starts_with('|'));
+    rows.skip(2).map(str::to_owned).collect()
+}
+
+const PENDULUM: &str = "pub struct Pendulum { m = 1, l = 10, g = 9.81 }
+    H(theta; p) = p^2/(2*m*l^2) - m*g*l*cos(theta)";
+
+const GRAVITY: &str = "pub struct Gravity { n: usize, G = 1, m: [n] }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }";
+
+#[test]
+fn operations_of_a_pendulum() {
+    assert_eq!(
+        operations(PENDULUM),
+        [
+            "| `energy` | 4 | 0 | 0 | 1 | 5 |",
+            "| `gradient` | 2 | 0 | 0 | 1 | 3 |",
+            "| `energy_and_gradient` | 6 | 0 | 0 | 1 | 7 |",
+        ]
+    );
+}
+
+#[test]
+fn operations_of_a_loop() {
+    let toda = "pub struct Toda<const N: usize> {}
+        H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) }";
+    assert_eq!(
+        operations(toda),
+        [
+            "| `energy` | 0 | 0 | 0 | 0 | 0 |",
+            "| each i in 0..N | 5 | 0 | 0 | 1 | 6 |",
+            "| `gradient` | 0 | 0 | 0 | 0 | 0 |",
+            "| each i in 0..N | 3 | 0 | 0 | 1 | 4 |",
+            "| `energy_and_gradient` | 0 | 0 | 0 | 0 | 0 |",
+            "| each i in 0..N | 7 | 0 | 0 | 1 | 8 |",
+        ]
+    );
+}
+
+#[test]
+fn operations_of_nested_loops() {
+    assert_eq!(
+        operations(GRAVITY),
+        [
+            "| `energy` | 3 | 0 | 0 | 0 | 3 |",
+            "| each i in 0..n | 8 | 1 | 0 | 0 | 9 |",
+            "| each i in 0..n, j in 0..i | 9 | 1 | 1 | 0 | 11 |",
+            "| `gradient` | 0 | 0 | 0 | 0 | 0 |",
+            "| each i in 0..n | 7 | 1 | 0 | 0 | 8 |",
+            "| each i in 0..n, j in 0..i | 20 | 1 | 1 | 0 | 22 |",
+            "| `energy_and_gradient` | 3 | 0 | 0 | 0 | 3 |",
+            "| each i in 0..n | 16 | 1 | 0 | 0 | 17 |",
+            "| each i in 0..n, j in 0..i | 22 | 1 | 1 | 0 | 24 |",
+        ]
+    );
+}
+
+/// The number in the docs is the one `#[max_ops]` is held against.
+#[test]
+fn the_limit_is_what_the_docs_say() {
+    for source in [PENDULUM, GRAVITY] {
+        let rows = operations(source);
+        let from = rows
+            .iter()
+            .position(|row| row.contains("`energy_and_gradient`"))
+            .unwrap();
+        let together = |row: &String| {
+            let last = row.trim_end_matches(" |").rsplit(' ').next();
+            last.and_then(|number| number.parse::<u32>().ok()).unwrap()
+        };
+        let count: u32 = rows[from..].iter().map(together).sum();
+        let code = |most: u32| {
+            let source = format!("(::hamiltonian) #[max_ops = {most}] {source}");
+            expand(TokenStream::from_str(&source).unwrap()).to_string()
+        };
+        assert!(!code(count).contains("compile_error"));
+        assert!(code(count - 1).contains(&format!("needs {count} operations")));
+    }
+}
+
+#[test]
+fn structure() {
+    let facts = |source: &str| -> Vec<String> {
+        let docs = docs(source);
+        let section = section(&docs, "Hamiltonian");
+        let after = section.rsplit("```").next().unwrap();
+        let lines = after.lines().filter(|line| !line.is_empty());
+        lines.map(str::to_owned).collect()
+    };
+    assert_eq!(
+        facts(PENDULUM),
+        [
+            "H is separable, its kinetic part a quadratic form of the momenta.",
+            "H does not depend on time: it is conserved.",
+        ]
+    );
+    assert_eq!(
+        facts("struct A {} H(x, y; p_x, p_y; t) = p_x^4 + p_y^2 + x^2*cos(t)"),
+        [
+            "H is separable.",
+            "H depends on time: the term `x^2*cos(t)` depends on `t`.",
+            "`y` does not appear in H: `p_y` is conserved.",
+        ]
+    );
+    assert_eq!(
+        facts("struct A {} H(q; p) = (q^2 + 1)*(p^2 + 1)/2"),
+        [
+            "H is not separable: see the term `0.5*q^2*p^2`.",
+            "H does not depend on time: it is conserved.",
+        ]
+    );
+}

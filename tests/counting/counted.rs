@@ -1,0 +1,165 @@
+//! A scalar that counts what is done with it.
+//!
+//! Input: any code generic over the scalar. Output: its values as `f64`, and how many operations
+//! of each kind this thread made meanwhile. Invariant: every arithmetic operation of [`Real`]
+//! counts, once each; lifting, constants, signs, comparisons and choices are no arithmetic.
+
+use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
+use hamiltonian::{Lift, Real};
+use std::cell::Cell;
+
+/// Operations by kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Sums and differences; a fused operation has one.
+    pub additions: usize,
+    /// Products; a fused operation has one.
+    pub multiplications: usize,
+    /// Quotients and reciprocals.
+    pub divisions: usize,
+    /// Square roots.
+    pub roots: usize,
+    /// Exponentials.
+    pub exponentials: usize,
+    /// All other functions.
+    pub functions: usize,
+}
+
+thread_local! {
+    static COUNTS: Cell<Counts> = Cell::default();
+}
+
+/// What `work` returns, and what it did.
+pub fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
+    COUNTS.set(Counts::default());
+    let result = work();
+    (result, COUNTS.get())
+}
+
+fn count(what: impl FnOnce(&mut Counts) -> &mut usize) {
+    let mut counts = COUNTS.get();
+    *what(&mut counts) += 1;
+    COUNTS.set(counts);
+}
+
+/// An `f64` that counts.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Counted(pub f64);
+
+macro_rules! operators {
+    ($($operator:ident $method:ident $assign:ident $assign_method:ident $counter:ident;)*) => {
+        $(
+            impl $operator for Counted {
+                type Output = Self;
+                fn $method(self, other: Self) -> Self {
+                    count(|counts| &mut counts.$counter);
+                    Self(self.0.$method(other.0))
+                }
+            }
+            impl $assign for Counted {
+                fn $assign_method(&mut self, other: Self) {
+                    *self = self.$method(other);
+                }
+            }
+        )*
+    };
+}
+
+operators! {
+    Add add AddAssign add_assign additions;
+    Sub sub SubAssign sub_assign additions;
+    Mul mul MulAssign mul_assign multiplications;
+    Div div DivAssign div_assign divisions;
+}
+
+impl Neg for Counted {
+    type Output = Self;
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl Lift<f64> for Counted {
+    fn lift(value: f64) -> Self {
+        Self(value)
+    }
+}
+
+impl Lift<Counted> for Counted {
+    fn lift(value: Counted) -> Self {
+        value
+    }
+}
+
+macro_rules! functions {
+    ($counter:ident: $($name:ident)*) => {
+        $(
+            fn $name(self) -> Self {
+                count(|counts| &mut counts.$counter);
+                Self(Real::$name(self.0))
+            }
+        )*
+    };
+}
+
+macro_rules! functions_of_two {
+    ($($name:ident)*) => {
+        $(
+            fn $name(self, other: Self) -> Self {
+                count(|counts| &mut counts.functions);
+                Self(Real::$name(self.0, other.0))
+            }
+        )*
+    };
+}
+
+impl Real for Counted {
+    type Mask = bool;
+
+    fn constant(hi: f64, lo: f64) -> Self {
+        Self(f64::constant(hi, lo))
+    }
+    fn fma(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    fn select(mask: bool, yes: Self, no: Self) -> Self {
+        if mask { yes } else { no }
+    }
+    fn lt(self, other: Self) -> bool {
+        self.0 < other.0
+    }
+    fn le(self, other: Self) -> bool {
+        self.0 <= other.0
+    }
+    fn equals(self, other: Self) -> bool {
+        self.0 == other.0
+    }
+    fn magnitude(self) -> f64 {
+        self.0.abs()
+    }
+    fn is_finite(self) -> bool {
+        self.0.is_finite()
+    }
+    fn to_f64(self) -> f64 {
+        self.0
+    }
+    fn epsilon() -> f64 {
+        f64::EPSILON
+    }
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    fn sign(self) -> Self {
+        Self(self.0.sign())
+    }
+    fn sin_cos(self) -> (Self, Self) {
+        count(|counts| &mut counts.functions);
+        let (sin, cos) = self.0.sin_cos();
+        (Self(sin), Self(cos))
+    }
+    functions!(roots: sqrt);
+    functions!(exponentials: exp);
+    functions!(functions: cbrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp_m1
+        ln ln_1p);
+    functions_of_two!(atan2 hypot pow);
+}

@@ -3,6 +3,7 @@
 mod accepted;
 mod diagnostics;
 mod docs;
+mod lengths;
 mod limits;
 mod precedence;
 mod refused;

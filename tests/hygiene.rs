@@ -100,6 +100,12 @@ pub mod systems {
         pub(crate) struct Mixed { w: [3][3] }
         H(x, q[3]; y, p[3]) = x^2 + y^2 + dot(q, w*p)
     }
+
+    mechanics::hamiltonian! {
+        /// More parameters than a function written by hand should have arguments.
+        pub struct Eighth { c1, c2, c3, c4, c5, c6, c7, c8 }
+        H = c1*p^2 + c2*q^2 + c3*q^3 + c4*q^4 + c5*q^5 + c6*q^6 + c7*q^7 + c8*q^8
+    }
 }
 
 fn close(a: f64, b: f64) {
@@ -115,6 +121,8 @@ fn systems_among_shadows() {
     let ring = systems::Ring::<1>::default();
     close(ring.energy(&state), 1.5);
     assert!(systems::Bodies::new(1, std::vec![1.0]).is_ok());
+    let eighth = systems::Eighth::new(1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0);
+    close(eighth.energy(&state), 8.0);
     let vector = systems::MixedVector::new(1.0, [1.0, 0.0, 0.0]);
     let mixed = systems::Mixed::new([[1.0; 3]; 3]);
     let state = mechanics::State::new(vector, vector);

@@ -494,7 +494,11 @@ fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
     if names.is_empty() {
         return TokenStream::new();
     }
-    let allow = allowances(&names);
+    let mut allow = allowances(&names);
+    if names.len() > 7 {
+        // How many parameters a system has is not a matter of style.
+        allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
+    }
     let visibility = &item.visibility;
     let checks = lex(&checks);
     let system = lex(&format!("Self {{ {fields} }}"));

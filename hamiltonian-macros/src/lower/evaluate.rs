@@ -5,20 +5,28 @@
 //! answered once.
 
 use super::LARGEST;
-use super::bracket::bracket;
 use super::demand::{Demand, Run};
 use super::loops::Loops;
 use super::scope::number;
 use super::velocity;
 use crate::ast::Comparison;
-use crate::checked::{Checked, Kind, LoopId, NodeId, Type};
+use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
 use crate::names::{Builtin, FUNCTIONS};
 use crate::report::{Report, Spans};
+use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Dag, Map, Node, Parameter, Part, Side};
 use hamiltonian_symbolic::index::{Domain, Index, Size};
+use hamiltonian_symbolic::legendre::Component;
+use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
+
+/// What is said, and advised, of a bracket whose indices are too involved.
+const UNSOLVED: (&str, &str) = (
+    "this bracket cannot be formed: its sums meet at indices that cannot be solved for each other",
+    "write what it is as an expression of its own",
+);
 
 /// Answers demands on the expressions of one definition.
 #[derive(Debug)]
@@ -28,6 +36,10 @@ pub struct Evaluator<'a> {
     report: &'a mut Report,
     /// Whether something was refused: then there is no model.
     refused: bool,
+    /// Whether there is a bracket anywhere.
+    has_brackets: bool,
+    /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
+    pub(super) velocities: Option<Vec<Component>>,
     /// How many nodes each node is a child of.
     pub(super) uses: Vec<u32>,
     /// Answers to demands for the whole of a node outside loops that are written out.
@@ -49,6 +61,11 @@ impl<'a> Evaluator<'a> {
             },
             report,
             refused: false,
+            has_brackets: checked
+                .nodes
+                .iter()
+                .any(|node| matches!(node.kind, Kind::Bracket(..))),
+            velocities: None,
             uses: uses(checked),
             plain: vec![None; checked.nodes.len()],
             answers: Map::default(),
@@ -116,12 +133,26 @@ impl<'a> Evaluator<'a> {
             }
         }
         let zero = model.dag.integer(0);
-        Some(
-            roots
-                .iter()
-                .map(|(root, demand)| self.answer(*root, demand).unwrap_or(zero))
-                .collect(),
-        )
+        let mut values = Vec::with_capacity(roots.len());
+        for (root, demand) in roots {
+            let value = self.answer(*root, demand).unwrap_or(zero);
+            values.push(if self.has_brackets {
+                self.guarded(model, *root, value)?
+            } else {
+                value
+            });
+        }
+        Some(values)
+    }
+
+    /// What brackets left under conditions, safe to read. Not before all of them are formed: the
+    /// bracket of a bracket solves plain indices.
+    fn guarded(&mut self, model: &mut Model, root: NodeId, value: Node) -> Option<Node> {
+        let guarded = guarded(model, value);
+        if guarded.is_none() {
+            self.refuse(self.checked.node(root).spans, UNSOLVED.0, UNSOLVED.1);
+        }
+        guarded
     }
 
     fn too_large(&mut self, at: usize, count: usize) {
@@ -230,17 +261,7 @@ impl<'a> Evaluator<'a> {
             (Kind::And(..), [a, b]) => dag.and(*a, *b),
             (Kind::Or(..), [a, b]) => dag.or(*a, *b),
             (Kind::Compare(comparison, ..), [a, b]) => compare(dag, *comparison, *a, *b),
-            (Kind::Bracket(..), [a, b]) => match bracket(dag, *a, *b) {
-                Some(value) => value,
-                None => {
-                    self.refuse(
-                        this.spans,
-                        "a bracket of sums over coordinates with indices cannot be formed",
-                        "write the coordinates out, or state the result",
-                    );
-                    *a
-                }
-            },
+            (Kind::Bracket(..), [a, b]) => self.bracket(model, node, *a, *b),
             (Kind::Mul(a, b), values) => match (checked.node(*a).ty, checked.node(*b).ty) {
                 (Type::Matrix(_, columns), Type::Vector(_)) => {
                     let run = self.run(dag, node, &[*b], columns, demand);
@@ -262,6 +283,42 @@ impl<'a> Evaluator<'a> {
             // What was refused is not answered.
             _ => dag.integer(0),
         }
+    }
+
+    /// {a, b}, velocities as the functions of momenta that they are.
+    fn bracket(&mut self, model: &mut Model, node: NodeId, a: Node, b: Node) -> Node {
+        let spans = self.checked.node(node).spans;
+        let is_lagrangian = matches!(self.checked.definition, Definition::Lagrangian(_));
+        if is_lagrangian && self.velocities.is_none() {
+            let message = "a bracket is of functions of momenta, which a Lagrangian does not have";
+            let help = "use it after `L`: in an invariant, a monitor or an event";
+            self.refuse(spans, message, help);
+            return a;
+        }
+        let (Some(a), Some(b)) = (
+            self.in_momenta(&mut model.dag, spans, a),
+            self.in_momenta(&mut model.dag, spans, b),
+        ) else {
+            return a;
+        };
+        bracket(model, a, b).unwrap_or_else(|| {
+            self.refuse(spans, UNSOLVED.0, UNSOLVED.1);
+            a
+        })
+    }
+
+    /// The value with velocities as the functions of (q, p, t) that they are.
+    pub fn in_momenta(&mut self, dag: &mut Dag, spans: Spans, value: Node) -> Option<Node> {
+        let Some(velocities) = &self.velocities else {
+            return Some(value);
+        };
+        let image = velocity::as_functions(dag, value, velocities);
+        if image.is_none() {
+            let message = "a velocity with an index that wraps around cannot be written in terms of momenta here";
+            let help = "write it without `%`, or in terms of momenta";
+            self.refuse(spans, message, help);
+        }
+        image
     }
 
     /// An element of a group.

@@ -7,7 +7,6 @@
 //! A vector is never built: what is asked of it is its components. `demand` passes these wishes
 //! from the roots down to the leaves, `evaluate` answers them from the leaves up.
 
-mod bracket;
 mod demand;
 mod evaluate;
 mod loops;
@@ -57,29 +56,21 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
     model.hamiltonian = value.first().copied();
-    let velocities = match checked.definition {
-        Definition::Hamiltonian(_) => Vec::new(),
-        Definition::Lagrangian(root) => {
-            let spans = checked.node(root).spans;
-            match legendre(checked, &mut model) {
-                Ok(velocities) => velocities,
-                Err(reason) => {
-                    let help = "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)";
-                    evaluator.refuse(
-                        spans,
-                        &format!("this Lagrangian has no Hamiltonian: {reason}"),
-                        help,
-                    );
-                    return None;
-                }
+    if let Definition::Lagrangian(root) = checked.definition {
+        match legendre(checked, &mut model) {
+            Ok(velocities) => evaluator.velocities = Some(velocities),
+            Err(reason) => {
+                let help = "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)";
+                evaluator.refuse(
+                    checked.node(root).spans,
+                    &format!("this Lagrangian has no Hamiltonian: {reason}"),
+                    help,
+                );
+                return None;
             }
         }
-    };
-    let mut rest = Rest {
-        checked,
-        evaluator,
-        velocities,
-    };
+    }
+    let mut rest = Rest { checked, evaluator };
     let observables: Vec<_> = checked
         .observables
         .iter()
@@ -150,26 +141,16 @@ fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, Stri
 struct Rest<'a> {
     checked: &'a Checked,
     evaluator: Evaluator<'a>,
-    velocities: Vec<Component>,
 }
 
 impl Rest<'_> {
     /// The values of roots, velocities as functions of (q, p, t).
     fn values(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
         let values = self.evaluator.evaluate(model, roots)?;
-        if matches!(self.checked.definition, Definition::Hamiltonian(_)) {
-            return Some(values);
-        }
         let mut images = Vec::with_capacity(values.len());
         for ((root, _), value) in roots.iter().zip(values) {
-            match velocity::as_functions(&mut model.dag, value, &self.velocities) {
-                Some(image) => images.push(image),
-                None => {
-                    let spans = self.checked.node(*root).spans;
-                    self.evaluator.refuse(spans, "a velocity with an index that wraps around cannot be written in terms of momenta here", "write it without `%`, or in terms of momenta");
-                    return None;
-                }
-            }
+            let spans = self.checked.node(*root).spans;
+            images.push(self.evaluator.in_momenta(&mut model.dag, spans, value)?);
         }
         Some(images)
     }

@@ -225,7 +225,7 @@ fn tighten(
 }
 
 /// The expression with a loop variable replaced by an index modulo a size; `None` where the
-/// variable stands elsewhere than as the index of an element.
+/// variable stands in an index or a range that cannot be shifted.
 pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> Option<Node> {
     let Some(modulo) = &by.modulo else {
         return Some(dag.replace(root, variable, &by.affine));
@@ -246,7 +246,8 @@ pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> 
                 };
                 dag.element(array, row, column)
             }
-            Kind::Variable(_) | Kind::Count(_) => return None,
+            Kind::Variable(_) => wrapped(dag, by, modulo)?,
+            Kind::Count(_) => return None,
             Kind::Reduce(domain, _)
                 if (dag.range(domain).start.variables() | dag.range(domain).end.variables())
                     & bit
@@ -265,6 +266,40 @@ pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> 
         new.insert(node, image);
     }
     Some(new[&root])
+}
+
+/// `(variable + c) % modulo` as a real, for a variable in 0..modulo: it wraps around once at most,
+/// if c is −1, 0 or 1, or less than a modulus that is a number.
+fn wrapped(dag: &mut Dag, index: &Index, modulo: &Affine) -> Option<Node> {
+    let [(variable, 1)] = index.affine.loops.as_slice() else {
+        return None;
+    };
+    let variable = Affine::variable(*variable);
+    let by = index.affine.plus(-1, &variable).as_constant()?;
+    let by = match modulo.as_constant() {
+        Some(modulo) if modulo > 0 => by.rem_euclid(modulo),
+        Some(_) => return None,
+        None if by.abs() <= 1 => by,
+        None => return None,
+    };
+    let moved = variable.plus(1, &Affine::constant(by));
+    // What is past either end comes in at the other.
+    let (holds, inside, outside) = if by < 0 {
+        (
+            at_least_zero(dag, &moved),
+            moved.clone(),
+            moved.plus(1, modulo),
+        )
+    } else {
+        let slack = modulo.plus(-1, &moved).plus(-1, &Affine::constant(1));
+        (
+            at_least_zero(dag, &slack),
+            moved.clone(),
+            moved.plus(-1, modulo),
+        )
+    };
+    let (inside, outside) = (dag.affine(&inside), dag.affine(&outside));
+    Some(dag.select(holds, inside, outside))
 }
 
 fn shift_index(

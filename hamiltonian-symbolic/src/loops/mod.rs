@@ -5,9 +5,11 @@
 //! chosen here may refute a statement about all sizes, never prove one.
 
 pub mod field;
+mod guard;
 pub mod numeric;
 pub mod unroll;
 mod walk;
 
+pub use guard::guarded;
 pub use numeric::{Point, Sample, Sampled, sample};
 pub use unroll::{unroll, unroll_nodes, write_out};

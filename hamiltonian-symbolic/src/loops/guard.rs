@@ -1,0 +1,112 @@
+//! Elements under a condition, made safe to read where the condition does not hold.
+//!
+//! Input: an expression as [`super::field`] makes them, such as `if 1 <= k { q[k - 1] } else { 0 }`.
+//! Output: the same with indices that wrap around, `q[(k - 1) % N]`, wherever an index under a
+//! condition is not in range for all values of its loop variables: code reads both branches.
+//! Invariant: where the condition holds nothing changes.
+
+use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::index::{Affine, Index};
+use crate::model::{Model, Shape};
+
+/// The expression with safe indices; `None` where a loop under a condition may start below 0, for
+/// which there is no such remedy.
+pub fn guarded(model: &mut Model, root: Node) -> Option<Node> {
+    let nodes = model.dag.reachable(&[root]);
+    let mut is_under: Map<Node, ()> = Map::default();
+    for &node in nodes.iter().rev() {
+        let is_own = is_under.contains_key(&node);
+        let dag = &model.dag;
+        match dag.kind(node) {
+            Kind::Select(condition, then, otherwise) => {
+                is_under.insert(*then, ());
+                is_under.insert(*otherwise, ());
+                if is_own {
+                    is_under.insert(*condition, ());
+                }
+            }
+            _ if is_own => dag.for_children(node, |child| {
+                is_under.insert(child, ());
+            }),
+            _ => {}
+        }
+    }
+    if is_under.is_empty() {
+        return Some(root);
+    }
+    let mut new: Map<Node, Node> = Map::default();
+    for node in nodes {
+        let kind = model.dag.kind(node).clone();
+        let image = match kind {
+            Kind::Element(array, row, column) if is_under.contains_key(&node) => {
+                let (rows, columns) = extents(model, array);
+                let row = safe(&model.dag, row, rows);
+                let column = column.map(|column| safe(&model.dag, column, columns));
+                model.dag.element(array, row, column)
+            }
+            Kind::Reduce(domain, _)
+                if is_under.contains_key(&node)
+                    && !is_nonnegative(&model.dag, model.dag.range(domain).start.clone()) =>
+            {
+                return None;
+            }
+            _ => model.dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    Some(new[&root])
+}
+
+/// How many rows and columns an array has; nothing of what has no such index.
+fn extents(model: &Model, array: Array) -> (Option<Affine>, Option<Affine>) {
+    let shape = match array {
+        Array::Phase { group, .. } | Array::Direction { group, .. } => {
+            &model.groups[usize::from(group)].shape
+        }
+        Array::Parameter(parameter) => &model.parameters[usize::from(parameter.0)].shape,
+    };
+    match shape {
+        Shape::Scalar => (None, None),
+        Shape::Vector(rows) => (Some(rows.clone()), None),
+        Shape::Matrix(rows, columns) => (Some(rows.clone()), Some(columns.clone())),
+    }
+}
+
+/// The index if it is in range, wrapped around otherwise.
+fn safe(dag: &Dag, index: Index, extent: Option<Affine>) -> Index {
+    let Some(extent) = extent else {
+        return index;
+    };
+    let one = Affine::constant(1);
+    let is_inside = index.modulo.is_some()
+        || is_nonnegative(dag, index.affine.clone())
+            && is_nonnegative(dag, extent.plus(-1, &one).plus(-1, &index.affine));
+    if is_inside {
+        index
+    } else {
+        Index::wrapped(index.affine, extent)
+    }
+}
+
+/// Whether an affine expression is never negative, whatever the values of its loop variables in
+/// their ranges.
+fn is_nonnegative(dag: &Dag, affine: Affine) -> bool {
+    let mut least = affine;
+    // A range may name loops around it: from the innermost out.
+    while let Some(&(domain, factor)) = least
+        .loops
+        .iter()
+        .max_by_key(|(domain, _)| dag.depth(Some(*domain)))
+    {
+        let range = dag.range(domain);
+        let bound = if factor > 0 {
+            range.start.clone()
+        } else {
+            range.end.plus(-1, &Affine::constant(1))
+        };
+        least = least
+            .plus(-factor, &Affine::variable(domain))
+            .plus(factor, &bound);
+    }
+    least.constant >= 0 && least.sizes.iter().all(|(_, factor)| *factor >= 0)
+}

@@ -260,6 +260,9 @@ impl Checker<'_> {
             self.partner_missing(signature, word, partner, prefix);
             return false;
         }
+        if self.is_interleaved(coordinates, others, word) {
+            return false;
+        }
         for (coordinate, other) in coordinates.iter().zip(others) {
             let ty = self
                 .variable_type(coordinate)
@@ -274,6 +277,52 @@ impl Checker<'_> {
         }
         self.time(signature, word);
         true
+    }
+
+    /// Whether names of momenta (velocities) stand among the coordinates, as in
+    /// `H(x, p_x; y, p_y)`, which would make y the momentum of x. Where such a coordinate has a
+    /// momentum that is named after it, it was meant.
+    fn is_interleaved(
+        &mut self,
+        coordinates: &[Variable],
+        others: &[Variable],
+        word: &str,
+    ) -> bool {
+        let all = || coordinates.iter().chain(others);
+        let owner = |variable: &Variable| {
+            let name = variable.name.to_string();
+            all().find(|of| is_partner_of(&name, &of.name.to_string(), word))
+        };
+        let mut found = false;
+        for (coordinate, other) in coordinates.iter().zip(others) {
+            let name = coordinate.name.to_string();
+            let Some(of) = owner(coordinate) else {
+                continue;
+            };
+            if is_partner_of(&other.name.to_string(), &name, word) {
+                continue;
+            }
+            found = true;
+            let (partner, partners) = if word == "L" {
+                ("velocity", "velocities")
+            } else {
+                ("momentum", "momenta")
+            };
+            let (second, first): (Vec<&Variable>, Vec<&Variable>) =
+                all().partition(|variable| owner(variable).is_some());
+            let help = if first.len() == second.len() {
+                let (first, second) = (list(first), list(second));
+                format!("coordinates first, then {partners}: `{word}({first}; {second})`")
+            } else {
+                format!("coordinates come first, {partners} after the `;`")
+            };
+            let message = format!(
+                "`{name}` stands among the coordinates, but has the name of the {partner} of `{}`",
+                of.name
+            );
+            self.report.error(coordinate.name.span(), message, help);
+        }
+        found
     }
 
     /// Coordinates without momentum (velocity) or the other way round.
@@ -391,9 +440,19 @@ fn suggested(word: &str, prefix: &str, names: &[Variable]) -> String {
     }
 }
 
-fn list(variables: &[Variable]) -> String {
+/// Whether `name` is what the momentum (velocity) of `of` is called: `p_x` and `px` belong to `x`,
+/// `p1` belongs to `q1`.
+fn is_partner_of(name: &str, of: &str, word: &str) -> bool {
+    let prefix = if word == "L" { 'v' } else { 'p' };
+    let Some(rest) = name.strip_prefix(prefix) else {
+        return false;
+    };
+    rest.strip_prefix('_') == Some(of) || rest == of || of.strip_prefix('q') == Some(rest)
+}
+
+fn list<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> String {
     let names: Vec<String> = variables
-        .iter()
+        .into_iter()
         .map(|variable| variable.name.to_string())
         .collect();
     names.join(", ")

@@ -23,6 +23,8 @@ const TODA: &str = "
 const DEFINITIONS: &[&str] = &[
     "H = 0.5*(q^2 + 1)*(p^2 + 1)",
     "H(x; p_x) = p_x^2/(2*m) + k*x^2/2",
+    // Named like a momentum, but with one of its own.
+    "H(q, p; p_q, p_p) = p_q^2 + p_p^2 + q*p",
     "/// A planar pendulum.
      pub struct Pendulum {
          /// Mass of the bob.

@@ -1031,6 +1031,33 @@ help: write one value"##,
 help: write `if a > b { … } else { … }`"##,
     ),
     (
+        r##"H(x, ⟦p_x⟧; y, p_y) = p_x^2 + p_y^2"##,
+        r##"`p_x` stands among the coordinates, but has the name of the momentum of `x`
+help: coordinates first, then momenta: `H(x, y; p_x, p_y)`"##,
+    ),
+    (
+        r##"H(q1[3], ⟦p1⟧[3], theta; q2[3], p2[3], p_theta) = p1[0]^2"##,
+        r##"`p1` stands among the coordinates, but has the name of the momentum of `q1`
+help: coordinates first, then momenta: `H(q1, theta, q2; p1, p2, p_theta)`"##,
+    ),
+    (
+        r##"H(⟦px⟧, ⟦py⟧; x, y) = px^2 + py^2"##,
+        r##"`px` stands among the coordinates, but has the name of the momentum of `x`
+help: coordinates first, then momenta: `H(x, y; px, py)`
+`py` stands among the coordinates, but has the name of the momentum of `y`
+help: coordinates first, then momenta: `H(x, y; px, py)`"##,
+    ),
+    (
+        r##"L(x, ⟦v_x⟧; y, v_y) = v_x^2 + v_y^2"##,
+        r##"`v_x` stands among the coordinates, but has the name of the velocity of `x`
+help: coordinates first, then velocities: `L(x, y; v_x, v_y)`"##,
+    ),
+    (
+        r##"H(x, ⟦px⟧; y, z) = px^2 + y^2"##,
+        r##"`px` stands among the coordinates, but has the name of the momentum of `x`
+help: coordinates come first, momenta after the `;`"##,
+    ),
+    (
         r##"H(q[3]; p[3]) = sum(i in 0..3) { ⟦bracket⟧(p[i], q[0]) }"##,
         r##"`bracket` does not stand inside a `sum`
 help: take the bracket of the whole sums: `bracket(sum(…) { … }, b)`"##,

@@ -26,6 +26,10 @@ pub(crate) fn is_prepared(dag: &Dag, node: Node) -> bool {
     dag.stage(node) < Stage::Evaluation && dag.variables(node) == 0
 }
 
+/// The longest sum into whose terms a coefficient is multiplied: it spares one multiplication and
+/// takes a prepared value for every term.
+const ABSORBING: usize = 16;
+
 /// A term `k·p·Π f`, p prepared, the rest not.
 #[derive(Clone, Debug)]
 struct Term {
@@ -177,7 +181,7 @@ fn absorbing_sum(
         let Kind::Sum(c, terms) = dag.kind(node) else {
             return false;
         };
-        if n != 1 || uses[&node] != 1 || is_prepared(dag, node) {
+        if n != 1 || uses[&node] != 1 || is_prepared(dag, node) || terms.len() > ABSORBING {
             return false;
         }
         let plain = terms

@@ -57,8 +57,13 @@ fn zeros(context: Context, generics: &Generics) -> String {
     }
 }
 
-/// Everything a definition implements that is the same in both forms.
-pub fn implementations(definition: &Definition, context: Context, generics: &Generics) -> String {
+/// Everything a definition implements that is the same in both forms, and the free functions that
+/// long bodies call.
+pub fn implementations(
+    definition: &Definition,
+    context: Context,
+    generics: &Generics,
+) -> (String, String) {
     let mut emission = Emission {
         definition,
         context,
@@ -67,7 +72,7 @@ pub fn implementations(definition: &Definition, context: Context, generics: &Gen
         bodies: Bodies {
             context,
             generics,
-            pieces: String::new(),
+            parts: String::new(),
         },
         vector: vector(context, generics, "T", "__h"),
         out: String::new(),
@@ -84,7 +89,7 @@ pub fn implementations(definition: &Definition, context: Context, generics: &Gen
         emission.separable();
     }
     emission.extras();
-    emission.out + &emission.bodies.pieces
+    (emission.out, emission.bodies.parts)
 }
 
 /// What preparation holds: the values it computes and the parameter arrays that functions read.
@@ -281,9 +286,9 @@ impl<'a> Emission<'a> {
         };
         let results: Vec<_> = holder.values().collect();
         let mut text = String::new();
-        let piece = format!("prepare{name}");
+        let part = format!("prepare{name}");
         let body = Body {
-            name: &piece,
+            name: &part,
             receiver: Receiver::Holder(&self.prepared),
             arguments: &[("_c", "T".to_owned())],
             steps: &function.coefficient,

@@ -37,7 +37,9 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
         text.push_str(&mixed::declaration(context, &generics, "__h"));
         text.push_str(&mixed::implementations(context, &generics));
     }
-    text.push_str(&dynamics::implementations(definition, context, &generics));
+    let (implementations, functions) = dynamics::implementations(definition, context, &generics);
+    text.push_str(&implementations);
+    text.push_str(&functions);
     text.push_str(&markers::implementations(&definition.structure, &generics));
     text.push_str(&item::display(definition, &generics));
     let implementations = lex(&text);

@@ -8,6 +8,7 @@
 use super::block::{Context, name};
 use super::generics::Generics;
 use super::layout;
+use super::parts::{self, Wanted};
 use super::scan::is_mask;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
@@ -101,12 +102,16 @@ impl Holder {
         self.values.iter().chain(&self.masks).copied()
     }
 
-    fn read(&self, value: Value) -> Option<String> {
-        if let Some(at) = self.values.iter().position(|v| *v == value) {
-            return Some(format!("_self.v[{at}]"));
+    /// Takes the holder's arrays apart as far as they are read; what it does not have.
+    fn read(&self, out: &mut String, reads: &[Value]) -> Vec<Value> {
+        let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
+        parts::open(out, "_self.v", &self.values, &rest);
+        parts::open(out, "_self.m", &self.masks, &rest);
+        for value in self.values() {
+            rest.remove(&value);
         }
-        let at = self.masks.iter().position(|v| *v == value)?;
-        Some(format!("_self.m[{at}]"))
+        let is_missing = |value: &Value| rest.contains_key(value);
+        reads.iter().copied().filter(is_missing).collect()
     }
 }
 
@@ -136,11 +141,11 @@ impl Receiver<'_> {
         }
     }
 
-    /// How a value computed earlier is read.
-    pub fn read(self, value: Value) -> Option<String> {
+    /// Binds values computed earlier; those that it does not have.
+    pub fn read(self, out: &mut String, reads: &[Value]) -> Vec<Value> {
         match self {
-            Receiver::System => None,
-            Receiver::Holder(holder) => holder.read(value),
+            Receiver::System => reads.to_vec(),
+            Receiver::Holder(holder) => holder.read(out, reads),
         }
     }
 

@@ -68,7 +68,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let context = parts.context(definition);
     let root = &definition.root;
     let declaration = declaration(definition, item, context, &generics);
-    let mut text = dynamics::implementations(definition, context, &generics);
+    let (mut text, functions) = dynamics::implementations(definition, context, &generics);
     text.push_str(&markers::implementations(&definition.structure, &generics));
     text.push_str(&display(definition, &generics));
     if context.layout == Layout::Mixed {
@@ -76,6 +76,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     }
     text.push_str(&default(item, context, &generics));
     let implementations = located(lex(&text), item.name.span(), true);
+    let functions = lex(&functions);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, item, context, &generics);
     quote! {
@@ -85,6 +86,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
             use #root::private as __h;
             #externals
             #implementations
+            #functions
             #inherent
         };
     }

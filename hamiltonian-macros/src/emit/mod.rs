@@ -26,6 +26,8 @@ mod markers;
 mod mixed;
 mod number;
 mod observables;
+mod order;
+mod parts;
 mod scan;
 mod vectors;
 

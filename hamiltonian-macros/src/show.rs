@@ -1,0 +1,95 @@
+//! What the definitions in a Rust file become: `cargo run -p hamiltonian-macros --example show --
+//! examples/toda.rs` prints the code that the macro emits for each.
+//!
+//! The stages are compiled into this program as they are into the macro, which cannot be called
+//! from outside of rustc. With `--number k` only the k-th definition is expanded and nothing is
+//! printed: that is what the budgets of instructions count ([`expanded`]).
+
+#[allow(dead_code)]
+mod ast;
+mod backend;
+mod check;
+#[allow(dead_code)]
+mod checked;
+mod emit;
+mod expand;
+mod fallback;
+mod lower;
+#[allow(dead_code)]
+mod names;
+mod parse;
+mod report;
+mod tokens;
+
+use proc_macro2::{TokenStream, TokenTree};
+use std::process::ExitCode;
+use std::str::FromStr;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let (path, only) = match arguments.as_slice() {
+        [path] => (path, None),
+        [path, word, number] if word == "--number" => (path, number.parse::<usize>().ok()),
+        _ => {
+            eprintln!("usage: show FILE [--number K]");
+            return ExitCode::FAILURE;
+        }
+    };
+    let definitions = match read(path) {
+        Ok(definitions) => definitions,
+        Err(reason) => {
+            eprintln!("{path}: {reason}");
+            return ExitCode::FAILURE;
+        }
+    };
+    match only {
+        Some(number) => match definitions.into_iter().nth(number) {
+            Some(definition) => drop(expanded(definition)),
+            None => return ExitCode::FAILURE,
+        },
+        None => definitions
+            .into_iter()
+            .for_each(|definition| println!("{}", pretty(expanded(definition)))),
+    }
+    ExitCode::SUCCESS
+}
+
+/// The inside of every `hamiltonian! { … }` of a file.
+fn read(path: &str) -> Result<Vec<TokenStream>, String> {
+    let text = std::fs::read_to_string(path).map_err(|error| error.to_string())?;
+    let tokens = TokenStream::from_str(&text).map_err(|error| error.to_string())?;
+    let mut definitions = Vec::new();
+    find(tokens, &mut definitions);
+    Ok(definitions)
+}
+
+fn find(tokens: TokenStream, definitions: &mut Vec<TokenStream>) {
+    let trees: Vec<TokenTree> = tokens.into_iter().collect();
+    for (at, tree) in trees.iter().enumerate() {
+        let TokenTree::Group(group) = tree else {
+            continue;
+        };
+        let is_call = at >= 2
+            && matches!(&trees[at - 2], TokenTree::Ident(name) if name == "hamiltonian")
+            && matches!(&trees[at - 1], TokenTree::Punct(mark) if mark.as_char() == '!');
+        if is_call {
+            definitions.push(group.stream());
+        } else {
+            find(group.stream(), definitions);
+        }
+    }
+}
+
+/// One definition's whole way through the macro.
+#[inline(never)]
+fn expanded(definition: TokenStream) -> TokenStream {
+    expand::expand(definition)
+}
+
+/// Emitted code as a formatted file; an expression stands in a function.
+fn pretty(code: TokenStream) -> String {
+    let file = syn::parse2(code.clone())
+        .or_else(|_| syn::parse2(quote::quote!(fn value() { #code })))
+        .map(|file| prettyplease::unparse(&file));
+    file.unwrap_or_else(|_| code.to_string())
+}

@@ -2,7 +2,11 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, Section, momentum_from_energy, on_section};
-use hamiltonian::{Dual, Dynamics, Vector};
+use hamiltonian::{Dual, Dynamics};
+
+#[path = "common/canonical.rs"]
+mod canonical;
+use canonical::{close, equal};
 
 hamiltonian! {
     /// A planet in the plane, with drag and an event.
@@ -23,47 +27,6 @@ hamiltonian! {
     invariant angular_momentum = x*p_y - y*p_x;
     event crossing = x - y^2;
     split { K = (p_x^2 + p_y^2)/2 + B*(x*p_y - y*p_x); V = -mu/sqrt(x^2 + y^2) }
-}
-
-hamiltonian! {
-    /// A magnetic dipole's field and a linear potential along z.
-    pub struct Space { mu = 0.8, g = 0.2 }
-    let r = sqrt(x^2 + y^2 + z^2);
-    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r
-}
-
-hamiltonian! {
-    /// The same in spherical coordinates.
-    pub struct Spherical { mu = 0.8, g = 0.2 }
-    let r = sqrt(x^2 + y^2 + z^2);
-    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r;
-    coordinates spherical(x, y, z)
-}
-
-hamiltonian! {
-    /// Four bodies.
-    pub struct Bodies { m: [4] }
-    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
-        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
-    invariant total_momentum = sum(i in 0..4) { p[i] }
-}
-
-hamiltonian! {
-    /// Four bodies in Jacobi coordinates.
-    pub struct Jacobi { m: [4] }
-    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
-        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
-    coordinates jacobi(q, m);
-    invariant total_momentum = sum(i in 0..4) { p[i] }
-}
-
-hamiltonian! {
-    /// Four bodies in heliocentric coordinates.
-    pub struct Heliocentric { m: [4] }
-    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
-        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
-    coordinates heliocentric(q, m);
-    invariant total_momentum = sum(i in 0..4) { p[i] }
 }
 
 hamiltonian! {
@@ -112,21 +75,6 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// Coordinates that are replaced around one that stays, with forces on all.
-    pub struct Around {}
-    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
-    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
-}
-
-hamiltonian! {
-    /// The same with two of them polar.
-    pub struct AroundPolar {}
-    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
-    coordinates polar(x, y);
-    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
-}
-
-hamiltonian! {
     /// Bodies with a force, in Jacobi coordinates and in another time.
     pub struct Dragged { m: [3], g = 0.1 }
     H(q[3][2]; p[3][2]) = sum(i in 0..3) { norm_squared(p[i])/(2*m[i]) }
@@ -136,154 +84,8 @@ hamiltonian! {
     force(q; p) = -g*norm_squared(q[0])*p
 }
 
-#[track_caller]
-fn close(a: f64, b: f64) {
-    assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()), "{a} is not {b}");
-}
-
-#[track_caller]
-fn equal<V: Vector<Scalar = f64>>(a: &V, b: &V) {
-    for k in 0..a.len() {
-        close(a.component(k), b.component(k));
-    }
-}
-
-/// A state as 2n numbers.
-fn flat<V: Vector>(state: &State<V>) -> Vec<V::Scalar> {
-    state.q.components().chain(state.p.components()).collect()
-}
-
-/// The energy is the same in both, the maps undo each other and are canonical, and the dynamics
-/// agree. `$declared` is the system as it was written.
-macro_rules! same_system {
-    ($declared:expr, $new:expr, $state:expr) => {{
-        let (declared, new, old) = ($declared, $new, $state);
-        let there = new.from_declared(&old);
-        let back = new.to_declared(&there);
-        assert_eq!((there.t, back.t), (old.t, old.t));
-        equal(&back.q, &old.q);
-        equal(&back.p, &old.p);
-        close(
-            System::<f64>::energy(&declared, &old),
-            System::<f64>::energy(&new, &there),
-        );
-
-        // MᵀJM = J.
-        let n = old.q.len();
-        let lifted = |state: &State<_>| {
-            let mut dual = State {
-                t: Dual::fixed(state.t),
-                q: System::<Dual<f64>>::zeros(&declared),
-                p: System::<Dual<f64>>::zeros(&declared),
-            };
-            for k in 0..n {
-                *dual.q.component_mut(k) = Dual::fixed(Vector::component(&state.q, k));
-                *dual.p.component_mut(k) = Dual::fixed(Vector::component(&state.p, k));
-            }
-            dual
-        };
-        let columns: Vec<Vec<f64>> = (0..2 * n)
-            .map(|k| {
-                let mut dual = lifted(&old);
-                if k < n {
-                    dual.q.component_mut(k).eps = 1.0;
-                } else {
-                    dual.p.component_mut(k - n).eps = 1.0;
-                }
-                flat(&new.from_declared(&dual))
-                    .iter()
-                    .map(|x| x.eps)
-                    .collect()
-            })
-            .collect();
-        for (i, a) in columns.iter().enumerate() {
-            for (j, b) in columns.iter().enumerate() {
-                let form: f64 = (0..n).map(|k| a[k] * b[k + n] - a[k + n] * b[k]).sum();
-                let wanted = f64::from(i8::from(j == i + n)) - f64::from(i8::from(i == j + n));
-                close(wanted, form);
-            }
-        }
-
-        // Both runs end at the same place.
-        let rk = || RungeKutta4;
-        let mut ours = Integrator::new(&new, rk(), there, 1e-3).unwrap();
-        let mut theirs = Integrator::new(&declared, rk(), old, 1e-3).unwrap();
-        ours.advance(500).unwrap();
-        theirs.advance(500).unwrap();
-        let end = new.to_declared(ours.state());
-        for (a, b) in flat(&end).iter().zip(flat(theirs.state())) {
-            assert!((a - b).abs() < 1e-9, "{a} is not {b}");
-        }
-    }};
-}
-
 fn planet() -> State<<[f64; 2] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector> {
     State::new([0.7, -0.4], [0.3, 1.1])
-}
-
-#[test]
-fn polar() {
-    for (x, y) in [(0.7, -0.4), (-0.8, 0.6), (-0.5, -0.9), (0.0, 1.0)] {
-        same_system!(
-            Flat::default(),
-            Polar::default(),
-            State::new([x, y], [0.3, 1.1])
-        );
-    }
-    let polar = Polar::default();
-    let names: Vec<_> = <Polar as System<f64>>::GROUPS
-        .iter()
-        .map(|g| g.coordinate)
-        .collect();
-    assert_eq!(names, ["r", "phi"]);
-    let state = polar.from_declared(&planet());
-    let l: f64 = Flat::default().angular_momentum(&planet());
-    close(polar.angular_momentum(&state), l);
-    close(state.p[1], l);
-    assert!(state.q[0] > 0.0);
-}
-
-#[test]
-fn spherical() {
-    for z in [-0.6, 0.1, 0.9] {
-        let state = State::new([0.7, -0.4, z], [0.3, 1.1, -0.5]);
-        same_system!(Space::default(), Spherical::default(), state);
-    }
-}
-
-#[test]
-fn bodies() {
-    let m = [3.0, 1.0, 0.5, 0.2];
-    let q = [
-        [0.1, 0.0, 0.2],
-        [1.0, 0.3, -0.2],
-        [-1.5, 0.4, 0.5],
-        [0.3, 2.2, 0.1],
-    ];
-    let p = [
-        [0.1, -0.3, 0.2],
-        [0.0, 1.3, -0.2],
-        [-0.1, -0.4, 0.1],
-        [0.05, 0.02, 0.01],
-    ];
-    let bodies = Bodies { m: m.into() };
-    let (jacobi, helio) = (Jacobi { m: m.into() }, Heliocentric { m: m.into() });
-    let state = State::new(q, p);
-    same_system!(bodies.clone(), jacobi.clone(), state.clone());
-    same_system!(bodies.clone(), helio.clone(), state.clone());
-    // The same as the maps of the library.
-    let ours = jacobi.from_declared(&state);
-    let theirs = hamiltonian::coordinates::to_jacobi(&state, &m).unwrap();
-    equal(&ours.q, &theirs.q);
-    equal(&ours.p, &theirs.p);
-    let ours = helio.from_declared(&state);
-    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
-    equal(&ours.q, &theirs.q);
-    equal(&ours.p, &theirs.p);
-    equal(
-        &jacobi.total_momentum(&jacobi.from_declared(&state)),
-        &bodies.total_momentum(&state),
-    );
 }
 
 #[test]
@@ -317,26 +119,6 @@ fn forces_are_carried() {
 }
 
 #[test]
-fn groups_that_stay_change_their_number() {
-    let (around, polar) = (Around {}, AroundPolar {});
-    let names = <AroundPolar as System<f64>>::GROUPS.iter();
-    let names: Vec<_> = names.map(|g| g.coordinate).collect();
-    assert_eq!(names, ["r", "phi", "u"]);
-    let old = State::new([0.7, 0.2, -0.4], [0.3, -0.6, 1.1]);
-    let there = polar.from_declared(&old);
-    close(there.q[2], 0.2);
-    close(there.p[2], -0.6);
-    let back = polar.to_declared(&there);
-    equal(&back.q, &old.q);
-    equal(&back.p, &old.p);
-    close(around.energy(&old), polar.energy(&there));
-    let (f, g) = (around.force(&old), polar.force(&there));
-    close(g[2], f[1]);
-    let power: f64 = f.dot(&around.gradient(&old).p);
-    close(power, g.dot(&polar.gradient(&there).p));
-}
-
-#[test]
 fn forces_on_arrays() {
     let m = [3.0, 1.0, 0.5];
     let system = Dragged {
@@ -359,6 +141,12 @@ fn forces_on_arrays() {
         },
     };
     let state = system.on_shell(&state);
+    let declared = system.from_declared(&bodies);
+    equal(&declared.q, &state.q);
+    equal(&declared.p, &state.p);
+    let back = system.to_declared(&state);
+    equal(&back.q, &bodies.q);
+    equal(&back.p, &bodies.p);
     let force = system.force(&state);
     // The map is linear: a force is carried as the momenta are.
     let factor = 0.9f64.hypot(0.1);
@@ -453,6 +241,12 @@ fn sundman() {
         .collect();
     assert_eq!(names[2], ("t", "p_t"));
     close(kepler.pericentre(&start), 0.0);
+    // The same start from the time and the variables of H, whose shape is theirs.
+    let declared = State::new([0.4, 0.0], [0.0, 2.0]).at(3.0);
+    let again = kepler.from_declared(&declared);
+    assert_eq!((again.t, again.q[2]), (0.0, 3.0));
+    close(again.p[2], 0.5);
+    assert_eq!(kepler.to_declared(&again), declared);
 }
 
 #[test]
@@ -509,6 +303,9 @@ fn coordinates_then_time() {
     let both = Both::default();
     let start = both.on_shell(&State::new([0.4, 0.0, 0.0], [0.0, 0.8, 0.0]));
     close(start.p[2], 0.5);
+    let declared = State::new([0.4, 0.0], [0.0, 2.0]);
+    assert_eq!(both.from_declared(&declared), start);
+    equal(&both.to_declared(&start).p, &declared.p);
     let period = 2.0 * std::f64::consts::PI;
     let mut run = Integrator::new(&both, RungeKutta4, start, period / 20_000.0).unwrap();
     run.advance(20_000).unwrap();

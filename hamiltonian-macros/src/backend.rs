@@ -38,6 +38,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             model,
             vectors,
             pieces,
+            declared,
         } = variables::settle(checked, lowered, report)?;
         let mut code = TokenStream::new();
         for (name, hamiltonian) in &pieces {
@@ -45,7 +46,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             let model = surface::piece_model(&model, *hamiltonian);
             code.extend(system(checked, root, model, piece, report)?);
         }
-        let whole = surface::Part::whole(checked, vectors, &pieces);
+        let whole = surface::Part::whole(checked, vectors, &pieces, declared);
         code.extend(system(checked, root, model, whole, report)?);
         Some(code)
     };
@@ -78,6 +79,7 @@ fn system(
         observables: part.observables,
         vectors: part.vectors,
         pieces: part.pieces,
+        declared: part.declared.as_ref(),
         model: &model,
         program: &program,
         text,

@@ -575,7 +575,7 @@ impl Dag {
         new[&root]
     }
 
-    fn construct(&mut self, kind: Kind, new: &impl Fn(Node) -> Node) -> Node {
+    pub(crate) fn construct(&mut self, kind: Kind, new: &impl Fn(Node) -> Node) -> Node {
         match kind {
             Kind::Sum(c, terms) => {
                 let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();

@@ -6,7 +6,7 @@
 use crate::ast::ObservableKind;
 use crate::checked::{self, Checked, Definition, SizeKind, Type};
 use crate::emit::{
-    External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
+    Declared, External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
 };
 use crate::lower::number;
 use crate::report::Report;
@@ -103,11 +103,18 @@ pub struct Part {
     pub vectors: Vec<VectorItem>,
     /// The pieces of its split and their types.
     pub pieces: Vec<(Ident, Ident)>,
+    /// The variables it was declared in, where it is integrated in others.
+    pub declared: Option<Declared>,
 }
 
 impl Part {
     /// The system of the definition.
-    pub fn whole(checked: &Checked, vectors: Vec<VectorItem>, pieces: &[(Ident, Node)]) -> Part {
+    pub fn whole(
+        checked: &Checked,
+        vectors: Vec<VectorItem>,
+        pieces: &[(Ident, Node)],
+        declared: Option<Declared>,
+    ) -> Part {
         let pieces = pieces
             .iter()
             .map(|(name, _)| (name.clone(), type_of(checked, name)));
@@ -116,6 +123,7 @@ impl Part {
             observables: observables(checked),
             vectors,
             pieces: pieces.collect(),
+            declared,
         }
     }
 
@@ -132,6 +140,7 @@ impl Part {
             observables: Vec::new(),
             vectors: Vec::new(),
             pieces: Vec::new(),
+            declared: None,
         }
     }
 }
@@ -187,7 +196,7 @@ fn refuse_same_methods(checked: &Checked, report: &mut Report) {
     if checked.time_factor.is_some() {
         methods.extend([piece_method(CLOCK), "on_shell".to_owned()]);
     }
-    if !checked.charts.is_empty() {
+    if !checked.charts.is_empty() || checked.time_factor.is_some() {
         methods.extend(["from_declared", "to_declared"].map(str::to_owned));
     }
     if matches!(checked.definition, Definition::Lagrangian(_)) {

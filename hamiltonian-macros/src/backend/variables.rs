@@ -8,14 +8,14 @@
 use super::surface::CLOCK;
 use crate::ast::ObservableKind;
 use crate::checked::{self, ChartKind, Checked, Definition};
-use crate::emit::{VectorItem, VectorUse};
+use crate::emit::{Declared, VectorItem, VectorUse};
 use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
-use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry, Refusal};
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry, Refusal, Standing};
 use proc_macro2::Ident;
 use quote::format_ident;
 
@@ -28,6 +28,8 @@ pub struct System {
     pub vectors: Vec<VectorItem>,
     /// The pieces of a split.
     pub pieces: Vec<(Ident, Node)>,
+    /// The variables of the definition, where these are others.
+    pub declared: Option<Declared>,
 }
 
 /// Carries a definition into its final variables.
@@ -50,6 +52,7 @@ pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
         pieces: split,
         force,
         factor,
+        declared: None,
     };
     if !checked.charts.is_empty() {
         state.charts(checked, report)?;
@@ -81,6 +84,7 @@ pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
         model: state.model,
         vectors: state.vectors,
         pieces: names.into_iter().zip(state.pieces).collect(),
+        declared: state.declared,
     })
 }
 
@@ -90,6 +94,7 @@ struct Settling {
     pieces: Vec<Node>,
     force: Vec<VectorEntry>,
     factor: Option<Node>,
+    declared: Option<Declared>,
 }
 
 impl Settling {
@@ -182,20 +187,16 @@ impl Settling {
             }
         };
         let mut transformed = transformed;
-        let shapes = |model: &Model| -> Vec<Shape> {
-            model.groups.iter().map(|g| g.shape.clone()).collect()
-        };
-        if shapes(&transformed.source) != shapes(&transformed.model) {
-            refuse(
-                "the old and the new coordinates have different shapes".to_owned(),
-                "declare the coordinates of the change as scalars: `H(x, y; p_x, p_y)`",
-            );
-            return None;
-        }
         let carried = std::mem::take(&mut transformed.carried);
-        let from = self.map_from(&mut transformed);
-        let inverse = transformed.inverse.clone();
-        let to = map(&mut transformed, &inverse, |(old, new)| (old, new));
+        let from = transformed.forward_standing();
+        let from = map(&mut transformed, &from);
+        let to = transformed.inverse_standing();
+        let to = map(&mut transformed, &to);
+        self.declared = Some(Declared {
+            model: names_of(&transformed.source),
+            places: transformed.places.clone(),
+            time: None,
+        });
         self.put_back(transformed.model.clone(), carried);
         let number = |old: u16| transformed.kept.iter().find(|(kept, _)| *kept == old);
         let mut force = Vec::new();
@@ -235,24 +236,18 @@ impl Settling {
         Some(())
     }
 
-    /// New coordinates from the declared ones, which are read where the new ones stand.
-    fn map_from(&self, transformed: &mut transform::Transformed) -> Vec<VectorEntry> {
-        let forward = transformed.forward.clone();
-        let mut all = map(transformed, &forward, |(old, new)| (new, old));
-        let wanted = all.iter_mut().filter(|entry| {
-            let place = (entry.side, entry.group, entry.column);
-            forward.iter().any(|f| (f.side, f.group, f.column) == place)
-        });
-        for entry in wanted {
-            entry.value = transformed
-                .model
-                .dag
-                .import(&transformed.source.dag, entry.value);
-        }
-        all
-    }
-
     fn time(&mut self, factor: Node) -> Result<(), (String, &'static str)> {
+        let whole = |group: u16| Standing {
+            old: (group, None),
+            new: group,
+        };
+        let groups = self.model.groups.len() as u16;
+        let declared = self.declared.get_or_insert_with(|| Declared {
+            model: names_of(&self.model),
+            places: (0..groups).map(whole).collect(),
+            time: None,
+        });
+        declared.time = Some(groups);
         let retimed = transform::retime(&self.model, factor, &self.carried());
         let mut retimed = retimed.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
         let names: Vec<(String, Node)> = {
@@ -336,22 +331,20 @@ fn chart(chart: &checked::Chart) -> Chart {
     }
 }
 
-/// The images of a change of coordinates, and what it keeps: `written` orders the numbers (old, new)
-/// of a group that is kept into that of the image and that which is read.
-fn map(
-    transformed: &mut transform::Transformed,
-    images: &[Entry],
-    written: fn((u16, u16)) -> (u16, u16),
-) -> Vec<VectorEntry> {
-    let pairs: Vec<(u16, u16)> = transformed.kept.iter().copied().map(written).collect();
-    let read = |group: u16| pairs.iter().any(|(_, read)| *read == group);
-    let mut all = identity(&mut transformed.model, Side::Q, &read);
-    all.extend(identity(&mut transformed.model, Side::P, &read));
-    for entry in &mut all {
-        if let Some((image, _)) = pairs.iter().find(|(_, read)| *read == entry.group) {
-            entry.group = *image;
-        }
+/// The groups of a model.
+fn names_of(model: &Model) -> Model {
+    Model {
+        groups: model.groups.clone(),
+        ..Model::default()
     }
+}
+
+/// The images of a change of coordinates, and what it keeps.
+fn map(transformed: &mut transform::Transformed, images: &[Entry]) -> Vec<VectorEntry> {
+    let kept: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
+    let kept = |group: u16| kept.contains(&group);
+    let mut all = identity(&mut transformed.model, Side::Q, &kept);
+    all.extend(identity(&mut transformed.model, Side::P, &kept));
     all.extend(entries(images));
     all
 }

@@ -23,6 +23,8 @@ pub struct Context<'a> {
     pub program: &'a Program,
     /// How coordinates are stored.
     pub layout: Layout,
+    /// What follows the system's name in that of the struct of coordinates of mixed shape.
+    pub suffix: &'static str,
     /// The names of sizes inside bodies.
     pub indices: Indices<'a>,
     /// Which sizes are set at run time.

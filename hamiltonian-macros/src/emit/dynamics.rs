@@ -24,12 +24,12 @@ pub fn vector(context: Context, generics: &Generics, scalar: &str, root: &str) -
             let shape = &context.model.groups[0].shape;
             layout::storage(shape, scalar, context.indices, context.is_run_time, root)
         }
-        Layout::Mixed => mixed::ty(generics, scalar),
+        Layout::Mixed => mixed::ty(context, generics, scalar),
     }
 }
 
 /// The expression of the zero vector, where run-time sizes are called as in bodies.
-fn zeros(context: Context, generics: &Generics) -> String {
+pub fn zeros(context: Context, generics: &Generics) -> String {
     let filled = |shape: &Shape| {
         layout::filled(
             shape,
@@ -52,7 +52,11 @@ fn zeros(context: Context, generics: &Generics) -> String {
                 .iter()
                 .map(|g| format!("{}: {}", g.coordinate, filled(&g.shape)))
                 .collect();
-            format!("{} {{ {} }}", mixed::name(generics), fields.join(", "))
+            format!(
+                "{} {{ {} }}",
+                mixed::name(context, generics),
+                fields.join(", ")
+            )
         }
     }
 }

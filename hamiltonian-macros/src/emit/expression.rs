@@ -7,7 +7,8 @@
 use super::block::Context;
 use super::generics::Generics;
 use super::{
-    Definition, dynamics, externals, item, layout, lex, markers, mixed, observables, vectors,
+    Definition, declared, dynamics, externals, item, layout, lex, markers, mixed, observables,
+    vectors,
 };
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -32,7 +33,8 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
     };
     let declaration = lex(&format!("struct {name}{scalars} {{ {fields} }}"));
     let mut text = String::new();
-    if context.layout == layout::Layout::Mixed {
+    let own = (context.layout == layout::Layout::Mixed).then_some(context);
+    for context in own.into_iter().chain(declared::mixed(definition, context)) {
         text.push_str(&mixed::derives(context, "__h"));
         text.push_str(&mixed::declaration(context, &generics, "__h"));
         text.push_str(&mixed::implementations(context, &generics));
@@ -78,10 +80,13 @@ fn inherent(definition: &Definition, context: Context, generics: &Generics) -> T
         generics.declaration(),
         generics.system_type()
     ));
-    let vector = if mixed {
-        lex(&mixed::constructor(context, generics))
-    } else {
-        TokenStream::new()
-    };
-    quote! { #header { #methods #vector } }
+    let mut vectors = String::new();
+    if mixed {
+        vectors.push_str(&mixed::constructor(context, generics, "vector"));
+    }
+    if let Some(declared) = declared::mixed(definition, context) {
+        vectors.push_str(&mixed::constructor(declared, generics, "declared_vector"));
+    }
+    let vectors = lex(&vectors);
+    quote! { #header { #methods #vectors } }
 }

@@ -10,7 +10,7 @@ use super::index::Indices;
 use super::layout::{self, Layout, layout};
 use super::number::{Numbers, float};
 use super::{
-    Definition, Field, Form, Item, allowances, dynamics, externals, lex, markers, mixed,
+    Definition, Field, Form, Item, allowances, declared, dynamics, externals, lex, markers, mixed,
     observables, vectors,
 };
 use hamiltonian_symbolic::model::Shape;
@@ -54,6 +54,7 @@ impl Parts {
             model: definition.model,
             program: definition.program,
             layout: layout(&definition.model.groups),
+            suffix: "Vector",
             indices: Indices { sizes: &self.sizes },
             is_run_time: &self.is_run_time,
             numbers: &self.numbers,
@@ -73,6 +74,9 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     text.push_str(&display(definition, &generics));
     if context.layout == Layout::Mixed {
         text.push_str(&mixed::implementations(context, &generics));
+    }
+    if let Some(declared) = declared::mixed(definition, context) {
+        text.push_str(&mixed::implementations(declared, &generics));
     }
     text.push_str(&default(item, context, &generics));
     let implementations = located(lex(&text), item.name.span(), true);
@@ -134,8 +138,7 @@ fn declaration(
         .chain(item.parameters.iter().map(|p| &p.name))
         .collect();
     let allow = allowances(&names);
-    let vector = if context.layout == Layout::Mixed {
-        let doc = format!(" Coordinates, or momenta, of [`{name}`].");
+    let vector = |context: Context, doc: String| {
         let text = mixed::declaration(context, generics, "__ROOT__");
         let text = with_root(lex(&text), root);
         let derives = with_root(lex(&mixed::derives(context, "__ROOT__")), root);
@@ -144,9 +147,17 @@ fn declaration(
             #derives
             #text
         }
-    } else {
-        TokenStream::new()
     };
+    let mut vectors = TokenStream::new();
+    if context.layout == Layout::Mixed {
+        let doc = format!(" Coordinates, or momenta, of [`{name}`].");
+        vectors.extend(vector(context, doc));
+    }
+    if let Some(declared) = declared::mixed(definition, context) {
+        let doc =
+            format!(" Coordinates, or momenta, in the variables that [`{name}`] was declared in.");
+        vectors.extend(vector(declared, doc));
+    }
     let before = located(quote!(#visibility struct), name.span(), false);
     let parameters = located(parameters, name.span(), true);
     let fields = located(quote!({ #(#fields)* }), name.span(), false);
@@ -156,7 +167,7 @@ fn declaration(
         #allow
         #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
         #before #name #parameters #fields
-        #vector
+        #vectors
     }
 }
 

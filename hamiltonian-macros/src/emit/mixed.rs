@@ -10,19 +10,19 @@ use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
 /// The name of the struct.
-pub fn name(generics: &Generics) -> String {
-    format!("{}Vector", generics.name)
+pub fn name(context: Context, generics: &Generics) -> String {
+    format!("{}{}", generics.name, context.suffix)
 }
 
 /// The type over a scalar.
-pub fn ty(generics: &Generics, scalar: &str) -> String {
+pub fn ty(context: Context, generics: &Generics, scalar: &str) -> String {
     let arguments: Vec<&str> = generics
         .constants
         .iter()
         .map(String::as_str)
         .chain([scalar])
         .collect();
-    format!("{}<{}>", name(generics), arguments.join(", "))
+    format!("{}<{}>", name(context, generics), arguments.join(", "))
 }
 
 /// The traits the struct derives: it is `Copy` where static vectors are.
@@ -69,7 +69,7 @@ pub fn declaration(context: Context, generics: &Generics, root: &str) -> String 
     }
     format!(
         "{visibility} struct {}<{}> {{\n{fields}}}",
-        name(generics),
+        name(context, generics),
         parameters.join(", ")
     )
 }
@@ -114,23 +114,23 @@ fn arguments(context: Context) -> Arguments {
 }
 
 /// A method that makes coordinates, for expression form, where the struct has no name outside.
-pub fn constructor(context: Context, generics: &Generics) -> String {
+pub fn constructor(context: Context, generics: &Generics, method: &str) -> String {
     let Arguments {
         kinds,
         arguments,
         fields,
     } = arguments(context);
     format!(
-        "pub fn vector<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
-        ty(generics, "T"),
-        name(generics),
+        "pub fn {method}<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
+        ty(context, generics, "T"),
+        name(context, generics),
     )
 }
 
 /// The implementations.
 pub fn implementations(context: Context, generics: &Generics) -> String {
     let visibility = &generics.visibility;
-    let ty = ty(generics, "T");
+    let ty = ty(context, generics, "T");
     let declaration = generics.holder_declaration();
     let groups = &context.model.groups;
     let Arguments {

@@ -12,6 +12,7 @@
 //! - The same definition gives the same tokens.
 
 mod block;
+mod declared;
 mod derived;
 mod dynamics;
 mod expression;
@@ -34,6 +35,7 @@ mod vectors;
 #[cfg(test)]
 mod tests;
 
+pub use declared::Declared;
 pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
@@ -62,6 +64,8 @@ pub struct Definition<'a> {
     pub observables: Vec<ObservableItem>,
     /// Vector functions, in the model's order.
     pub vectors: Vec<VectorItem>,
+    /// The variables it was declared in, where it is integrated in others.
+    pub declared: Option<&'a Declared>,
     /// The systems of a split's pieces: (name of the piece, name of its type).
     pub pieces: Vec<(Ident, Ident)>,
 }

@@ -133,6 +133,7 @@ fn emit(model: &mut Model, form: Form, separable: bool) -> TokenStream {
         },
         externals: Vec::new(),
         vectors: Vec::new(),
+        declared: None,
         pieces: Vec::new(),
     })
 }

@@ -7,7 +7,7 @@
 use super::block::Context;
 use super::dynamics::vector;
 use super::generics::Generics;
-use super::{Definition, allowances, lex};
+use super::{Definition, allowances, declared, lex};
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 
@@ -123,22 +123,8 @@ pub fn methods(
                     }
                 }
             }
-            VectorUse::FromDeclared | VectorUse::ToDeclared => {
-                let text = if item.usage == VectorUse::FromDeclared {
-                    " The state in the coordinates the system is integrated in, from the coordinates H was declared in."
-                } else {
-                    " The state in the coordinates H was declared in, from those the system is integrated in."
-                };
-                quote! {
-                    #[doc = #text]
-                    #[must_use]
-                    #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::State<#vector> {
-                        let mut _new = __h::State { t: _state.t, q: #zeros, p: #zeros };
-                        #prepared.#function(_state.t, &_state.q, &_state.p, &mut _new.q, &mut _new.p);
-                        _new
-                    }
-                }
-            }
+            // Maps are between two shapes, below.
+            VectorUse::FromDeclared | VectorUse::ToDeclared => continue,
             VectorUse::OnShell => quote! {
                 /// The state with the momentum of time set to −H, so that it moves as the system does.
                 #[must_use]
@@ -150,6 +136,18 @@ pub fn methods(
             },
         };
         out.extend(method);
+    }
+    for (usage, back) in [
+        (VectorUse::FromDeclared, false),
+        (VectorUse::ToDeclared, true),
+    ] {
+        let at = definition.vectors.iter().position(|v| v.usage == usage);
+        let function = at.map(|at| format!("v{at}"));
+        let name = VectorItem::of(usage).name;
+        let names = (name.to_string(), function);
+        out.extend(declared::method(
+            definition, context, generics, visibility, names, back,
+        ));
     }
     out
 }

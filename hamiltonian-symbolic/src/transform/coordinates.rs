@@ -30,7 +30,19 @@ pub struct Transformed {
     pub inverse: Vec<Entry>,
     /// Groups that no chart replaces: their numbers in `source` and in `model`.
     pub kept: Vec<(u16, u16)>,
+    /// Where the old variables stand when a state of the new shape holds them: each element of
+    /// phase space once. [`Transformed::forward_standing`] reads them there.
+    pub places: Vec<Standing>,
     rules: Rules,
+}
+
+/// A group, or one row of it, among the old variables, and where it stands among the new ones.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Standing {
+    /// The group of the source, and the row of a vector that becomes scalars.
+    pub old: (u16, Option<u32>),
+    /// The group of the model, which has as many elements.
+    pub new: u16,
 }
 
 /// A scalar place of phase space.
@@ -75,6 +87,15 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
     let images = images(&mut new.dag, &roots, &inverse, &layout.kept);
     let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
     let carried = distribute(&mut new, roots);
+    let mut places: Vec<Standing> = charts
+        .iter()
+        .zip(&layout.places)
+        .flat_map(|(chart, place)| standing(model, chart, place.first))
+        .collect();
+    places.extend(layout.kept.iter().map(|&(old, new)| Standing {
+        old: (old, None),
+        new,
+    }));
     let transformed = Transformed {
         model: new,
         carried,
@@ -82,6 +103,7 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         forward,
         inverse,
         kept: layout.kept,
+        places,
         rules,
     };
     check(&transformed)?;
@@ -89,6 +111,73 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
 }
 
 impl Transformed {
+    /// Where an element of the old variables stands among the new ones.
+    fn place(&self, group: u16, row: &Index) -> (u16, Index) {
+        let at = row.affine.as_constant().map(|row| row as u32);
+        for place in &self.places {
+            match place.old {
+                (old, None) if old == group => return (place.new, row.clone()),
+                (old, Some(own)) if old == group && at == Some(own) => {
+                    return (place.new, Index::constant(0));
+                }
+                _ => {}
+            }
+        }
+        (group, row.clone())
+    }
+
+    /// The map to the new coordinates, in the arena of `model`: the old ones are read where
+    /// `places` says they stand.
+    pub fn forward_standing(&mut self) -> Vec<Entry> {
+        let mut images: Map<Node, Node> = Map::default();
+        let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).collect();
+        for node in self.source.dag.reachable(&values) {
+            let image = match self.source.dag.kind(node) {
+                Kind::Element(
+                    Array::Phase {
+                        side,
+                        group,
+                        column,
+                    },
+                    row,
+                    _,
+                ) => {
+                    let (group, row) = self.place(*group, row);
+                    let array = Array::Phase {
+                        side: *side,
+                        group,
+                        column: *column,
+                    };
+                    self.model.dag.element(array, row, None)
+                }
+                kind => {
+                    let kind = kind.clone();
+                    self.model.dag.construct(kind, &|child| images[&child])
+                }
+            };
+            images.insert(node, image);
+        }
+        let with_image = |entry: &Entry| Entry {
+            value: images[&entry.value],
+            ..*entry
+        };
+        self.forward.iter().map(with_image).collect()
+    }
+
+    /// The map to the old coordinates, written where `places` says they stand.
+    #[must_use]
+    pub fn inverse_standing(&self) -> Vec<Entry> {
+        let moved = |entry: &Entry| {
+            let (group, row) = self.place(entry.group, &Index::constant(i64::from(entry.row)));
+            Entry {
+                group,
+                row: row.affine.as_constant().unwrap_or(0) as u32,
+                ..*entry
+            }
+        };
+        self.inverse.iter().map(moved).collect()
+    }
+
     /// A force on the old momenta, ṗ += f, as one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
     /// P = (∂q/∂Q)ᵀ p. The values of `force` are in the new coordinates (from `carried`); each
     /// names the old momentum it acts on. Groups that are kept keep theirs and are not named here.
@@ -152,6 +241,8 @@ impl Block {
 
 struct Place {
     blocks: Vec<Block>,
+    /// The first new group.
+    first: u16,
 }
 
 /// The groups of the new model.
@@ -215,8 +306,10 @@ impl Layout {
         let places = charts
             .iter()
             .zip(firsts)
-            .map(|(chart, first)| Place {
-                blocks: blocks(model, chart, first.unwrap_or(0)),
+            .map(|(chart, first)| {
+                let first = first.unwrap_or(0);
+                let blocks = blocks(model, chart, first);
+                Place { blocks, first }
             })
             .collect();
         Ok(Layout {
@@ -380,6 +473,29 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
                 })
                 .collect()
         }
+    }
+}
+
+/// Where the old variables of a chart stand among its new ones.
+fn standing(model: &Model, chart: &Chart, first: u16) -> Vec<Standing> {
+    let scalars = |components: &[Component]| {
+        let place = |(component, new): (&Component, u16)| {
+            let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
+            let row = component.row.filter(|_| !is_scalar);
+            Standing {
+                old: (component.group, row),
+                new,
+            }
+        };
+        components.iter().zip(first..).map(place).collect()
+    };
+    match chart {
+        Chart::Polar(components) => scalars(components),
+        Chart::Spherical(components) => scalars(components),
+        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Standing {
+            old: (bodies.group, None),
+            new: first,
+        }],
     }
 }
 

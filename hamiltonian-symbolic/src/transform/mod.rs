@@ -14,7 +14,7 @@ pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
-pub use coordinates::{Transformed, apply};
+pub use coordinates::{Standing, Transformed, apply};
 pub use split::{Difference, Force, check_forces, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;

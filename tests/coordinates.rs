@@ -1,0 +1,317 @@
+//! Canonical coordinates: what they replace, whole and in mixed shapes, and the maps between both.
+
+use hamiltonian::prelude::*;
+
+#[macro_use]
+#[path = "common/canonical.rs"]
+mod canonical;
+use canonical::{close, equal};
+
+hamiltonian! {
+    /// A planet in the plane.
+    pub struct Flat { mu = 1.2, B = 0.3 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
+    invariant angular_momentum = x*p_y - y*p_x
+}
+
+hamiltonian! {
+    /// The same in polar coordinates.
+    pub struct Polar { mu = 1.2, B = 0.3 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
+    coordinates polar(x, y);
+    invariant angular_momentum = x*p_y - y*p_x
+}
+
+hamiltonian! {
+    /// The planet as a vector.
+    pub struct Plane { mu = 1.2, B = 0.3 }
+    H(q[2]; p[2]) = norm_squared(p)/2 - mu/norm(q) + B*(q[0]*p[1] - q[1]*p[0]);
+    coordinates polar(q);
+    invariant angular_momentum = q[0]*p[1] - q[1]*p[0]
+}
+
+hamiltonian! {
+    /// A vector in space.
+    pub struct Vectorial { g = 0.2 }
+    H(q[3]; p[3]) = norm_squared(p)/2 - 1/norm(q) + g*q[2]*q[0] + g*dot(q, p)
+}
+
+hamiltonian! {
+    /// The same in spherical coordinates.
+    pub struct FromVector { g = 0.2 }
+    H(q[3]; p[3]) = norm_squared(p)/2 - 1/norm(q) + g*q[2]*q[0] + g*dot(q, p);
+    coordinates spherical(q)
+}
+
+hamiltonian! {
+    /// A vector between a chain and a number.
+    pub struct Mixed {}
+    H(s[4], q[2], u; w[4], p[2], p_u) = (norm_squared(w) + norm_squared(p) + 3*p_u^2)/2
+        + sum(i in 0..3) { (s[i + 1] - s[i])^2*norm_squared(q) } + q[0]*u + 1/norm(q)
+}
+
+hamiltonian! {
+    /// The same with polar coordinates for the vector.
+    pub struct MixedPolar {}
+    H(s[4], q[2], u; w[4], p[2], p_u) = (norm_squared(w) + norm_squared(p) + 3*p_u^2)/2
+        + sum(i in 0..3) { (s[i + 1] - s[i])^2*norm_squared(q) } + q[0]*u + 1/norm(q);
+    coordinates polar(q);
+    event up = q[1]
+}
+
+hamiltonian! {
+    /// Two vectors, of which one stays.
+    pub struct Pair {}
+    H(a[2], b[2]; c[2], d[2]) = (norm_squared(c) + norm_squared(d))/2 + norm_squared(a - b) + 1/norm(a)
+}
+
+hamiltonian! {
+    /// The same: the polar ones come first, then the other.
+    pub struct PairPolar {}
+    H(a[2], b[2]; c[2], d[2]) = (norm_squared(c) + norm_squared(d))/2 + norm_squared(a - b) + 1/norm(a);
+    coordinates polar(a)
+}
+
+hamiltonian! {
+    /// A chain of run-time length beside a planet.
+    pub struct Beside { n: usize }
+    H(s[n], x, y; w[n], p_x, p_y) = norm_squared(w)/2 + (p_x^2 + p_y^2)/2
+        + sum(i in 0..n) { (s[i] - s[(i + 1) % n])^2*x } + 1/sqrt(x^2 + y^2)
+}
+
+hamiltonian! {
+    /// The same with the planet in polar coordinates.
+    pub struct BesidePolar { n: usize }
+    H(s[n], x, y; w[n], p_x, p_y) = norm_squared(w)/2 + (p_x^2 + p_y^2)/2
+        + sum(i in 0..n) { (s[i] - s[(i + 1) % n])^2*x } + 1/sqrt(x^2 + y^2);
+    coordinates polar(x, y)
+}
+
+hamiltonian! {
+    /// A magnetic dipole's field and a linear potential along z.
+    pub struct Space { mu = 0.8, g = 0.2 }
+    let r = sqrt(x^2 + y^2 + z^2);
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r
+}
+
+hamiltonian! {
+    /// The same in spherical coordinates.
+    pub struct Spherical { mu = 0.8, g = 0.2 }
+    let r = sqrt(x^2 + y^2 + z^2);
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + mu*y/r^3)^2 + (p_y - mu*x/r^3)^2 + p_z^2)/2 + g*z - 1/r;
+    coordinates spherical(x, y, z)
+}
+
+hamiltonian! {
+    /// Four bodies.
+    pub struct Bodies { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Four bodies in Jacobi coordinates.
+    pub struct Jacobi { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates jacobi(q, m);
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Four bodies in heliocentric coordinates.
+    pub struct Heliocentric { m: [4] }
+    H(q[4][3]; p[4][3]) = sum(i in 0..4) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..4, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates heliocentric(q, m);
+    invariant total_momentum = sum(i in 0..4) { p[i] }
+}
+
+hamiltonian! {
+    /// Coordinates that are replaced around one that stays, with forces on all.
+    pub struct Around {}
+    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
+    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
+}
+
+hamiltonian! {
+    /// The same with two of them polar.
+    pub struct AroundPolar {}
+    H(x, u, y; p_x, p_u, p_y) = (p_x^2 + 2*p_u^2 + p_y^2)/2 + (x^2 + y^2)*u^2 + x*u;
+    coordinates polar(x, y);
+    force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
+}
+
+fn planet() -> State<<[f64; 2] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector> {
+    State::new([0.7, -0.4], [0.3, 1.1])
+}
+
+#[test]
+fn polar() {
+    for (x, y) in [(0.7, -0.4), (-0.8, 0.6), (-0.5, -0.9), (0.0, 1.0)] {
+        same_system!(
+            Flat::default(),
+            Polar::default(),
+            State::new([x, y], [0.3, 1.1])
+        );
+    }
+    let polar = Polar::default();
+    let names: Vec<_> = <Polar as System<f64>>::GROUPS
+        .iter()
+        .map(|g| g.coordinate)
+        .collect();
+    assert_eq!(names, ["r", "phi"]);
+    let state = polar.from_declared(&planet());
+    let l: f64 = Flat::default().angular_momentum(&planet());
+    close(polar.angular_momentum(&state), l);
+    close(state.p[1], l);
+    assert!(state.q[0] > 0.0);
+}
+
+#[test]
+fn spherical() {
+    for z in [-0.6, 0.1, 0.9] {
+        let state = State::new([0.7, -0.4, z], [0.3, 1.1, -0.5]);
+        same_system!(Space::default(), Spherical::default(), state);
+    }
+}
+
+#[test]
+fn bodies() {
+    let m = [3.0, 1.0, 0.5, 0.2];
+    let q = [
+        [0.1, 0.0, 0.2],
+        [1.0, 0.3, -0.2],
+        [-1.5, 0.4, 0.5],
+        [0.3, 2.2, 0.1],
+    ];
+    let p = [
+        [0.1, -0.3, 0.2],
+        [0.0, 1.3, -0.2],
+        [-0.1, -0.4, 0.1],
+        [0.05, 0.02, 0.01],
+    ];
+    let bodies = Bodies { m: m.into() };
+    let (jacobi, helio) = (Jacobi { m: m.into() }, Heliocentric { m: m.into() });
+    let state = State::new(q, p);
+    same_system!(bodies.clone(), jacobi.clone(), state.clone());
+    same_system!(bodies.clone(), helio.clone(), state.clone());
+    // The same as the maps of the library.
+    let ours = jacobi.from_declared(&state);
+    let theirs = hamiltonian::coordinates::to_jacobi(&state, &m).unwrap();
+    equal(&ours.q, &theirs.q);
+    equal(&ours.p, &theirs.p);
+    let ours = helio.from_declared(&state);
+    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+    equal(&ours.q, &theirs.q);
+    equal(&ours.p, &theirs.p);
+    equal(
+        &jacobi.total_momentum(&jacobi.from_declared(&state)),
+        &bodies.total_momentum(&state),
+    );
+}
+
+#[test]
+fn groups_that_stay_change_their_number() {
+    let (around, polar) = (Around {}, AroundPolar {});
+    let names = <AroundPolar as System<f64>>::GROUPS.iter();
+    let names: Vec<_> = names.map(|g| g.coordinate).collect();
+    assert_eq!(names, ["r", "phi", "u"]);
+    let old = State::new([0.7, 0.2, -0.4], [0.3, -0.6, 1.1]);
+    let there = polar.from_declared(&old);
+    close(there.q[2], 0.2);
+    close(there.p[2], -0.6);
+    let back = polar.to_declared(&there);
+    equal(&back.q, &old.q);
+    equal(&back.p, &old.p);
+    close(around.energy(&old), polar.energy(&there));
+    let (f, g) = (around.force(&old), polar.force(&there));
+    close(g[2], f[1]);
+    let power: f64 = f.dot(&around.gradient(&old).p);
+    close(power, g.dot(&polar.gradient(&there).p));
+}
+
+#[test]
+fn vectors_become_numbers() {
+    for q in [[0.7, -0.4], [-0.8, 0.6], [-0.5, -0.9], [0.0, 1.0]] {
+        same_system!(Flat::default(), Plane::default(), State::new(q, [0.3, 1.1]));
+    }
+    let names = |groups: &[hamiltonian::Group]| -> Vec<_> {
+        groups.iter().map(|g| (g.coordinate, g.momentum)).collect()
+    };
+    assert_eq!(
+        names(<Plane as System<f64>>::GROUPS),
+        names(<Polar as System<f64>>::GROUPS)
+    );
+    // The same type of states, and the same numbers, as from scalars.
+    let old = State::new([0.7, -0.4], [0.3, 1.1]);
+    let (ours, theirs) = (Plane::default(), Polar::default());
+    let there = ours.from_declared(&old);
+    assert_eq!(there, theirs.from_declared(&old));
+    assert_eq!(ours.gradient(&there), theirs.gradient(&there));
+    assert_eq!(ours.angular_momentum(&there), there.p[1]);
+
+    let state = State::new([0.7, -0.4, -0.6], [0.3, 1.1, -0.5]);
+    same_system!(Vectorial::default(), FromVector::default(), state);
+}
+
+#[test]
+fn vectors_among_others() {
+    let s = [0.3, -0.2, 0.5, 0.1];
+    let w = [0.1, 0.2, -0.3, 0.4];
+    let old = State {
+        t: 0.25,
+        q: MixedVector::new(s, [0.7, -0.4], 1.5),
+        p: MixedVector::new(w, [0.3, 1.1], -0.2),
+    };
+    same_system!(Mixed {}, MixedPolar {}, old);
+    let declared = State {
+        t: 0.25,
+        q: MixedPolarDeclared::new(s, [0.7, -0.4], 1.5),
+        p: MixedPolarDeclared::new(w, [0.3, 1.1], -0.2),
+    };
+    let there = MixedPolar {}.from_declared(&declared);
+    assert_eq!(there.q.r, 0.7f64.hypot(0.4));
+    assert_eq!((there.q.s, there.q.u), (s.into(), 1.5));
+    close(MixedPolar {}.up(&there), -0.4);
+
+    let old = State {
+        t: 0.0,
+        q: PairVector::new([0.7, -0.4], [1.5, 0.2]),
+        p: PairVector::new([0.3, 1.1], [0.1, -0.2]),
+    };
+    same_system!(Pair {}, PairPolar {}, old);
+}
+
+#[test]
+fn values_have_maps_too() {
+    let k = 0.5;
+    let value = hamiltonian! {
+        H(s[2], q[2]; w[2], p[2]) = (norm_squared(w) + norm_squared(p))/2 + k*dot(s, q);
+        coordinates polar(q)
+    };
+    let old = State {
+        t: 0.0,
+        q: value.declared_vector([0.1, 0.2], [0.0, 2.0]),
+        p: value.declared_vector([0.3, 0.4], [3.0, 0.5]),
+    };
+    let there = value.from_declared(&old);
+    assert_eq!((there.q.r, there.p.r, there.p.phi), (2.0, 0.5, -6.0));
+    close(value.energy(&there), (0.09 + 0.16 + 9.25) / 2.0 + 0.2);
+    equal(&value.to_declared(&there).p, &old.p);
+}
+
+#[test]
+fn coordinates_beside_an_array_of_run_time_length() {
+    for n in 1..4 {
+        let s: Vec<f64> = (0..n).map(|k| 0.1 * k as f64).collect();
+        let w: Vec<f64> = (0..n).map(|k| 0.3 - 0.1 * k as f64).collect();
+        let old = State {
+            t: 0.0,
+            q: BesideVector::new(s, 0.7, -0.4),
+            p: BesideVector::new(w, 0.3, 1.1),
+        };
+        same_system!(Beside::new(n).unwrap(), BesidePolar::new(n).unwrap(), old);
+    }
+}

@@ -85,7 +85,7 @@ pub struct VectorFunction {
 }
 
 /// A contribution to an element of a vector function.
-#[derive(Clone, Debug)]
+#[derive(Clone, PartialEq, Eq, Debug)]
 pub struct VectorEntry {
     /// The part.
     pub side: Side,

@@ -8,13 +8,13 @@ use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Parameter, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::loops::{Sample, sample};
-use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
+use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry};
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure;
 use hamiltonian_symbolic::transform::{
-    Bodies, Chart, Component, Entry, Force, Refusal, Transformed, apply, check, check_forces,
-    check_split, retime,
+    Bodies, Chart, Component, Force, Refusal, Transformed, apply, check, check_forces, check_split,
+    retime,
 };
 
 fn scalar(group: u16) -> Component {
@@ -195,15 +195,13 @@ fn values(model: &Model, nodes: &[Node], given: &[(Node, f64)]) -> Vec<f64> {
     values.iter().map(|v| v.value).collect()
 }
 
-fn leaf(model: &mut Model, entry: &Entry) -> Node {
+fn leaf(model: &mut Model, entry: &VectorEntry) -> Node {
     let array = Array::Phase {
         side: entry.side,
         group: entry.group,
         column: entry.column,
     };
-    model
-        .dag
-        .element(array, Index::constant(i64::from(entry.row)), None)
+    model.dag.element(array, entry.row.clone(), None)
 }
 
 /// Max |MᵀJM − J| of a map whose entries are coordinates, then momenta, in conjugate order, with
@@ -240,9 +238,9 @@ fn defect(model: &mut Model, map: &[Node], arguments: &[Node], given: &[(Node, f
 
 /// Both maps are canonical, and one the inverse of the other.
 fn assert_canonical(transformed: &mut Transformed) {
-    let sorted = |entries: &[Entry]| {
+    let sorted = |entries: &[VectorEntry]| {
         let mut entries = entries.to_vec();
-        entries.sort_by_key(|e| (e.side, e.group, e.column, e.row));
+        entries.sort_by_key(|e| (e.side, e.group, e.column, e.row.clone()));
         entries
     };
     let (forward, inverse) = (sorted(&transformed.forward), sorted(&transformed.inverse));
@@ -398,12 +396,12 @@ fn forces_are_transformed_with_the_momenta() {
     let mut model = system("x, y; p_x, p_y", "", "c", "(p_x^2 + p_y^2)/2");
     let (f_x, f_y) = (parse(&mut model, "-c*p_x"), parse(&mut model, "-c*p_y"));
     let mut new = apply(&model, &[POLAR], &[f_x, f_y]).unwrap();
-    let force: Vec<Entry> = [(0, new.carried[0]), (1, new.carried[1])]
+    let force: Vec<VectorEntry> = [(0, new.carried[0]), (1, new.carried[1])]
         .into_iter()
-        .map(|(group, value)| Entry {
+        .map(|(group, value)| VectorEntry {
             side: Side::P,
             group,
-            row: 0,
+            row: Index::constant(0),
             column: 0,
             value,
         })
@@ -628,13 +626,15 @@ fn a_force_in_another_time_keeps_the_shell() {
     let g = parse(&mut model, "1 + x^2");
     let f = parse(&mut model, "-c*p");
     let mut new = retime(&model, g, &[f]).unwrap();
-    let force = new.force(&[Entry {
-        side: Side::P,
-        group: 0,
-        row: 0,
-        column: 0,
-        value: new.carried[0],
-    }]);
+    let force = new
+        .force(&[VectorEntry {
+            side: Side::P,
+            group: 0,
+            row: Index::constant(0),
+            column: 0,
+            value: new.carried[0],
+        }])
+        .unwrap();
     let expected = [
         parse(&mut new.model, "-(1 + x^2)*c*p"),
         parse(&mut new.model, "(1 + x^2)*c*p*p"),

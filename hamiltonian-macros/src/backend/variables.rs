@@ -15,7 +15,7 @@ use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
-use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Entry, Refusal, Standing};
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Refusal, Standing};
 use proc_macro2::Ident;
 use quote::format_ident;
 
@@ -189,9 +189,9 @@ impl Settling {
         let mut transformed = transformed;
         let carried = std::mem::take(&mut transformed.carried);
         let from = transformed.forward_standing();
-        let from = map(&mut transformed, &from);
+        let from = map(&mut transformed, from);
         let to = transformed.inverse_standing();
-        let to = map(&mut transformed, &to);
+        let to = map(&mut transformed, to);
         self.declared = Some(Declared {
             model: names_of(&transformed.source),
             places: transformed.places.clone(),
@@ -210,14 +210,14 @@ impl Settling {
                 None => replaced.push(entry),
             }
         }
-        let Some(replaced) = literal(&replaced) else {
+        if !is_literal(&replaced) {
             refuse(
                 "a force in a loop is not carried into other coordinates".to_owned(),
                 "give the coordinates a literal number of elements",
             );
             return None;
-        };
-        force.extend(entries(&transformed.force(&replaced)));
+        }
+        force.extend(transformed.force(&replaced));
         self.model.dag = transformed.model.dag;
         self.force = force;
         let both = (true, true);
@@ -264,15 +264,8 @@ impl Settling {
         self.put_back(retimed.model.clone(), carried);
         self.pieces = pieces.into_iter().map(|(_, piece)| piece).collect();
         if !self.force.is_empty() {
-            let forces = literal(&self.force).ok_or_else(|| {
-                let reason = "a force on arrays whose length is not literal is not carried along";
-                (
-                    reason.to_owned(),
-                    "give the coordinates a literal number of elements",
-                )
-            })?;
-            let forces = retimed.force(&forces);
-            self.force = entries(&forces);
+            let force = retimed.force(&self.force);
+            self.force = force.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
         }
         self.model.dag = retimed.model.dag;
         let mut on_shell = identity(&mut self.model, Side::P, &|other| other != group);
@@ -303,6 +296,9 @@ fn remedy(reason: &Refusal) -> &'static str {
         Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
         Refusal::Loops { .. } => "give the loop literal bounds, so that it can be written out",
         Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
+        Refusal::Power { .. } => {
+            "write the sums of H over `p[i]` with the loop variable alone as the index"
+        }
         Refusal::Unverified { .. } => {
             "this is a fault of the transformation: please report it with the definition"
         }
@@ -340,12 +336,12 @@ fn names_of(model: &Model) -> Model {
 }
 
 /// The images of a change of coordinates, and what it keeps.
-fn map(transformed: &mut transform::Transformed, images: &[Entry]) -> Vec<VectorEntry> {
+fn map(transformed: &mut transform::Transformed, images: Vec<VectorEntry>) -> Vec<VectorEntry> {
     let kept: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
     let kept = |group: u16| kept.contains(&group);
     let mut all = identity(&mut transformed.model, Side::Q, &kept);
     all.extend(identity(&mut transformed.model, Side::P, &kept));
-    all.extend(entries(images));
+    all.extend(images);
     all
 }
 
@@ -384,28 +380,8 @@ fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<
     all
 }
 
-fn entries(list: &[Entry]) -> Vec<VectorEntry> {
-    let entry = |entry: &Entry| VectorEntry {
-        side: entry.side,
-        group: entry.group,
-        column: entry.column,
-        row: Index::constant(i64::from(entry.row)),
-        value: entry.value,
-    };
-    list.iter().map(entry).collect()
-}
-
-/// Entries whose rows are numbers.
-fn literal(list: &[VectorEntry]) -> Option<Vec<Entry>> {
-    let entry = |entry: &VectorEntry| {
-        let row = entry.row.affine.as_constant()?;
-        Some(Entry {
-            side: entry.side,
-            group: entry.group,
-            row: u32::try_from(row).ok()?,
-            column: entry.column,
-            value: entry.value,
-        })
-    };
-    list.iter().map(entry).collect()
+/// Whether every row is a number.
+fn is_literal(list: &[VectorEntry]) -> bool {
+    list.iter()
+        .all(|entry| entry.row.affine.as_constant().is_some() && entry.row.modulo.is_none())
 }

@@ -8,12 +8,12 @@
 use super::charts::{self, Chart, Component, Masses, Variables};
 use super::reduce::{self, Rules};
 use super::verify::check;
-use super::{Entry, Refusal, element, is_taken};
+use super::{Refusal, element, is_taken};
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
 use crate::loops;
-use crate::model::{Group, Model, Shape};
+use crate::model::{Group, Model, Shape, VectorEntry};
 
 /// A system in new coordinates, with the maps.
 #[derive(Clone, Debug)]
@@ -25,9 +25,9 @@ pub struct Transformed {
     /// The system as it was written; its arena holds the values of `forward`.
     pub source: Model,
     /// The new coordinates and momenta (of `model`) from the old ones (of `source`).
-    pub forward: Vec<Entry>,
+    pub forward: Vec<VectorEntry>,
     /// The old coordinates and momenta (of `source`) from the new ones (of `model`).
-    pub inverse: Vec<Entry>,
+    pub inverse: Vec<VectorEntry>,
     /// Groups that no chart replaces: their numbers in `source` and in `model`.
     pub kept: Vec<(u16, u16)>,
     /// Where the old variables stand when a state of the new shape holds them: each element of
@@ -128,7 +128,7 @@ impl Transformed {
 
     /// The map to the new coordinates, in the arena of `model`: the old ones are read where
     /// `places` says they stand.
-    pub fn forward_standing(&mut self) -> Vec<Entry> {
+    pub fn forward_standing(&mut self) -> Vec<VectorEntry> {
         let mut images: Map<Node, Node> = Map::default();
         let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).collect();
         for node in self.source.dag.reachable(&values) {
@@ -157,22 +157,22 @@ impl Transformed {
             };
             images.insert(node, image);
         }
-        let with_image = |entry: &Entry| Entry {
+        let with_image = |entry: &VectorEntry| VectorEntry {
             value: images[&entry.value],
-            ..*entry
+            ..entry.clone()
         };
         self.forward.iter().map(with_image).collect()
     }
 
     /// The map to the old coordinates, written where `places` says they stand.
     #[must_use]
-    pub fn inverse_standing(&self) -> Vec<Entry> {
-        let moved = |entry: &Entry| {
-            let (group, row) = self.place(entry.group, &Index::constant(i64::from(entry.row)));
-            Entry {
+    pub fn inverse_standing(&self) -> Vec<VectorEntry> {
+        let moved = |entry: &VectorEntry| {
+            let (group, row) = self.place(entry.group, &entry.row);
+            VectorEntry {
                 group,
-                row: row.affine.as_constant().unwrap_or(0) as u32,
-                ..*entry
+                row,
+                ..entry.clone()
             }
         };
         self.inverse.iter().map(moved).collect()
@@ -181,13 +181,13 @@ impl Transformed {
     /// A force on the old momenta, ṗ += f, as one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
     /// P = (∂q/∂Q)ᵀ p. The values of `force` are in the new coordinates (from `carried`); each
     /// names the old momentum it acts on. Groups that are kept keep theirs and are not named here.
-    pub fn force(&mut self, force: &[Entry]) -> Vec<Entry> {
-        let mut found: Vec<Entry> = Vec::new();
+    pub fn force(&mut self, force: &[VectorEntry]) -> Vec<VectorEntry> {
+        let mut found: Vec<VectorEntry> = Vec::new();
         let dag = &mut self.model.dag;
         for entry in force {
             let old = self.inverse.iter().find(|e| {
                 e.side == Side::Q
-                    && (e.group, e.row, e.column) == (entry.group, entry.row, entry.column)
+                    && (e.group, &e.row, e.column) == (entry.group, &entry.row, entry.column)
             });
             let Some(old) = old else { continue };
             for (leaf, slope) in diff::gradient(dag, old.value, Dependence::Q) {
@@ -195,15 +195,14 @@ impl Transformed {
                 else {
                     continue;
                 };
-                let (group, column) = (*group, *column);
-                let row = row.affine.as_constant().unwrap_or(0) as u32;
+                let (group, row, column) = (*group, row.clone(), *column);
                 let part = dag.mul(&[slope, entry.value]);
                 match found
                     .iter_mut()
-                    .find(|e| (e.group, e.row, e.column) == (group, row, column))
+                    .find(|e| (e.group, &e.row, e.column) == (group, &row, column))
                 {
                     Some(sum) => sum.value = dag.add(&[sum.value, part]),
-                    None => found.push(Entry {
+                    None => found.push(VectorEntry {
                         side: Side::P,
                         group,
                         row,
@@ -216,7 +215,7 @@ impl Transformed {
         for entry in &mut found {
             entry.value = reduce::reduce(dag, entry.value, &self.rules);
         }
-        found.sort_by_key(|e| (e.group, e.column, e.row));
+        found.sort_by_key(|e| (e.group, e.column, e.row.clone()));
         found
     }
 }
@@ -538,17 +537,20 @@ fn to_old(
     }
 }
 
-fn entries<'a>(slots: &'a [Slot], values: &'a Variables) -> impl Iterator<Item = Entry> + 'a {
+fn entries<'a>(slots: &'a [Slot], values: &'a Variables) -> impl Iterator<Item = VectorEntry> + 'a {
     [(Side::Q, &values.q), (Side::P, &values.p)]
         .into_iter()
         .flat_map(move |(side, values)| {
-            slots.iter().zip(values).map(move |(slot, value)| Entry {
-                side,
-                group: slot.group,
-                row: slot.row,
-                column: slot.column,
-                value: *value,
-            })
+            slots
+                .iter()
+                .zip(values)
+                .map(move |(slot, value)| VectorEntry {
+                    side,
+                    group: slot.group,
+                    row: Index::constant(i64::from(slot.row)),
+                    column: slot.column,
+                    value: *value,
+                })
         })
 }
 
@@ -596,12 +598,17 @@ fn written_out(
 fn images(
     dag: &mut Dag,
     roots: &[Node],
-    inverse: &[Entry],
+    inverse: &[VectorEntry],
     kept: &[(u16, u16)],
 ) -> Map<Node, Node> {
     let mut images: Map<Node, Node> = Map::default();
     for entry in inverse {
-        let old = element(dag, entry.side, entry.group, entry.row, entry.column);
+        let array = Array::Phase {
+            side: entry.side,
+            group: entry.group,
+            column: entry.column,
+        };
+        let old = dag.element(array, entry.row.clone(), None);
         images.insert(old, entry.value);
     }
     for node in dag.reachable(roots) {

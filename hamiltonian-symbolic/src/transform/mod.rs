@@ -25,21 +25,6 @@ use crate::loops::Point;
 use crate::model::Model;
 use std::fmt;
 
-/// A scalar of phase space and its value: one entry of a map, or of a force.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Entry {
-    /// Coordinates or momenta.
-    pub side: Side,
-    /// The group.
-    pub group: u16,
-    /// The row; 0 in a scalar group.
-    pub row: u32,
-    /// The column; 0 unless the group is of rank 2.
-    pub column: u16,
-    /// What it is.
-    pub value: Node,
-}
-
 /// Why a transformation is refused.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Refusal {
@@ -74,6 +59,11 @@ pub enum Refusal {
         /// Why not.
         reason: &'static str,
     },
+    /// The power of a force on an array is not known, because its velocities are not.
+    Power {
+        /// The momenta the force acts on.
+        momentum: String,
+    },
     /// H in the new variables is not H in the old ones at a point.
     Unverified {
         /// The point, in the new variables.
@@ -100,6 +90,10 @@ impl fmt::Display for Refusal {
                 "`{coordinate}` is read in a loop that cannot be written out: {reason}"
             ),
             Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
+            Refusal::Power { momentum } => write!(
+                f,
+                "the work of the force on `{momentum}` needs ∂H/∂{momentum} row by row, and an index of H cannot be solved for the row"
+            ),
             Refusal::Unverified { old, new, .. } => write!(
                 f,
                 "H is {old} in the old coordinates and {new} in the new ones at the same point"

@@ -14,9 +14,11 @@
 //! Numerical Integration, 2nd ed. 2006, §VIII.2 for the extended Hamiltonian (there with −p_t).
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
-use super::{Entry, Refusal, element, is_taken};
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
-use crate::model::{Group, Model, Shape};
+use super::{Refusal, element, is_taken};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::index::{Affine, Index};
+use crate::loops::field::{elements, field};
+use crate::model::{Group, Model, Shape, VectorEntry};
 use crate::rational::Rational;
 
 /// A system in another time.
@@ -122,30 +124,86 @@ impl Retimed {
     /// A force on the old momenta as one in the new time: g·f on each, and −g Σ f·∂H/∂p on p_t,
     /// which keeps p_t = −H while the force does work. Values are nodes of the new model (from
     /// `carried`).
-    pub fn force(&mut self, force: &[Entry]) -> Vec<Entry> {
-        let dag = &mut self.model.dag;
-        let velocities = crate::diff::gradient(dag, self.energy, Dependence::P);
+    ///
+    /// # Errors
+    /// [`Refusal::Power`] where ∂H/∂p of an array is not known element by element.
+    pub fn force(&mut self, force: &[VectorEntry]) -> Result<Vec<VectorEntry>, Refusal> {
+        let mut velocities = Velocities {
+            leaves: crate::diff::gradient(&mut self.model.dag, self.energy, Dependence::P),
+            known: Map::default(),
+        };
         let mut all = Vec::with_capacity(force.len() + 1);
         let mut work = Vec::new();
         for entry in force {
-            let momentum = element(dag, Side::P, entry.group, entry.row, entry.column);
-            if let Some((_, velocity)) = velocities.iter().find(|(leaf, _)| *leaf == momentum) {
-                let power = dag.mul(&[self.factor, entry.value, *velocity]);
-                work.push((Rational::MINUS_ONE, power));
+            let velocity = velocities.of(&mut self.model, entry)?;
+            let dag = &mut self.model.dag;
+            let mut power = dag.mul(&[self.factor, entry.value, velocity]);
+            for domain in dag
+                .path(dag.deepest(entry.row.variables()))
+                .into_iter()
+                .rev()
+            {
+                power = dag.reduce(domain, power);
             }
-            all.push(Entry {
+            work.push((Rational::MINUS_ONE, power));
+            all.push(VectorEntry {
                 value: dag.mul(&[self.factor, entry.value]),
-                ..*entry
+                ..entry.clone()
             });
         }
-        all.push(Entry {
+        all.push(VectorEntry {
             side: Side::P,
             group: self.group,
-            row: 0,
+            row: Index::constant(0),
             column: 0,
-            value: dag.linear(&Rational::ZERO, &work),
+            value: self.model.dag.linear(&Rational::ZERO, &work),
         });
-        all
+        Ok(all)
+    }
+}
+
+/// ∂H/∂p, an array's as an expression of the row.
+struct Velocities {
+    leaves: Vec<(Node, Node)>,
+    known: Map<(u16, u16), Node>,
+}
+
+impl Velocities {
+    /// What belongs to the momentum that an entry of a force acts on.
+    fn of(&mut self, model: &mut Model, entry: &VectorEntry) -> Result<Node, Refusal> {
+        let (group, column) = (entry.group, entry.column);
+        let declared = &model.groups[usize::from(group)];
+        let rows = match &declared.shape {
+            Shape::Scalar => {
+                let momentum = element(&mut model.dag, Side::P, group, 0, 0);
+                let found = self.leaves.iter().find(|(leaf, _)| *leaf == momentum);
+                return Ok(found.map_or_else(|| model.dag.integer(0), |(_, slope)| *slope));
+            }
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => rows.clone(),
+        };
+        let whole = match self.known.get(&(group, column)) {
+            Some(known) => *known,
+            None => {
+                let array = Array::Phase {
+                    side: Side::P,
+                    group,
+                    column,
+                };
+                let found = field(&mut model.dag, &self.leaves, array, &rows);
+                let Some(found) = found else {
+                    return Err(Refusal::Power {
+                        momentum: declared.momentum.clone(),
+                    });
+                };
+                self.known.insert((group, column), found);
+                found
+            }
+        };
+        let own = elements(&mut model.dag, &rows);
+        if entry.row.affine == Affine::variable(own) {
+            return Ok(whole);
+        }
+        Ok(model.dag.replace(whole, own, &entry.row.affine))
     }
 }
 

@@ -6,7 +6,7 @@
 
 use super::coordinates::{Slot, Transformed};
 use super::{Refusal, element};
-use crate::dag::{Node, Side};
+use crate::dag::{Array, Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample};
 use crate::model::{Model, Shape};
@@ -59,13 +59,12 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
         };
         let mut old_given: Vec<(Node, f64)> = Vec::new();
         for (entry, value) in transformed.inverse.iter().zip(&values[new_roots.len()..]) {
-            let node = element(
-                &mut old.dag,
-                entry.side,
-                entry.group,
-                entry.row,
-                entry.column,
-            );
+            let array = Array::Phase {
+                side: entry.side,
+                group: entry.group,
+                column: entry.column,
+            };
+            let node = old.dag.element(array, entry.row.clone(), None);
             old_given.push((node, value.value));
         }
         for (&(side, slot), (_, value)) in new_slots.iter().zip(&given) {

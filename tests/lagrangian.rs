@@ -294,3 +294,40 @@ fn runs_are_those_of_the_hamiltonian() {
     theirs.advance(2000).unwrap();
     assert!((ours.state().q - theirs.state().q).norm() < 1e-11);
 }
+
+hamiltonian! {
+    /// A ring whose masses differ and whose friction pulls on differences of velocities.
+    struct Ring { n: usize, m: [n] }
+    L(q[n]; v[n]) = sum(i in 0..n) { m[i]*v[i]^2/2 + v[i]*sum(j in 0..n) { q[i]*q[j] }
+        - (q[(i + 1) % n] - q[i])^2/2 };
+    monitor stretching = sum(i in 0..n) { (v[(i + 1) % n] - v[i])^2*(i + 1) }
+}
+
+hamiltonian! {
+    /// Three coupled velocities; at a literal number they may be coupled in any way.
+    struct CoupledRing {}
+    L(q[3]; v[3]) = sum(i in 0..3) { (v[i] - v[(i + 1) % 3])^2/2 + v[i]^2/2 - q[i]^2/2 };
+    monitor stretching = sum(i in 0..3) { (v[(i + 1) % 3] - v[i])^2 }
+}
+
+#[test]
+fn velocities_around_a_ring() {
+    for n in [1usize, 2, 3, 7] {
+        let ring = Ring::new(n, (1..=n).map(|i| i as f64).collect::<Vec<_>>()).unwrap();
+        let q: Vec<f64> = (0..n).map(|i| (i as f64 + 0.3).sin()).collect();
+        let v: Vec<f64> = (0..n).map(|i| (i as f64 + 0.2).cos()).collect();
+        let state = ring.state_from_velocity(0.0, q, v.clone());
+        let stretching: f64 = (0..n)
+            .map(|i| (v[(i + 1) % n] - v[i]).powi(2) * (i + 1) as f64)
+            .sum();
+        close(ring.stretching(&state), stretching);
+    }
+    let v = [0.5_f64, -0.2, 0.9];
+    let state = check!(CoupledRing {}, [0.3, 0.1, -0.4], v, |q: &_, _: &_| {
+        let q = |i| Vector::component(q, i);
+        let ring: f64 = (0..3).map(|i| (v[i] - v[(i + 1) % 3]).powi(2)).sum();
+        let kinetic: f64 = v.iter().map(|v| v * v).sum();
+        ring / 2.0 + kinetic / 2.0 - (0..3).map(|i: usize| q(i) * q(i)).sum::<f64>() / 2.0
+    });
+    close(CoupledRing {}.stretching(&state), 0.49 + 1.21 + 0.16);
+}

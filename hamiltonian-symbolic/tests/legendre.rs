@@ -28,13 +28,14 @@ fn lagrangian(
 
 fn transformed(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Legendre, Node) {
     let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
-    let legendre = transform(&mut m, node, &names).unwrap_or_else(|reason| panic!("{l}: {reason}"));
+    let legendre =
+        transform(&mut m, node, &names).unwrap_or_else(|reason| panic!("{l}: {reason:?}"));
     (m, legendre, node)
 }
 
 fn refused(signature: &str, sizes: &str, parameters: &str, l: &str) -> String {
     let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
-    transform(&mut m, node, &names).expect_err(l)
+    transform(&mut m, node, &names).expect_err(l).reason
 }
 
 fn substituted(m: &mut Model, node: Node, values: &[(Node, Node)]) -> Node {

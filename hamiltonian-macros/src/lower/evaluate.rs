@@ -296,8 +296,8 @@ impl<'a> Evaluator<'a> {
             return a;
         }
         let (Some(a), Some(b)) = (
-            self.in_momenta(&mut model.dag, spans, a),
-            self.in_momenta(&mut model.dag, spans, b),
+            self.in_momenta(model, spans, a),
+            self.in_momenta(model, spans, b),
         ) else {
             return a;
         };
@@ -308,14 +308,14 @@ impl<'a> Evaluator<'a> {
     }
 
     /// The value with velocities as the functions of (q, p, t) that they are.
-    pub fn in_momenta(&mut self, dag: &mut Dag, spans: Spans, value: Node) -> Option<Node> {
+    pub fn in_momenta(&mut self, model: &mut Model, spans: Spans, value: Node) -> Option<Node> {
         let Some(velocities) = &self.velocities else {
             return Some(value);
         };
-        let image = velocity::as_functions(dag, value, velocities);
+        let image = velocity::as_functions(model, value, velocities);
         if image.is_none() {
-            let message = "a velocity with an index that wraps around cannot be written in terms of momenta here";
-            let help = "write it without `%`, or in terms of momenta";
+            let message = "a velocity at an index with `%` is a function of that index here, which momenta do not give";
+            let help = "let the masses be an array `m: [N]`, or write the velocity without `%` or in terms of momenta";
             self.refuse(spans, message, help);
         }
         image

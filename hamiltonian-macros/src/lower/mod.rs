@@ -22,7 +22,7 @@ use demand::Demand;
 use evaluate::Evaluator;
 use hamiltonian_symbolic::dag::{Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::legendre::Component;
+use hamiltonian_symbolic::legendre::{Component, Refusal};
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
     VectorFunction,
@@ -59,12 +59,11 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     if let Definition::Lagrangian(root) = checked.definition {
         match legendre(checked, &mut model) {
             Ok(velocities) => evaluator.velocities = Some(velocities),
-            Err(reason) => {
-                let help = "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)";
+            Err(refusal) => {
                 evaluator.refuse(
                     checked.node(root).spans,
-                    &format!("this Lagrangian has no Hamiltonian: {reason}"),
-                    help,
+                    &format!("this Lagrangian has no Hamiltonian: {}", refusal.reason),
+                    refusal.help,
                 );
                 return None;
             }
@@ -110,7 +109,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
 }
 
 /// H in the place of L; p(q, v) and v(q, p) become vector functions. The velocities as functions.
-fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, String> {
+fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, Refusal> {
     let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
     let name = |group: &crate::checked::Group| {
@@ -150,7 +149,7 @@ impl Rest<'_> {
         let mut images = Vec::with_capacity(values.len());
         for ((root, _), value) in roots.iter().zip(values) {
             let spans = self.checked.node(*root).spans;
-            images.push(self.evaluator.in_momenta(&mut model.dag, spans, value)?);
+            images.push(self.evaluator.in_momenta(model, spans, value)?);
         }
         Some(images)
     }
@@ -167,8 +166,8 @@ impl Rest<'_> {
                     (Some(rows.clone()), columns.as_constant().unwrap_or(1))
                 }
             };
-            // In other variables a force is carried element by element where its length is known.
-            let moved = !self.checked.charts.is_empty() || self.checked.time_factor.is_some();
+            // Into other coordinates a force is carried element by element.
+            let moved = !self.checked.charts.is_empty();
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],
                 Some(rows) => match rows.as_constant().filter(|_| moved) {

@@ -6,8 +6,10 @@
 //! with, which nothing else in a definition reads.
 
 use hamiltonian_symbolic::dag::{Array, Dag, Kind, Node, Side};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::Component;
-use hamiltonian_symbolic::model::VectorEntry;
+use hamiltonian_symbolic::loops::write_out;
+use hamiltonian_symbolic::model::{Model, VectorEntry};
 
 /// The mark of a velocity, from the momentum element of its place.
 pub fn marked(dag: &mut Dag, momentum: Node) -> Node {
@@ -48,8 +50,10 @@ pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
 }
 
 /// The expression with velocities as functions of (q, p, t); `None` where one stands at an index
-/// that wraps around, whose function cannot be written there.
-pub fn as_functions(dag: &mut Dag, root: Node, velocities: &[Component]) -> Option<Node> {
+/// that wraps around and is a function of its own index, which is no number there.
+pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
+    let root = opened(model, root, velocities)?;
+    let dag = &mut model.dag;
     let mut whole = true;
     let image = dag.substitute(root, |dag, node| {
         let Kind::Element(Array::Direction { group, column, .. }, row, None) =
@@ -74,11 +78,84 @@ pub fn as_functions(dag: &mut Dag, root: Node, velocities: &[Component]) -> Opti
                 Some(domain) if row.modulo.is_none() => {
                     return Some(dag.replace(component.value, domain, &row.affine));
                 }
+                Some(domain) => {
+                    if let Some(image) = wrapped(dag, component.value, domain, &row) {
+                        return Some(image);
+                    }
+                }
                 _ => {}
             }
         }
         whole = false;
         None
+    });
+    whole.then_some(image)
+}
+
+/// The expression written out where a loop reads velocities that the transform had to write out,
+/// because they are coupled.
+fn opened(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
+    let dag = &model.dag;
+    let is_written_out = |wanted: u16| {
+        velocities.iter().any(|component| {
+            let group = match dag.kind(component.element) {
+                Kind::Element(Array::Phase { group, .. }, ..) => *group,
+                _ => return false,
+            };
+            group == wanted && component.domain.is_none()
+        })
+    };
+    let is_looped = |node: Node| match dag.kind(node) {
+        Kind::Element(Array::Direction { group, .. }, row, _) => {
+            row.variables() != 0 && is_written_out(*group)
+        }
+        _ => false,
+    };
+    if dag.reachable(&[root]).into_iter().any(is_looped) {
+        write_out(model, root).ok()
+    } else {
+        Some(root)
+    }
+}
+
+/// An expression of the loop variable `k` at an index with a modulus; `None` where it does more with
+/// `k` than index.
+fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
+    let bit = 1u64 << k.0;
+    let modulo = at.modulo.clone()?;
+    let mut whole = true;
+    let image = dag.substitute(root, |dag, node| {
+        if dag.variables(node) & bit == 0 {
+            return Some(node);
+        }
+        let (array, row, column) = match dag.kind(node) {
+            Kind::Element(array, row, column) => (*array, row.clone(), column.clone()),
+            Kind::Variable(_) | Kind::Count(_) => {
+                whole = false;
+                return None;
+            }
+            Kind::Reduce(domain, _) => {
+                let range = dag.range(*domain);
+                whole &= (range.start.variables() | range.end.variables()) & bit == 0;
+                return None;
+            }
+            _ => return None,
+        };
+        let shifted = row.affine.substitute(&|domain| {
+            if domain == k {
+                at.affine.clone()
+            } else {
+                Affine::variable(domain)
+            }
+        });
+        let is_plain = row.modulo.is_none() && row.affine == Affine::variable(k);
+        let of_k = column.as_ref().is_some_and(|c| c.variables() & bit != 0);
+        // (i mod n + c) mod n = (i + c) mod n
+        if of_k || !(is_plain || row.modulo.as_ref() == Some(&modulo)) {
+            whole = false;
+            return None;
+        }
+        Some(dag.element(array, Index::wrapped(shifted, modulo.clone()), column))
     });
     whole.then_some(image)
 }

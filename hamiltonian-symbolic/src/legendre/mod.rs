@@ -46,30 +46,49 @@ pub struct Legendre {
     pub velocities: Vec<Component>,
 }
 
+/// Why a Lagrangian has no Hamiltonian.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Refusal {
+    /// No velocities, not quadratic in them, elements coupled with each other, singular mass
+    /// matrix: a sentence without a full stop.
+    pub reason: String,
+    /// What to write instead.
+    pub help: &'static str,
+}
+
 /// The Legendre transform of a Lagrangian in the model's arena; `velocities` names them, one for
 /// each group.
 ///
 /// # Errors
-/// Why there is none, a sentence without a full stop: no velocities, not quadratic in them,
-/// elements coupled with each other, singular mass matrix.
+/// [`Refusal`]
 pub fn transform(
     model: &mut Model,
     lagrangian: Node,
     velocities: &[String],
-) -> Result<Legendre, String> {
+) -> Result<Legendre, Refusal> {
+    let refusal = |reason: String| Refusal {
+        reason,
+        help: "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)",
+    };
     let mut transform = Transform { model, velocities };
     if !transform.model.dag.dependence(lagrangian).on(Dependence::P) {
-        return Err("L has no velocities".to_owned());
+        return Err(refusal("L has no velocities".to_owned()));
     }
-    transform.check_polynomial(lagrangian)?;
-    match transform.blocks(lagrangian) {
+    transform.check_polynomial(lagrangian).map_err(refusal)?;
+    let solved = match transform.blocks(lagrangian) {
         Ok(blocks) => transform.solve(lagrangian, &blocks),
         // Elements that are coupled are coordinates like any other, once they are written out.
         Err(reason) => match transform.written_out(lagrangian) {
             Some((written, block)) => transform.solve(written, &[block]),
-            None => Err(reason),
+            None => {
+                return Err(Refusal {
+                    reason,
+                    help: "arrays of literal length, with at most 16 elements in all, may be coupled in any way: `L(q[4]; v[4])`; else give H(q; p)",
+                });
+            }
         },
-    }
+    };
+    solved.map_err(refusal)
 }
 
 /// Velocities with a common mass matrix: of scalars, or of element k of arrays.

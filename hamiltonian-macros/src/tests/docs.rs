@@ -149,6 +149,13 @@ fn structure() {
         ]
     );
     assert_eq!(
+        facts(
+            "struct A<const N: usize> { a = 1 }
+             H(q[N]; p[N]; t) = sum(i in 0..N) { p[i]^2/2 + (q[i]^4 + a*(q[i] + i*cos(t))) }"
+        )[1],
+        "H depends on time: the term `i*cos(t)` depends on `t`."
+    );
+    assert_eq!(
         facts("struct A {} H(q; p) = (q^2 + 1)*(p^2 + 1)/2"),
         [
             "H is not separable: see the term `0.5*q^2*p^2`.",

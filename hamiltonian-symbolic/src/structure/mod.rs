@@ -98,19 +98,35 @@ fn is_autonomous(model: &Model, h: Node) -> Result<(), String> {
     }
 }
 
-/// The first term of a node, down through its sums, with a property.
+/// The first term of a node with a property, down through sums, loops, and products and conditions
+/// of which one part has it.
 fn term_with(dag: &Dag, root: Node, has: impl Fn(&Dag, Node) -> bool) -> Option<Node> {
     if !has(dag, root) {
         return None;
     }
     let mut at = root;
-    while let Kind::Sum(_, terms) = dag.kind(at) {
-        match terms.iter().find(|(_, n)| has(dag, *n)) {
-            Some((_, term)) => at = *term,
-            None => break,
+    loop {
+        let is_sum = |node: Node| matches!(dag.kind(node), Kind::Sum(..) | Kind::Reduce(..));
+        let part = match dag.kind(at) {
+            Kind::Sum(_, terms) => terms.iter().map(|(_, n)| *n).find(|n| has(dag, *n)),
+            Kind::Reduce(_, body) => Some(*body),
+            Kind::Select(condition, then, otherwise) if !has(dag, *condition) => {
+                [*then, *otherwise].into_iter().find(|n| has(dag, *n))
+            }
+            Kind::Product(_, factors) => {
+                let mut having = factors.iter().filter(|(n, _)| has(dag, *n));
+                match (having.next(), having.next()) {
+                    (Some((factor, 1)), None) if is_sum(*factor) => Some(*factor),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        match part {
+            Some(part) => at = part,
+            None => return Some(at),
         }
     }
-    Some(at)
 }
 
 /// Whether T is a quadratic form in the momenta with coefficients of parameters only.

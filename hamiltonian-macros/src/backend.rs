@@ -4,6 +4,7 @@
 //! expression; what is wrong with the mathematics goes into the report. Invariant: if anything is
 //! reported, the result is dropped for the stub.
 
+mod blame;
 mod docs;
 mod proofs;
 mod surface;
@@ -181,12 +182,10 @@ fn derive(
             "derivatives of this system need more than 64 loops".to_owned(),
             "let several sums share a loop".to_owned(),
         ),
-        Err(Refusal::NoSecondDerivative { function }) => (
-            format!("a second derivative of `{function}` is needed"),
-            format!(
-                "give the second partials after the first: `fn {function}(x) = f, (df), (ddf)`"
-            ),
-        ),
+        Err(Refusal::NoSecondDerivative { .. }) => {
+            blame::second_derivatives(checked, model, &wanted, report);
+            return None;
+        }
     };
     report.error(definition(checked), message, help);
     None

@@ -82,7 +82,7 @@ impl Affine {
     }
 
     /// Less than 0 whatever the sizes are; only sizes occur.
-    fn always_negative(&self) -> bool {
+    pub(super) fn always_negative(&self) -> bool {
         self.constant < 0 && self.terms.iter().all(|(_, coefficient)| *coefficient <= 0)
     }
 }

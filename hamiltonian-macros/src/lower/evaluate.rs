@@ -6,6 +6,7 @@
 
 use super::LARGEST;
 use super::demand::{Demand, Run};
+use super::domain;
 use super::loops::Loops;
 use super::scope::number;
 use super::velocity;
@@ -20,6 +21,7 @@ use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
 
 /// What is said, and advised, of a bracket whose indices are too involved.
@@ -257,7 +259,10 @@ impl<'a> Evaluator<'a> {
                 }
                 dag.div(*a, *b)
             }
-            (Kind::Pow(..), [a, b]) => dag.pow(*a, *b),
+            (Kind::Pow(base, _), [a, b]) => {
+                self.refuse_outside(model, Builtin::Pow, *base, demand, values);
+                model.dag.pow(*a, *b)
+            }
             (Kind::And(..), [a, b]) => dag.and(*a, *b),
             (Kind::Or(..), [a, b]) => dag.or(*a, *b),
             (Kind::Compare(comparison, ..), [a, b]) => compare(dag, *comparison, *a, *b),
@@ -271,7 +276,8 @@ impl<'a> Evaluator<'a> {
             },
             (Kind::Index { .. } | Kind::Vector(_), [value, ..]) => *value,
             (Kind::Call(function, items), values) => {
-                self.call(dag, node, *function, items, demand, values)
+                self.refuse_outside(model, *function, items[0], demand, values);
+                self.call(&mut model.dag, node, *function, items, demand, values)
             }
             (Kind::Function(function, _), values) => {
                 dag.external(function.0 as u16, Part::Value, values)
@@ -283,6 +289,39 @@ impl<'a> Evaluator<'a> {
             // What was refused is not answered.
             _ => dag.integer(0),
         }
+    }
+
+    /// Refuses functions of numbers that they are not defined for. In a loop that is written out a
+    /// condition may keep such a number away.
+    fn refuse_outside(
+        &mut self,
+        model: &Model,
+        function: Builtin,
+        argument: NodeId,
+        demand: &Demand,
+        values: &[Node],
+    ) {
+        if !demand.values.is_empty() {
+            return;
+        }
+        let Some(takes) = domain::outside(&model.dag, function, values) else {
+            return;
+        };
+        let numbers: Vec<String> = values
+            .iter()
+            .map(|value| print::text(model, *value))
+            .collect();
+        let message = match (function, numbers.as_slice()) {
+            (Builtin::Sqrt, [x]) => format!("the square root of {x} is not a real number"),
+            (Builtin::Pow, [x, y]) => format!("{x} to the power of {y} is not a real number"),
+            (_, [x, ..]) => {
+                let entry = FUNCTIONS.iter().find(|entry| entry.function == function);
+                let name = entry.map_or("", |entry| entry.name);
+                format!("`{name}` of {x} is not a real number")
+            }
+            _ => return,
+        };
+        self.refuse(self.checked.node(argument).spans, &message, takes);
     }
 
     /// {a, b}, velocities as the functions of momenta that they are.

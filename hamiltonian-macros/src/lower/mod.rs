@@ -8,6 +8,7 @@
 //! from the roots down to the leaves, `evaluate` answers them from the leaves up.
 
 mod demand;
+mod domain;
 mod evaluate;
 mod loops;
 mod scope;

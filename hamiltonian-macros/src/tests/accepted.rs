@@ -23,6 +23,9 @@ const TODA: &str = "
 const DEFINITIONS: &[&str] = &[
     "H = 0.5*(q^2 + 1)*(p^2 + 1)",
     "H(x; p_x) = p_x^2/(2*m) + k*x^2/2",
+    // Empty ranges, and some that are so for some sizes only.
+    "struct A<const N: usize> {} H(q[N]; p[N]) = norm_squared(p) + sum(i in 0..0) { q[i] }
+         + sum(i in 3..N) { q[i] } + sum(i in -3..0, j in i + 1..0) { i*j*q[0] }",
     // Named like a momentum, but with one of its own.
     "H(q, p; p_q, p_p) = p_q^2 + p_p^2 + q*p",
     "/// A planar pendulum.

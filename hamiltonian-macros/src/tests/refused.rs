@@ -1058,6 +1058,16 @@ help: coordinates first, then velocities: `L(x, y; v_x, v_y)`"##,
 help: coordinates come first, momenta after the `;`"##,
     ),
     (
+        r##"H(q[3]; p[3]) = norm_squared(p) + sum(i in ⟦3..0⟧) { q[i] }"##,
+        r##"the range `3..0` ends before it starts
+help: write the smaller one first, as in `0..3`; the end is not included"##,
+    ),
+    (
+        r##"struct A<const N: usize> {} H(q[N]; p[N]) = norm_squared(p) + sum(i in ⟦N..N - 1⟧) { q[i] }"##,
+        r##"the range `N..N - 1` ends before it starts
+help: write the smaller one first, as in `N - 1..N`; the end is not included"##,
+    ),
+    (
         r##"H(q[3]; p[3]) = sum(i in 0..3) { ⟦bracket⟧(p[i], q[0]) }"##,
         r##"`bracket` does not stand inside a `sum`
 help: take the bracket of the whole sums: `bracket(sum(…) { … }, b)`"##,

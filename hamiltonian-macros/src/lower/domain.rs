@@ -1,0 +1,105 @@
+//! Functions of numbers that they are not defined for.
+//!
+//! Input: a function and its arguments as nodes. Output: why the value is no real number, where the
+//! arguments are known numbers. Invariant: exact for rational arguments; others, such as `pi/2`,
+//! must lie outside by more than rounding can explain.
+
+use crate::names::Builtin;
+use hamiltonian_symbolic::dag::{Dag, Kind, Node};
+use hamiltonian_symbolic::rational::Rational;
+use std::cmp::Ordering;
+
+/// Numbers are followed through this many operations.
+const DEEPEST: u32 = 16;
+
+/// What the function takes, if a known number is not among it.
+pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'static str> {
+    let [x, rest @ ..] = arguments else {
+        return None;
+    };
+    let against = |bound: i64| compared(dag, *x, bound);
+    let below = |bound| against(bound) == Some(Ordering::Less);
+    let above = |bound| against(bound) == Some(Ordering::Greater);
+    let at = |bound| against(bound) == Some(Ordering::Equal);
+    let (is_outside, takes) = match function {
+        Builtin::Sqrt => (below(0), "`sqrt` takes 0 and what is above"),
+        Builtin::Ln => (below(0) || at(0), "`ln` takes what is above 0"),
+        Builtin::Ln1p => (below(-1) || at(-1), "`ln_1p` takes what is above -1"),
+        Builtin::Asin => (below(-1) || above(1), "`asin` takes what is from -1 to 1"),
+        Builtin::Acos => (below(-1) || above(1), "`acos` takes what is from -1 to 1"),
+        Builtin::Acosh => (below(1), "`acosh` takes 1 and what is above"),
+        Builtin::Atanh => (
+            below(-1) || at(-1) || at(1) || above(1),
+            "`atanh` takes what is between -1 and 1",
+        ),
+        Builtin::Pow => {
+            let exponent = rest.first().and_then(|y| rational(dag, *y))?;
+            let is_whole = exponent.to_small().is_none_or(|(_, d)| d == 1);
+            if at(0) && exponent.is_negative() {
+                return Some("negative powers take what is not 0");
+            }
+            (
+                below(0) && !is_whole,
+                "negative numbers have whole powers only",
+            )
+        }
+        _ => return None,
+    };
+    is_outside.then_some(takes)
+}
+
+fn rational(dag: &Dag, node: Node) -> Option<&Rational> {
+    match dag.kind(node) {
+        Kind::Constant(value) => Some(value),
+        _ => None,
+    }
+}
+
+/// How a known number compares with a bound; equal only if it is so exactly.
+fn compared(dag: &Dag, node: Node, bound: i64) -> Option<Ordering> {
+    if let Some(value) = rational(dag, node) {
+        let difference = value.sub(&Rational::integer(bound));
+        return Some(match (difference.is_zero(), difference.is_negative()) {
+            (true, _) => Ordering::Equal,
+            (_, true) => Ordering::Less,
+            (_, false) => Ordering::Greater,
+        });
+    }
+    let difference = number(dag, node)? - bound as f64;
+    let is_certain = difference.abs() > 1e-9 && difference.is_finite();
+    is_certain.then(|| difference.total_cmp(&0.0))
+}
+
+/// The value of an expression of numbers alone.
+fn number(dag: &Dag, node: Node) -> Option<f64> {
+    if dag.height(node) > DEEPEST {
+        return None;
+    }
+    let value = match dag.kind(node) {
+        Kind::Constant(value) => value.to_f64(),
+        Kind::Pi => core::f64::consts::PI,
+        Kind::Sum(constant, terms) => {
+            let mut sum = constant.to_f64();
+            for (k, term) in terms {
+                sum += k.to_f64() * number(dag, *term)?;
+            }
+            sum
+        }
+        Kind::Product(k, factors) => {
+            let mut product = k.to_f64();
+            for (factor, power) in factors {
+                product *= number(dag, *factor)?.powi(*power);
+            }
+            product
+        }
+        Kind::Call(op, arguments) => {
+            let mut values = Vec::with_capacity(arguments.len());
+            for argument in arguments {
+                values.push(number(dag, *argument)?);
+            }
+            op.eval(&values)
+        }
+        _ => return None,
+    };
+    Some(value)
+}

@@ -35,6 +35,46 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
     }
 }
 
+/// The `C` columns, of `rows` elements each, of a column-major array.
+///
+/// # Panics
+///
+/// On an array of another size: a state that does not fit the system.
+#[inline(always)]
+#[must_use]
+pub fn columns<T, const C: usize>(mut rest: &[T], rows: usize) -> [&[T]; C] {
+    assert_shape(rest.len(), rows, C);
+    let mut columns = [rest; C];
+    for column in &mut columns {
+        (*column, rest) = rest.split_at(rows);
+    }
+    columns
+}
+
+/// The same to write to.
+///
+/// # Panics
+///
+/// On an array of another size: a state that does not fit the system.
+#[inline(always)]
+#[must_use]
+pub fn columns_mut<T, const C: usize>(mut rest: &mut [T], rows: usize) -> [&mut [T]; C] {
+    assert_shape(rest.len(), rows, C);
+    core::array::from_fn(|_| {
+        let (column, after) = core::mem::take(&mut rest).split_at_mut(rows);
+        rest = after;
+        column
+    })
+}
+
+#[inline(always)]
+fn assert_shape(given: usize, rows: usize, columns: usize) {
+    assert!(
+        given == rows * columns,
+        "the state has {given} elements where the system has {rows}×{columns}"
+    );
+}
+
 /// A kick, a drift or a flow that cannot exist: what a structure's associated types are on a
 /// system that does not have the structure.
 #[derive(Debug, Clone, Copy)]

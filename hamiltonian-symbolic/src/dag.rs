@@ -384,19 +384,30 @@ impl Dag {
     /// All nodes the roots need, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
-        let mut seen = vec![false; self.len()];
+        let Some(top) = roots.iter().max() else {
+            return Vec::new();
+        };
+        let mut seen = vec![false; top.0 as usize + 1];
+        // How many nodes are seen but not visited: below the last of them there is nothing.
+        let mut ahead = 0usize;
+        let mut order = Vec::new();
         for root in roots {
-            seen[root.0 as usize] = true;
+            ahead += usize::from(!std::mem::replace(&mut seen[root.0 as usize], true));
         }
-        for number in (0..self.len()).rev() {
-            if seen[number] {
-                self.for_children(Node(number as u32), |child| seen[child.0 as usize] = true);
+        for number in (0..=top.0).rev() {
+            if ahead == 0 {
+                break;
+            }
+            if seen[number as usize] {
+                ahead -= 1;
+                order.push(Node(number));
+                self.for_children(Node(number), |child| {
+                    ahead += usize::from(!std::mem::replace(&mut seen[child.0 as usize], true));
+                });
             }
         }
-        (0..self.len())
-            .filter(|n| seen[*n])
-            .map(|n| Node(n as u32))
-            .collect()
+        order.reverse();
+        order
     }
 
     /// The node of a kind, new or known. Operands of sums and products are compared without

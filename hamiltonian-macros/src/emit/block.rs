@@ -277,6 +277,20 @@ impl<'a> Writer<'a> {
             line!(self, "}}");
             return;
         }
+        if found.is_plain(inner) {
+            line!(self, "let _l{d} = {end};");
+            for (at, (slice, index)) in found.cuts.iter().enumerate() {
+                let (reference, name) = (reference(slice), slice.name());
+                line!(self, "let _x{d}_{at} = {reference}{name}[.._l{d}];");
+                let text = format!("_x{d}_{at}[_i{d}]");
+                self.slices.push((*slice, index.clone(), text));
+            }
+            line!(self, "for _i{d} in 0.._l{d} {{");
+            self.steps(&inner.body);
+            line!(self, "}}");
+            self.slices.truncate(known_slices);
+            return;
+        }
         if found.wrapped.is_empty() {
             line!(self, "let (_s{d}, _e{d}) = ({start}, {end});");
             line!(self, "if _s{d} < _e{d} {{");
@@ -340,19 +354,23 @@ impl<'a> Writer<'a> {
                     .indices
                     .plain(&index.affine, Some((domain, &here))),
             };
-            let mutable = if matches!(slice, Slice::Output(..) | Slice::Derivative(_)) {
-                "mut "
-            } else {
-                ""
-            };
             line!(
                 self,
-                "let _x{d}_{at} = &{mutable}{}[{start}..][.._l{d}];",
+                "let _x{d}_{at} = {}{}[{start}..][.._l{d}];",
+                reference(slice),
                 slice.name()
             );
             self.slices
                 .push((*slice, index.clone(), format!("_x{d}_{at}[_k{d}]")));
         }
+    }
+}
+
+/// How a part of a slice is borrowed.
+fn reference(slice: &Slice) -> &'static str {
+    match slice {
+        Slice::Output(..) | Slice::Derivative(_) => "&mut ",
+        _ => "&",
     }
 }
 
@@ -371,6 +389,14 @@ struct Accesses {
 }
 
 impl Accesses {
+    /// Whether the loop counts from 0 and columns run along with it element by element.
+    fn is_plain(&self, inner: &Loop) -> bool {
+        let along = |(_, index): &(Slice, Index)| index.affine == Affine::variable(inner.domain);
+        self.wrapped.is_empty()
+            && inner.start.as_constant() == Some(0)
+            && self.cuts.iter().all(along)
+    }
+
     fn of(context: Context, inner: &Loop) -> Accesses {
         let mut finder = Finder {
             context,

@@ -6,7 +6,7 @@
 
 use super::block::Context;
 use super::function::{Bodies, Body, results};
-use super::generics::Generics;
+use super::generics::{Generics, list};
 use super::holder::{Holder, Receiver};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
@@ -78,9 +78,10 @@ pub fn implementations(
             generics,
             parts: String::new(),
         },
-        vector: vector(context, generics, "T", "__h"),
+        vector: format!("__Vector{}", generics.holder_arguments()),
         out: String::new(),
     };
+    emission.alias();
     emission.system();
     emission
         .prepared
@@ -132,6 +133,17 @@ macro_rules! line {
 }
 
 impl<'a> Emission<'a> {
+    /// A short name for the type of coordinates and momenta.
+    fn alias(&mut self) {
+        let sizes = self.generics.constants_declared();
+        line!(
+            self,
+            "type __Vector{} = {};",
+            list(sizes.chain(["T".to_owned()])),
+            vector(self.context, self.generics, "T", "__h")
+        );
+    }
+
     fn system(&mut self) {
         let (context, generics) = (self.context, self.generics);
         line!(

@@ -61,7 +61,8 @@ impl Generics {
         }
     }
 
-    fn constants_declared(&self) -> impl Iterator<Item = String> + '_ {
+    /// `const N0: usize`, …
+    pub fn constants_declared(&self) -> impl Iterator<Item = String> + '_ {
         self.constants
             .iter()
             .map(|name| format!("const {name}: __h::core::primitive::usize"))
@@ -167,7 +168,7 @@ impl Generics {
 }
 
 /// `<a, b>`, or nothing for an empty list.
-fn list(parameters: impl Iterator<Item = String>) -> String {
+pub fn list(parameters: impl Iterator<Item = String>) -> String {
     let parameters: Vec<String> = parameters.collect();
     if parameters.is_empty() {
         String::new()

@@ -62,6 +62,9 @@ impl Parts {
     }
 }
 
+/// How deep the signatures of methods stand in implementations; in their bodies nothing is wrong.
+const SIGNATURES: usize = 1;
+
 /// The tokens of a type.
 pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let generics = Generics::of(definition);
@@ -79,7 +82,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
         text.push_str(&mixed::implementations(declared, &generics));
     }
     text.push_str(&default(item, context, &generics));
-    let implementations = located(lex(&text), item.name.span(), true);
+    let implementations = located(lex(&text), item.name.span(), SIGNATURES);
     let functions = lex(&functions);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, item, context, &generics);
@@ -158,9 +161,9 @@ fn declaration(
             format!(" Coordinates, or momenta, in the variables that [`{name}`] was declared in.");
         vectors.extend(vector(declared, doc));
     }
-    let before = located(quote!(#visibility struct), name.span(), false);
-    let parameters = located(parameters, name.span(), true);
-    let fields = located(quote!({ #(#fields)* }), name.span(), false);
+    let before = located(quote!(#visibility struct), name.span(), 0);
+    let parameters = located(parameters, name.span(), usize::MAX);
+    let fields = located(quote!({ #(#fields)* }), name.span(), 0);
     quote! {
         #(#attributes)*
         #docs
@@ -250,16 +253,16 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
     out
 }
 
-/// Tokens, with or without what is inside of groups, that rustc is to show at the name of the type
-/// instead of at the whole definition.
-pub(super) fn located(tokens: TokenStream, name: Span, inside: bool) -> TokenStream {
+/// Tokens that rustc is to show at the name of the type instead of at the whole definition, with
+/// what is inside of groups down to some depth.
+pub(super) fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
     use proc_macro2::{Group, TokenTree};
     let span = Span::call_site().located_at(name);
     let moved = tokens.into_iter().map(|mut token| {
         if let TokenTree::Group(group) = &token
-            && inside
+            && depth > 0
         {
-            let inner = located(group.stream(), name, inside);
+            let inner = located(group.stream(), name, depth - 1);
             token = Group::new(group.delimiter(), inner).into();
         }
         token.set_span(span);

@@ -253,24 +253,21 @@ pub fn bind(
             Shape::Vector(rows) | Shape::Matrix(rows, _) => indices.plain(rows, None),
             Shape::Scalar => String::new(),
         };
-        let dynamic = is_dynamic(shape, is_run_time);
         let columns = columns(shape);
-        out.push_str(&format!("let _x = {whole};\n"));
-        if dynamic {
-            out.push_str(&format!(
-                "__h::core::assert!(_x.len() == {columns} * {rows}, \"the state does not have the shape of the system\");\n"
-            ));
-        }
-        if columns == 1 {
-            out.push_str(&format!("let {} = _x;\n", run[0].name()));
+        if columns == 1 && !is_dynamic(shape, is_run_time) {
+            out.push_str(&format!("let {} = {whole};\n", run[0].name()));
             continue;
         }
-        let split = if mutable { "split_at_mut" } else { "split_at" };
-        for column in 0..columns {
-            let wanted = run.iter().find(|slice| column_of(**slice) == column);
-            let name = wanted.map_or_else(|| "_".to_owned(), |slice| slice.name());
-            out.push_str(&format!("let ({name}, _x) = _x.{split}({rows});\n"));
-        }
+        let names: Vec<String> = (0..columns)
+            .map(|column| {
+                let wanted = run.iter().find(|slice| column_of(**slice) == column);
+                wanted.map_or_else(|| "_".to_owned(), |slice| slice.name())
+            })
+            .collect();
+        let names = names.join(", ");
+        out.push_str(&format!(
+            "let [{names}] = __h::columns{suffix}({whole}, {rows});\n"
+        ));
     }
 }
 

@@ -25,6 +25,24 @@ pub enum Error {
         /// The number of components given.
         found: usize,
     },
+    /// An index of the definition that leaves its range for the sizes given.
+    #[error("`{index}` reaches {reached}, but the extent is {extent}: the sizes do not fit")]
+    Index {
+        /// The index as it is written.
+        index: &'static str,
+        /// A value it takes.
+        reached: i64,
+        /// The extent it goes into; indices run from 0 to one less.
+        extent: usize,
+    },
+    /// A sum of the definition that begins below 0 for the sizes given.
+    #[error("`{range}` begins at {first}, but ranges begin at 0 or above: the sizes do not fit")]
+    Range {
+        /// The range as it is written.
+        range: &'static str,
+        /// Its first value.
+        first: i64,
+    },
     /// A start has a NaN or an infinity in it.
     #[error("the start is not finite: t = {time}, q = {q:?}, p = {p:?}")]
     Start {

@@ -45,6 +45,8 @@ pub mod coordinates;
 
 mod error;
 
+mod reach;
+
 #[doc(hidden)]
 pub mod private;
 

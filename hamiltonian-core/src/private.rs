@@ -13,6 +13,7 @@ pub use nalgebra::{
 };
 
 pub use crate::error::Error;
+pub use crate::reach::Reach;
 pub use crate::state::{Gradient, State};
 pub use crate::system::{
     Autonomous, Cyclic, Drift, Dynamics, Flow, Group, Kick, Observable, ObservableKind,

@@ -7,6 +7,7 @@
 mod blame;
 mod docs;
 mod proofs;
+mod reaches;
 mod surface;
 mod variables;
 mod verdicts;
@@ -81,6 +82,7 @@ fn system(
         vectors: part.vectors,
         pieces: part.pieces,
         declared: part.declared.as_ref(),
+        reaches: reaches::reaches(checked),
         model: &model,
         program: &program,
         text,

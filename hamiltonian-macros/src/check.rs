@@ -11,6 +11,7 @@ mod chart;
 mod declare;
 mod expr;
 mod lookup;
+mod reach;
 mod statement;
 
 use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
@@ -128,6 +129,7 @@ impl<'a> Checker<'a> {
                 time_factor: None,
                 charts: Vec::new(),
                 loops: Vec::new(),
+                reaches: Vec::new(),
                 nodes: Vec::new(),
             },
             bindings: vec![None; symbols],

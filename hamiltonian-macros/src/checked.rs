@@ -60,6 +60,8 @@ pub struct Checked {
     pub charts: Vec<Chart>,
     /// All loops of all sums.
     pub loops: Vec<Loop>,
+    /// What is in range for some sizes only.
+    pub reaches: Vec<Reach>,
     /// All expressions, children before parents.
     pub nodes: Vec<Node>,
 }
@@ -220,7 +222,7 @@ pub struct Component {
 pub struct Loop {
     /// The loop variable.
     pub name: Ident,
-    /// The first value; never provably negative.
+    /// The first value; where only sizes decide whether it is negative, there is a [`Reach`].
     pub lower: Affine,
     /// One past the last value.
     pub upper: Affine,
@@ -253,6 +255,21 @@ pub struct Index {
     pub modulo: Option<Extent>,
     /// In range whatever the sizes are.
     pub proven: bool,
+}
+
+/// An index of which the sizes decide whether it is in range, or the first value of such a range.
+#[derive(Debug, Clone)]
+pub struct Reach {
+    /// As it is written: `q[i + 1]`, `i in n - 3..n`,
+    pub shown: String,
+    /// and where.
+    pub span: Span,
+    /// The loops whose iterations it depends on, outermost first.
+    pub loops: Vec<LoopId>,
+    /// What is not to be negative in any of them.
+    pub form: Affine,
+    /// What it is to be less than.
+    pub extent: Option<Extent>,
 }
 
 /// An extent.

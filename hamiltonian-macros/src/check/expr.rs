@@ -428,7 +428,7 @@ impl Checker<'_> {
                 return None;
             }
         };
-        let index: Index = self.checked_index(index, frame, extent)?;
+        let index: Index = self.checked_index(value, index, frame, extent)?;
         self.push(raw, Kind::Index { base: value, index }, ty)
     }
 
@@ -469,43 +469,16 @@ impl Checker<'_> {
             self.scope_loops[scope.0 as usize] = None;
             return;
         }
-        self.range_runs_forwards(raw, bounds, [&lower, &upper]);
+        let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
+        self.checked_range(raw, &name.to_string(), bounds, [&lower, &upper]);
         let id = LoopId(self.out.loops.len() as u32);
         self.out.loops.push(Loop {
             name: name.clone(),
-            lower: lower.unwrap_or_default(),
-            upper: upper.unwrap_or_default(),
+            lower,
+            upper,
         });
         self.scope_loops[scope.0 as usize] = Some(id);
         self.active.push(id);
-    }
-
-    /// A range whose end lies before its start whatever the sizes are is a mistake; `0..0` is empty
-    /// and nothing else.
-    fn range_runs_forwards(
-        &mut self,
-        raw: ExprId,
-        bounds: (ExprId, ExprId),
-        [lower, upper]: [&Option<Affine>; 2],
-    ) {
-        let (Some(lower), Some(upper)) = (lower, upper) else {
-            return;
-        };
-        let is_backwards = |width: Affine| {
-            let is_size = |(variable, _): &_| matches!(variable, IndexVariable::Size(_));
-            width.always_negative() && width.terms.iter().all(is_size)
-        };
-        if !upper.plus(-1, lower).is_some_and(is_backwards) {
-            return;
-        }
-        let written = |id: ExprId| self.ast.nodes[id.0 as usize].spans;
-        let at = written(bounds.0).to(written(bounds.1));
-        let shown = |affine: &Affine| self.affine_shown(affine);
-        let (start, end) = (shown(lower), shown(upper));
-        let message = format!("the range `{start}..{end}` ends before it starts");
-        let help =
-            format!("write the smaller one first, as in `{end}..{start}`; the end is not included");
-        self.error(raw, at, &message, &help);
     }
 
     fn loop_name_is_new(&mut self, raw: ExprId, scope: ScopeId, symbol: Symbol, frame: &Frame) {

@@ -11,7 +11,7 @@ use super::holder::{Holder, Receiver};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
-use super::{Definition, Form, derived, observables};
+use super::{Definition, Form, derived, observables, reach};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
@@ -165,6 +165,8 @@ impl<'a> Emission<'a> {
             self,
             "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{\nlet _self = self;"
         );
+        self.out
+            .push_str(&reach::asked(&self.definition.reaches, context));
         let results: Vec<_> = self.prepared.values().collect();
         let body = Body {
             name: "prepare",

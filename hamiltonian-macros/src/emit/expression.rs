@@ -8,7 +8,7 @@ use super::block::Context;
 use super::generics::Generics;
 use super::{
     Definition, declared, dynamics, externals, item, layout, lex, markers, mixed, observables,
-    vectors,
+    reach, vectors,
 };
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
@@ -47,6 +47,7 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
     let implementations = lex(&text);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, context, &generics);
+    let questions = reach::compiled(&definition.reaches, context, &generics);
     let value = lex(name);
     let names = (0..captures.len()).map(|at| lex(&format!("c{at}")));
     quote! {
@@ -58,6 +59,7 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
                 use #root::private as __h;
                 #externals
                 #implementations
+                #questions
                 #inherent
             };
             #value { #(#names: #captures),* }

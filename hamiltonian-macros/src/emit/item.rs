@@ -11,7 +11,7 @@ use super::layout::{self, Layout, layout};
 use super::number::{Numbers, float};
 use super::{
     Definition, Field, Form, Item, allowances, declared, dynamics, externals, lex, markers, mixed,
-    observables, vectors,
+    observables, reach, vectors,
 };
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -86,6 +86,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let functions = lex(&functions);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, item, context, &generics);
+    let questions = reach::compiled(&definition.reaches, context, &generics);
     quote! {
         #declaration
         #[allow(clippy::approx_constant)]
@@ -94,6 +95,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
             #externals
             #implementations
             #functions
+            #questions
             #inherent
         };
     }
@@ -374,7 +376,7 @@ fn inherent(
     let methods = observables::methods(definition, context, generics, visibility);
     let vectors = vectors::methods(definition, context, generics, visibility);
     let pieces = pieces(definition, item, generics);
-    let new = new(item, context, generics);
+    let new = new(definition, item, context, generics);
     let getters = getters(item, context, generics);
     let derivatives = if item.parameters.is_empty() {
         TokenStream::new()
@@ -442,7 +444,7 @@ fn pieces(definition: &Definition, item: &Item, generics: &Generics) -> TokenStr
 }
 
 /// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
-fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
+fn new(definition: &Definition, item: &Item, context: Context, generics: &Generics) -> TokenStream {
     let scalar = generics.scalars.first().map_or("P", String::as_str);
     // A constant of the user's may have a parameter's name, and an argument may not.
     let argument = |name: &Ident| Ident::new(&format!("_{name}"), Span::call_site());
@@ -516,7 +518,14 @@ fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
         allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
     }
     let visibility = &item.visibility;
-    let checks = lex(&checks);
+    let questions = reach::constructed(&definition.reaches, context);
+    let more = if questions.is_empty() {
+        TokenStream::new()
+    } else {
+        quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
+    };
+    // Sizes that do not fit explain arrays that do not.
+    let checks = lex(&(questions + &checks));
     let system = lex(&format!("Self {{ {fields} }}"));
     let kinds = if kinds.is_empty() {
         kinds
@@ -529,6 +538,7 @@ fn new(item: &Item, context: Context, generics: &Generics) -> TokenStream {
             ///
             /// # Errors
             /// `Error::Shape` if an array does not have the number of components that its sizes say.
+            #more
             #allow
             #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
                 #lets

@@ -29,6 +29,7 @@ mod number;
 mod observables;
 mod order;
 mod parts;
+mod reach;
 mod scan;
 mod vectors;
 
@@ -36,6 +37,7 @@ mod vectors;
 mod tests;
 
 pub use declared::Declared;
+pub use reach::{Bound, Reach};
 pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
@@ -68,6 +70,8 @@ pub struct Definition<'a> {
     pub declared: Option<&'a Declared>,
     /// The systems of a split's pieces: (name of the piece, name of its type).
     pub pieces: Vec<(Ident, Ident)>,
+    /// What only the sizes decide.
+    pub reaches: Vec<Reach>,
 }
 
 /// Item form or expression form.

@@ -135,6 +135,7 @@ fn emit(model: &mut Model, form: Form, separable: bool) -> TokenStream {
         vectors: Vec::new(),
         declared: None,
         pieces: Vec::new(),
+        reaches: Vec::new(),
     })
 }
 

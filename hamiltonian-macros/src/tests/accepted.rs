@@ -25,7 +25,7 @@ const DEFINITIONS: &[&str] = &[
     "H(x; p_x) = p_x^2/(2*m) + k*x^2/2",
     // Empty ranges, and some that are so for some sizes only.
     "struct A<const N: usize> {} H(q[N]; p[N]) = norm_squared(p) + sum(i in 0..0) { q[i] }
-         + sum(i in 3..N) { q[i] } + sum(i in -3..0, j in i + 1..0) { i*j*q[0] }",
+         + sum(i in 3..N) { q[i] } + sum(i in 0..3, j in i + 1..3) { i*j*q[0] }",
     // Named like a momentum, but with one of its own.
     "H(q, p; p_q, p_p) = p_q^2 + p_p^2 + q*p",
     "/// A planar pendulum.
@@ -180,7 +180,7 @@ fn ranges_are_followed() {
     // The inner loop is empty where the index would leave its range.
     assert!(!proven(
         sized,
-        "sum(i in 0..N, j in i + 1..N) { q[i + 1]*q[j] }"
+        "sum(i in 0..N, j in i + 1..N) { q[i + j]*q[j] }"
     ));
 }
 

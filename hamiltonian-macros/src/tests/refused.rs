@@ -946,6 +946,22 @@ help: indices run from 0 to 2: change the range of the loop, or go round by `% 3
 help: indices run from 0 to 2: change the range of the loop, or go round by `% 3`"##,
     ),
     (
+        r##"struct A<const N: usize> {}
+            H(q[N]; p[N]) = sum(i in 0..N, j in i + 1..N) { p[j]*q[⟦i + 1⟧] }"##,
+        r##"this index reaches N, but the extent is N
+help: indices run from 0 to N - 1: change the range of the loop, or go round by `% N`; it counts wherever its own loops run, even where a loop inside is empty"##,
+    ),
+    (
+        r##"H = p^2 + sum(i in ⟦-2⟧..3) { q^2*i }"##,
+        r##"this range begins at -2, but ranges begin at 0 or above
+help: write `i in 0..5`, and `(i - 2)` for `i`"##,
+    ),
+    (
+        r##"H(q[9]; p[9]) = norm_squared(p) + sum(i in 1..9, j in ⟦i - 3⟧..i) { q[i]*j }"##,
+        r##"this range begins at -2, but ranges begin at 0 or above
+help: write `j in 0..3`, and `(i - 3 + j)` for `j`"##,
+    ),
+    (
         r##"H(q[3]; p[3]) = sum(i in 0..3) { p[⟦i*i⟧] }"##,
         r##"indices and ranges are sums of whole multiples of loop variables and sizes
 help: write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`"##,

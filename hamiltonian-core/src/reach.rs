@@ -1,0 +1,167 @@
+//! Where an index leads that only the values of sizes decide.
+//!
+//! Input: an index and the loops it runs in, affine, as numbers. Output: its least and greatest
+//! value. Invariants: exact (an iteration that does not take place reaches nothing); usable in
+//! constants, where sizes are const generics; the cost does not grow with the sizes for up to two
+//! loops, and with one loop less by each further one.
+
+use crate::error::Error;
+
+/// An index that is affine in sizes and loop variables, in its loops.
+///
+/// A form is `[constant, factor of each size…, factor of each loop variable…]`.
+#[derive(Debug, Clone, Copy)]
+pub struct Reach<'a, const LOOPS: usize> {
+    /// The sizes.
+    pub sizes: &'a [usize],
+    /// The first value of each loop, and one past the last, in sizes and the loops before it.
+    pub loops: [[&'a [i64]; 2]; LOOPS],
+    /// The index.
+    pub index: &'a [i64],
+}
+
+impl<const LOOPS: usize> Reach<'_, LOOPS> {
+    /// The index in an iteration that leaves `0..extent`, if there is one.
+    #[must_use]
+    pub const fn escape(&self, extent: usize) -> Option<i64> {
+        match self.extremes(0, [0; LOOPS]) {
+            Some([least, _]) if least < 0 => Some(narrowed(least)),
+            Some([_, greatest]) if greatest >= extent as i128 => Some(narrowed(greatest)),
+            Some(_) | None => None,
+        }
+    }
+
+    /// Whether the index stays in `0..extent`.
+    #[must_use]
+    pub const fn is_within(&self, extent: usize) -> bool {
+        self.escape(extent).is_none()
+    }
+
+    /// An error if `index` leaves `0..extent`.
+    ///
+    /// # Errors
+    /// [`Error::Index`]
+    pub const fn check(&self, index: &'static str, extent: usize) -> Result<(), Error> {
+        match self.escape(extent) {
+            Some(reached) => Err(Error::Index {
+                index,
+                reached,
+                extent,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// An error if what is the first value of `range` is negative.
+    ///
+    /// # Errors
+    /// [`Error::Range`]
+    pub const fn check_range(&self, range: &'static str) -> Result<(), Error> {
+        match self.escape(usize::MAX) {
+            Some(first) if first < 0 => Err(Error::Range { range, first }),
+            Some(_) | None => Ok(()),
+        }
+    }
+
+    /// The value of a form. Forms of loops are shorter by the loops that begin further inside.
+    const fn value(&self, form: &[i64], at: &[i128; LOOPS]) -> i128 {
+        let mut value = form[0] as i128;
+        let mut term = 1;
+        while term < form.len() {
+            let variable = if term <= self.sizes.len() {
+                self.sizes[term - 1] as i128
+            } else {
+                at[term - 1 - self.sizes.len()]
+            };
+            value = value.saturating_add((form[term] as i128).saturating_mul(variable));
+            term += 1;
+        }
+        value
+    }
+
+    /// The first and the last value of a loop; the last is less where there is none.
+    const fn range(&self, level: usize, at: &[i128; LOOPS]) -> [i128; 2] {
+        let [lower, upper] = self.loops[level];
+        [
+            self.value(lower, at),
+            self.value(upper, at).saturating_sub(1),
+        ]
+    }
+
+    /// Least and greatest value of the index, the loops outside of `level` being at `at`.
+    const fn extremes(&self, level: usize, mut at: [i128; LOOPS]) -> Option<[i128; 2]> {
+        if level == LOOPS {
+            let value = self.value(self.index, &at);
+            return Some([value, value]);
+        }
+        let [mut first, mut last] = self.range(level, &at);
+        if level + 2 == LOOPS {
+            [first, last] = self.not_empty(level, at, [first, last]);
+        }
+        if first > last {
+            return None;
+        }
+        if level + 2 < LOOPS {
+            let mut all = None;
+            while first <= last {
+                at[level] = first;
+                all = joined(all, self.extremes(level + 1, at));
+                first += 1;
+            }
+            return all;
+        }
+        // From here on the ends are affine in this variable, so that its own ends are enough.
+        at[level] = first;
+        let at_first = self.extremes(level + 1, at);
+        at[level] = last;
+        joined(at_first, self.extremes(level + 1, at))
+    }
+
+    /// The part of a range in which the next loop is not empty: its width is affine.
+    const fn not_empty(
+        &self,
+        level: usize,
+        mut at: [i128; LOOPS],
+        [first, last]: [i128; 2],
+    ) -> [i128; 2] {
+        at[level] = 0;
+        let [inner_first, inner_last] = self.range(level + 1, &at);
+        let width = inner_last.saturating_sub(inner_first);
+        at[level] = 1;
+        let [inner_first, inner_last] = self.range(level + 1, &at);
+        let slope = inner_last.saturating_sub(inner_first).saturating_sub(width);
+        // width + slope·variable ≥ 0
+        if slope > 0 {
+            let from = -width.div_euclid(slope);
+            [if from > first { from } else { first }, last]
+        } else if slope < 0 {
+            let to = width.div_euclid(-slope);
+            [first, if to < last { to } else { last }]
+        } else if width < 0 {
+            [0, -1]
+        } else {
+            [first, last]
+        }
+    }
+}
+
+const fn joined(a: Option<[i128; 2]>, b: Option<[i128; 2]>) -> Option<[i128; 2]> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some([
+            if a[0] < b[0] { a[0] } else { b[0] },
+            if a[1] > b[1] { a[1] } else { b[1] },
+        ]),
+        (one, None) => one,
+        (None, other) => other,
+    }
+}
+
+const fn narrowed(value: i128) -> i64 {
+    if value > i64::MAX as i128 {
+        i64::MAX
+    } else if value < i64::MIN as i128 {
+        i64::MIN
+    } else {
+        value as i64
+    }
+}

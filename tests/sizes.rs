@@ -1,0 +1,236 @@
+//! Indices that only the sizes keep in range: const generics are asked when code is compiled,
+//! sizes set at run time by `new`.
+
+#[allow(dead_code)]
+mod cargo;
+
+use cargo::{Package, workspace, write};
+use hamiltonian::prelude::*;
+use std::fs;
+
+hamiltonian! {
+    /// Reads an element that short lattices do not have, and ends that empty ones do not.
+    pub struct Pinned { n: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2 + q[3]^2 + q[n - 1]^4
+}
+
+hamiltonian! {
+    /// As many masses as somebody else says.
+    pub struct Weighed { n: usize, k: usize, m: [k] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) }
+}
+
+hamiltonian! {
+    /// The last iterations that take place are not at the ends of both ranges: i + 3 ≤ j < n.
+    pub struct Pairs { n: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n, j in i + 3..n) { q[i + j - 3]*q[j - i] }
+}
+
+hamiltonian! {
+    /// A range that is to end where the lattice does.
+    pub struct Tail { n: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in n - 3..n) { exp(q[i]) }
+}
+
+hamiltonian! {
+    /// Goes round by another size than its own.
+    pub struct Around { n: usize, k: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n) { q[i]*q[(i + 1) % k] } + q[(n + 1) % k]
+}
+
+hamiltonian! {
+    /// A piece reads what the whole reads.
+    pub struct Split { n: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2 + q[2]^2;
+    split { Kinetic = norm_squared(p)/2; Potential = q[2]^2 }
+}
+
+fn index(index: &'static str, reached: i64, extent: usize) -> Error {
+    Error::Index {
+        index,
+        reached,
+        extent,
+    }
+}
+
+#[test]
+fn sizes_of_run_time_are_asked_by_new() {
+    assert_eq!(Pinned::new(3).unwrap_err(), index("q[3]", 3, 3));
+    let least = State::new(vec![0.0, 0.0, 0.5, 2.0], vec![0.0; 4]);
+    assert_eq!(Pinned::new(4).unwrap().energy(&least), 20.0);
+    let masses = |k| vec![0.5; k];
+    assert_eq!(
+        Weighed::new(3, 2, masses(2)).unwrap_err(),
+        index("m[i]", 2, 2)
+    );
+    let ones = State::new(vec![0.0; 3], vec![1.0; 3]);
+    assert_eq!(Weighed::new(3, 4, masses(4)).unwrap().energy(&ones), 3.0);
+    // Sizes first: of what does not fit, how many masses there are is not the reason.
+    assert_eq!(
+        Weighed::new(3, 2, masses(3)).unwrap_err(),
+        index("m[i]", 2, 2)
+    );
+    assert_eq!(
+        Split::new(2).unwrap_err().to_string(),
+        "`q[2]` reaches 2, but the extent is 2: the sizes do not fit"
+    );
+    assert!(SplitPotential::new(2).is_err() && Split::new(3).is_ok());
+}
+
+#[test]
+fn iterations_that_do_not_take_place_reach_nothing() {
+    // i = n - 4, j = n - 1.
+    assert_eq!(Pairs::new(8).unwrap_err(), index("q[i + j - 3]", 8, 8));
+    for n in [0, 3, 4, 7] {
+        let pairs = Pairs::new(n).unwrap();
+        let q: Vec<f64> = (0..n).map(|i| i as f64).collect();
+        let written = (0..n).flat_map(|i| (i + 3..n).map(move |j| (i + j - 3) * (j - i)));
+        let state = State::new(q, vec![0.0; n]);
+        assert_eq!(pairs.energy(&state), written.sum::<usize>() as f64);
+        assert!(pairs.gradient(&state).q.iter().all(|slope| *slope >= 0.0));
+    }
+}
+
+#[test]
+fn ranges_of_run_time_begin_at_0() {
+    assert_eq!(
+        Tail::new(2).unwrap_err(),
+        Error::Range {
+            range: "i in n - 3..n",
+            first: -1
+        }
+    );
+    let state = State::new(vec![0.0; 5], vec![2.0; 5]);
+    assert_eq!(Tail::new(5).unwrap().energy(&state), 13.0);
+}
+
+#[test]
+fn moduli_of_run_time_are_extents() {
+    assert_eq!(
+        Around::new(2, 3).unwrap_err(),
+        index("q[(i + 1) % k]", 2, 2)
+    );
+    assert_eq!(
+        Around::new(2, 0).unwrap_err(),
+        index("q[(i + 1) % k]", -1, 2)
+    );
+    let state = State::new(vec![1.0, 2.0, 3.0], vec![0.0; 3]);
+    // q₀q₁ + q₁q₀ + q₂q₁ + q₀.
+    assert_eq!(Around::new(3, 2).unwrap().energy(&state), 11.0);
+}
+
+/// A definition and how it is used; where the error is, and what it says.
+struct Case {
+    name: &'static str,
+    source: &'static str,
+    error: Option<(&'static str, &'static str)>,
+}
+
+const CASES: &[Case] = &[
+    Case {
+        name: "pinned",
+        source: "
+hamiltonian! {
+    pub struct Pinned<const N: usize> {}
+    H(q[N]; p[N]) = norm_squared(p)/2 + q[3]^2
+}
+fn main() { println!(\"{}\", Pinned::<3> {}.energy(&State::new([0.0; 3], [0.0; 3]))) }",
+        error: Some((
+            "4:43",
+            "`q[3]` is out of range for these sizes: indices there run from 0 to N - 1",
+        )),
+    },
+    Case {
+        name: "pinned_well",
+        source: "
+hamiltonian! {
+    pub struct Pinned<const N: usize> {}
+    H(q[N]; p[N]) = norm_squared(p)/2 + q[3]^2
+}
+fn main() { println!(\"{}\", Pinned::<4> {}.energy(&State::new([0.0; 4], [0.0; 4]))) }",
+        error: None,
+    },
+    Case {
+        name: "weighed",
+        source: "
+hamiltonian! {
+    pub struct Weighed<const N: usize, const M: usize> { m: [M] }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/(2*m[i]) }
+}
+fn main() { println!(\"{}\", Weighed::<4, 2>::new([1.0; 2]).energy(&State::new([0.0; 4], [0.0; 4]))) }",
+        error: Some((
+            "4:50",
+            "`m[i]` is out of range for these sizes: indices there run from 0 to M - 1",
+        )),
+    },
+    Case {
+        name: "tail",
+        source: "
+hamiltonian! {
+    pub struct Tail<const N: usize> {}
+    H(q[N]; p[N]) = norm_squared(p)/2 + sum(i in N - 3..N) { exp(i*q[0]) }
+}
+fn main() { println!(\"{}\", Tail::<2> {}.gradient(&State::new([0.0; 2], [0.0; 2])).q[0]) }",
+        error: Some(("4:50", "`i in N - 3..N` begins below 0 for these sizes")),
+    },
+    Case {
+        // Nothing is reached where j is out of range: 6 > i ≥ 0, 6 > j ≥ i + 4, 2 ≥ i, 5 ≥ j.
+        name: "value_well",
+        source: "
+fn main() {
+    let value = hamiltonian! {
+        H(q[6]; p[6]) = norm_squared(p)/2 + sum(i in 0..6, j in i + 4..6) { q[i + j - 3]*q[i] }
+    };
+    println!(\"{}\", value.energy(&State::new([0.0; 6], [0.0; 6])))
+}",
+        error: None,
+    },
+    Case {
+        name: "value",
+        source: "
+fn main() {
+    let value = hamiltonian! {
+        H(q[6]; p[6]) = norm_squared(p)/2 + sum(i in 0..6, j in i + 4..6) { q[i + j]*q[i] }
+    };
+    println!(\"{}\", value.energy(&State::new([0.0; 6], [0.0; 6])))
+}",
+        error: Some((
+            "4:79",
+            "`q[i + j]` is out of range for these sizes: indices there run from 0 to 5",
+        )),
+    },
+];
+
+/// The errors come when code is made for certain sizes, which `cargo check` does not do.
+#[test]
+fn const_generics_are_asked_when_compiled() {
+    let workspace = workspace("sizes", &[Package::new("sizes", "")]);
+    let programs = workspace.path.join("sizes/src/bin");
+    fs::create_dir_all(&programs).expect("the target directory can be written to");
+    for case in CASES {
+        let source = format!("use hamiltonian::prelude::*;{}\n", case.source);
+        write(&programs.join(format!("{}.rs", case.name)), &source);
+    }
+    let said = workspace
+        .cargo(&["build", "--keep-going", "--message-format=short"])
+        .text;
+    for case in CASES {
+        let place = format!("/{}.rs:", case.name);
+        let errors: Vec<&str> = said
+            .lines()
+            .filter(|line| line.contains(&place) && line.contains("error"))
+            .collect();
+        match case.error {
+            None => assert!(errors.is_empty(), "{}: {said}", case.name),
+            Some((at, due)) => assert!(
+                matches!(&errors[..], [error] if error.contains(at) && error.contains(due)),
+                "{}: {said}",
+                case.name
+            ),
+        }
+    }
+    // Every program was looked at.
+    let failed = CASES.iter().filter(|case| case.error.is_some());
+    let failures = said.matches("could not compile `sizes`").count();
+    assert_eq!(failures, failed.count(), "{said}");
+}

@@ -6,6 +6,7 @@ mod cargo;
 
 use cargo::{Package, workspace, write};
 use hamiltonian::prelude::*;
+use hamiltonian::start::{Branch, momentum_from_energy};
 use std::fs;
 
 hamiltonian! {
@@ -43,6 +44,13 @@ hamiltonian! {
     pub struct Split { n: usize }
     H(q[n]; p[n]) = norm_squared(p)/2 + q[2]^2;
     split { Kinetic = norm_squared(p)/2; Potential = q[2]^2 }
+}
+
+hamiltonian! {
+    /// Several groups.
+    pub struct Mixed { n: usize }
+    H(x, z[n], r[n][2]; p_x, p_z[n], p_r[n][2]) = p_x^2 + x*norm_squared(z)
+        + sum(i in 0..n) { norm_squared(p_r[i]) + dot(r[i], p_r[i]) + p_z[i]^2 }
 }
 
 fn index(index: &'static str, reached: i64, extent: usize) -> Error {
@@ -117,6 +125,43 @@ fn moduli_of_run_time_are_extents() {
     let state = State::new(vec![1.0, 2.0, 3.0], vec![0.0; 3]);
     // q₀q₁ + q₁q₀ + q₂q₁ + q₀.
     assert_eq!(Around::new(3, 2).unwrap().energy(&state), 11.0);
+}
+
+#[test]
+fn states_of_another_length_are_errors() {
+    let shape = |name, expected, found| Error::Shape {
+        name,
+        expected,
+        found,
+    };
+    let system = Weighed::new(3, 3, vec![1.0; 3]).unwrap();
+    let state = |q, p| State::new(vec![1.0; q], vec![1.0; p]);
+    assert_eq!(system.check_shape(&state(3, 3)), Ok(()));
+    let long = state(4, 3);
+    assert_eq!(system.check_shape(&long), Err(shape("q", 3, 4)));
+    let short = state(3, 2);
+    let error = system.check_shape(&short).unwrap_err();
+    assert_eq!(error.to_string(), "`p` must have 3 components, found 2");
+    let started = momentum_from_energy(&system, &short, 0, 1.0, Branch::Nearest);
+    assert_eq!(started.unwrap_err(), shape("p", 3, 2));
+    let run = Integrator::new(&system, RungeKutta4, long, 0.1);
+    assert_eq!(run.map(|_| ()).unwrap_err(), shape("q", 3, 4));
+    // Where nobody asked, the panic has both lengths.
+    let panic = std::panic::catch_unwind(|| system.gradient(&state(4, 4))).unwrap_err();
+    let text = panic.downcast_ref::<String>().expect("it is formatted");
+    assert!(
+        text.contains("has 4 elements where the system has 3×1") && text.contains("check_shape"),
+        "{text}"
+    );
+    // Of mixed shape, by the name of the group.
+    let mixed = Mixed::new(2).unwrap();
+    let vector = |n: usize| MixedVector::new(1.0, vec![1.0; n], vec![[1.0, 2.0]; n]);
+    assert_eq!(mixed.check_shape(&State::new(vector(2), vector(2))), Ok(()));
+    let state = State::new(
+        MixedVector::new(1.0, vec![1.0; 2], vec![[1.0; 2]; 3]),
+        vector(2),
+    );
+    assert_eq!(mixed.check_shape(&state), Err(shape("r", 4, 6)));
 }
 
 /// A definition and how it is used; where the error is, and what it says.

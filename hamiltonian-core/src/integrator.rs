@@ -94,17 +94,7 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
                 step: step.to_f64(),
             });
         }
-        let zeros = system.zeros();
-        check_shape(
-            S::GROUPS.iter().map(|group| (group.part, group.coordinate)),
-            &zeros,
-            &start.q,
-        )?;
-        check_shape(
-            S::GROUPS.iter().map(|group| (group.part, group.momentum)),
-            &zeros,
-            &start.p,
-        )?;
+        system.check_shape(&start)?;
         if !finite(&start) {
             let (q, p) = (numbers(&start.q), numbers(&start.p));
             return Err(Error::Start {
@@ -410,27 +400,4 @@ fn finite<V: Vector>(state: &State<V>) -> bool {
 /// The components as `f64`.
 fn numbers<V: Vector>(vector: &V) -> Vec<f64> {
     vector.components().map(Real::to_f64).collect()
-}
-
-/// An error where a part has not the length the system asks for, with the name of the first group
-/// in it.
-fn check_shape<V: Vector>(
-    mut groups: impl Iterator<Item = (usize, &'static str)> + Clone,
-    expected: &V,
-    found: &V,
-) -> Result<(), Error> {
-    for k in 0..V::PARTS {
-        let (expected, found) = (expected.part(k).len(), found.part(k).len());
-        if expected != found {
-            let name = groups
-                .find(|(part, _)| *part == k)
-                .map_or("", |(_, name)| name);
-            return Err(Error::Shape {
-                name,
-                expected,
-                found,
-            });
-        }
-    }
-    Ok(())
 }

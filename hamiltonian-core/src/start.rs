@@ -57,7 +57,7 @@ pub struct Section {
 ///
 /// # Errors
 /// [`Error::NoMomentum`] where H reaches E for no value (beyond a turning point), with the value of
-/// H nearest to E; [`Error::Component`], [`Error::Start`].
+/// H nearest to E; [`Error::Shape`], [`Error::Component`], [`Error::Start`].
 pub fn momentum_from_energy<T: Real, S: System<T>>(
     system: &S,
     state: &State<S::Vector>,
@@ -65,7 +65,7 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
     energy: T,
     branch: Branch,
 ) -> Result<State<S::Vector>, Error> {
-    check(state)?;
+    check(system, state)?;
     check_component(momentum, state.p.len())?;
     let prepared = system.prepare();
     let mut found = state.clone();
@@ -86,14 +86,15 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
 /// zero nearest to the state's own value, found by its change of sign.
 ///
 /// # Errors
-/// [`Error::NoCrossing`] where none was found; [`Error::Component`], [`Error::Start`].
+/// [`Error::NoCrossing`] where none was found; [`Error::Shape`], [`Error::Component`],
+/// [`Error::Start`].
 pub fn coordinate_on_event<T: Real, S: System<T>>(
     system: &S,
     state: &State<S::Vector>,
     event: usize,
     coordinate: usize,
 ) -> Result<State<S::Vector>, Error> {
-    check(state)?;
+    check(system, state)?;
     check_component(event, S::OBSERVABLES.len())?;
     check_component(coordinate, state.q.len())?;
     let prepared = system.prepare();
@@ -536,7 +537,8 @@ fn sign_after<T: Real>(sample: &Sample<T>, direction: T) -> bool {
     }
 }
 
-fn check<V: Vector>(state: &State<V>) -> Result<(), Error> {
+fn check<T: Real, S: System<T>>(system: &S, state: &State<S::Vector>) -> Result<(), Error> {
+    system.check_shape(state)?;
     if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
         return Ok(());
     }

@@ -5,6 +5,7 @@
 //! computed in `prepare`, everything that depends on parameters and a step coefficient in
 //! `flow`/`kick`/`drift`; what remains per evaluation depends on (t, q, p).
 
+use crate::error::Error;
 use crate::state::{Gradient, State};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
@@ -66,6 +67,20 @@ pub trait System<T: Real> {
     fn prepare(&self) -> Self::Prepared;
     /// The zero vector of this system's shape.
     fn zeros(&self) -> Self::Vector;
+
+    /// Whether a state has as many components as the system: with sizes set at run time, a state
+    /// of another length is a value of the same type, on which evaluation panics. Runs and starts
+    /// ask this once.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] with the first coordinate or momentum of another length.
+    fn check_shape(&self, state: &State<Self::Vector>) -> Result<(), Error> {
+        let zeros = self.zeros();
+        let coordinates = Self::GROUPS.iter().map(|g| (g.part, g.coordinate));
+        same_shape(coordinates, &zeros, &state.q)?;
+        let momenta = Self::GROUPS.iter().map(|g| (g.part, g.momentum));
+        same_shape(momenta, &zeros, &state.p)
+    }
 
     /// H at a state.
     fn energy(&self, state: &State<Self::Vector>) -> T {
@@ -182,4 +197,27 @@ pub trait Autonomous {}
 pub trait Cyclic {
     /// Names of the cyclic coordinates as declared (`q`, or `q[0]` for a component).
     const CYCLIC: &'static [&'static str];
+}
+
+/// An error where a part has not the length the system asks for, with the name of the first group
+/// in it.
+fn same_shape<V: Vector>(
+    mut groups: impl Iterator<Item = (usize, &'static str)> + Clone,
+    expected: &V,
+    found: &V,
+) -> Result<(), Error> {
+    for k in 0..V::PARTS {
+        let (expected, found) = (expected.part(k).len(), found.part(k).len());
+        if expected != found {
+            let name = groups
+                .find(|(part, _)| *part == k)
+                .map_or("", |(_, name)| name);
+            return Err(Error::Shape {
+                name,
+                expected,
+                found,
+            });
+        }
+    }
+    Ok(())
 }

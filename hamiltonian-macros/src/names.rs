@@ -194,7 +194,7 @@ const RUST_KEYWORDS: &[&str] = &[
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
     "energy", "gradient", "prepare", "zeros", "new", "default", "clone", "fmt", "velocity", "conjugate_momentum",
-    "observable", "flow", "kick", "drift", "hessian_vector", "time_derivative",
+    "observable", "flow", "kick", "drift", "hessian_vector", "time_derivative", "check_shape",
 ];
 
 /// The function of a name.

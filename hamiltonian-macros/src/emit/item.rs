@@ -311,7 +311,7 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
         );
     }
     if context.is_run_time.contains(&true) {
-        doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system; runs check it once.\n");
+        doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system. `check_shape` gives an\nerror instead; runs and starts ask it once.\n");
     }
     quote! { #[doc = #doc] }
 }

@@ -143,6 +143,60 @@ hamiltonian! {
     force(x, u, y; p_x, p_u, p_y) = [-p_x*y, -3*p_u*x, -p_y]
 }
 
+hamiltonian! {
+    /// Any number of bodies, on springs to their neighbours too.
+    pub struct Swarm<const N: usize> { k = 0.1, m: [N] }
+    H(q[N][3]; p[N][3]) = sum(i in 0..N) { norm_squared(p[i])/(2*m[i]) + k*q[i][0]^4 }
+        - sum(i in 0..N, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }
+        + k*sum(i in 0..N - 1) { norm_squared(q[i + 1] - q[i]) + dot(p[i + 1], q[i])*i };
+    force(q; p) = -k*norm_squared(q[0])*p;
+    monitor momentum = sum(i in 0..N) { p[i] }
+}
+
+hamiltonian! {
+    /// The same in heliocentric coordinates.
+    pub struct SwarmAroundFirst<const N: usize> { k = 0.1, m: [N] }
+    H(q[N][3]; p[N][3]) = sum(i in 0..N) { norm_squared(p[i])/(2*m[i]) + k*q[i][0]^4 }
+        - sum(i in 0..N, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }
+        + k*sum(i in 0..N - 1) { norm_squared(q[i + 1] - q[i]) + dot(p[i + 1], q[i])*i };
+    coordinates heliocentric(q, m);
+    force(q; p) = -k*norm_squared(q[0])*p;
+    monitor momentum = sum(i in 0..N) { p[i] };
+    monitor last = q[N - 1][0]
+}
+
+hamiltonian! {
+    /// Planets; their number is set at run time.
+    pub struct Planets { n: usize, m: [n] }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..n, j in i + 1..n) { m[i]*m[j]/norm(q[i] - q[j]) };
+    invariant angular = sum(i in 0..n) { q[i][0]*p[i][1] - q[i][1]*p[i][0] }
+}
+
+hamiltonian! {
+    /// The same in heliocentric coordinates.
+    pub struct PlanetsAroundSun { n: usize, m: [n] }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - sum(i in 0..n, j in i + 1..n) { m[i]*m[j]/norm(q[i] - q[j]) };
+    coordinates heliocentric(q, m);
+    invariant angular = sum(i in 0..n) { q[i][0]*p[i][1] - q[i][1]*p[i][0] }
+}
+
+hamiltonian! {
+    /// A vector that becomes polar beside an array of any length.
+    pub struct Ladder<const N: usize> {}
+    H(s[N], q[2]; w[N], p[2]) = norm_squared(w)/2 + norm_squared(p)/2 + 1/norm(q)
+        + sum(i in 0..N, j in 0..2) { (s[i] - q[j])^2 }
+}
+
+hamiltonian! {
+    /// The same with it polar.
+    pub struct LadderPolar<const N: usize> {}
+    H(s[N], q[2]; w[N], p[2]) = norm_squared(w)/2 + norm_squared(p)/2 + 1/norm(q)
+        + sum(i in 0..N, j in 0..2) { (s[i] - q[j])^2 };
+    coordinates polar(q)
+}
+
 fn planet() -> State<<[f64; 2] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector> {
     State::new([0.7, -0.4], [0.3, 1.1])
 }
@@ -314,4 +368,73 @@ fn coordinates_beside_an_array_of_run_time_length() {
         };
         same_system!(Beside::new(n).unwrap(), BesidePolar::new(n).unwrap(), old);
     }
+}
+
+/// Numbers between −1 and 1, rows of D, the last column `apart` from row to row.
+fn rows<const D: usize>(n: usize, k: f64, apart: f64) -> Vec<[f64; D]> {
+    let number = |at: usize| (at as f64 * k + 0.4).sin();
+    let row = |i: usize| {
+        let mut row: [f64; D] = std::array::from_fn(|c| number(D * i + c));
+        row[D - 1] += apart * i as f64;
+        row
+    };
+    (0..n).map(row).collect()
+}
+
+fn any_number<const N: usize>() {
+    let m: [f64; N] = std::array::from_fn(|i| 1.0 + 0.3 * i as f64);
+    let array = |k, apart| -> [[f64; 3]; N] { rows::<3>(N, k, apart).try_into().unwrap() };
+    let state = State::new(array(1.1, 2.5), array(0.7, 0.0));
+    let declared = Swarm::<N> {
+        k: 0.1,
+        m: m.into(),
+    };
+    let new = SwarmAroundFirst::<N> {
+        k: 0.1,
+        m: m.into(),
+    };
+    let there = new.from_declared(&state);
+    let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+    equal(&there.q, &theirs.q);
+    equal(&there.p, &theirs.p);
+    let back = hamiltonian::coordinates::from_heliocentric(&there);
+    equal(&new.to_declared(&there).q, &back.q);
+    equal(&new.to_declared(&there).p, &back.p);
+    close(new.last(&there), state.q[(N - 1, 0)]);
+    equal(&new.momentum(&there), &declared.momentum(&state));
+    // A force is carried as the momenta are.
+    let (force, old) = (new.force(&there), declared.force(&state));
+    let pushed = hamiltonian::coordinates::to_heliocentric(&State { p: old, ..state });
+    equal(&force, &pushed.p);
+    same_system!(declared, new, state);
+}
+
+#[test]
+fn heliocentric_coordinates_of_any_number_of_bodies() {
+    any_number::<1>();
+    any_number::<2>();
+    any_number::<3>();
+    any_number::<7>();
+    for n in [1usize, 2, 3, 7] {
+        let m: Vec<f64> = (0..n).map(|i| 1.0 / (1.0 + i as f64)).collect();
+        let state = State::new(rows::<2>(n, 1.1, 2.5), rows::<2>(n, 0.7, 0.0));
+        let planets = Planets::new(n, m.clone()).unwrap();
+        let new = PlanetsAroundSun::new(n, m).unwrap();
+        let there = new.from_declared(&state);
+        let theirs = hamiltonian::coordinates::to_heliocentric(&state);
+        equal(&there.q, &theirs.q);
+        equal(&there.p, &theirs.p);
+        close(planets.angular(&state), new.angular(&there));
+        same_system!(planets, new, state);
+    }
+}
+
+#[test]
+fn vectors_beside_arrays_of_any_length() {
+    let state = State {
+        t: 0.0,
+        q: LadderVector::<3, f64>::new([0.1, 0.2, 0.3], [0.7, -0.4]),
+        p: LadderVector::<3, f64>::new([0.4, 0.5, 0.6], [0.3, 1.1]),
+    };
+    same_system!(Ladder::<3> {}, LadderPolar::<3> {}, state);
 }

@@ -454,7 +454,7 @@ fn charts_that_do_not_fit_are_refused() {
     let model = system("q[n]; p[n]", "n", "m[n]", "sum(i in 0..n) { p[i]^2 }");
     assert!(matches!(
         apply(&model, &[Chart::Jacobi(bodies())], &[]),
-        Err(Refusal::Shape { .. })
+        Err(Refusal::Number { .. })
     ));
     let model = system("q[3]; p[3]", "", "m[2]", "p[0]^2");
     assert!(matches!(
@@ -466,7 +466,7 @@ fn charts_that_do_not_fit_are_refused() {
         "q[2], w[n]; p[2], v[n]",
         "n",
         "",
-        "sum(i in 0..2) { p[i]^2 } + sum(i in 0..n) { v[i]^2 }",
+        "sum(i in 0..2) { p[i]^2 } + sum(i in 0..n) { p[i]*v[i]^2 }",
     );
     let whole = Chart::Polar([0, 1].map(|row| Component {
         group: 0,
@@ -491,6 +491,44 @@ fn loops_over_other_groups_stay_loops() {
         new,
         "(p_r^2 + p_phi^2/r^2)/2 + sum(i in 0..n) { v[i]^2/2 + w[i]*r^2 }",
     );
+}
+
+#[test]
+fn loops_over_bodies_of_any_number_begin_at_the_second() {
+    let model = system(
+        "q[n]; p[n]",
+        "n",
+        "m[n]",
+        "sum(i in 0..n) { p[i]^2/m[i] } + sum(i in 0..n, j in 0..i) { abs(q[i] - q[j]) }",
+    );
+    let chart = [Chart::Heliocentric(bodies())];
+    let new = apply(&model, &chart, &[]).unwrap();
+    assert_eq!(
+        shown(&new),
+        "(p_heliocentric[0] - sum(i in 1..n) { p_heliocentric[i] })^2/m[0] \
+         + sum(i in 1..n) { p_heliocentric[i]^2/m[i] } \
+         + sum(i in 1..n) { abs(q_heliocentric[i]) \
+         + sum(j in 1..i) { abs(q_heliocentric[i] - q_heliocentric[j]) } }"
+    );
+    // An index that may be the first body or not is told apart where it runs.
+    let model = system("q[n]; p[n]", "n", "m[n]", "p[0]^2 + q[n - 1]^2");
+    let new = apply(&model, &chart, &[]).unwrap();
+    assert!(
+        shown(&new).contains("if n - 1 == 0 { 0 }"),
+        "{}",
+        shown(&new)
+    );
+    // One that wraps around is not.
+    let model = system(
+        "q[n]; p[n]",
+        "n",
+        "m[n]",
+        "sum(i in 0..n) { q[i]*q[(i + 1) % n] + p[i]^2 }",
+    );
+    assert!(matches!(
+        apply(&model, &chart, &[]),
+        Err(Refusal::Wrapped { .. })
+    ));
 }
 
 #[test]

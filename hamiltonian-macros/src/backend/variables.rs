@@ -176,6 +176,7 @@ impl Settling {
             return None;
         }
         let charts: Vec<Chart> = checked.charts.iter().map(chart).collect();
+        self.force = transform::apart(&mut self.model, &charts, &self.force);
         let transformed = match transform::apply(&self.model, &charts, &self.carried()) {
             Ok(transformed) => transformed,
             Err(reason) => {
@@ -209,13 +210,6 @@ impl Settling {
                 }),
                 None => replaced.push(entry),
             }
-        }
-        if !is_literal(&replaced) {
-            refuse(
-                "a force in a loop is not carried into other coordinates".to_owned(),
-                "give the coordinates a literal number of elements",
-            );
-            return None;
         }
         force.extend(transformed.force(&replaced));
         self.model.dag = transformed.model.dag;
@@ -292,6 +286,12 @@ fn remedy(reason: &Refusal) -> &'static str {
         Refusal::NameTaken { .. } => "give what has that name another one",
         Refusal::Shape { .. } => {
             "declare the coordinates as scalars, or the bodies as `q[4][3]` with masses `m: [4]`"
+        }
+        Refusal::Number { .. } => {
+            "declare them as `q[4][3]` with masses `m: [4]`; `heliocentric` takes any number"
+        }
+        Refusal::Wrapped { .. } => {
+            "write the term that closes the ring by itself, or declare a literal number of bodies"
         }
         Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
         Refusal::Loops { .. } => "give the loop literal bounds, so that it can be written out",
@@ -378,10 +378,4 @@ fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<
         }
     }
     all
-}
-
-/// Whether every row is a number.
-fn is_literal(list: &[VectorEntry]) -> bool {
-    list.iter()
-        .all(|entry| entry.row.affine.as_constant().is_some() && entry.row.modulo.is_none())
 }

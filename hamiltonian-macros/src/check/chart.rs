@@ -77,7 +77,9 @@ impl Checker<'_> {
         for (group, argument) in groups.iter().zip(arguments) {
             if ty(self, *group) != Type::Scalar {
                 let message = format!("`{argument}` is {}", self.type_shown(ty(self, *group)));
-                let help = format!("write `{form}` with scalars, or one vector `[{D}]`");
+                let help = format!(
+                    "write `{form}` with scalars, or `{chart}({argument})` with one vector `[{D}]`"
+                );
                 self.report.error(argument.span(), message, help);
                 return None;
             }

@@ -18,7 +18,7 @@ pub struct Component {
     pub row: Option<u32>,
 }
 
-/// Positions `[N]` or `[N][d]` and masses `[N]`, N and d literal.
+/// Positions `[N]` or `[N][d]` and masses `[N]`; d is literal, and N for Jacobi coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bodies {
     /// The positions and momenta.

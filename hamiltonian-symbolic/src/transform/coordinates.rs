@@ -5,15 +5,18 @@
 //! K agrees with H at sample points of the chart ([`check`], which [`apply`] ends with); the new
 //! groups of a chart stand where its first old group stood.
 
-use super::charts::{self, Chart, Component, Masses, Variables};
+use super::Refusal;
+use super::bodies::Bodies;
+use super::charts::{self, Chart, Masses, Variables};
+use super::layout::{Layout, Slot, coordinate, extents, standing};
+use super::open::{Below, open};
 use super::reduce::{self, Rules};
 use super::verify::check;
-use super::{Refusal, element, is_taken};
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
-use crate::index::{Affine, Index};
+use crate::index::Index;
 use crate::loops;
-use crate::model::{Group, Model, Shape, VectorEntry};
+use crate::model::{Model, VectorEntry};
 
 /// A system in new coordinates, with the maps.
 #[derive(Clone, Debug)]
@@ -33,6 +36,7 @@ pub struct Transformed {
     /// Where the old variables stand when a state of the new shape holds them: each element of
     /// phase space once. [`Transformed::forward_standing`] reads them there.
     pub places: Vec<Standing>,
+    bodies: Vec<Bodies>,
     rules: Rules,
 }
 
@@ -45,25 +49,21 @@ pub struct Standing {
     pub new: u16,
 }
 
-/// A scalar place of phase space.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) struct Slot {
-    pub(super) group: u16,
-    pub(super) row: u32,
-    pub(super) column: u16,
-}
-
 /// The system in the coordinates of the charts, which replace different coordinates; `carried` are
 /// further functions of (q, p, t) to be written in the new ones.
 ///
-/// Loops that read a replaced coordinate are written out, so their lengths must be literal.
+/// Loops that read a replaced coordinate are written out, so their lengths must be literal, but
+/// for heliocentric coordinates of any number of bodies.
 ///
 /// # Errors
 /// [`Refusal`].
 pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transformed, Refusal> {
     let layout = Layout::new(model, charts)?;
     let mut source = model.clone();
-    let (mut new, roots) = written_out(model, &layout, carried)?;
+    let bodies = bodies(&mut source, charts, &layout);
+    let model = &source.clone();
+    let below = Below::new(model, &bodies);
+    let (mut new, roots) = written_out(model, &layout, &bodies, carried)?;
     new.groups = layout.groups.clone();
 
     let mut rules = Rules::default();
@@ -84,7 +84,15 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         }
     }
 
-    let images = images(&mut new.dag, &roots, &inverse, &layout.kept);
+    let mut images = images(&mut new.dag, &roots, &inverse, &layout.kept);
+    for of in &bodies {
+        let dag = &mut new.dag;
+        rows(dag, &roots, of, &below, &mut images).ok_or_else(|| Refusal::Wrapped {
+            coordinate: coordinate(model, of.old),
+        })?;
+        forward.extend(of.forward(&mut source.dag));
+        inverse.extend(of.inverse(&mut new.dag));
+    }
     let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
     let carried = distribute(&mut new, roots);
     let mut places: Vec<Standing> = charts
@@ -104,6 +112,7 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         inverse,
         kept: layout.kept,
         places,
+        bodies,
         rules,
     };
     check(&transformed)?;
@@ -180,11 +189,15 @@ impl Transformed {
 
     /// A force on the old momenta, ṗ += f, as one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
     /// P = (∂q/∂Q)ᵀ p. The values of `force` are in the new coordinates (from `carried`); each
-    /// names the old momentum it acts on. Groups that are kept keep theirs and are not named here.
+    /// names the old momentum it acts on ([`apart`] for bodies in loops). Groups that are kept keep theirs and are not named here.
     pub fn force(&mut self, force: &[VectorEntry]) -> Vec<VectorEntry> {
         let mut found: Vec<VectorEntry> = Vec::new();
         let dag = &mut self.model.dag;
         for entry in force {
+            if let Some(bodies) = self.bodies.iter().find(|b| b.old == entry.group) {
+                bodies.force(dag, entry, &mut found);
+                continue;
+            }
             let old = self.inverse.iter().find(|e| {
                 e.side == Side::Q
                     && (e.group, &e.row, e.column) == (entry.group, &entry.row, entry.column)
@@ -217,284 +230,6 @@ impl Transformed {
         }
         found.sort_by_key(|e| (e.group, e.column, e.row.clone()));
         found
-    }
-}
-
-/// One set of variables that a chart maps as a whole: bodies are mapped component by component.
-struct Block {
-    old: Vec<Slot>,
-    new: Vec<Slot>,
-}
-
-impl Block {
-    fn variables(&self, dag: &mut Dag, old: bool) -> Variables {
-        let mut variables = Variables::default();
-        for slot in if old { &self.old } else { &self.new } {
-            let mut read = |side| element(dag, side, slot.group, slot.row, slot.column);
-            variables.q.push(read(Side::Q));
-            variables.p.push(read(Side::P));
-        }
-        variables
-    }
-}
-
-struct Place {
-    blocks: Vec<Block>,
-    /// The first new group.
-    first: u16,
-}
-
-/// The groups of the new model.
-struct Layout {
-    groups: Vec<Group>,
-    places: Vec<Place>,
-    kept: Vec<(u16, u16)>,
-    replaced: Vec<u16>,
-}
-
-impl Layout {
-    fn new(model: &Model, charts: &[Chart]) -> Result<Layout, Refusal> {
-        let mut replaced: Vec<u16> = Vec::new();
-        for chart in charts {
-            let own = replaced_groups(model, chart)?;
-            for group in &own {
-                if replaced.contains(group) {
-                    return Err(Refusal::NotWhole {
-                        coordinate: coordinate(model, *group),
-                    });
-                }
-            }
-            replaced.extend(own);
-        }
-        let mut groups: Vec<Group> = Vec::new();
-        let mut kept = Vec::new();
-        let mut firsts: Vec<Option<u16>> = vec![None; charts.len()];
-        for (number, group) in model.groups.iter().enumerate() {
-            let number = number as u16;
-            if !replaced.contains(&number) {
-                kept.push((number, groups.len() as u16));
-                groups.push(group.clone());
-                continue;
-            }
-            for (chart, first) in charts.iter().zip(&mut firsts) {
-                if first.is_none() && members(chart).contains(&number) {
-                    *first = Some(groups.len() as u16);
-                    groups.extend(new_groups(model, chart));
-                }
-            }
-        }
-        // Old names go, so they may come back: what is left must not meet what is new.
-        let mut left = model.clone_names();
-        left.groups = kept
-            .iter()
-            .map(|(old, _)| model.groups[usize::from(*old)].clone())
-            .collect();
-        for chart in charts {
-            for group in new_groups(model, chart) {
-                for name in [&group.coordinate, &group.momentum] {
-                    if is_taken(&left, name) {
-                        return Err(Refusal::NameTaken {
-                            name: name.clone(),
-                            by: chart.word(),
-                        });
-                    }
-                }
-                left.groups.push(group);
-            }
-        }
-        let places = charts
-            .iter()
-            .zip(firsts)
-            .map(|(chart, first)| {
-                let first = first.unwrap_or(0);
-                let blocks = blocks(model, chart, first);
-                Place { blocks, first }
-            })
-            .collect();
-        Ok(Layout {
-            groups,
-            places,
-            kept,
-            replaced,
-        })
-    }
-}
-
-impl Model {
-    /// The declarations without the mathematics.
-    fn clone_names(&self) -> Model {
-        Model {
-            name: self.name.clone(),
-            groups: self.groups.clone(),
-            parameters: self.parameters.clone(),
-            sizes: self.sizes.clone(),
-            time: self.time.clone(),
-            externals: self.externals.clone(),
-            observables: self.observables.clone(),
-            ..Model::default()
-        }
-    }
-}
-
-fn coordinate(model: &Model, group: u16) -> String {
-    model
-        .groups
-        .get(usize::from(group))
-        .map_or_else(|| format!("coordinate {group}"), |g| g.coordinate.clone())
-}
-
-/// The groups a chart names, each once.
-fn members(chart: &Chart) -> Vec<u16> {
-    let components: &[Component] = match chart {
-        Chart::Polar(components) => components,
-        Chart::Spherical(components) => components,
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => return vec![bodies.group],
-    };
-    let mut groups: Vec<u16> = components.iter().map(|c| c.group).collect();
-    groups.sort_unstable();
-    groups.dedup();
-    groups
-}
-
-/// The groups a chart replaces, which it must replace as a whole.
-fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
-    let groups = members(chart);
-    for &group in &groups {
-        let refused = |wanted| Refusal::Shape {
-            coordinate: coordinate(model, group),
-            wanted,
-        };
-        let Some(shape) = model.groups.get(usize::from(group)).map(|g| &g.shape) else {
-            return Err(refused("declared"));
-        };
-        let components: &[Component] = match chart {
-            Chart::Polar(components) => components,
-            Chart::Spherical(components) => components,
-            Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
-                let (rows, _) =
-                    extents(shape).ok_or(refused("an array of a literal number of bodies"))?;
-                let masses = model.parameters.get(usize::from(bodies.masses.0));
-                if *shape == Shape::Scalar
-                    || rows < 1
-                    || masses.map(|m| &m.shape) != Some(&Shape::Vector(Affine::constant(rows)))
-                {
-                    return Err(refused("an array of as many bodies as there are masses"));
-                }
-                continue;
-            }
-        };
-        let count = match extents(shape) {
-            Some((rows, 1)) => rows,
-            _ => return Err(refused("a number or a vector of literal length")),
-        };
-        let mut rows: Vec<i64> = components
-            .iter()
-            .filter(|c| c.group == group)
-            .map(|c| i64::from(c.row.unwrap_or(0)))
-            .collect();
-        rows.sort_unstable();
-        if !rows.iter().copied().eq(0..count) {
-            return Err(Refusal::NotWhole {
-                coordinate: coordinate(model, group),
-            });
-        }
-    }
-    Ok(groups)
-}
-
-/// Rows and columns, where both are literal.
-fn extents(shape: &Shape) -> Option<(i64, i64)> {
-    match shape {
-        Shape::Scalar => Some((1, 1)),
-        Shape::Vector(rows) => Some((rows.as_constant()?, 1)),
-        Shape::Matrix(rows, columns) => Some((rows.as_constant()?, columns.as_constant()?)),
-    }
-}
-
-fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
-    let scalar = |name: &&str| Group {
-        coordinate: (*name).to_owned(),
-        momentum: format!("p_{name}"),
-        shape: Shape::Scalar,
-    };
-    let bodies = |group: u16| {
-        let old = &model.groups[usize::from(group)];
-        vec![Group {
-            coordinate: format!("{}_{}", old.coordinate, chart.word()),
-            momentum: format!("{}_{}", old.momentum, chart.word()),
-            shape: old.shape.clone(),
-        }]
-    };
-    match chart {
-        Chart::Polar(_) => ["r", "phi"].iter().map(scalar).collect(),
-        Chart::Spherical(_) => ["r", "theta", "phi"].iter().map(scalar).collect(),
-        Chart::Jacobi(b) | Chart::Heliocentric(b) => bodies(b.group),
-    }
-}
-
-/// The sets of variables of a chart whose first new group has the given number.
-fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
-    let scalars = |components: &[Component]| {
-        let old = components.iter().map(|c| Slot {
-            group: c.group,
-            row: c.row.unwrap_or(0),
-            column: 0,
-        });
-        let new = (0..components.len() as u16).map(|at| Slot {
-            group: first + at,
-            row: 0,
-            column: 0,
-        });
-        vec![Block {
-            old: old.collect(),
-            new: new.collect(),
-        }]
-    };
-    match chart {
-        Chart::Polar(components) => scalars(components),
-        Chart::Spherical(components) => scalars(components),
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
-            let shape = &model.groups[usize::from(bodies.group)].shape;
-            let (rows, columns) = extents(shape).unwrap_or((0, 0));
-            let column = |group: u16, column: i64| -> Vec<Slot> {
-                (0..rows)
-                    .map(|row| Slot {
-                        group,
-                        row: row as u32,
-                        column: column as u16,
-                    })
-                    .collect()
-            };
-            (0..columns)
-                .map(|at| Block {
-                    old: column(bodies.group, at),
-                    new: column(first, at),
-                })
-                .collect()
-        }
-    }
-}
-
-/// Where the old variables of a chart stand among its new ones.
-fn standing(model: &Model, chart: &Chart, first: u16) -> Vec<Standing> {
-    let scalars = |components: &[Component]| {
-        let place = |(component, new): (&Component, u16)| {
-            let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
-            let row = component.row.filter(|_| !is_scalar);
-            Standing {
-                old: (component.group, row),
-                new,
-            }
-        };
-        components.iter().zip(first..).map(place).collect()
-    };
-    match chart {
-        Chart::Polar(components) => scalars(components),
-        Chart::Spherical(components) => scalars(components),
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Standing {
-            old: (bodies.group, None),
-            new: first,
-        }],
     }
 }
 
@@ -554,11 +289,39 @@ fn entries<'a>(slots: &'a [Slot], values: &'a Variables) -> impl Iterator<Item =
         })
 }
 
+/// The groups of bodies that are mapped in loops.
+fn bodies(model: &mut Model, charts: &[Chart], layout: &Layout) -> Vec<Bodies> {
+    let places = charts.iter().zip(&layout.places);
+    places
+        .filter_map(|(chart, place)| match chart {
+            Chart::Heliocentric(bodies) => Bodies::new(model, bodies.group, place.first),
+            _ => None,
+        })
+        .collect()
+}
+
+/// A force as [`Transformed::force`] takes it: on a group of bodies of any number, row 0 has an
+/// entry of its own.
+#[must_use]
+pub fn apart(model: &mut Model, charts: &[Chart], force: &[VectorEntry]) -> Vec<VectorEntry> {
+    let mut force = force.to_vec();
+    for chart in charts {
+        if let Chart::Heliocentric(chart) = chart
+            && let Some(bodies) = Bodies::new(model, chart.group, 0)
+        {
+            let parts = force.iter().flat_map(|f| bodies.apart(&mut model.dag, f));
+            force = parts.collect();
+        }
+    }
+    force
+}
+
 /// The model whose arena the new system is built in, with all roots (H, observables, carried ones),
 /// written out where a loop reads a replaced coordinate.
 fn written_out(
     model: &Model,
     layout: &Layout,
+    bodies: &[Bodies],
     carried: &[Node],
 ) -> Result<(Model, Vec<Node>), Refusal> {
     let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
@@ -566,31 +329,62 @@ fn written_out(
         roots.extend(&observable.components);
     }
     roots.extend(carried);
-    let looped =
-        model
-            .dag
-            .reachable(&roots)
-            .into_iter()
-            .find_map(|node| match model.dag.kind(node) {
-                Kind::Element(Array::Phase { group, .. }, row, _)
-                    if layout.replaced.contains(group)
-                        && (row.modulo.is_some() || row.affine.as_constant().is_none()) =>
-                {
-                    Some(*group)
-                }
-                _ => None,
-            });
-    let Some(group) = looped else {
-        return Ok((model.clone(), roots));
-    };
-    let refused = |reason: String| Refusal::Loops {
-        coordinate: coordinate(model, group),
-        reason,
-    };
-    if let Some(size) = model.sizes.first() {
-        return Err(refused(format!("the size `{size}` is not a literal")));
+    let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
+    let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).collect();
+    if model.sizes.is_empty() {
+        let looped =
+            model
+                .dag
+                .reachable(&roots)
+                .into_iter()
+                .find_map(|node| match model.dag.kind(node) {
+                    Kind::Element(Array::Phase { group, .. }, row, _)
+                        if written.contains(group)
+                            && (row.modulo.is_some() || row.affine.as_constant().is_none()) =>
+                    {
+                        Some(*group)
+                    }
+                    _ => None,
+                });
+        let Some(group) = looped else {
+            return Ok((model.clone(), roots));
+        };
+        let refused = |reason: String| Refusal::Loops {
+            coordinate: coordinate(model, group),
+            reason,
+        };
+        return loops::unroll_nodes(model, &[], &roots).map_err(refused);
     }
-    loops::unroll_nodes(model, &[], &roots).map_err(refused)
+    let mut opened = model.clone();
+    let roots = open(&mut opened, &roots, &written, bodies)?;
+    Ok((opened, roots))
+}
+
+/// What replaces each element of bodies that is read; `None` where an index wraps around.
+fn rows(
+    dag: &mut Dag,
+    roots: &[Node],
+    bodies: &Bodies,
+    below: &Below,
+    images: &mut Map<Node, Node>,
+) -> Option<()> {
+    for node in dag.reachable(roots) {
+        if let Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            _,
+        ) = dag.kind(node).clone()
+            && group == bodies.old
+        {
+            let image = bodies.image(dag, below, (side, column), &row)?;
+            images.insert(node, image);
+        }
+    }
+    Some(())
 }
 
 /// What replaces each element that is read: old coordinates by the map, kept ones by their new

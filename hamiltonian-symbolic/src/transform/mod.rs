@@ -6,15 +6,18 @@
 //! stages is coordinates, then time, and what is declared beside H (observables, pieces, forces,
 //! the factor of time) is written in the variables of the definition and carried through both.
 
+mod bodies;
 pub mod charts;
 pub mod coordinates;
+mod layout;
+mod open;
 mod reduce;
 pub mod split;
 pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
-pub use coordinates::{Standing, Transformed, apply};
+pub use coordinates::{Standing, Transformed, apart, apply};
 pub use split::{Difference, Force, check_forces, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;
@@ -45,6 +48,16 @@ pub enum Refusal {
     /// A coordinate of the chart is replaced in part only, or twice.
     NotWhole {
         /// The coordinate.
+        coordinate: String,
+    },
+    /// The chart takes a literal number of bodies.
+    Number {
+        /// Their positions.
+        coordinate: String,
+    },
+    /// Bodies in a loop are read at an index with `%`, of which it is not known whether it is row 0.
+    Wrapped {
+        /// Their positions.
         coordinate: String,
     },
     /// A coordinate of the chart is read in loops that cannot be written out.
@@ -85,6 +98,13 @@ impl fmt::Display for Refusal {
             Refusal::NotWhole { coordinate } => {
                 write!(f, "`{coordinate}` is not replaced as a whole, and once")
             }
+            Refusal::Number { coordinate } => {
+                write!(f, "the number of bodies `{coordinate}` is not a literal")
+            }
+            Refusal::Wrapped { coordinate } => write!(
+                f,
+                "`{coordinate}`, or its momentum, is read at an index with `%`, which may be row 0 or another"
+            ),
             Refusal::Loops { coordinate, reason } => write!(
                 f,
                 "`{coordinate}` is read in a loop that cannot be written out: {reason}"

@@ -4,12 +4,13 @@
 //! are the same on every machine; agreement at points is no proof, and what is looked for is a slip
 //! of the engine, which any point shows.
 
-use super::coordinates::{Slot, Transformed};
+use super::coordinates::Transformed;
+use super::layout::Slot;
 use super::{Refusal, element};
 use crate::dag::{Array, Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample};
-use crate::model::{Model, Shape};
+use crate::model::{Model, Shape, VectorEntry};
 
 /// How many points [`check`] takes.
 const POINTS: u64 = 3;
@@ -25,7 +26,8 @@ const CLOSE: f64 = 1e-8;
 pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
     let mut old = transformed.source.clone();
     let mut new = transformed.model.clone();
-    let sizes: Vec<i64> = (2..).take(old.sizes.len()).collect();
+    let sizes: Vec<i64> = (3..).take(old.sizes.len()).collect();
+    let inverse = at_sizes(&mut new, &transformed.inverse, &sizes);
     let roots = |model: &Model| -> Vec<Node> {
         let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
         for observable in &model.observables {
@@ -53,12 +55,12 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
             given.push((node, if flip && !bounded { -size } else { size }));
         }
         let mut all = new_roots.clone();
-        all.extend(transformed.inverse.iter().map(|entry| entry.value));
+        all.extend(inverse.iter().map(|entry| entry.value));
         let Some((values, point)) = loops::sample(&new, &all, &sizes, how, &given) else {
             continue;
         };
         let mut old_given: Vec<(Node, f64)> = Vec::new();
-        for (entry, value) in transformed.inverse.iter().zip(&values[new_roots.len()..]) {
+        for (entry, value) in inverse.iter().zip(&values[new_roots.len()..]) {
             let array = Array::Phase {
                 side: entry.side,
                 group: entry.group,
@@ -93,13 +95,37 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
     Ok(())
 }
 
+/// The entries with their loops run at the given sizes.
+fn at_sizes(model: &mut Model, entries: &[VectorEntry], sizes: &[i64]) -> Vec<VectorEntry> {
+    let mut all = Vec::new();
+    for entry in entries {
+        let Some(domain) = model.dag.deepest(entry.row.variables()) else {
+            all.push(entry.clone());
+            continue;
+        };
+        let range = model.dag.range(domain).clone();
+        for at in extent(&range.start, sizes)..extent(&range.end, sizes) {
+            let at = Affine::constant(at);
+            all.push(VectorEntry {
+                row: entry.row.substitute(&|_| at.clone()),
+                value: model.dag.replace(entry.value, domain, &at),
+                ..entry.clone()
+            });
+        }
+    }
+    all
+}
+
+/// The value of an extent.
+fn extent(affine: &Affine, sizes: &[i64]) -> i64 {
+    affine.value(&|_| 0, &|size| {
+        sizes.get(usize::from(size.0)).copied().unwrap_or(0)
+    })
+}
+
 /// All scalar places of a model at the given sizes.
 fn slots(model: &Model, sizes: &[i64]) -> Vec<(Side, Slot)> {
-    let extent = |affine: &Affine| {
-        affine.value(&|_| 0, &|size| {
-            sizes.get(usize::from(size.0)).copied().unwrap_or(0)
-        })
-    };
+    let extent = |affine: &Affine| extent(affine, sizes);
     let mut all = Vec::new();
     for (number, group) in model.groups.iter().enumerate() {
         let (rows, columns) = match &group.shape {

@@ -25,4 +25,16 @@ hamiltonian! {
     coordinates polar(x, y)
 }
 
+hamiltonian! {
+    pub struct Ring<const N: usize> { m: [N] }
+    H(q[N][3]; p[N][3]) = sum(i in 0..N) { norm_squared(p[i])/(2*m[i]) + norm(q[i] - q[(i + 1) % N]) };
+    coordinates heliocentric(q, m)
+}
+
+hamiltonian! {
+    pub struct Sliced<const N: usize> {}
+    H(s[N], q[2]; w[N], p[2]) = norm_squared(p)/2 + norm_squared(w) + sum(i in 0..N) { q[i]*s[i] };
+    coordinates polar(q)
+}
+
 fn main() {}

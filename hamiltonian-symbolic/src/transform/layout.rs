@@ -1,0 +1,302 @@
+//! Which groups charts replace, and which ones stand in their places.
+//!
+//! Input: a model and charts. Output: [`Layout`], or why the charts do not fit. Invariant: the new
+//! groups of a chart stand where its first old group stood; names are told apart.
+
+use super::charts::{Chart, Component, Variables};
+use super::coordinates::Standing;
+use super::{Refusal, element, is_taken};
+use crate::dag::{Dag, Side};
+use crate::model::{Group, Model, Shape};
+
+/// A scalar place of phase space.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) struct Slot {
+    pub(super) group: u16,
+    pub(super) row: u32,
+    pub(super) column: u16,
+}
+
+/// One set of variables that a chart maps as a whole: bodies are mapped component by component.
+pub(super) struct Block {
+    pub(super) old: Vec<Slot>,
+    pub(super) new: Vec<Slot>,
+}
+
+impl Block {
+    pub(super) fn variables(&self, dag: &mut Dag, old: bool) -> Variables {
+        let mut variables = Variables::default();
+        for slot in if old { &self.old } else { &self.new } {
+            let mut read = |side| element(dag, side, slot.group, slot.row, slot.column);
+            variables.q.push(read(Side::Q));
+            variables.p.push(read(Side::P));
+        }
+        variables
+    }
+}
+
+pub(super) struct Place {
+    pub(super) blocks: Vec<Block>,
+    /// The first new group.
+    pub(super) first: u16,
+}
+
+/// The groups of the new model.
+pub(super) struct Layout {
+    pub(super) groups: Vec<Group>,
+    pub(super) places: Vec<Place>,
+    pub(super) kept: Vec<(u16, u16)>,
+    pub(super) replaced: Vec<u16>,
+}
+
+impl Layout {
+    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Layout, Refusal> {
+        let mut replaced: Vec<u16> = Vec::new();
+        for chart in charts {
+            let own = replaced_groups(model, chart)?;
+            for group in &own {
+                if replaced.contains(group) {
+                    return Err(Refusal::NotWhole {
+                        coordinate: coordinate(model, *group),
+                    });
+                }
+            }
+            replaced.extend(own);
+        }
+        let mut groups: Vec<Group> = Vec::new();
+        let mut kept = Vec::new();
+        let mut firsts: Vec<Option<u16>> = vec![None; charts.len()];
+        for (number, group) in model.groups.iter().enumerate() {
+            let number = number as u16;
+            if !replaced.contains(&number) {
+                kept.push((number, groups.len() as u16));
+                groups.push(group.clone());
+                continue;
+            }
+            for (chart, first) in charts.iter().zip(&mut firsts) {
+                if first.is_none() && members(chart).contains(&number) {
+                    *first = Some(groups.len() as u16);
+                    groups.extend(new_groups(model, chart));
+                }
+            }
+        }
+        // Old names go, so they may come back: what is left must not meet what is new.
+        let mut left = model.clone_names();
+        left.groups = kept
+            .iter()
+            .map(|(old, _)| model.groups[usize::from(*old)].clone())
+            .collect();
+        for chart in charts {
+            for group in new_groups(model, chart) {
+                for name in [&group.coordinate, &group.momentum] {
+                    if is_taken(&left, name) {
+                        return Err(Refusal::NameTaken {
+                            name: name.clone(),
+                            by: chart.word(),
+                        });
+                    }
+                }
+                left.groups.push(group);
+            }
+        }
+        let places = charts
+            .iter()
+            .zip(firsts)
+            .map(|(chart, first)| {
+                let first = first.unwrap_or(0);
+                let blocks = blocks(model, chart, first);
+                Place { blocks, first }
+            })
+            .collect();
+        Ok(Layout {
+            groups,
+            places,
+            kept,
+            replaced,
+        })
+    }
+}
+
+impl Model {
+    /// The declarations without the mathematics.
+    fn clone_names(&self) -> Model {
+        Model {
+            name: self.name.clone(),
+            groups: self.groups.clone(),
+            parameters: self.parameters.clone(),
+            sizes: self.sizes.clone(),
+            time: self.time.clone(),
+            externals: self.externals.clone(),
+            observables: self.observables.clone(),
+            ..Model::default()
+        }
+    }
+}
+
+pub(super) fn coordinate(model: &Model, group: u16) -> String {
+    model
+        .groups
+        .get(usize::from(group))
+        .map_or_else(|| format!("coordinate {group}"), |g| g.coordinate.clone())
+}
+
+/// The groups a chart names, each once.
+fn members(chart: &Chart) -> Vec<u16> {
+    let components: &[Component] = match chart {
+        Chart::Polar(components) => components,
+        Chart::Spherical(components) => components,
+        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => return vec![bodies.group],
+    };
+    let mut groups: Vec<u16> = components.iter().map(|c| c.group).collect();
+    groups.sort_unstable();
+    groups.dedup();
+    groups
+}
+
+/// The groups a chart replaces, which it must replace as a whole.
+fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
+    let groups = members(chart);
+    for &group in &groups {
+        let refused = |wanted| Refusal::Shape {
+            coordinate: coordinate(model, group),
+            wanted,
+        };
+        let Some(shape) = model.groups.get(usize::from(group)).map(|g| &g.shape) else {
+            return Err(refused("declared"));
+        };
+        let components: &[Component] = match chart {
+            Chart::Polar(components) => components,
+            Chart::Spherical(components) => components,
+            Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
+                let (Shape::Vector(rows) | Shape::Matrix(rows, _)) = shape else {
+                    return Err(refused("an array of bodies"));
+                };
+                let masses = model.parameters.get(usize::from(bodies.masses.0));
+                if rows.as_constant().is_some_and(|rows| rows < 1)
+                    || masses.map(|m| &m.shape) != Some(&Shape::Vector(rows.clone()))
+                {
+                    return Err(refused("an array of as many bodies as there are masses"));
+                }
+                if rows.as_constant().is_none() && matches!(chart, Chart::Jacobi(_)) {
+                    return Err(Refusal::Number {
+                        coordinate: coordinate(model, group),
+                    });
+                }
+                continue;
+            }
+        };
+        let count = match extents(shape) {
+            Some((rows, 1)) => rows,
+            _ => return Err(refused("a number or a vector of literal length")),
+        };
+        let mut rows: Vec<i64> = components
+            .iter()
+            .filter(|c| c.group == group)
+            .map(|c| i64::from(c.row.unwrap_or(0)))
+            .collect();
+        rows.sort_unstable();
+        if !rows.iter().copied().eq(0..count) {
+            return Err(Refusal::NotWhole {
+                coordinate: coordinate(model, group),
+            });
+        }
+    }
+    Ok(groups)
+}
+
+/// Rows and columns, where both are literal.
+pub(super) fn extents(shape: &Shape) -> Option<(i64, i64)> {
+    match shape {
+        Shape::Scalar => Some((1, 1)),
+        Shape::Vector(rows) => Some((rows.as_constant()?, 1)),
+        Shape::Matrix(rows, columns) => Some((rows.as_constant()?, columns.as_constant()?)),
+    }
+}
+
+fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
+    let scalar = |name: &&str| Group {
+        coordinate: (*name).to_owned(),
+        momentum: format!("p_{name}"),
+        shape: Shape::Scalar,
+    };
+    let bodies = |group: u16| {
+        let old = &model.groups[usize::from(group)];
+        vec![Group {
+            coordinate: format!("{}_{}", old.coordinate, chart.word()),
+            momentum: format!("{}_{}", old.momentum, chart.word()),
+            shape: old.shape.clone(),
+        }]
+    };
+    match chart {
+        Chart::Polar(_) => ["r", "phi"].iter().map(scalar).collect(),
+        Chart::Spherical(_) => ["r", "theta", "phi"].iter().map(scalar).collect(),
+        Chart::Jacobi(b) | Chart::Heliocentric(b) => bodies(b.group),
+    }
+}
+
+/// The sets of variables of a chart whose first new group has the given number.
+fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
+    let scalars = |components: &[Component]| {
+        let old = components.iter().map(|c| Slot {
+            group: c.group,
+            row: c.row.unwrap_or(0),
+            column: 0,
+        });
+        let new = (0..components.len() as u16).map(|at| Slot {
+            group: first + at,
+            row: 0,
+            column: 0,
+        });
+        vec![Block {
+            old: old.collect(),
+            new: new.collect(),
+        }]
+    };
+    match chart {
+        Chart::Polar(components) => scalars(components),
+        Chart::Spherical(components) => scalars(components),
+        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
+            let shape = &model.groups[usize::from(bodies.group)].shape;
+            // Where their number is not literal there are no blocks: `bodies` maps them in loops.
+            let (rows, columns) = extents(shape).unwrap_or((0, 0));
+            let column = |group: u16, column: i64| -> Vec<Slot> {
+                (0..rows)
+                    .map(|row| Slot {
+                        group,
+                        row: row as u32,
+                        column: column as u16,
+                    })
+                    .collect()
+            };
+            (0..columns)
+                .map(|at| Block {
+                    old: column(bodies.group, at),
+                    new: column(first, at),
+                })
+                .collect()
+        }
+    }
+}
+
+/// Where the old variables of a chart stand among its new ones.
+pub(super) fn standing(model: &Model, chart: &Chart, first: u16) -> Vec<Standing> {
+    let scalars = |components: &[Component]| {
+        let place = |(component, new): (&Component, u16)| {
+            let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
+            let row = component.row.filter(|_| !is_scalar);
+            Standing {
+                old: (component.group, row),
+                new,
+            }
+        };
+        components.iter().zip(first..).map(place).collect()
+    };
+    match chart {
+        Chart::Polar(components) => scalars(components),
+        Chart::Spherical(components) => scalars(components),
+        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Standing {
+            old: (bodies.group, None),
+            new: first,
+        }],
+    }
+}

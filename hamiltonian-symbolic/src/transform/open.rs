@@ -1,0 +1,207 @@
+//! Loops that read a replaced coordinate, taken apart as far as its chart needs.
+//!
+//! Input: a model, roots, and which groups are replaced. Output: the roots, in which elements of
+//! groups with a map of their own for each row stand at literal rows, and of bodies in loops that
+//! begin at row 1 wherever that can be said. Invariant: values are the same for every size that
+//! leaves a group of bodies at least one row; other sizes may be 0.
+
+use super::Refusal;
+use super::bodies::Bodies;
+use super::layout::coordinate;
+use crate::dag::{Array, Dag, Kind, Node};
+use crate::index::{Affine, Domain, Index};
+use crate::model::{Model, Shape};
+
+/// The most nodes that loops are written out to.
+const LARGEST: usize = 1 << 20;
+
+/// How many loops may be made.
+const LOOPS: usize = 56;
+
+/// Least values of indices.
+#[derive(Debug, Default)]
+pub(super) struct Below {
+    /// Sizes that are ≥ 1, by number.
+    positive: Vec<u16>,
+}
+
+impl Below {
+    /// What the number of rows of bodies says.
+    pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
+        let rows = bodies.iter().filter_map(|b| {
+            let (Shape::Vector(rows) | Shape::Matrix(rows, _)) =
+                &model.groups[usize::from(b.old)].shape
+            else {
+                return None;
+            };
+            match (rows.constant, rows.loops.as_slice(), rows.sizes.as_slice()) {
+                (0, [], [(size, 1)]) => Some(size.0),
+                _ => None,
+            }
+        });
+        Below {
+            positive: rows.collect(),
+        }
+    }
+
+    /// A number that the index is never below; `None` if it is not known.
+    pub(super) fn of(&self, dag: &Dag, affine: &Affine) -> Option<i64> {
+        let mut least = affine.constant;
+        for &(size, factor) in &affine.sizes {
+            let own = i64::from(self.positive.contains(&size.0));
+            least += (factor > 0).then_some(factor * own)?;
+        }
+        for &(domain, factor) in &affine.loops {
+            let own = self.of(dag, &dag.range(domain).start)?;
+            least += (factor > 0).then_some(factor * own)?;
+        }
+        Some(least)
+    }
+}
+
+/// What is done with a loop.
+enum Step {
+    /// Written out.
+    WriteOut(i64, i64),
+    /// Its first iteration taken out.
+    Peel,
+}
+
+/// The roots with the loops opened. `written` are the groups that are replaced row by row.
+///
+/// # Errors
+/// [`Refusal::Loops`]
+pub(super) fn open(
+    model: &mut Model,
+    roots: &[Node],
+    written: &[u16],
+    bodies: &[Bodies],
+) -> Result<Vec<Node>, Refusal> {
+    let below = Below::new(model, bodies);
+    let mut roots = roots.to_vec();
+    while let Some((node, step)) = candidate(&model.dag, &roots, written, bodies, &below) {
+        let dag = &mut model.dag;
+        let Kind::Reduce(domain, body) = *dag.kind(node) else {
+            break;
+        };
+        let opened = match step {
+            Step::WriteOut(start, end) => {
+                let each: Vec<Node> = (start..end)
+                    .map(|at| dag.replace(body, domain, &Affine::constant(at)))
+                    .collect();
+                dag.add(&each)
+            }
+            Step::Peel => {
+                let range = dag.range(domain).clone();
+                let first = dag.replace(body, domain, &range.start);
+                let rest = range.start.plus(1, &Affine::constant(1));
+                let rest = dag.domain(range.parent, rest, range.end);
+                let body = dag.replace(body, domain, &Affine::variable(rest));
+                let rest = dag.reduce(rest, body);
+                dag.add(&[first, rest])
+            }
+        };
+        let too_much = if dag.loop_count() > LOOPS {
+            Some("it needs too many loops")
+        } else if dag.len() > LARGEST {
+            Some("it is too long")
+        } else {
+            None
+        };
+        if let Some(reason) = too_much {
+            let group = written.first().copied().or(bodies.first().map(|b| b.old));
+            return Err(Refusal::Loops {
+                coordinate: coordinate(model, group.unwrap_or(0)),
+                reason: reason.to_owned(),
+            });
+        }
+        for root in &mut roots {
+            let replace = |_: &mut Dag, other: Node| (other == node).then_some(opened);
+            *root = dag.substitute(*root, replace);
+        }
+    }
+    for node in model.dag.reachable(&roots) {
+        if let Some((group, row)) = read(&model.dag, node)
+            && written.contains(&group)
+            && (row.modulo.is_some() || row.affine.as_constant().is_none())
+        {
+            return Err(Refusal::Loops {
+                coordinate: coordinate(model, group),
+                reason: "its length is not a literal".to_owned(),
+            });
+        }
+    }
+    Ok(roots)
+}
+
+/// The group and the row of an element of phase space.
+fn read(dag: &Dag, node: Node) -> Option<(u16, &Index)> {
+    match dag.kind(node) {
+        Kind::Element(Array::Phase { group, .. }, row, _) => Some((*group, row)),
+        _ => None,
+    }
+}
+
+/// The next loop to open, the outermost first: what is inside may then be opened too.
+fn candidate(
+    dag: &Dag,
+    roots: &[Node],
+    written: &[u16],
+    bodies: &[Bodies],
+    below: &Below,
+) -> Option<(Node, Step)> {
+    let mut found: Option<(usize, Node, Step)> = None;
+    for node in dag.reachable(roots) {
+        let Kind::Reduce(domain, body) = *dag.kind(node) else {
+            continue;
+        };
+        let depth = dag.depth(Some(domain));
+        if found.as_ref().is_some_and(|(known, ..)| *known <= depth) {
+            continue;
+        }
+        if let Some(step) = step(dag, domain, body, written, bodies, below) {
+            found = Some((depth, node, step));
+        }
+    }
+    found.map(|(_, node, step)| (node, step))
+}
+
+fn step(
+    dag: &Dag,
+    domain: Domain,
+    body: Node,
+    written: &[u16],
+    bodies: &[Bodies],
+    below: &Below,
+) -> Option<Step> {
+    let range = dag.range(domain);
+    let literal = range.start.as_constant().zip(range.end.as_constant());
+    let start = range.start.as_constant();
+    // Whether there is a first iteration.
+    let runs = start
+        .zip(below.of(dag, &range.end))
+        .is_some_and(|(start, end)| start < end);
+    for node in dag.reachable(&[body]) {
+        let Some((group, row)) = read(dag, node) else {
+            continue;
+        };
+        if row.variables() >> domain.0 & 1 == 0 {
+            continue;
+        }
+        if written.contains(&group)
+            && let Some((start, end)) = literal
+        {
+            return Some(Step::WriteOut(start, end));
+        }
+        let is_body = bodies.iter().any(|bodies| bodies.old == group);
+        if is_body
+            && runs
+            && row.modulo.is_none()
+            && row.affine.factor(domain) > 0
+            && below.of(dag, &row.affine) == Some(0)
+        {
+            return Some(Step::Peel);
+        }
+    }
+    None
+}

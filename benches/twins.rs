@@ -11,6 +11,8 @@ use std::time::{Duration, Instant};
 
 #[path = "support/callgrind.rs"]
 mod callgrind;
+#[path = "support/valgrind.rs"]
+mod valgrind;
 #[path = "support/workloads.rs"]
 mod workloads;
 
@@ -19,7 +21,7 @@ fn main() {
         return;
     }
     let check = std::env::args().any(|argument| argument == "--check");
-    let counted = callgrind::is_there();
+    let counted = valgrind::is_there();
     if !counted {
         println!("SKIPPED: valgrind is not on this machine, instructions are not counted");
     }

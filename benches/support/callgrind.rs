@@ -1,11 +1,10 @@
-//! Instructions a step, counted by callgrind: this program runs itself under it.
+//! Instructions a step: this program runs itself under callgrind.
 //!
 //! `PROGRAM --workload NUMBER library|twin STEPS` makes the steps and nothing else; two such runs
-//! of different length, subtracted, leave what a step costs. Counts are the same on every run of
-//! the same binary on the same machine.
+//! of different length, subtracted, leave what a step costs.
 
+use crate::valgrind;
 use crate::workloads::ALL;
-use std::process::Command;
 
 /// Makes the steps asked for on the command line, if any were; whether there were.
 pub fn run_if_asked() -> bool {
@@ -27,28 +26,11 @@ pub fn run_if_asked() -> bool {
     true
 }
 
-/// Whether callgrind is on this machine.
-pub fn is_there() -> bool {
-    Command::new("valgrind")
-        .arg("--version")
-        .output()
-        .is_ok_and(|output| output.status.success())
-}
-
 fn instructions(number: usize, which: &str, steps: u64) -> u64 {
     let program = std::env::current_exe().expect("this program's path");
-    let output = Command::new("valgrind")
-        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
-        .arg(program)
-        .args(["--workload", &number.to_string(), which, &steps.to_string()])
-        .output()
-        .expect("valgrind runs");
-    let text = String::from_utf8_lossy(&output.stderr);
-    let line = text
-        .lines()
-        .find_map(|line| line.split_once("Collected :"))
-        .unwrap_or_else(|| panic!("no count in:\n{text}"));
-    line.1.trim().parse().expect("a count")
+    let (number, steps) = (number.to_string(), steps.to_string());
+    let arguments = ["--workload", &number, which, &steps];
+    valgrind::instructions(&program, &arguments, None).expect("the workload runs")
 }
 
 /// Instructions a step of one workload: by the library, and by its twin.

@@ -3,7 +3,8 @@
 //!
 //! The stages are compiled into this program as they are into the macro, which cannot be called
 //! from outside of rustc. With `--number k` only the k-th definition is expanded and nothing is
-//! printed: that is what the budgets of instructions count ([`expanded`]).
+//! printed: that is what the budgets of instructions count ([`expanded`]). With `--time` the time
+//! that each takes is printed.
 
 #[allow(dead_code)]
 mod ast;
@@ -24,34 +25,64 @@ mod tokens;
 use proc_macro2::{TokenStream, TokenTree};
 use std::process::ExitCode;
 use std::str::FromStr;
+use std::time::Instant;
+
+/// What is done with the definitions.
+enum Task {
+    /// The code of each is printed.
+    Print,
+    /// The k-th one is expanded, nothing else.
+    Expand(usize),
+    /// The shortest of five times each took, in milliseconds, is printed.
+    Time,
+}
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let (path, only) = match arguments.as_slice() {
-        [path] => (path, None),
-        [path, word, number] if word == "--number" => (path, number.parse::<usize>().ok()),
-        _ => {
-            eprintln!("usage: show FILE [--number K]");
-            return ExitCode::FAILURE;
-        }
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let task = match words[..] {
+        [_] => Some(Task::Print),
+        [_, "--time"] => Some(Task::Time),
+        [_, "--number", number] => number.parse().ok().map(Task::Expand),
+        _ => None,
     };
-    let definitions = match read(path) {
-        Ok(definitions) => definitions,
+    let Some(task) = task else {
+        eprintln!("usage: show FILE [--number K | --time]");
+        return ExitCode::FAILURE;
+    };
+    match read(words[0]).and_then(|definitions| perform(task, definitions)) {
+        Ok(()) => ExitCode::SUCCESS,
         Err(reason) => {
-            eprintln!("{path}: {reason}");
-            return ExitCode::FAILURE;
+            eprintln!("{}: {reason}", words[0]);
+            ExitCode::FAILURE
         }
-    };
-    match only {
-        Some(number) => match definitions.into_iter().nth(number) {
-            Some(definition) => drop(expanded(definition)),
-            None => return ExitCode::FAILURE,
-        },
-        None => definitions
-            .into_iter()
-            .for_each(|definition| println!("{}", pretty(expanded(definition)))),
     }
-    ExitCode::SUCCESS
+}
+
+fn perform(task: Task, definitions: Vec<TokenStream>) -> Result<(), String> {
+    match task {
+        Task::Print => {
+            for definition in definitions {
+                println!("{}", pretty(expanded(definition)));
+            }
+        }
+        Task::Expand(number) => match definitions.into_iter().nth(number) {
+            Some(definition) => drop(expanded(definition)),
+            None => return Err(format!("there is no definition number {number}")),
+        },
+        Task::Time => {
+            for definition in definitions {
+                let times = (0..5).map(|_| {
+                    let (definition, start) = (definition.clone(), Instant::now());
+                    drop(expanded(definition));
+                    start.elapsed()
+                });
+                let shortest = times.min().unwrap_or_default();
+                println!("{:.1}", 1e3 * shortest.as_secs_f64());
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The inside of every `hamiltonian! { … }` of a file.

@@ -155,6 +155,30 @@ impl Workspace {
     }
 }
 
+/// The program that expands definitions, compiled without optimisation as cargo compiles macros.
+pub fn show() -> PathBuf {
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).join("packages");
+    let output = Command::new(env!("CARGO"))
+        .args([
+            "build",
+            "--package",
+            "hamiltonian-macros",
+            "--example",
+            "show",
+        ])
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .env("CARGO_TARGET_DIR", &target)
+        .env("CARGO_NET_OFFLINE", "true")
+        .env("CARGO_TERM_COLOR", "never")
+        .output()
+        .expect("cargo runs");
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{text}");
+    target
+        .join("debug/examples")
+        .join(format!("show{}", std::env::consts::EXE_SUFFIX))
+}
+
 /// Says something whether the test passes or not; the harness keeps `eprintln!` to itself.
 pub fn note(text: &str) {
     let _ = writeln!(std::io::stderr(), "{text}");

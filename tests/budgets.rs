@@ -1,0 +1,53 @@
+//! What the macro may cost: instructions of the pipeline, compiled without optimisation as cargo
+//! compiles it for its users.
+//!
+//! `cargo bench --bench compile` prints times.
+
+#[allow(dead_code)]
+mod cargo;
+#[path = "../benches/support/valgrind.rs"]
+mod valgrind;
+
+use std::fs;
+use std::path::Path;
+
+/// Instructions that a definition may take on its way through the macro.
+const BUDGET: u64 = 200_000_000;
+
+#[test]
+fn every_example_is_expanded_within_its_budget() {
+    if !valgrind::is_there() {
+        cargo::note("SKIPPED: valgrind is not on this machine, instructions are not counted");
+        return;
+    }
+    let show = cargo::show();
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut files: Vec<_> = fs::read_dir(&examples)
+        .expect("there are examples")
+        .map(|entry| entry.expect("it can be listed").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
+        .collect();
+    files.sort();
+    let mut counts = Vec::new();
+    for file in &files {
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        let text = fs::read_to_string(file).expect("an example can be read");
+        let definitions = text.matches("hamiltonian! {").count();
+        for number in 0..definitions {
+            let arguments = [
+                file.as_os_str(),
+                "--number".as_ref(),
+                number.to_string().as_ref(),
+            ]
+            .map(|argument: &std::ffi::OsStr| argument.to_owned());
+            let count = valgrind::instructions(&show, &arguments, Some("*expanded*"))
+                .unwrap_or_else(|| panic!("definition {number} of {name} is not expanded"));
+            cargo::note(&format!("{count:>12} instructions: {name} {number}"));
+            counts.push((format!("{name} {number}"), count));
+        }
+    }
+    // A count of nothing would pass anything.
+    assert!(counts.len() >= 10 && counts.iter().all(|(_, count)| *count > 10_000_000));
+    let over: Vec<_> = counts.iter().filter(|(_, count)| *count > BUDGET).collect();
+    assert!(over.is_empty(), "past {BUDGET} instructions: {over:?}");
+}

@@ -147,3 +147,20 @@ fn values_and_types_inside_functions() {
     hamiltonian! { struct Local { a = 1.0 } H = p^2/2 + a*q^2/2 }
     close(Local::default().energy(&State::new([1.0], [1.0])), 1.0);
 }
+
+/// Types that are called like what the prelude has.
+mod named_like_the_prelude {
+    use mechanics::prelude::*;
+
+    hamiltonian! {
+        /// The name of the trait whose methods it has.
+        struct System { a = 1.0 }
+        H = p^2/2 + a*q^2/2
+    }
+
+    #[test]
+    fn methods_are_found() {
+        let state = State::new([1.0], [1.0]);
+        super::close(System::default().energy(&state), 1.0);
+    }
+}

@@ -72,7 +72,12 @@ pub use nalgebra;
 pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 
 /// What a program that runs systems names.
+///
+/// Its traits are there without their names too: a type of yours may be called `System`, and
+/// `energy` is still a method of it.
 pub mod prelude {
+    pub use crate::{Observer as _, System as _};
+
     pub use crate::schemes::{
         ConsecutiveSubTrajectories, ImplicitMidpoint, IntersectingSubTrajectories, Pihajoki,
         RungeKutta4, Start, StormerVerlet, SymplecticEuler, TwoStepMidpoint,

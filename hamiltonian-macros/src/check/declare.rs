@@ -34,6 +34,13 @@ impl Checker<'_> {
     pub(super) fn header(&mut self) -> bool {
         let ast = self.ast;
         if let Some(item) = &ast.item {
+            if item.name == "T" {
+                self.report.error(
+                    item.name.span(),
+                    "a type cannot be called `T`",
+                    "choose another name: `T` is the scalar that a state is made of",
+                );
+            }
             for name in &item.generics {
                 self.size(name, SizeKind::Const, Vec::new());
             }

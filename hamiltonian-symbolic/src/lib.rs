@@ -18,6 +18,7 @@ pub mod pipeline;
 pub mod print;
 pub mod program;
 pub mod rational;
+pub mod rewrite;
 pub mod schedule;
 pub mod share;
 pub mod simplify;

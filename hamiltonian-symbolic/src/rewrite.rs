@@ -1,0 +1,177 @@
+//! Expressions made again over other children: substitution, import, renaming of loops.
+//!
+//! Input: nodes, and what takes the place of some of them. Output: nodes through the constructors
+//! of `simplify`, so in canonical form. Invariant: what does not change keeps its node.
+
+use crate::dag::{Dag, Kind, Map, Node};
+use crate::index::{Affine, Domain, Index};
+
+impl Dag {
+    /// The same node over other children.
+    pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
+        self.construct(self.kind(node).clone(), new)
+    }
+
+    /// An expression of another arena, which must not have loops.
+    pub fn import(&mut self, other: &Dag, root: Node) -> Node {
+        let mut new: Map<Node, Node> = Map::default();
+        for node in other.reachable(&[root]) {
+            let image = self.construct(other.kind(node).clone(), &|child| new[&child]);
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    pub(crate) fn construct(&mut self, kind: Kind, new: &impl Fn(Node) -> Node) -> Node {
+        match kind {
+            Kind::Sum(c, terms) => {
+                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();
+                self.linear(&c, &terms)
+            }
+            Kind::Product(k, factors) => {
+                let factors: Vec<_> = factors.into_iter().map(|(n, e)| (new(n), e)).collect();
+                self.product(&k, &factors)
+            }
+            Kind::Call(op, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                self.call(op, &arguments)
+            }
+            Kind::External(function, part, arguments) => {
+                let arguments: Vec<_> = arguments.into_iter().map(new).collect();
+                self.external(function, part, &arguments)
+            }
+            Kind::Reduce(domain, body) => self.reduce(domain, new(body)),
+            Kind::Compare(relation, a, b) => self.intern(Kind::Compare(relation, new(a), new(b))),
+            Kind::Not(a) => self.not(new(a)),
+            Kind::And(a, b) => self.and(new(a), new(b)),
+            Kind::Or(a, b) => self.or(new(a), new(b)),
+            Kind::Select(c, a, b) => self.select(new(c), new(a), new(b)),
+            leaf => self.intern(leaf),
+        }
+    }
+
+    /// The expression with some nodes replaced: `leaf` gives a node's replacement, or `None` to
+    /// rebuild it from its children.
+    pub fn substitute(
+        &mut self,
+        root: Node,
+        mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>,
+    ) -> Node {
+        let mut new: Map<Node, Node> = Map::default();
+        for node in self.reachable(&[root]) {
+            let image = match leaf(self, node) {
+                Some(image) => image,
+                None => {
+                    let changed = {
+                        let mut changed = false;
+                        self.for_children(node, |child| changed |= new[&child] != child);
+                        changed
+                    };
+                    if changed {
+                        self.rebuild(node, &|child| new[&child])
+                    } else {
+                        node
+                    }
+                }
+            };
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    /// The expression with a loop variable replaced by an affine index; loops inside it that
+    /// depend on the variable move with it.
+    pub fn replace(&mut self, root: Node, variable: Domain, by: &Affine) -> Node {
+        let mut moved: Map<Domain, Domain> = Map::default();
+        let mut new: Map<Node, Node> = Map::default();
+        // The variable itself and those of the loops inside it. A sum over the same loop binds
+        // the variable anew: what stands in it is not free and stays.
+        let inside = (0..self.loop_count() as u32)
+            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
+            .fold(0u64, |set, d| set | 1 << d);
+        for node in self.reachable(&[root]) {
+            if self.variables(node) & inside == 0 {
+                new.insert(node, node);
+                continue;
+            }
+            let image = match self.kind(node).clone() {
+                Kind::Variable(d) if d == variable => self.affine(by),
+                Kind::Variable(d) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.variable(d)
+                }
+                Kind::Element(array, row, column) => {
+                    let mut indices = vec![row];
+                    indices.extend(column);
+                    let mut images = Vec::new();
+                    for index in indices {
+                        let mut targets: Map<Domain, Affine> = Map::default();
+                        let all = index.variables();
+                        for d in (0..64).filter(|d| all >> d & 1 == 1).map(Domain) {
+                            let target = if d == variable {
+                                by.clone()
+                            } else {
+                                Affine::variable(self.moved(d, variable, by, &mut moved))
+                            };
+                            targets.insert(d, target);
+                        }
+                        images.push(index.substitute(&|d| targets[&d].clone()));
+                    }
+                    let mut images = images.into_iter();
+                    let row = images.next().unwrap_or_else(|| Index::constant(0));
+                    self.element(array, row, images.next())
+                }
+                Kind::Reduce(d, body) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.reduce(d, new[&body])
+                }
+                Kind::Count(d) => {
+                    let d = self.moved(d, variable, by, &mut moved);
+                    self.count(d)
+                }
+                _ => self.rebuild(node, &|child| new[&child]),
+            };
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
+    /// The image of a loop when `variable` is replaced.
+    fn moved(
+        &mut self,
+        domain: Domain,
+        variable: Domain,
+        by: &Affine,
+        moved: &mut Map<Domain, Domain>,
+    ) -> Domain {
+        if !self.path(Some(domain)).contains(&variable) || domain == variable {
+            return domain;
+        }
+        if let Some(&known) = moved.get(&domain) {
+            return known;
+        }
+        let range = self.range(domain).clone();
+        let parent = match range.parent {
+            Some(parent) if parent == variable => {
+                let outer = self.range(variable).parent.map_or(0, |d| 1u64 << d.0);
+                self.deepest(by.variables() | outer)
+            }
+            Some(parent) => Some(self.moved(parent, variable, by, moved)),
+            None => None,
+        };
+        let chain = self.path(Some(domain));
+        let mut targets: Map<Domain, Affine> = Map::default();
+        for &d in &chain[..chain.len() - 1] {
+            let target = if d == variable {
+                by.clone()
+            } else {
+                Affine::variable(self.moved(d, variable, by, moved))
+            };
+            targets.insert(d, target);
+        }
+        let image = |affine: &Affine| affine.substitute(&|d| targets[&d].clone());
+        let image = self.domain(parent, image(&range.start), image(&range.end));
+        moved.insert(domain, image);
+        image
+    }
+}

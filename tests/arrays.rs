@@ -109,7 +109,7 @@ fn bodies_counted_at_run_time() {
 #[test]
 fn chains_with_ends() {
     for n in LENGTHS {
-        check(&Fput::<f64>::new(n).unwrap());
+        check(&Fput::new(n).unwrap());
     }
     for_lengths!(Chain);
 }
@@ -164,4 +164,16 @@ fn matrices_times_vectors() {
         });
         check(&Coupled::new(n, stiffness).unwrap());
     }
+}
+
+#[test]
+fn parameters_that_nothing_tells_the_scalar_of_are_f64() {
+    let chain = Fput::new(2).unwrap();
+    assert_eq!((chain.alpha, chain.beta), (0.25, 0.1));
+    let state = State::new(vec![1.0, 0.0], vec![0.0, 0.0]);
+    close(
+        chain.energy(&state),
+        1.0 + 0.25 / 3.0 - 0.25 / 3.0 + 0.2 / 4.0,
+    );
+    assert!(Fput::LATEX.contains("\\alpha") && Chain::<3>::LATEX.contains("N"));
 }

@@ -1,4 +1,4 @@
-//! Item form: the struct with its docs, constructors, `Default` and `Display`.
+//! Item form: the struct with its docs, `Display` and methods.
 //!
 //! Input: a definition and its header. Output: its tokens. Invariant: fields are public where they
 //! can be anything; sizes set at run time and the arrays that depend on them are private, so that
@@ -8,12 +8,11 @@ use super::block::Context;
 use super::generics::Generics;
 use super::index::Indices;
 use super::layout::{self, Layout, layout};
-use super::number::{Numbers, float};
+use super::number::Numbers;
 use super::{
-    Definition, Field, Form, Item, allowances, declared, dynamics, externals, lex, markers, mixed,
-    observables, reach, vectors,
+    Definition, Field, Form, Item, allowances, construct, declared, dynamics, externals, lex,
+    markers, mixed, observables, reach, vectors,
 };
-use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
@@ -81,7 +80,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     if let Some(declared) = declared::mixed(definition, context) {
         text.push_str(&mixed::implementations(declared, &generics));
     }
-    text.push_str(&default(item, context, &generics));
+    text.push_str(&construct::default(item, context, &generics));
     let implementations = located(lex(&text), item.name.span(), SIGNATURES);
     let functions = lex(&functions);
     let externals = externals::wrappers(definition);
@@ -327,40 +326,7 @@ pub fn display(definition: &Definition, generics: &Generics) -> String {
     )
 }
 
-/// `Default`, over f64 only, where every parameter has a default.
-fn default(item: &Item, context: Context, generics: &Generics) -> String {
-    if context.is_run_time.contains(&true) || item.parameters.iter().any(|p| p.default.is_none()) {
-        return String::new();
-    }
-    let scalar: Vec<String> = generics
-        .scalars
-        .iter()
-        .map(|_| "__h::core::primitive::f64".to_owned())
-        .collect();
-    let mut fields = String::new();
-    for parameter in &item.parameters {
-        if let Some(value) = &parameter.default {
-            let _ = write!(fields, "{}: {}, ", parameter.name, float(value.to_f64()));
-        }
-    }
-    let constants = generics
-        .constants
-        .iter()
-        .map(|name| format!("const {name}: __h::core::primitive::usize"));
-    let constants: Vec<String> = constants.collect();
-    let declaration = if constants.is_empty() {
-        String::new()
-    } else {
-        format!("<{}>", constants.join(", "))
-    };
-    format!(
-        "#[automatically_derived]\nimpl{declaration} __h::core::default::Default for {} {{\n\
-         fn default() -> Self {{ Self {{ {fields} }} }}\n}}\n",
-        generics.system_type_over(&scalar),
-    )
-}
-
-/// Constants, `new`, the getters of private fields, observables, derivatives by parameters.
+/// Constants, the getters of private fields, observables, derivatives by parameters.
 fn inherent(
     definition: &Definition,
     item: &Item,
@@ -376,8 +342,8 @@ fn inherent(
     let methods = observables::methods(definition, context, generics, visibility);
     let vectors = vectors::methods(definition, context, generics, visibility);
     let pieces = pieces(definition, item, generics);
-    let new = new(definition, item, context, generics);
-    let getters = getters(item, context, generics);
+    let new = construct::new(definition, item, context, generics);
+    let getters = construct::getters(item, context, generics);
     let derivatives = if item.parameters.is_empty() {
         TokenStream::new()
     } else {
@@ -392,15 +358,20 @@ fn inherent(
             }
         }
     };
+    // Nothing in their paths would tell the scalar.
+    let (constants, system) = construct::over_f64(generics);
+    let untold = lex(&format!("impl{constants} {system}"));
     let latex = &definition.text.latex;
     let equations = definition.text.latex_equations.join("\n");
     quote! {
-        #header {
+        #new
+        #untold {
             /// H in LaTeX.
             #visibility const LATEX: &'static __h::core::primitive::str = #latex;
             /// Hamilton's equations in LaTeX, one a line.
             #visibility const LATEX_EQUATIONS: &'static __h::core::primitive::str = #equations;
-            #new
+        }
+        #header {
             #getters
             #methods
             #vectors
@@ -439,175 +410,6 @@ fn pieces(definition: &Definition, item: &Item, generics: &Generics) -> TokenStr
                 #ty { #(#fields: __h::core::clone::Clone::clone(&self.#fields),)* }
             }
         });
-    }
-    out
-}
-
-/// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
-fn new(definition: &Definition, item: &Item, context: Context, generics: &Generics) -> TokenStream {
-    let scalar = generics.scalars.first().map_or("P", String::as_str);
-    // A constant of the user's may have a parameter's name, and an argument may not.
-    let argument = |name: &Ident| Ident::new(&format!("_{name}"), Span::call_site());
-    let (mut kinds, mut arguments, mut lets) =
-        (TokenStream::new(), TokenStream::new(), TokenStream::new());
-    let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());
-    for field in &item.fields {
-        if let Field::Size(number) = field {
-            let name = &item.sizes[*number].name;
-            let (local, given) = (lex(&format!("_n{number}")), argument(name));
-            arguments.extend(quote! { #given: __h::core::primitive::usize, });
-            lets.extend(quote! { let #local = #given; });
-            names.push(name);
-            let _ = write!(fields, "{name}: _n{number}, ");
-        }
-    }
-    for field in &item.fields {
-        let Field::Parameter(number) = field else {
-            continue;
-        };
-        let parameter = &item.parameters[*number];
-        let name = &parameter.name;
-        let shape = &context.model.parameters[*number].shape;
-        if let Some(value) = &parameter.default {
-            let (hi, lo) = value.to_words();
-            let _ = write!(
-                fields,
-                "{name}: {scalar}::constant({}, {}), ",
-                float(hi),
-                float(lo)
-            );
-            continue;
-        }
-        names.push(name);
-        let _ = write!(fields, "{name}: _a{number}, ");
-        let (local, given) = (lex(&format!("_a{number}")), argument(name));
-        let ty = lex(&layout::storage(
-            shape,
-            scalar,
-            context.indices,
-            context.is_run_time,
-            "__h",
-        ));
-        // A matrix with columns set at run time is no vector of coordinates.
-        if *shape == Shape::Scalar || layout::has_dynamic_columns(shape, context.is_run_time) {
-            arguments.extend(quote! { #given: #ty, });
-            lets.extend(quote! { let #local = #given; });
-        } else {
-            let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
-            kinds.extend(quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, });
-            arguments.extend(quote! { #given: #from, });
-            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
-        }
-        if layout::is_dynamic(shape, context.is_run_time) {
-            let (rows, columns) = layout::extents(shape, context.indices);
-            let _ = writeln!(
-                checks,
-                "if _a{number}.nrows() != {rows} || _a{number}.ncols() != {columns} {{\n\
-                 return __h::core::result::Result::Err(__h::Error::Shape {{ name: {:?}, \
-                 expected: ({rows}) * ({columns}), found: _a{number}.len() }});\n}}",
-                name.to_string(),
-            );
-        }
-    }
-    if names.is_empty() {
-        return TokenStream::new();
-    }
-    let mut allow = allowances(&names);
-    if names.len() > 7 {
-        // How many parameters a system has is not a matter of style.
-        allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
-    }
-    let visibility = &item.visibility;
-    let questions = reach::constructed(&definition.reaches, context);
-    let more = if questions.is_empty() {
-        TokenStream::new()
-    } else {
-        quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
-    };
-    // Sizes that do not fit explain arrays that do not.
-    let checks = lex(&(questions + &checks));
-    let system = lex(&format!("Self {{ {fields} }}"));
-    let kinds = if kinds.is_empty() {
-        kinds
-    } else {
-        quote! { < #kinds > }
-    };
-    if context.is_run_time.contains(&true) {
-        quote! {
-            /// The system of these sizes with these parameters; those with a default get it.
-            ///
-            /// # Errors
-            /// `Error::Shape` if an array does not have the number of components that its sizes say.
-            #more
-            #allow
-            #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
-                #lets
-                #checks
-                __h::core::result::Result::Ok(#system)
-            }
-        }
-    } else {
-        quote! {
-            /// The system with these parameters; those with a default get it.
-            #allow
-            #[must_use]
-            #visibility fn new #kinds (#arguments) -> Self {
-                #lets
-                #system
-            }
-        }
-    }
-}
-
-/// The fields that only `new` sets.
-fn getters(item: &Item, context: Context, generics: &Generics) -> TokenStream {
-    let visibility = &item.visibility;
-    let mut out = TokenStream::new();
-    for field in &item.fields {
-        match field {
-            Field::Size(number) => {
-                let size = &item.sizes[*number];
-                let (name, allow) = (&size.name, allowances(&[&size.name]));
-                let docs = if size.attributes.is_empty() {
-                    let text = format!(" The size `{name}`.");
-                    quote! { #[doc = #text] }
-                } else {
-                    let attributes = &size.attributes;
-                    quote! { #(#attributes)* }
-                };
-                out.extend(quote! {
-                    #docs #allow #[must_use]
-                    #visibility fn #name(&self) -> __h::core::primitive::usize { self.#name }
-                });
-            }
-            Field::Parameter(number) => {
-                let shape = &context.model.parameters[*number].shape;
-                if !layout::is_dynamic(shape, context.is_run_time) {
-                    continue;
-                }
-                let parameter = &item.parameters[*number];
-                let (name, allow) = (&parameter.name, allowances(&[&parameter.name]));
-                let scalar = generics.scalars.first().map_or("P", String::as_str);
-                let ty = lex(&layout::storage(
-                    shape,
-                    scalar,
-                    context.indices,
-                    context.is_run_time,
-                    "__h",
-                ));
-                let text = format!(" Parameter `{name}`.");
-                let attributes = &parameter.attributes;
-                let docs = if attributes.is_empty() {
-                    quote! { #[doc = #text] }
-                } else {
-                    quote! { #(#attributes)* }
-                };
-                out.extend(quote! {
-                    #docs #allow #[must_use]
-                    #visibility fn #name(&self) -> &#ty { &self.#name }
-                });
-            }
-        }
     }
     out
 }

@@ -12,6 +12,7 @@
 //! - The same definition gives the same tokens.
 
 mod block;
+mod construct;
 mod declared;
 mod derived;
 mod dynamics;

@@ -1,0 +1,225 @@
+//! Construction: `Default`, `new`, and the getters of what only `new` sets.
+//!
+//! Input: a header. Output: their tokens. Invariants: a system that `new` made has arrays of the
+//! lengths its sizes say, and no index of its definition leaves them; no call needs the scalar of
+//! the parameters spelt out.
+
+use super::block::Context;
+use super::generics::{Generics, list};
+use super::number::float;
+use super::{Definition, Field, Item, allowances, layout, lex, reach};
+use hamiltonian_symbolic::model::Shape;
+use proc_macro2::{Ident, Span, TokenStream};
+use quote::quote;
+use std::fmt::Write;
+
+/// `Default`, over f64 only, where every parameter has a default.
+pub fn default(item: &Item, context: Context, generics: &Generics) -> String {
+    if context.is_run_time.contains(&true) || item.parameters.iter().any(|p| p.default.is_none()) {
+        return String::new();
+    }
+    let mut fields = String::new();
+    for parameter in &item.parameters {
+        if let Some(value) = &parameter.default {
+            let _ = write!(fields, "{}: {}, ", parameter.name, float(value.to_f64()));
+        }
+    }
+    let (constants, system) = over_f64(generics);
+    format!(
+        "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
+         fn default() -> Self {{ Self {{ {fields} }} }}\n}}\n"
+    )
+}
+
+/// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
+/// Where no argument tells the scalar of the parameters it is f64, as in `Default`.
+pub fn new(
+    definition: &Definition,
+    item: &Item,
+    context: Context,
+    generics: &Generics,
+) -> TokenStream {
+    let scalar = generics.scalars.first().map_or("P", String::as_str);
+    let is_told = item.parameters.iter().any(|p| p.default.is_none());
+    // A constant of the user's may have a parameter's name, and an argument may not.
+    let argument = |name: &Ident| Ident::new(&format!("_{name}"), Span::call_site());
+    let (mut kinds, mut arguments, mut lets) =
+        (TokenStream::new(), TokenStream::new(), TokenStream::new());
+    let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());
+    for field in &item.fields {
+        if let Field::Size(number) = field {
+            let name = &item.sizes[*number].name;
+            let (local, given) = (lex(&format!("_n{number}")), argument(name));
+            arguments.extend(quote! { #given: __h::core::primitive::usize, });
+            lets.extend(quote! { let #local = #given; });
+            names.push(name);
+            let _ = write!(fields, "{name}: _n{number}, ");
+        }
+    }
+    for field in &item.fields {
+        let Field::Parameter(number) = field else {
+            continue;
+        };
+        let parameter = &item.parameters[*number];
+        let name = &parameter.name;
+        let shape = &context.model.parameters[*number].shape;
+        if let Some(value) = &parameter.default {
+            let value = if is_told {
+                let (hi, lo) = value.to_words();
+                format!("{scalar}::constant({}, {})", float(hi), float(lo))
+            } else {
+                float(value.to_f64())
+            };
+            let _ = write!(fields, "{name}: {value}, ");
+            continue;
+        }
+        names.push(name);
+        let _ = write!(fields, "{name}: _a{number}, ");
+        let (local, given) = (lex(&format!("_a{number}")), argument(name));
+        let ty = lex(&layout::storage(
+            shape,
+            scalar,
+            context.indices,
+            context.is_run_time,
+            "__h",
+        ));
+        // A matrix with columns set at run time is no vector of coordinates.
+        if *shape == Shape::Scalar || layout::has_dynamic_columns(shape, context.is_run_time) {
+            arguments.extend(quote! { #given: #ty, });
+            lets.extend(quote! { let #local = #given; });
+        } else {
+            let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
+            kinds.extend(quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, });
+            arguments.extend(quote! { #given: #from, });
+            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
+        }
+        if layout::is_dynamic(shape, context.is_run_time) {
+            let (rows, columns) = layout::extents(shape, context.indices);
+            let _ = writeln!(
+                checks,
+                "if _a{number}.nrows() != {rows} || _a{number}.ncols() != {columns} {{\n\
+                 return __h::core::result::Result::Err(__h::Error::Shape {{ name: {:?}, \
+                 expected: ({rows}) * ({columns}), found: _a{number}.len() }});\n}}",
+                name.to_string(),
+            );
+        }
+    }
+    if names.is_empty() {
+        return TokenStream::new();
+    }
+    let mut allow = allowances(&names);
+    if names.len() > 7 {
+        // How many parameters a system has is not a matter of style.
+        allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
+    }
+    let visibility = &item.visibility;
+    let questions = reach::constructed(&definition.reaches, context);
+    let more = if questions.is_empty() {
+        TokenStream::new()
+    } else {
+        quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
+    };
+    // Sizes that do not fit explain arrays that do not.
+    let checks = lex(&(questions + &checks));
+    let system = lex(&format!("Self {{ {fields} }}"));
+    let kinds = if kinds.is_empty() {
+        kinds
+    } else {
+        quote! { < #kinds > }
+    };
+    let method = if context.is_run_time.contains(&true) {
+        quote! {
+            /// The system of these sizes with these parameters; those with a default get it.
+            ///
+            /// # Errors
+            /// `Error::Shape` if an array does not have the number of components that its sizes say.
+            #more
+            #allow
+            #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
+                #lets
+                #checks
+                __h::core::result::Result::Ok(#system)
+            }
+        }
+    } else {
+        quote! {
+            /// The system with these parameters; those with a default get it.
+            #allow
+            #[must_use]
+            #visibility fn new #kinds (#arguments) -> Self {
+                #lets
+                #system
+            }
+        }
+    };
+    let (declared, system) = if is_told {
+        (generics.declaration(), generics.system_type())
+    } else {
+        over_f64(generics)
+    };
+    let header = lex(&format!("impl{declared} {system}"));
+    quote! { #header { #method } }
+}
+
+/// `<const N0: usize>` and `Name<N0, f64>`, for what tells no scalar.
+pub fn over_f64(generics: &Generics) -> (String, String) {
+    let scalars = generics.scalars.iter();
+    let scalars: Vec<_> = scalars
+        .map(|_| "__h::core::primitive::f64".to_owned())
+        .collect();
+    let constants = list(generics.constants_declared());
+    (constants, generics.system_type_over(&scalars))
+}
+
+/// The fields that only `new` sets.
+pub fn getters(item: &Item, context: Context, generics: &Generics) -> TokenStream {
+    let visibility = &item.visibility;
+    let mut out = TokenStream::new();
+    for field in &item.fields {
+        match field {
+            Field::Size(number) => {
+                let size = &item.sizes[*number];
+                let (name, allow) = (&size.name, allowances(&[&size.name]));
+                let docs = if size.attributes.is_empty() {
+                    let text = format!(" The size `{name}`.");
+                    quote! { #[doc = #text] }
+                } else {
+                    let attributes = &size.attributes;
+                    quote! { #(#attributes)* }
+                };
+                out.extend(quote! {
+                    #docs #allow #[must_use]
+                    #visibility fn #name(&self) -> __h::core::primitive::usize { self.#name }
+                });
+            }
+            Field::Parameter(number) => {
+                let shape = &context.model.parameters[*number].shape;
+                if !layout::is_dynamic(shape, context.is_run_time) {
+                    continue;
+                }
+                let parameter = &item.parameters[*number];
+                let (name, allow) = (&parameter.name, allowances(&[&parameter.name]));
+                let scalar = generics.scalars.first().map_or("P", String::as_str);
+                let ty = lex(&layout::storage(
+                    shape,
+                    scalar,
+                    context.indices,
+                    context.is_run_time,
+                    "__h",
+                ));
+                let text = format!(" Parameter `{name}`.");
+                let attributes = &parameter.attributes;
+                let docs = if attributes.is_empty() {
+                    quote! { #[doc = #text] }
+                } else {
+                    quote! { #(#attributes)* }
+                };
+                out.extend(quote! {
+                    #docs #allow #[must_use]
+                    #visibility fn #name(&self) -> &#ty { &self.#name }
+                });
+            }
+        }
+    }
+    out
+}

@@ -15,7 +15,7 @@ use std::fmt::Write;
 use std::ops::Range;
 
 /// The longest straight line of values.
-const LONGEST: usize = 500;
+const LONGEST: usize = 1000;
 
 /// Runs of steps of at most about [`LONGEST`] values each; a cosine stays with its sine.
 pub fn cut(program: &Program, steps: &[Step]) -> Vec<Range<usize>> {

@@ -26,6 +26,7 @@ pub fn form(checked: &Checked) -> Form {
         attributes: item.attributes.clone(),
         visibility: item.visibility.clone(),
         name: item.name.clone(),
+        whole: None,
         sizes: checked
             .sizes
             .iter()
@@ -133,6 +134,7 @@ impl Part {
         if let Form::Item(item) = &mut form {
             let text = format!(" The piece `{name}` of the split of [`{}`].", item.name);
             item.attributes = vec![quote! { #[doc = #text] }];
+            item.whole = Some(item.name.clone());
             item.name = type_of(checked, name);
         }
         Part {

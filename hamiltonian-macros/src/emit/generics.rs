@@ -11,6 +11,8 @@ use super::{Definition, Form};
 pub struct Generics {
     /// The name of the type.
     pub name: String,
+    /// The name that those of the structs of its coordinates begin with.
+    pub whole: String,
     /// The visibility of the type and of all that it brings along.
     pub visibility: String,
     /// Const generics as they are called in bodies, in declaration order.
@@ -46,11 +48,13 @@ impl Generics {
                     sizes: item.sizes.iter().map(|s| s.name.to_string()).collect(),
                     shared: true,
                     visibility: item.visibility.to_string(),
+                    whole: item.whole.as_ref().unwrap_or(&item.name).to_string(),
                     name,
                 }
             }
             Form::Expression(captures) => Generics {
                 name: "HamiltonianValue".into(),
+                whole: "HamiltonianValue".into(),
                 visibility: String::new(),
                 constants: Vec::new(),
                 scalars: (0..captures.len()).map(|at| format!("A{at}")).collect(),

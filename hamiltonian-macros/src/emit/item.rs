@@ -74,7 +74,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let (mut text, functions) = dynamics::implementations(definition, context, &generics);
     text.push_str(&markers::implementations(&definition.structure, &generics));
     text.push_str(&display(definition, &generics));
-    if context.layout == Layout::Mixed {
+    if context.layout == Layout::Mixed && item.whole.is_none() {
         text.push_str(&mixed::implementations(context, &generics));
     }
     if let Some(declared) = declared::mixed(definition, context) {
@@ -153,7 +153,7 @@ fn declaration(
         }
     };
     let mut vectors = TokenStream::new();
-    if context.layout == Layout::Mixed {
+    if context.layout == Layout::Mixed && item.whole.is_none() {
         let doc = format!(" Coordinates, or momenta, of [`{name}`].");
         vectors.extend(vector(context, doc));
     }

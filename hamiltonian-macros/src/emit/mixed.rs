@@ -11,7 +11,7 @@ use std::fmt::Write;
 
 /// The name of the struct.
 pub fn name(context: Context, generics: &Generics) -> String {
-    format!("{}{}", generics.name, context.suffix)
+    format!("{}{}", generics.whole, context.suffix)
 }
 
 /// The type over a scalar.

@@ -93,6 +93,8 @@ pub struct Item {
     pub visibility: TokenStream,
     /// The name of the type.
     pub name: Ident,
+    /// The type whose states it takes: the whole system, where this is a piece of it.
+    pub whole: Option<Ident>,
     /// Sizes in the model's order: const generics first.
     pub sizes: Vec<SizeItem>,
     /// Parameters in the model's order.

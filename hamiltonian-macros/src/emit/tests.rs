@@ -90,6 +90,7 @@ fn item(model: &Model, defaults: &[&str], run_time: &[bool]) -> Item {
         attributes: vec![quote! { #[doc = " A system."] }],
         visibility: quote! { pub },
         name: ident(&model.name),
+        whole: None,
         sizes: sizes.collect(),
         parameters: parameters.collect(),
         fields: run_time

@@ -130,6 +130,22 @@ hamiltonian! {
     dt = (3 + q[1]^2)*ds
 }
 
+hamiltonian! {
+    /// A Lagrangian in another time, in a magnetic field.
+    pub struct Charge { B = 0.5 }
+    L(x, y; vx, vy; t) = (vx^2 + vy^2)/2 + B*vx*y - x^2*cos(t);
+    dt = (2 + x^2)*ds
+}
+
+hamiltonian! {
+    /// Coordinates of mixed shape in pieces.
+    pub struct Pieces<const N: usize> { n: usize, k = 0.5 }
+    H(q[N], x[n], u; p[N], v[n], w) = norm_squared(p)/2 + norm_squared(v)/2 + w^2/2
+        + k*u*(norm_squared(q) + norm_squared(x));
+    split { Free = norm_squared(p)/2 + norm_squared(v)/2 + w^2/2;
+        Bound = k*u*(norm_squared(q) + norm_squared(x)) }
+}
+
 fn planet() -> State<<[f64; 2] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector> {
     State::new([0.7, -0.4], [0.3, 1.1])
 }
@@ -454,4 +470,41 @@ fn forces_on_arrays_of_any_length() {
         p: ThreeVector::new([0.5, 0.7, -0.4], 0.0),
     };
     pulled_in_another_time!(Three::default(), state, -0.1, 3.0 + 0.04);
+}
+
+#[test]
+fn lagrangians_in_another_time() {
+    let charge = Charge::default();
+    let start = charge.state_from_velocity(0.3, [1.0, 2.0], [0.5, 0.6]);
+    assert_eq!((start.t, start.q[2]), (0.0, 0.3));
+    assert_eq!((start.p[0], start.p[1]), (1.5, 0.6));
+    close(start.p[2], -(0.25 + 0.36) / 2.0 - 0.3f64.cos());
+    close(charge.energy(&start), 0.0);
+    let velocity = charge.velocity(&start);
+    assert_eq!((velocity[0], velocity[1], velocity[2]), (0.5, 0.6, 1.0));
+    // On the shell the gradient is g times the velocities.
+    let gradient = charge.gradient(&start);
+    equal(&gradient.p, &(velocity * 3.0));
+}
+
+#[test]
+fn pieces_take_the_states_of_the_whole() {
+    let whole = Pieces::<2>::new(3).unwrap();
+    let state = State {
+        t: 0.0,
+        q: PiecesVector::new([0.1, 0.2], vec![0.3, 0.4, 0.5], 0.6),
+        p: PiecesVector::new([0.7, 0.8], vec![0.9, 1.0, 1.1], 1.2),
+    };
+    let (free, bound) = (whole.piece_free(), whole.piece_bound());
+    close(
+        whole.energy(&state),
+        free.energy(&state) + bound.energy(&state),
+    );
+    let (g, a, b) = (
+        whole.gradient(&state),
+        free.gradient(&state),
+        bound.gradient(&state),
+    );
+    equal(&g.q, &b.q);
+    equal(&g.p, &a.p);
 }

@@ -262,6 +262,19 @@ impl Settling {
             self.force = force.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
         }
         self.model.dag = retimed.model.dag;
+        // dt/dt = 1
+        let one = self.model.dag.integer(1);
+        for (item, vector) in self.vectors.iter().zip(&mut self.model.vectors) {
+            if item.usage == VectorUse::Velocity {
+                vector.entries.push(VectorEntry {
+                    side: Side::Q,
+                    group,
+                    column: 0,
+                    row: Index::constant(0),
+                    value: one,
+                });
+            }
+        }
         let mut on_shell = identity(&mut self.model, Side::P, &|other| other != group);
         on_shell.push(VectorEntry {
             side: Side::P,

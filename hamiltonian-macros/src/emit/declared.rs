@@ -39,7 +39,12 @@ fn context<'a>(declared: &'a Declared, own: Context<'a>) -> Context<'a> {
     }
 }
 
-/// The same, where the declared variables are of mixed shape, so that they have a struct.
+/// The type of declared coordinates and of declared momenta over `T`.
+pub fn vector(declared: &Declared, own: Context, generics: &Generics) -> String {
+    dynamics::vector(context(declared, own), generics, "T", "__h")
+}
+
+/// What a struct of them is written from, where the declared variables are of mixed shape, so that they have a struct.
 pub fn mixed<'a>(definition: &Definition<'a>, own: Context<'a>) -> Option<Context<'a>> {
     let context = context(definition.declared?, own);
     (context.layout == Layout::Mixed).then_some(context)

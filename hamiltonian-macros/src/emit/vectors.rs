@@ -67,6 +67,7 @@ pub fn methods(
     let vector = lex(&vector(context, generics, "T", "__h"));
     let zeros = quote! { <Self as __h::System<T>>::zeros(self) };
     let prepared = quote! { <Self as __h::System<T>>::prepare(self) };
+    let state_from_velocity = state_from_velocity(definition, context, generics, visibility);
     let mut out = TokenStream::new();
     for (at, item) in definition.vectors.iter().enumerate() {
         let (name, function) = (&item.name, Ident::new(&format!("v{at}"), Span::call_site()));
@@ -80,14 +81,7 @@ pub fn methods(
                     #prepared.#function(_t, _q, _v, &mut _p);
                     _p
                 }
-                /// The state at time `_t` with coordinates `_q` and velocities `_v`.
-                #visibility fn state_from_velocity<T: #bound, __M, __A: __h::IntoVector<__M, Vector = #vector>>(
-                    &self, _t: T, _q: __A, _v: __A,
-                ) -> __h::State<#vector> {
-                    let (_q, _v) = (__h::IntoVector::into_vector(_q), __h::IntoVector::into_vector(_v));
-                    let _p = self.conjugate_momentum(_t, &_q, &_v);
-                    __h::State { t: _t, q: _q, p: _p }
-                }
+                #state_from_velocity
             },
             VectorUse::Velocity => quote! {
                 /// The velocities dq/dt at a state.
@@ -150,4 +144,41 @@ pub fn methods(
         ));
     }
     out
+}
+
+/// The start of a Lagrangian system. In another time it is given in the variables of L, whose place
+/// among the system's own `from_declared` knows.
+fn state_from_velocity(
+    definition: &Definition,
+    context: Context,
+    generics: &Generics,
+    visibility: &TokenStream,
+) -> TokenStream {
+    let bound = lex(&generics.state_bound());
+    let own = lex(&vector(context, generics, "T", "__h"));
+    let theirs = match definition.declared {
+        Some(declared) => lex(&declared::vector(declared, context, generics)),
+        None => own.clone(),
+    };
+    let state = if definition.declared.is_some() {
+        quote! {
+            let _moved = self.from_declared(&__h::State { t: _t, q: _q, p: _v });
+            let _p = self.conjugate_momentum(_t, &_moved.q, &_moved.p);
+            self.on_shell(&__h::State { t: _moved.t, q: _moved.q, p: _p })
+        }
+    } else {
+        quote! {
+            let _p = self.conjugate_momentum(_t, &_q, &_v);
+            __h::State { t: _t, q: _q, p: _p }
+        }
+    };
+    quote! {
+        /// The state at time `_t` with coordinates `_q` and velocities `_v`.
+        #visibility fn state_from_velocity<T: #bound, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
+            &self, _t: T, _q: __A, _v: __A,
+        ) -> __h::State<#own> {
+            let (_q, _v) = (__h::IntoVector::into_vector(_q), __h::IntoVector::into_vector(_v));
+            #state
+        }
+    }
 }

@@ -187,6 +187,13 @@ impl Checker<'_> {
             self.error(raw, at, &message, "choose another name");
             return None;
         }
+        if let Some((chart, meaning)) = self.meaning_in_chart(name) {
+            let message = format!(
+                "`{name}` is a variable of `coordinates {chart}`, and everything is written in the declared ones"
+            );
+            self.error(raw, at, &message, &format!("write `{meaning}`"));
+            return None;
+        }
         if ast.item.is_none() {
             self.unknown[symbol.0 as usize] = false;
             return self.capture(raw, symbol);

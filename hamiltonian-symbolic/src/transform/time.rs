@@ -52,6 +52,13 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
     if model.dag.is_zero(g) {
         return Err(Refusal::Factor { reason: "is 0" });
     }
+    let mut dag = model.dag.clone();
+    let opposite = dag.neg(g);
+    if dag.is_nonnegative(opposite) {
+        return Err(Refusal::Factor {
+            reason: "is never positive, so that time runs backwards or stands still",
+        });
+    }
     let strange = Dependence(Dependence::COEFFICIENT.0 | Dependence::DIRECTION.0);
     if model.dag.dependence(g).on(strange) {
         return Err(Refusal::Factor {

@@ -5,7 +5,7 @@
 //! is not finite is never shown, but found, located and reported.
 
 use crate::error::Error;
-use crate::observe::{Observer, View};
+use crate::observe::{Every, Observer, View, Watch, every, watch};
 use crate::scheme::{Clock, Copies, Entry, Scheme, Stepper, Unsolved};
 use crate::state::{Point, State};
 use crate::system::System;
@@ -130,39 +130,40 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
     /// Several observers are a tuple. An observer is given away and got back by
     /// [`observer`](Integrator::observer), or lent as `&mut`.
     pub fn observe<O: Observer<T, S>>(self, mut observer: O) -> Integrator<T, S, R, O> {
-        let Integrator {
-            prepared,
-            entry,
-            stepper,
-            snapshot,
-            clock,
-            step,
-            steps,
-            state,
-            ..
-        } = self;
-        observer.attach(&View {
-            step: steps,
-            state: &state,
-            prepared: &prepared,
-        });
-        Integrator {
-            prepared,
-            entry,
-            stepper,
-            snapshot,
-            clock,
-            step,
-            steps,
-            state,
-            observer,
-        }
+        observer.attach(&self.view());
+        self.with_observer(|()| observer)
     }
 }
 
 impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>>
     Integrator<T, S, R, O>
 {
+    /// The same run with a closure besides its observer, shown the present state at once and from
+    /// then on every state whose step number is a multiple of `steps` (0 counts as 1).
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{EnergyDrift, Integrator, State, schemes::StormerVerlet};
+    ///
+    /// let mut path = Vec::new();
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?
+    ///     .observe(EnergyDrift::new())
+    ///     .watch(10, |view| path.push((view.state.q[0], view.state.p[0])));
+    /// run.advance(100)?;
+    /// assert!(run.observer().0.max_relative() < 1e-4);
+    /// assert_eq!(path.len(), 11);
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    pub fn watch<F: FnMut(&View<'_, T, S>)>(
+        self,
+        steps: u64,
+        closure: F,
+    ) -> Integrator<T, S, R, (O, Every<Watch<F>>)> {
+        let mut closure = every(steps, watch(closure));
+        closure.attach(&self.view());
+        self.with_observer(|observer| (observer, closure))
+    }
     /// Makes `n` steps and returns the state after them.
     ///
     /// # Errors
@@ -334,6 +335,30 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, 
     /// The scheme's entry in the catalogue.
     pub fn entry(&self) -> &'static Entry {
         self.entry
+    }
+
+    /// The present state as observers see it.
+    fn view(&self) -> View<'_, T, S> {
+        View {
+            step: self.steps,
+            state: &self.state,
+            prepared: &self.prepared,
+        }
+    }
+
+    /// The same run with what is made of its observer.
+    fn with_observer<N>(self, make: impl FnOnce(O) -> N) -> Integrator<T, S, R, N> {
+        Integrator {
+            prepared: self.prepared,
+            entry: self.entry,
+            stepper: self.stepper,
+            snapshot: self.snapshot,
+            clock: self.clock,
+            step: self.step,
+            steps: self.steps,
+            state: self.state,
+            observer: make(self.observer),
+        }
     }
 
     /// The observer.

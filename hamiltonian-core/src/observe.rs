@@ -39,7 +39,8 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
 /// It is shown the state at which it is attached, and from then on every state whose step number,
 /// counted from the start of the run, is a multiple of its interval. Which states it is shown
 /// depends on nothing else: not on how the run is cut into calls. A tuple of observers is an
-/// observer, and so is `&mut O`; a closure becomes one by [`watch`].
+/// observer, and so is `&mut O`; a closure is attached by
+/// [`Integrator::watch`](crate::Integrator::watch).
 pub trait Observer<T: Real, S: System<T>> {
     /// Steps between observations, at least 1.
     fn interval(&self) -> u64 {
@@ -53,14 +54,17 @@ pub trait Observer<T: Real, S: System<T>> {
     fn observe(&mut self, view: &View<'_, T, S>);
 }
 
-/// A closure as an observer.
+/// A closure as an observer, where one is needed: in a tuple that is passed on, say. What it reads of
+/// a state Rust does not infer here; [`Integrator::watch`](crate::Integrator::watch) knows it.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, every, schemes::StormerVerlet, watch};
+/// use hamiltonian_core::{Integrator, State, View, every, schemes::StormerVerlet, watch};
 ///
+/// let rare = every(50, watch(|view: &View<'_, f64, Oscillator>| println!("{}", view.state.q[0])));
+/// let often = watch(|view: &View<'_, f64, Oscillator>| println!("{}", view.energy()));
 /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
-///     .observe(every(50, watch(|view| println!("{} {}", view.state.t, view.energy()))));
+///     .observe((rare, often));
 /// run.advance(100)?;
 /// # Ok::<(), hamiltonian_core::Error>(())
 /// ```

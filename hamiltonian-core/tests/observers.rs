@@ -247,3 +247,26 @@ fn vectors_by_flat_index() {
     };
     assert!(q.same_shape(&sum) && !q.same_shape(&longer));
 }
+
+/// A closure beside an observer: attached where it is, shown multiples of its interval, its
+/// argument without a type.
+#[test]
+fn closures_watch_beside_an_observer() {
+    let mut alone = run().observe(EnergyDrift::new());
+    let (mut seen, mut others) = (Vec::new(), 0);
+    let mut watched = run();
+    watched.advance(5).unwrap();
+    let mut watched = watched
+        .watch(3, |view| seen.push((view.step, view.state.q[0])))
+        .watch(0, |_| others += 1);
+    alone.advance(11).unwrap();
+    watched.advance(6).unwrap();
+    assert_eq!(watched.state(), alone.state());
+    let steps: Vec<u64> = seen.iter().map(|(step, _)| *step).collect();
+    assert_eq!((steps, others), (vec![5, 6, 9], 7));
+    let mut again = run()
+        .observe(EnergyDrift::new())
+        .watch(1, |view| assert!(view.energy() < 99.0));
+    again.advance(11).unwrap();
+    assert_eq!(again.observer().0, *alone.observer());
+}

@@ -159,8 +159,8 @@ pub enum Definition {
 pub struct Function {
     /// The name in expressions.
     pub name: Ident,
-    /// The number of arguments, at least one.
-    pub arity: usize,
+    /// Its arguments, at least one.
+    pub arguments: Vec<Ident>,
     /// The path of the function.
     pub value: TokenStream,
     /// Paths of the partial derivatives, one an argument.

@@ -43,8 +43,8 @@ pub struct ParameterDeclaration {
 pub struct External {
     /// Its name inside the mathematics.
     pub name: String,
-    /// How many arguments it takes.
-    pub arity: u16,
+    /// The names of its arguments.
+    pub arguments: Vec<String>,
     /// Whether its second derivatives were given.
     pub second: bool,
 }

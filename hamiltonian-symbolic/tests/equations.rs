@@ -3,8 +3,10 @@
 mod common;
 
 use common::system;
+use hamiltonian_symbolic::dag::Dependence;
+use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::print::{Notation, hamilton_equations};
+use hamiltonian_symbolic::print::{Notation, hamilton_equations, latex, text};
 
 fn lines(model: &Model) -> Vec<String> {
     hamilton_equations(model, Notation::Text)
@@ -126,4 +128,37 @@ fn what_nobody_would_read_is_named() {
     let terms: Vec<String> = (0..3000).map(|i| format!("sin({i}*q)")).collect();
     let large = system("q; p", "", "", &format!("p^2/2 + {}", terms.join(" + ")));
     assert_eq!(lines(&large), ["dq/dt = ∂H/∂p", "dp/dt = -∂H/∂q"]);
+}
+
+#[test]
+fn derivatives_of_functions_in_rust() {
+    let mut system = system(
+        "q, r; p, p_r",
+        "",
+        "f/1 g/2",
+        "p^2/2 + p_r^2/2 + f(2*q) + g(q, r)",
+    );
+    assert_eq!(
+        lines(&system)[2..],
+        [
+            "dp/dt = -2*f'(2*q) - (∂g/∂x)(q, r)",
+            "dp_r/dt = -(∂g/∂y)(q, r)"
+        ]
+    );
+    let tex = hamilton_equations(&system, Notation::Latex);
+    assert_eq!(tex[3].1, r"-\frac{\partial g}{\partial y}\left(q, r\right)");
+    assert_eq!(
+        tex[2].1,
+        r"-2 f'\left(2 q\right) - \frac{\partial g}{\partial x}\left(q, r\right)"
+    );
+    // Second derivatives.
+    let h = system.hamiltonian.unwrap();
+    let slope = |model: &mut Model, of| diff::gradient(&mut model.dag, of, Dependence::Q)[0].1;
+    let first = slope(&mut system, h);
+    let second = slope(&mut system, first);
+    assert_eq!(text(&system, second), "4*f''(2*q) + (∂²g/∂x²)(q, r)");
+    assert_eq!(
+        latex(&system, second),
+        r"4 f''\left(2 q\right) + \frac{\partial^{2} g}{\partial x^{2}}\left(q, r\right)"
+    );
 }

@@ -34,7 +34,7 @@ impl Checker<'_> {
                 self.instantiate(raw, index, values)
             }
             Some(Found::Declared(binding @ Binding::Function(id))) => {
-                let arity = self.out.functions[id.0 as usize].arity;
+                let arity = self.out.functions[id.0 as usize].arguments.len();
                 let shown = self.function_shown(binding);
                 self.arity(raw, arity, arguments.len(), &shown)?;
                 let values = self.scalars(name, arguments, frame)?;

@@ -108,11 +108,8 @@ impl Checker<'_> {
             Binding::LetFunction(index) => self.lets[index].shown.clone(),
             Binding::Function(id) => {
                 let function = &self.out.functions[id.0 as usize];
-                let places = ["a", "b", "c", "d"]
-                    .iter()
-                    .copied()
-                    .chain(std::iter::repeat("…"));
-                let names: Vec<&str> = places.take(function.arity).collect();
+                let arguments = function.arguments.iter();
+                let names: Vec<String> = arguments.map(ToString::to_string).collect();
                 format!("{}({})", function.name, names.join(", "))
             }
             _ => String::new(),

@@ -41,7 +41,7 @@ impl<'a> Checker<'a> {
                     first,
                     second,
                 } => {
-                    self.function(name, arguments.len(), value, first, second.as_ref());
+                    self.function(name, arguments, value, first, second.as_ref());
                 }
                 StatementKind::Hamiltonian { value, .. } => {
                     self.definition("H", value, Definition::Hamiltonian);
@@ -109,11 +109,12 @@ impl<'a> Checker<'a> {
     fn function(
         &mut self,
         name: &Ident,
-        arity: usize,
+        arguments: &[Ident],
         value: &TokenStream,
         first: &(Vec<TokenStream>, Spans),
         second: Option<&(Vec<TokenStream>, Spans)>,
     ) {
+        let arity = arguments.len();
         let pairs = arity * (arity + 1) / 2;
         let plural = |count: usize| if count == 1 { "" } else { "s" };
         if first.0.len() != arity {
@@ -149,7 +150,7 @@ impl<'a> Checker<'a> {
         self.declare(name, Binding::Function(id));
         self.out.functions.push(Function {
             name: name.clone(),
-            arity,
+            arguments: arguments.to_vec(),
             value: value.clone(),
             first: first.0.clone(),
             second: second.map(|second| second.0.clone()),

@@ -19,7 +19,7 @@ pub fn wrappers(definition: &Definition) -> TokenStream {
         .zip(&definition.model.externals)
         .enumerate()
     {
-        let (number, arity) = (number as u16, declared.arity);
+        let (number, arity) = (number as u16, declared.arguments.len() as u16);
         let mut wrap = |part: Part, path: &TokenStream| {
             let name = lex(&block::external(number, part));
             let arguments: Vec<TokenStream> =

@@ -243,7 +243,7 @@ fn declarations(checked: &Checked) -> Model {
             .iter()
             .map(|function| External {
                 name: function.name.to_string(),
-                arity: function.arity as u16,
+                arguments: function.arguments.iter().map(ToString::to_string).collect(),
                 second: function.second.is_some(),
             })
             .collect(),

@@ -6,6 +6,7 @@
 use super::layout::{Level, Piece, Writer, fraction, negated_sum};
 use crate::dag::{Dag, Kind, Node, Part, Relation};
 use crate::index::Affine;
+use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -161,17 +162,8 @@ pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
         }
         Kind::Call(op, arguments) => call(dag, *op, arguments, None),
         Kind::External(function, part, arguments) => {
-            let name = writer
-                .model
-                .externals
-                .get(usize::from(*function))
-                .map_or_else(|| format!("f{function}"), |e| e.name.clone());
-            let derivative = match part {
-                Part::Value => String::new(),
-                Part::First(i) => format!("\\partial_{{{}}} ", i + 1),
-                Part::Second(i, j) => format!("\\partial_{{{}}} \\partial_{{{}}} ", i + 1, j + 1),
-            };
-            listed(format!("{derivative}{}", symbol(&name)), arguments)
+            let of = &writer.model.externals[usize::from(*function)];
+            listed(external(of, *part), arguments)
         }
         Kind::Reduce(domain, body) => vec![
             Piece::Open(*domain),
@@ -287,6 +279,26 @@ fn is_name(dag: &Dag, node: Node) -> bool {
         dag.kind(node),
         Kind::Scalar(_) | Kind::Time | Kind::Element(..) | Kind::Pi | Kind::Variable(_)
     )
+}
+
+/// A function in Rust, or a derivative of it.
+fn external(of: &External, part: Part) -> String {
+    let name = symbol(&of.name);
+    let argument = |at: u16| symbol(&of.arguments[usize::from(at)]);
+    let partial = |above: &str, below: String| format!("\\frac{{{above} {name}}}{{{below}}}");
+    match (part, of.arguments.len()) {
+        (Part::Value, _) => name,
+        (Part::First(_), 1) => format!("{name}'"),
+        (Part::Second(..), 1) => format!("{name}''"),
+        (Part::First(i), _) => partial("\\partial", format!("\\partial {}", argument(i))),
+        (Part::Second(i, j), _) if i == j => {
+            partial("\\partial^{2}", format!("\\partial {}^{{2}}", argument(i)))
+        }
+        (Part::Second(i, j), _) => partial(
+            "\\partial^{2}",
+            format!("\\partial {} \\, \\partial {}", argument(i), argument(j)),
+        ),
+    }
 }
 
 fn listed(name: String, arguments: &[Node]) -> Vec<Piece> {

@@ -5,6 +5,7 @@
 use super::layout::{Level, Piece, Writer, fraction, negated_sum};
 use crate::dag::{Dag, Kind, Node, Part, Relation};
 use crate::index::Affine;
+use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -66,19 +67,8 @@ pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
         ],
         Kind::Call(op, arguments) => call(op.row().name.to_owned(), arguments),
         Kind::External(function, part, arguments) => {
-            let name = writer
-                .model
-                .externals
-                .get(usize::from(*function))
-                .map_or_else(|| format!("f{function}"), |e| e.name.clone());
-            // The language has no way to say a derivative of a Rust function; arguments count
-            // from 1, as in D₁f.
-            let name = match part {
-                Part::Value => name,
-                Part::First(i) => format!("D{}_{name}", i + 1),
-                Part::Second(i, j) => format!("D{}D{}_{name}", i + 1, j + 1),
-            };
-            call(name, arguments)
+            let of = &writer.model.externals[usize::from(*function)];
+            call(external(of, *part), arguments)
         }
         Kind::Reduce(domain, body) => vec![
             Piece::Open(*domain),
@@ -134,6 +124,21 @@ pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
             Piece::Node(*no, Level::Loose),
             Piece::Static(" }"),
         ],
+    }
+}
+
+/// A function in Rust, or a derivative of it, which the language has no way to say: `f'(x)` of one
+/// argument, `(∂f/∂y)(x, y)` of several.
+fn external(of: &External, part: Part) -> String {
+    let name = &of.name;
+    let argument = |at: u16| &of.arguments[usize::from(at)];
+    match (part, of.arguments.len()) {
+        (Part::Value, _) => name.clone(),
+        (Part::First(_), 1) => format!("{name}'"),
+        (Part::Second(..), 1) => format!("{name}''"),
+        (Part::First(i), _) => format!("(∂{name}/∂{})", argument(i)),
+        (Part::Second(i, j), _) if i == j => format!("(∂²{name}/∂{}²)", argument(i)),
+        (Part::Second(i, j), _) => format!("(∂²{name}/∂{}∂{})", argument(i), argument(j)),
     }
 }
 

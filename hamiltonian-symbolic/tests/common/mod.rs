@@ -22,7 +22,10 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
         if let Some((name, arity)) = declaration.split_once('/') {
             model.externals.push(External {
                 name: name.into(),
-                arity: arity.parse().unwrap(),
+                arguments: ["x", "y", "z"][..arity.parse().unwrap()]
+                    .iter()
+                    .map(|name| (*name).to_owned())
+                    .collect(),
                 second: true,
             });
             continue;

@@ -14,11 +14,12 @@ mod verdicts;
 
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::lower;
+use crate::lower::{lower, velocity_names};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
+use hamiltonian_symbolic::print::Readable;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::{self, Structure};
 use proc_macro2::TokenStream;
@@ -36,6 +37,11 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         proofs::prove(checked, &mut lowered, report);
         surface::refuse_unsupported(checked, report);
         report.barrier(())?;
+        // In other variables than those of L, H is a formula like any other.
+        let is_declared = checked.charts.is_empty() && checked.time_factor.is_none();
+        let readable = lowered.legendre.as_ref().filter(|_| is_declared);
+        let readable = readable
+            .map(|legendre| Readable::of(&lowered.model, legendre, &velocity_names(checked)));
         let System {
             model,
             vectors,
@@ -48,7 +54,8 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             let model = surface::piece_model(&model, *hamiltonian);
             code.extend(system(checked, root, model, piece, report)?);
         }
-        let whole = surface::Part::whole(checked, vectors, &pieces, declared);
+        let mut whole = surface::Part::whole(checked, vectors, &pieces, declared);
+        whole.readable = readable;
         code.extend(system(checked, root, model, whole, report)?);
         Some(code)
     };
@@ -69,7 +76,12 @@ fn system(
         return None;
     }
     let structure = structure::analyse(&mut model);
-    let mut text = docs::text(&model, &structure, is_large(checked, &model));
+    let mut text = docs::text(
+        &model,
+        &structure,
+        part.readable.as_ref(),
+        is_large(checked, &model),
+    );
     let program = derive(checked, &mut model, &structure, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);

@@ -6,12 +6,17 @@
 use crate::emit::Text;
 use hamiltonian_symbolic::count::Operations;
 use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::print::{self, Count, Notation};
+use hamiltonian_symbolic::print::{self, Count, Notation, Readable};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::Structure;
 
-/// The texts; equations of motion only where H is not large.
-pub fn text(model: &Model, structure: &Structure, large: bool) -> Text {
+/// The texts; equations of motion only where H is not large. Of a Lagrangian, H as it is read.
+pub fn text(
+    model: &Model,
+    structure: &Structure,
+    readable: Option<&Readable>,
+    large: bool,
+) -> Text {
     let Some(h) = model.hamiltonian else {
         return Text::default();
     };
@@ -19,15 +24,25 @@ pub fn text(model: &Model, structure: &Structure, large: bool) -> Text {
         if large {
             return Vec::new();
         }
+        if let Some(equations) = readable.and_then(|readable| readable.equations(notation)) {
+            return equations;
+        }
         let equations = print::hamilton_equations(model, notation).into_iter();
         equations
             .map(|(left, right)| format!("{left} = {right}"))
             .collect()
     };
+    let signature = signature(model);
     Text {
-        hamiltonian: format!("{} = {}", signature(model), print::text(model, h)),
+        hamiltonian: match readable {
+            Some(readable) => readable.text(&signature),
+            None => format!("{signature} = {}", print::text(model, h)),
+        },
         equations: equations(Notation::Text),
-        latex: format!("H = {}", print::latex(model, h)),
+        latex: match readable {
+            Some(readable) => readable.latex(),
+            None => format!("H = {}", print::latex(model, h)),
+        },
         latex_equations: equations(Notation::Latex),
         facts: facts(structure),
         operations: Vec::new(),

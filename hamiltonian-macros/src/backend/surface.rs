@@ -14,6 +14,7 @@ use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::print::Readable;
 use proc_macro2::Ident;
 use quote::{format_ident, quote};
 
@@ -106,6 +107,8 @@ pub struct Part {
     pub pieces: Vec<(Ident, Ident)>,
     /// The variables it was declared in, where it is integrated in others.
     pub declared: Option<Declared>,
+    /// Its formulas for reading, where they are others than those computed.
+    pub readable: Option<Readable>,
 }
 
 impl Part {
@@ -125,6 +128,7 @@ impl Part {
             vectors,
             pieces: pieces.collect(),
             declared,
+            readable: None,
         }
     }
 
@@ -143,6 +147,7 @@ impl Part {
             vectors: Vec::new(),
             pieces: Vec::new(),
             declared: None,
+            readable: None,
         }
     }
 }

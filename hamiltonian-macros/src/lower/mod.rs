@@ -23,7 +23,7 @@ use demand::Demand;
 use evaluate::Evaluator;
 use hamiltonian_symbolic::dag::{Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::legendre::{Component, Refusal};
+use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
     VectorFunction,
@@ -48,6 +48,8 @@ pub struct Lowered {
     pub force: Vec<VectorEntry>,
     /// g of `dt = g*ds`.
     pub factor: Option<Node>,
+    /// How H was made of a Lagrangian.
+    pub legendre: Option<Legendre>,
 }
 
 /// The mathematics of a definition, if it could be made; what is wrong goes into the report.
@@ -57,9 +59,13 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
     model.hamiltonian = value.first().copied();
+    let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
         match legendre(checked, &mut model) {
-            Ok(velocities) => evaluator.velocities = Some(velocities),
+            Ok(legendre) => {
+                evaluator.velocities = Some(legendre.velocities.clone());
+                made = Some(legendre);
+            }
             Err(refusal) => {
                 evaluator.refuse(
                     checked.node(root).spans,
@@ -106,20 +112,15 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         split,
         force,
         factor,
+        legendre: made,
     })
 }
 
-/// H in the place of L; p(q, v) and v(q, p) become vector functions. The velocities as functions.
-fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, Refusal> {
+/// H in the place of L; p(q, v) and v(q, p) become vector functions.
+fn legendre(checked: &Checked, model: &mut Model) -> Result<Legendre, Refusal> {
     let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
-    let name = |group: &crate::checked::Group| {
-        group
-            .velocity
-            .as_ref()
-            .map_or_else(String::new, ToString::to_string)
-    };
-    let names: Vec<String> = checked.groups.iter().map(name).collect();
+    let names = velocity_names(checked);
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian, &names)?;
     model.hamiltonian = Some(legendre.hamiltonian);
     for (name, components, side) in [
@@ -134,7 +135,18 @@ fn legendre(checked: &Checked, model: &mut Model) -> Result<Vec<Component>, Refu
             entries,
         });
     }
-    Ok(legendre.velocities)
+    Ok(legendre)
+}
+
+/// The names of the velocities of a Lagrangian, one for each group.
+pub fn velocity_names(checked: &Checked) -> Vec<String> {
+    let name = |group: &crate::checked::Group| {
+        group
+            .velocity
+            .as_ref()
+            .map_or_else(String::new, ToString::to_string)
+    };
+    checked.groups.iter().map(name).collect()
 }
 
 /// What is declared beside H.

@@ -163,3 +163,38 @@ fn structure() {
         ]
     );
 }
+
+/// H of a Lagrangian with its determinant by name; forces in velocities.
+#[test]
+fn a_lagrangian_reads_well() {
+    let docs = docs(
+        "struct Cart { m = 1, M = 2, l = 1, g = 9.81 }
+         L(x, theta; v, w) = (m + M)*v^2/2 + m*l*v*w*cos(theta) + m*l^2*w^2/2 + m*g*l*cos(theta)",
+    );
+    assert!(section(&docs, "Hamiltonian").starts_with(
+        "```text
+let D = m + M - m*cos(theta)^2;
+H(x, theta; p_x, p_theta) = (m*l^2*p_x^2 - 2*m*l*p_x*p_theta*cos(theta) + (m + M)*p_theta^2)/(2*m*l^2*D) - m*g*l*cos(theta)
+```"
+    ));
+    assert_eq!(
+        section(&docs, "Equations of motion"),
+        "```text
+dx/dt = (l*p_x - p_theta*cos(theta))/(l*D)
+dtheta/dt = ((m + M)*p_theta - m*l*cos(theta)*p_x)/(m*l^2*D)
+dp_x/dt = 0
+dp_theta/dt = -(m*g*l + m*l*v*w)*sin(theta)
+where v = dx/dt
+where w = dtheta/dt
+```"
+    );
+    let latex = section(&docs, "LaTeX");
+    assert!(
+        latex.contains(r",\quad D = m + M - m \cos^{2}(\theta)"),
+        "{latex}"
+    );
+    assert!(
+        latex.ends_with("w = \\frac{\\mathrm{d} \\theta}{\\mathrm{d} t}\n```"),
+        "{latex}"
+    );
+}

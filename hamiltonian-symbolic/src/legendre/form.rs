@@ -21,6 +21,8 @@ pub(super) struct Form {
 pub(super) struct Solved {
     pub(super) energy: Node,
     pub(super) velocities: Vec<Node>,
+    /// The rows in the order of their pivots, if these were single.
+    pub(super) order: Option<Vec<usize>>,
 }
 
 /// The rows that were left without a pivot, and whether they were empty from the start.
@@ -106,7 +108,12 @@ impl Form {
             pivots.push((pivot, rest.clone()));
         }
         let velocities = self.back(&mut model.dag, &pivots);
+        let order = pivots.iter().map(|(pivot, _)| match pivot {
+            Pivot::One(i) => Some(*i),
+            Pivot::Two(..) => None,
+        });
         Ok(Solved {
+            order: order.collect(),
             energy: model.dag.linear(&Rational::ZERO, &terms),
             velocities,
         })

@@ -44,6 +44,29 @@ pub struct Legendre {
     pub momenta: Vec<Component>,
     /// v(q, p, t): momentum elements are momenta.
     pub velocities: Vec<Component>,
+    /// L(q, v, t) as it was solved: with its loops written out where that was needed.
+    pub lagrangian: Node,
+    /// The kinetic parts of H, as they are read, not computed.
+    pub masses: Vec<Mass>,
+    /// −L(q, 0, t), the rest of H: a number and terms with their factors.
+    pub potential: (Rational, Vec<(Rational, Node)>),
+}
+
+/// Velocities with a common mass matrix M and momenta p = Mv + b.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Mass {
+    /// The loop over elements, for arrays.
+    pub domain: Option<Domain>,
+    /// The velocities, in the place of momenta.
+    pub elements: Vec<Node>,
+    /// M
+    pub matrix: Vec<Vec<Node>>,
+    /// p − b
+    pub right: Vec<Node>,
+    /// The order in which M was eliminated; `None` where two rows at a time had to be.
+    pub order: Option<Vec<usize>>,
+    /// ½(p − b)ᵀM⁻¹(p − b) as it is computed.
+    pub energy: Node,
 }
 
 /// Why a Lagrangian has no Hamiltonian.
@@ -243,11 +266,21 @@ impl Transform<'_> {
         let mut momenta = Vec::new();
         let mut velocities = Vec::new();
         let mut kinetic = Vec::new();
+        let mut masses = Vec::new();
         for block in blocks {
             let form = self.form(block)?;
+            let (matrix, right) = (form.matrix.clone(), form.right.clone());
             let solved = form
                 .solve(self.model)
                 .map_err(|singular| self.explain(block, singular))?;
+            masses.push(Mass {
+                domain: block.domain,
+                elements: block.elements.clone(),
+                matrix,
+                right,
+                order: solved.order,
+                energy: solved.energy,
+            });
             kinetic.push(match block.domain {
                 Some(domain) => self.model.dag.reduce(domain, solved.energy),
                 None => solved.energy,
@@ -266,7 +299,7 @@ impl Transform<'_> {
         let dag = &mut self.model.dag;
         let kinetic = dag.add(&kinetic);
         // −(a − b) term by term, as one would write it.
-        let mut terms = vec![(Rational::ONE, kinetic)];
+        let mut terms = Vec::new();
         let mut constant = Rational::ZERO;
         match dag.kind(minus_potential) {
             Kind::Sum(c, parts) => {
@@ -275,11 +308,16 @@ impl Transform<'_> {
             }
             _ => terms.push((Rational::MINUS_ONE, minus_potential)),
         }
+        let potential = (constant.clone(), terms.clone());
+        terms.insert(0, (Rational::ONE, kinetic));
         let hamiltonian = dag.linear(&constant, &terms);
         Ok(Legendre {
             hamiltonian,
             momenta,
             velocities,
+            lagrangian,
+            masses,
+            potential,
         })
     }
 

@@ -4,6 +4,7 @@
 //! momentum, for each element that is read by number, for each column of an array. Invariant: the
 //! model is not changed.
 
+use super::lagrangian::multiplied;
 use super::layout::Writer;
 use super::names::is_taken;
 use super::{Notation, latex, write_within};
@@ -37,7 +38,11 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
         let leaves = if is_large {
             Vec::new()
         } else {
-            diff::gradient(&mut model.dag, h, what)
+            let leaves = diff::gradient(&mut model.dag, h, what).into_iter();
+            // What differentiation multiplies one after another is one product to a reader.
+            leaves
+                .map(|(leaf, value)| (leaf, multiplied(&mut model.dag, value)))
+                .collect()
         };
         let mut of_array: Map<Array, Vec<(Index, Node)>> = Map::default();
         for &(leaf, adjoint) in &leaves {
@@ -87,6 +92,24 @@ pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, Str
         }
     }
     equations
+}
+
+/// The equation of a scalar coordinate or momentum with a right side that is known.
+pub(super) fn scalar_equation(
+    model: &Model,
+    side: Side,
+    group: usize,
+    notation: Notation,
+    value: Node,
+) -> (String, String) {
+    let derivative = Derivative {
+        side,
+        group,
+        column: 0,
+        notation,
+        sign: Rational::ONE,
+    };
+    derivative.equation(model, None, Some(value))
 }
 
 /// The name of an element's index.

@@ -5,6 +5,7 @@
 //! evaluation); sums and products keep the order they were written in.
 
 mod equations;
+mod lagrangian;
 mod latex;
 mod layout;
 mod names;
@@ -12,6 +13,7 @@ mod operations;
 mod text;
 
 pub use equations::hamilton_equations;
+pub use lagrangian::Readable;
 pub use operations::{Count, operations};
 
 use crate::dag::Node;

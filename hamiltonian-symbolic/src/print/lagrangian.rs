@@ -1,0 +1,468 @@
+//! H and Hamilton's equations of a system that was given by its Lagrangian.
+//!
+//! Input: the model after the Legendre transform, and how it was made. Output: [`Readable`].
+//! Invariants: the formulas are equal to those computed, but for reading: common denominators,
+//! determinants and what elimination leaves by a name of their own; where the mass matrix depends
+//! on coordinates, dp/dt is ∂L/∂q in the velocities, as one would write it. Nothing here is
+//! computed with.
+
+use super::equations::{hamilton_equations, scalar_equation};
+use super::names::is_taken;
+use super::{Notation, latex, text};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::diff;
+use crate::legendre::{Legendre, Mass};
+use crate::model::{Model, ParameterDeclaration, Shape};
+use crate::rational::Rational;
+
+/// Formulas with abbreviations.
+#[derive(Debug)]
+pub struct Readable {
+    /// The model with its abbreviations as further parameters.
+    model: Model,
+    /// Names of parts of H, each with what it stands for, in the order they are needed.
+    names: Vec<(Node, Node)>,
+    /// H.
+    hamiltonian: Node,
+    /// q̇ and ṗ of each coordinate where ∂H/∂q would read worse than ∂L/∂q.
+    motion: Option<Vec<(Node, Node)>>,
+    /// The velocity of each coordinate as a name.
+    velocities: Vec<Node>,
+}
+
+impl Readable {
+    /// The formulas of a system; `velocities` names the velocity of each group.
+    #[must_use]
+    pub fn of(model: &Model, legendre: &Legendre, velocities: &[String]) -> Readable {
+        let mut readable = Readable {
+            model: model.clone(),
+            names: Vec::new(),
+            hamiltonian: legendre.hamiltonian,
+            motion: None,
+            velocities: Vec::new(),
+        };
+        for name in velocities {
+            let velocity = readable.parameter(name.clone());
+            readable.velocities.push(velocity);
+        }
+        let (mut kinetic, mut rates) = (Vec::new(), Map::default());
+        for mass in &legendre.masses {
+            kinetic.extend(readable.kinetic(mass, &mut rates));
+        }
+        let dag = &mut readable.model.dag;
+        let (constant, potential) = &legendre.potential;
+        let kinetic = kinetic.iter().map(|part| (Rational::ONE, *part));
+        let terms: Vec<(Rational, Node)> = kinetic.chain(potential.iter().cloned()).collect();
+        readable.hamiltonian = dag.linear(constant, &terms);
+        let varies = |node: &Node| dag.dependence(*node).on(Dependence::Q);
+        let entries = || {
+            legendre
+                .masses
+                .iter()
+                .flat_map(|m| m.matrix.iter().flatten())
+        };
+        if entries().any(varies) || readable.hides_variables() {
+            readable.motion = readable.motion(legendre, &rates);
+        }
+        readable
+    }
+
+    /// Whether a name stands for something that has derivatives.
+    fn hides_variables(&self) -> bool {
+        let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+        let mut values = self.names.iter().map(|(_, value)| *value);
+        values.any(|value| self.model.dag.dependence(value).on(both))
+    }
+
+    /// H in the language, each abbreviation a `let` on a line before it; `signature` stands left of
+    /// the equals sign.
+    #[must_use]
+    pub fn text(&self, signature: &str) -> String {
+        let mut lines = String::new();
+        for (name, value) in &self.names {
+            let (name, value) = (text(&self.model, *name), text(&self.model, *value));
+            lines.push_str(&format!("let {name} = {value};\n"));
+        }
+        let hamiltonian = text(&self.model, self.hamiltonian);
+        format!("{lines}{signature} = {hamiltonian}")
+    }
+
+    /// H in LaTeX, followed by its abbreviations.
+    #[must_use]
+    pub fn latex(&self) -> String {
+        let mut formula = format!("H = {}", latex(&self.model, self.hamiltonian));
+        for line in self.abbreviations(Notation::Latex) {
+            formula.push_str(",\\quad ");
+            formula.push_str(&line);
+        }
+        formula
+    }
+
+    /// What the names in H stand for, one a line.
+    fn abbreviations(&self, notation: Notation) -> Vec<String> {
+        let write = |node| super::write(&self.model, node, notation);
+        let lines = self.names.iter();
+        lines
+            .map(|(name, value)| format!("{} = {}", write(*name), write(*value)))
+            .collect()
+    }
+
+    /// Hamilton's equations one a line, then what the names in them stand for. `None` where they
+    /// read no better than from the H that is computed.
+    #[must_use]
+    pub fn equations(&self, notation: Notation) -> Option<Vec<String>> {
+        let line = |(left, right): (String, String)| format!("{left} = {right}");
+        let Some(motion) = &self.motion else {
+            if self.hides_variables() {
+                return None;
+            }
+            let mut model = self.model.clone();
+            model.hamiltonian = Some(self.hamiltonian);
+            let equations = hamilton_equations(&model, notation).into_iter();
+            return Some(equations.map(line).chain(self.shown(notation)).collect());
+        };
+        let mut lines = Vec::new();
+        let scalar =
+            |side, group, value| line(scalar_equation(&self.model, side, group, notation, value));
+        for (group, (rate, _)) in motion.iter().enumerate() {
+            lines.push(scalar(Side::Q, group, *rate));
+        }
+        for (group, (_, force)) in motion.iter().enumerate() {
+            lines.push(scalar(Side::P, group, *force));
+        }
+        lines.extend(self.shown(notation));
+        let roots: Vec<Node> = motion.iter().flat_map(|(q, p)| [*q, *p]).collect();
+        let used = self.model.dag.reachable(&roots);
+        for (group, velocity) in self.velocities.iter().enumerate() {
+            if used.contains(velocity) {
+                let name = super::write(&self.model, *velocity, notation);
+                let (left, _) = scalar_equation(&self.model, Side::Q, group, notation, *velocity);
+                lines.push(match notation {
+                    Notation::Text => format!("where {name} = {left}"),
+                    Notation::Latex => format!("{name} = {left}"),
+                });
+            }
+        }
+        Some(lines)
+    }
+
+    /// The abbreviations of H among the equations: in text they stand as `let` beside H.
+    fn shown(&self, notation: Notation) -> Vec<String> {
+        match notation {
+            Notation::Text => Vec::new(),
+            Notation::Latex => self.abbreviations(notation),
+        }
+    }
+
+    /// The parts of ½wᵀM⁻¹w, and v = M⁻¹w by element.
+    fn kinetic(&mut self, mass: &Mass, rates: &mut Map<Node, Node>) -> Vec<Node> {
+        let parts = coupled(&self.model.dag, &mass.matrix);
+        let is_plain = parts.iter().all(|part| part.len() == 1);
+        let is_named = mass.domain.is_none()
+            && (mass.order.is_some() || parts.iter().all(|part| part.len() <= 2));
+        if !is_plain && !is_named {
+            return vec![over(&mut self.model.dag, mass, mass.energy)];
+        }
+        let mut energies = Vec::new();
+        let mut equal: Vec<(Node, Vec<Node>)> = Vec::new();
+        for part in &parts {
+            match part.as_slice() {
+                [i] => {
+                    let (m, w) = (mass.matrix[*i][*i], mass.right[*i]);
+                    let rate = self.model.dag.div(w, m);
+                    rates.insert(mass.elements[*i], rate);
+                    match equal.iter_mut().find(|(other, _)| *other == m) {
+                        Some((_, with)) => with.push(w),
+                        None => equal.push((m, vec![w])),
+                    }
+                }
+                [i, j] => energies.push(self.pair(mass, *i, *j, rates)),
+                _ => energies.extend(self.eliminated(mass, part, rates)),
+            }
+        }
+        let dag = &mut self.model.dag;
+        for (m, with) in equal.iter().rev() {
+            let half = Rational::new(1, 2);
+            let energy = match with.as_slice() {
+                [w] => dag.product(&half, &[(*w, 2), (*m, -1)]),
+                all => {
+                    let squares = dag.sum_of_squares(all);
+                    dag.product(&half, &[(squares, 1), (*m, -1)])
+                }
+            };
+            energies.insert(0, energy);
+        }
+        let over = |energy| over(dag, mass, energy);
+        energies.into_iter().map(over).collect()
+    }
+
+    /// Two coupled coordinates: by the inverse of their matrix, its determinant by name.
+    fn pair(&mut self, mass: &Mass, i: usize, j: usize, rates: &mut Map<Node, Node>) -> Node {
+        let (a, b, c) = (mass.matrix[i][i], mass.matrix[i][j], mass.matrix[j][j]);
+        let (x, y) = (mass.right[i], mass.right[j]);
+        let dag = &mut self.model.dag;
+        let (diagonal, square) = (dag.mul(&[a, c]), dag.powi(b, 2));
+        let determinant = dag.sub(diagonal, square);
+        let determinant = self.named("D", determinant);
+        let dag = &mut self.model.dag;
+        let energy = {
+            let first = dag.product(&Rational::ONE, &[(c, 1), (x, 2)]);
+            let mixed = dag.product(&Rational::integer(-2), &[(b, 1), (x, 1), (y, 1)]);
+            let second = dag.product(&Rational::ONE, &[(a, 1), (y, 2)]);
+            dag.add(&[first, mixed, second])
+        };
+        let mut rate = |m: Node, own: Node, other: Node| {
+            let (own, other) = (dag.mul(&[m, own]), dag.mul(&[b, other]));
+            let numerator = dag.sub(own, other);
+            quotient(dag, &Rational::ONE, numerator, determinant)
+        };
+        rates.insert(mass.elements[i], rate(c, x, y));
+        rates.insert(mass.elements[j], rate(a, y, x));
+        quotient(dag, &Rational::new(1, 2), energy, determinant)
+    }
+
+    /// Three and more: row by row, what elimination leaves by names.
+    fn eliminated(
+        &mut self,
+        mass: &Mass,
+        part: &[usize],
+        rates: &mut Map<Node, Node>,
+    ) -> Vec<Node> {
+        let (mut matrix, mut right) = (mass.matrix.clone(), mass.right.clone());
+        let order = mass.order.iter().flatten().copied();
+        let order: Vec<usize> = order.filter(|i| part.contains(i)).collect();
+        let mut energies = Vec::new();
+        for (at, &i) in order.iter().enumerate() {
+            let suffix = self.suffix(mass.elements[i]);
+            if at > 0 {
+                matrix[i][i] = self.named(&format!("D_{suffix}"), matrix[i][i]);
+                right[i] = self.named(&format!("u_{suffix}"), right[i]);
+            }
+            let half = Rational::new(1, 2);
+            let dag = &mut self.model.dag;
+            let square = dag.powi(right[i], 2);
+            energies.push(quotient(dag, &half, square, matrix[i][i]));
+            for (next, &j) in order.iter().enumerate().skip(at + 1) {
+                let dag = &mut self.model.dag;
+                let factor = quotient(dag, &Rational::ONE, matrix[i][j], matrix[i][i]);
+                let product = dag.mul(&[factor, right[i]]);
+                right[j] = dag.sub(right[j], product);
+                for &k in &order[next..] {
+                    let dag = &mut self.model.dag;
+                    let product = dag.mul(&[factor, matrix[i][k]]);
+                    let entry = dag.sub(matrix[j][k], product);
+                    (matrix[j][k], matrix[k][j]) = (entry, entry);
+                }
+            }
+            // What is left of the next row is used often: it gets its names now.
+            if let Some((&j, after)) = order.get(at + 1).map(|j| (j, &order[at + 2..])) {
+                for &k in after {
+                    let name = format!(
+                        "C_{}_{}",
+                        self.suffix(mass.elements[j]),
+                        self.suffix(mass.elements[k])
+                    );
+                    let entry = self.named(&name, matrix[j][k]);
+                    (matrix[j][k], matrix[k][j]) = (entry, entry);
+                }
+            }
+        }
+        for (at, &i) in order.iter().enumerate() {
+            let mut rest = vec![(Rational::ONE, right[i])];
+            for &k in &order[at + 1..] {
+                let velocity = self.velocity(mass.elements[k]);
+                let product = self.model.dag.mul(&[matrix[i][k], velocity]);
+                rest.push((Rational::MINUS_ONE, product));
+            }
+            let dag = &mut self.model.dag;
+            let numerator = dag.linear(&Rational::ZERO, &rest);
+            let rate = quotient(dag, &Rational::ONE, numerator, matrix[i][i]);
+            rates.insert(mass.elements[i], rate);
+        }
+        energies
+    }
+
+    /// q̇ and ṗ = ∂L/∂q of scalar coordinates.
+    fn motion(
+        &mut self,
+        legendre: &Legendre,
+        rates: &Map<Node, Node>,
+    ) -> Option<Vec<(Node, Node)>> {
+        if self.model.groups.iter().any(|g| g.shape != Shape::Scalar) {
+            return None;
+        }
+        let slopes = diff::gradient(&mut self.model.dag, legendre.lagrangian, Dependence::Q);
+        let mut motion = Vec::new();
+        for group in 0..self.model.groups.len() {
+            let coordinate = self.model.scalar(Side::Q, group);
+            let momentum = self.model.scalar(Side::P, group);
+            let slope = slopes.iter().find(|(leaf, _)| *leaf == coordinate);
+            let slope = match slope {
+                Some((_, slope)) => *slope,
+                None => self.model.dag.integer(0),
+            };
+            let velocities = &self.velocities;
+            let force = self
+                .model
+                .dag
+                .substitute(slope, |dag, node| velocity_of(dag, velocities, node));
+            let force = multiplied(&mut self.model.dag, force);
+            motion.push((*rates.get(&momentum)?, force));
+        }
+        Some(motion)
+    }
+
+    /// The name of the velocity in the place of a momentum.
+    fn velocity(&self, element: Node) -> Node {
+        velocity_of(&self.model.dag, &self.velocities, element).unwrap_or(element)
+    }
+
+    /// A sum by a name of its own, its common factors beside it; other things as they are.
+    fn named(&mut self, name: &str, value: Node) -> Node {
+        let (k, mut factors, rest) = content(&mut self.model.dag, value);
+        if !matches!(self.model.dag.kind(rest), Kind::Sum(..)) {
+            return value;
+        }
+        let mut free = name.to_owned();
+        let mut count = 1;
+        while is_taken(&self.model, &free) {
+            count += 1;
+            free = format!("{name}{count}");
+        }
+        let name = self.parameter(free);
+        self.names.push((name, rest));
+        factors.push((name, 1));
+        self.model.dag.product(&k, &factors)
+    }
+
+    /// A further parameter of the model.
+    fn parameter(&mut self, name: String) -> Node {
+        let parameter = Parameter(self.model.parameters.len() as u16);
+        self.model.parameters.push(ParameterDeclaration {
+            name,
+            shape: Shape::Scalar,
+        });
+        self.model.dag.parameter(parameter)
+    }
+
+    /// What distinguishes the names that belong to an element.
+    fn suffix(&self, element: Node) -> String {
+        match self.model.dag.kind(element) {
+            Kind::Element(Array::Phase { group, column, .. }, row, _) => {
+                let group = &self.model.groups[usize::from(*group)];
+                let (name, row) = (&group.coordinate, row.affine.constant);
+                match group.shape {
+                    Shape::Scalar => name.clone(),
+                    Shape::Vector(_) => format!("{name}_{row}"),
+                    Shape::Matrix(..) => format!("{name}_{row}_{column}"),
+                }
+            }
+            _ => String::new(),
+        }
+    }
+}
+
+/// The name of the velocity in the place of a momentum of a scalar coordinate.
+fn velocity_of(dag: &Dag, velocities: &[Node], element: Node) -> Option<Node> {
+    match dag.kind(element) {
+        Kind::Element(
+            Array::Phase {
+                side: Side::P,
+                group,
+                ..
+            },
+            ..,
+        ) => velocities.get(usize::from(*group)).copied(),
+        _ => None,
+    }
+}
+
+/// The rows of a matrix in groups that nothing couples, each in order.
+fn coupled(dag: &Dag, matrix: &[Vec<Node>]) -> Vec<Vec<usize>> {
+    let mut parts: Vec<Vec<usize>> = Vec::new();
+    for (i, row) in matrix.iter().enumerate() {
+        let mut own = vec![i];
+        parts.retain(|part| {
+            let meets = part.iter().any(|j| !dag.is_zero(row[*j]));
+            if meets {
+                own.extend(part);
+            }
+            !meets
+        });
+        own.sort_unstable();
+        parts.push(own);
+    }
+    parts.sort_unstable();
+    parts
+}
+
+/// Summed over the elements of arrays.
+fn over(dag: &mut Dag, mass: &Mass, energy: Node) -> Node {
+    match mass.domain {
+        Some(domain) => dag.reduce(domain, energy),
+        None => energy,
+    }
+}
+
+/// `k·above/below` in lowest terms, as far as factors show.
+fn quotient(dag: &mut Dag, k: &Rational, above: Node, below: Node) -> Node {
+    let (above, below) = (content(dag, above), content(dag, below));
+    let Some(inverse) = below.0.recip() else {
+        return dag.div(above.2, below.2);
+    };
+    let mut factors = above.1;
+    factors.push((above.2, 1));
+    factors.extend(below.1.iter().map(|(node, n)| (*node, -n)));
+    factors.push((below.2, -1));
+    dag.product(&k.mul(&above.0).mul(&inverse), &factors)
+}
+
+/// A node as k·Π·rest: a sum with the factors and denominators that its terms share taken out.
+fn content(dag: &mut Dag, node: Node) -> (Rational, Vec<(Node, i32)>, Node) {
+    let factored = |dag: &Dag, node: Node| match dag.kind(node) {
+        Kind::Product(k, factors) => (k.clone(), factors.clone()),
+        Kind::Constant(value) => (value.clone(), Vec::new()),
+        _ => (Rational::ONE, vec![(node, 1)]),
+    };
+    let Kind::Sum(constant, terms) = dag.kind(node).clone() else {
+        let (k, factors) = factored(dag, node);
+        return (k, factors, dag.integer(1));
+    };
+    let mut parts: Vec<(Rational, Vec<(Node, i32)>)> = Vec::new();
+    for (k, term) in terms {
+        let (own, factors) = factored(dag, term);
+        parts.push((k.mul(&own), factors));
+    }
+    if !constant.is_zero() {
+        parts.push((constant, Vec::new()));
+    }
+    let mut shared: Vec<(Node, i32)> = Vec::new();
+    for (factor, _) in parts.iter().flat_map(|(_, factors)| factors) {
+        if shared.iter().any(|(known, _)| known == factor) {
+            continue;
+        }
+        let power = |(_, factors): &(Rational, Vec<(Node, i32)>)| {
+            let found = factors.iter().find(|(other, _)| other == factor);
+            found.map_or(0, |(_, n)| *n)
+        };
+        let least = parts.iter().map(power).min().unwrap_or(0);
+        shared.push((*factor, least));
+    }
+    shared.retain(|(_, n)| *n != 0);
+    let mut rest = Vec::with_capacity(parts.len());
+    for (k, mut factors) in parts {
+        factors.extend(shared.iter().map(|(node, n)| (*node, -n)));
+        rest.push((k, dag.product(&Rational::ONE, &factors)));
+    }
+    (Rational::ONE, shared, dag.linear(&Rational::ZERO, &rest))
+}
+
+/// Products of products as one.
+pub(super) fn multiplied(dag: &mut Dag, root: Node) -> Node {
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[root]) {
+        let image = dag.rebuild(node, &|child| new[&child]);
+        new.insert(node, image);
+    }
+    new[&root]
+}

@@ -2,8 +2,9 @@
 //!
 //! Input: a state of n bodies, `[n]` or `[n][c]`, and their masses. Output: the state in the other
 //! coordinates, row by row. Invariant: the maps are linear and canonical, and `from_…` undoes
-//! `to_…` up to rounding. For a literal number of bodies, `coordinates jacobi(q, m)` in the
-//! definition transforms H too, by the same formulas.
+//! `to_…` up to rounding. In a definition, `coordinates jacobi(q, m)` for a literal
+//! number of bodies, and `coordinates heliocentric(q, m)` for any, transform H too, by the same
+//! formulas.
 //!
 //! ```
 //! use hamiltonian_core::State;

@@ -3,6 +3,7 @@
 //!
 //! Their sources stand in `tests/crates`; packages around them are made in the target directory.
 
+#[allow(dead_code)]
 mod cargo;
 
 use cargo::{Outcome, Package, workspace};

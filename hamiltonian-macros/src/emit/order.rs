@@ -8,6 +8,7 @@
 use super::scan::{for_operands, for_update, is_number};
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Target, Update, Value};
+use std::cmp::Reverse;
 
 /// Orders the steps between loops.
 pub fn compact(program: &Program, steps: &[Step]) -> Vec<Step> {
@@ -26,96 +27,129 @@ fn is_loop(step: &Step) -> bool {
 }
 
 /// What must be done together: one step, or a sine with its cosine.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 struct Unit {
     steps: Vec<usize>,
-    /// Units of the run whose values it reads, each once.
-    needs: Vec<usize>,
-    /// Units of the run that read its values or come after it for another reason.
-    users: Vec<usize>,
-    /// How many values it makes.
-    makes: usize,
+    /// Values of the run that it reads, each once, the highest first.
+    reads: Vec<usize>,
+    /// The unit that comes before it although it reads nothing of it.
+    after: Option<usize>,
+    /// Units that are not done and that it waits for.
+    missing: usize,
+    /// Values it makes.
+    makes: Vec<usize>,
+    /// The longest way down to a unit that reads nothing.
+    height: usize,
+    done: bool,
+}
+
+/// A value of the run.
+#[derive(Debug)]
+struct Made {
+    by: usize,
+    readers: Vec<usize>,
+    /// How many of the readers are not done.
+    waiting: usize,
 }
 
 /// A straight line as a graph.
 struct Run<'a> {
     steps: &'a [Step],
     units: Vec<Unit>,
-    /// For each unit, how many of its users are not done.
-    waiting: Vec<usize>,
-    /// For each unit, how many of its needs are not done.
-    missing: Vec<usize>,
-    done: Vec<bool>,
+    values: Vec<Made>,
+    /// Units by the unit they come after.
+    followers: Map<usize, usize>,
     order: Vec<usize>,
 }
 
 impl<'a> Run<'a> {
     fn of(program: &Program, steps: &'a [Step]) -> Run<'a> {
-        let mut units: Vec<Unit> = Vec::with_capacity(steps.len());
-        let mut makers: Map<Value, usize> = Map::default();
+        let mut run = Run {
+            steps,
+            units: Vec::with_capacity(steps.len()),
+            values: Vec::with_capacity(steps.len()),
+            followers: Map::default(),
+            order: Vec::with_capacity(steps.len()),
+        };
+        let mut known: Map<Value, usize> = Map::default();
         let mut writers: Map<Target, usize> = Map::default();
         for (at, step) in steps.iter().enumerate() {
-            let mut needs = Vec::new();
-            let mut need = |value: Value| needs.extend(makers.get(&value).copied());
-            match step {
-                Step::Let(value) => match program.instruction(*value) {
-                    // Its sine's unit is the last one: the two are adjacent.
-                    Instruction::PairedCos(sine) if makers.contains_key(sine) => {
-                        let unit = makers[sine];
-                        units[unit].steps.push(at);
-                        units[unit].makes += 1;
-                        makers.insert(*value, unit);
-                        continue;
-                    }
-                    instruction => {
-                        for_operands(instruction, &mut need);
-                        makers.insert(*value, units.len());
-                    }
-                },
-                Step::Store(target, _, _, update) => {
-                    for_update(update, &mut need);
-                    if !matches!(update, Update::Set(_)) {
-                        needs.extend(writers.insert(*target, units.len()));
-                    }
+            if let Step::Let(value) = step {
+                let instruction = program.instruction(*value);
+                if let Instruction::PairedCos(sine) = instruction
+                    && let Some(sine) = known.get(sine)
+                {
+                    let unit = run.values[*sine].by;
+                    run.units[unit].steps.push(at);
+                    known.insert(*value, run.make(unit));
+                    continue;
                 }
-                Step::Accumulate(to, value) => {
-                    need(*to);
-                    need(*value);
+            }
+            let mut reads = Vec::new();
+            for_reads(program, step, |value| reads.extend(known.get(&value)));
+            let after = match step {
+                Step::Store(target, _, _, update) if !matches!(update, Update::Set(_)) => {
+                    writers.insert(*target, run.units.len())
                 }
-                Step::Loop(_) => {}
-            }
-            needs.sort_unstable();
-            needs.dedup();
-            let unit = units.len();
-            for &other in &needs {
-                units[other].users.push(unit);
-            }
-            let makes = match step {
-                Step::Let(value) => usize::from(!is_number(program.instruction(*value))),
-                _ => 0,
+                _ => None,
             };
-            units.push(Unit {
-                steps: vec![at],
-                needs,
-                users: Vec::new(),
-                makes,
-            });
+            let unit = run.add(at, reads, after);
+            if let Step::Let(value) = step
+                && !is_number(program.instruction(*value))
+            {
+                known.insert(*value, run.make(unit));
+            }
         }
-        Run {
-            steps,
-            waiting: units.iter().map(|unit| unit.users.len()).collect(),
-            missing: units.iter().map(|unit| unit.needs.len()).collect(),
-            done: vec![false; units.len()],
-            order: Vec::with_capacity(units.len()),
-            units,
+        run
+    }
+
+    /// A new unit of one step.
+    fn add(&mut self, step: usize, mut reads: Vec<usize>, after: Option<usize>) -> usize {
+        let unit = self.units.len();
+        let height = |value: &usize| self.units[self.values[*value].by].height;
+        // What takes the longest way is reached first: a running sum before its next term.
+        reads.sort_unstable_by_key(|value| (Reverse(height(value)), *value));
+        reads.dedup();
+        let height = reads.first().map_or(0, |value| height(value) + 1);
+        for &value in &reads {
+            self.values[value].readers.push(unit);
+            self.values[value].waiting += 1;
         }
+        if let Some(before) = after {
+            self.followers.insert(before, unit);
+        }
+        self.units.push(Unit {
+            steps: vec![step],
+            missing: reads.len() + usize::from(after.is_some()),
+            reads,
+            after,
+            makes: Vec::new(),
+            height,
+            done: false,
+        });
+        unit
+    }
+
+    /// A new value of a unit.
+    fn make(&mut self, by: usize) -> usize {
+        self.units[by].makes.push(self.values.len());
+        self.values.push(Made {
+            by,
+            readers: Vec::new(),
+            waiting: 0,
+        });
+        self.values.len() - 1
     }
 
     /// From the ends of the line down to what they need, and from there at once on to whatever
     /// leaves no more alive than there was.
     fn write(mut self, ordered: &mut Vec<Step>) {
+        let mut ends = vec![true; self.units.len()];
+        for value in &self.values {
+            ends[value.by] &= value.readers.is_empty();
+        }
         for end in 0..self.units.len() {
-            if self.units[end].users.is_empty() {
+            if ends[end] {
                 self.reach(end);
             }
         }
@@ -125,47 +159,158 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Does a unit after all it needs.
+    /// Does a unit after all it waits for.
     fn reach(&mut self, end: usize) {
         let mut path = vec![(end, 0)];
         while let Some((unit, next)) = path.pop() {
-            if self.done[unit] {
+            let Unit { reads, after, .. } = &self.units[unit];
+            if self.units[unit].done {
                 continue;
             }
-            match self.units[unit].needs.get(next) {
-                Some(&need) => {
-                    path.push((unit, next + 1));
-                    path.push((need, 0));
-                }
+            let need = match reads.get(next) {
+                Some(value) => Some(self.values[*value].by),
+                None => after.filter(|_| next == reads.len()),
+            };
+            match need {
+                Some(need) => path.extend([(unit, next + 1), (need, 0)]),
                 None => self.finish(unit),
             }
         }
     }
 
-    /// Does a unit whose needs are done, and the users that pay for themselves.
+    /// Does a unit that waits for nothing, and whatever then pays for itself.
     fn finish(&mut self, unit: usize) {
-        let mut ready = vec![unit];
-        while let Some(unit) = ready.pop() {
-            if std::mem::replace(&mut self.done[unit], true) {
-                continue;
+        let mut candidates = Vec::new();
+        self.perform(unit, &mut candidates);
+        while let Some(unit) = candidates.pop() {
+            if !self.units[unit].done && self.units[unit].missing == 0 && self.pays(unit) {
+                self.perform(unit, &mut candidates);
             }
-            self.order.push(unit);
-            for &need in &self.units[unit].needs {
-                self.waiting[need] -= 1;
+        }
+    }
+
+    /// Does a unit; those that may pay for themselves now are candidates.
+    fn perform(&mut self, unit: usize, candidates: &mut Vec<usize>) {
+        self.units[unit].done = true;
+        self.order.push(unit);
+        for at in 0..self.units[unit].reads.len() {
+            let value = &mut self.values[self.units[unit].reads[at]];
+            value.waiting -= 1;
+            if value.waiting == 1 {
+                let last = value
+                    .readers
+                    .iter()
+                    .find(|reader| !self.units[**reader].done);
+                candidates.extend(last);
             }
-            for &user in self.units[unit].users.iter().rev() {
-                self.missing[user] -= 1;
-                if self.missing[user] == 0 && self.pays(user) {
-                    ready.push(user);
-                }
+        }
+        if let Some(&follower) = self.followers.get(&unit) {
+            self.units[follower].missing -= 1;
+            candidates.push(follower);
+        }
+        for at in (0..self.units[unit].makes.len()).rev() {
+            for &reader in self.values[self.units[unit].makes[at]].readers.iter().rev() {
+                self.units[reader].missing -= 1;
+                candidates.push(reader);
             }
         }
     }
 
     /// Whether a unit ends as many values as it makes, or more.
     fn pays(&self, unit: usize) -> bool {
-        let Unit { needs, makes, .. } = &self.units[unit];
-        let ended = needs.iter().filter(|need| self.waiting[**need] == 1);
-        ended.map(|need| self.units[*need].makes).sum::<usize>() >= *makes
+        let Unit { reads, makes, .. } = &self.units[unit];
+        let ended = reads
+            .iter()
+            .filter(|value| self.values[**value].waiting == 1);
+        ended.count() >= makes.len()
+    }
+}
+
+/// Calls `visit` with each value a step reads.
+fn for_reads(program: &Program, step: &Step, visit: impl FnMut(Value)) {
+    match step {
+        Step::Let(value) => for_operands(program.instruction(*value), visit),
+        Step::Store(_, _, _, update) => for_update(update, visit),
+        Step::Accumulate(..) | Step::Loop(_) => {}
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hamiltonian_symbolic::dag::{Array, Side};
+    use hamiltonian_symbolic::index::Index;
+    use hamiltonian_symbolic::model::{Group, Model, Shape};
+    use hamiltonian_symbolic::op::Op;
+    use hamiltonian_symbolic::pipeline;
+    use hamiltonian_symbolic::program::Purpose;
+    use hamiltonian_symbolic::rational::Rational;
+    use std::collections::HashSet;
+
+    /// Value and gradient of Σ sin(k·q).
+    fn waves(count: i64) -> Program {
+        let mut model = Model {
+            groups: vec![Group {
+                coordinate: "q".into(),
+                momentum: "p".into(),
+                shape: Shape::Scalar,
+            }],
+            ..Model::default()
+        };
+        let q = Array::Phase {
+            side: Side::Q,
+            group: 0,
+            column: 0,
+        };
+        let dag = &mut model.dag;
+        let q = dag.element(q, Index::constant(0), None);
+        let waves: Vec<_> = (1..=count)
+            .map(|k| {
+                let angle = dag.scale(&Rational::integer(k), q);
+                dag.call(Op::Sin, &[angle])
+            })
+            .collect();
+        model.hamiltonian = Some(dag.add(&waves));
+        pipeline::derive(&mut model, &[Purpose::EnergyAndGradient]).unwrap()
+    }
+
+    /// The most values that are computed and still to be read, after any step; steps whose
+    /// operands are not computed panic.
+    fn most_alive(program: &Program, steps: &[Step], results: &[Value]) -> usize {
+        let reads = |step: &Step| {
+            let mut reads = Vec::new();
+            for_reads(program, step, |value| reads.push(value));
+            reads.retain(|value| !is_number(program.instruction(*value)));
+            reads
+        };
+        let mut computed = HashSet::new();
+        let mut most = 0;
+        for (at, step) in steps.iter().enumerate() {
+            assert!(reads(step).iter().all(|value| computed.contains(value)));
+            if let Step::Let(value) = step
+                && !is_number(program.instruction(*value))
+            {
+                assert!(computed.insert(*value), "{value:?} is computed twice");
+            }
+            let later: HashSet<Value> = steps[at + 1..].iter().flat_map(reads).collect();
+            let is_alive = |value: &&Value| later.contains(value) || results.contains(value);
+            most = most.max(computed.iter().filter(is_alive).count());
+        }
+        most
+    }
+
+    #[test]
+    fn a_long_sum_keeps_little_alive() {
+        let program = waves(100);
+        let function = &program.functions[0];
+        let before = most_alive(&program, &function.evaluation, &function.results);
+        let steps = compact(&program, &function.evaluation);
+        assert_eq!(steps.len(), function.evaluation.len());
+        let after = most_alive(&program, &steps, &function.results);
+        // q, the two sums, a sine and its cosine.
+        assert!(
+            before >= 100 && after <= 5,
+            "{before} before, {after} after"
+        );
     }
 }

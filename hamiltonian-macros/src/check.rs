@@ -11,6 +11,7 @@ mod chart;
 mod declare;
 mod expr;
 mod lookup;
+mod range;
 mod reach;
 mod statement;
 

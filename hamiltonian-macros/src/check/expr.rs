@@ -8,9 +8,7 @@
 
 use super::Checker;
 use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, ScopeId, Symbol, UnaryOp};
-use crate::checked::{
-    Affine, Extent, Index, IndexVariable, Kind, Loop, LoopId, Node, NodeId, Type,
-};
+use crate::checked::{Affine, Extent, Index, IndexVariable, Kind, Node, NodeId, Type};
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 
@@ -456,63 +454,6 @@ impl Checker<'_> {
         }
         let ty = Type::Vector(Extent::Literal(values.len() as u64));
         self.push(raw, Kind::Vector(values), ty)
-    }
-
-    /// `i in lower..upper`: from here on the loop variable stands for a new loop.
-    fn bind(&mut self, raw: ExprId, scope: ScopeId, bounds: (ExprId, ExprId), frame: &Frame) {
-        let name = &self.ast.scopes[scope.0 as usize].name;
-        let symbol = self.ast.scopes[scope.0 as usize].symbol;
-        self.loop_name_is_new(raw, scope, symbol, frame);
-        let (lower, upper) = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
-        if lower.is_none() || upper.is_none() {
-            // Not a loop to reason about, but the name is known.
-            self.scope_loops[scope.0 as usize] = None;
-            return;
-        }
-        let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
-        self.checked_range(raw, &name.to_string(), bounds, [&lower, &upper]);
-        let id = LoopId(self.out.loops.len() as u32);
-        self.out.loops.push(Loop {
-            name: name.clone(),
-            lower,
-            upper,
-        });
-        self.scope_loops[scope.0 as usize] = Some(id);
-        self.active.push(id);
-    }
-
-    fn loop_name_is_new(&mut self, raw: ExprId, scope: ScopeId, symbol: Symbol, frame: &Frame) {
-        let what = if let Some(binding) = self.bindings[symbol.0 as usize] {
-            Some(self.described(binding))
-        } else if frame
-            .arguments
-            .iter()
-            .any(|(argument, _)| *argument == symbol)
-        {
-            Some("an argument")
-        } else {
-            let mut outer = self.ast.scopes[scope.0 as usize].parent;
-            let mut found = None;
-            while let Some(id) = outer {
-                let scope = &self.ast.scopes[id.0 as usize];
-                if scope.symbol == symbol {
-                    found = Some("a loop variable around this one");
-                    break;
-                }
-                outer = scope.parent;
-            }
-            found
-        };
-        if let Some(what) = what {
-            let name = self.ast.symbols.name(symbol);
-            let message = format!("`{name}` is used twice: it is {what} already");
-            self.error(
-                raw,
-                self.ast.nodes[raw.0 as usize].at,
-                &message,
-                "choose another loop variable",
-            );
-        }
     }
 
     fn sum(

@@ -6,6 +6,8 @@
 //! printed: that is what the budgets of instructions count ([`expanded`]). With `--time` the time
 //! that each takes is printed.
 
+extern crate proc_macro;
+
 #[allow(dead_code)]
 mod ast;
 mod backend;

@@ -110,7 +110,7 @@ pub fn workspace(name: &str, packages: &[Package]) -> Workspace {
     write(
         &path.join("Cargo.toml"),
         &format!(
-            "[workspace]\nresolver = \"3\"\nmembers = {members:?}\n[profile.dev]\ndebug = 0\n"
+            "[workspace]\nresolver = \"3\"\nmembers = {members:?}\n[profile.dev]\ndebug = 0\nincremental = false\n"
         ),
     );
     let lock = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.lock");

@@ -206,7 +206,14 @@ pub fn generate(definition: &Definition) -> TokenStream {
 /// Text as tokens. All text that is emitted is made here, so it lexes; if it did not, the error
 /// says so where the macro was called.
 fn lex(text: &str) -> TokenStream {
-    text.parse().unwrap_or_else(|_| {
+    // rustc's own lexer, asked directly: through proc-macro2 the text is lexed twice.
+    let tokens = if proc_macro::is_available() {
+        let tokens = text.parse::<proc_macro::TokenStream>();
+        tokens.map(TokenStream::from).ok()
+    } else {
+        text.parse().ok()
+    };
+    tokens.unwrap_or_else(|| {
         let message = "the emitted code does not lex; this is a fault of `hamiltonian!`";
         quote::quote_spanned!(Span::call_site()=> ::core::compile_error! { #message })
     })

@@ -144,14 +144,11 @@ impl<'a> Run<'a> {
     /// From the ends of the line down to what they need, and from there at once on to whatever
     /// leaves no more alive than there was.
     fn write(mut self, ordered: &mut Vec<Step>) {
-        let mut ends = vec![true; self.units.len()];
-        for value in &self.values {
-            ends[value.by] &= value.readers.is_empty();
-        }
-        for end in 0..self.units.len() {
-            if ends[end] {
-                self.reach(end);
-            }
+        let is_read = |value: &usize| !self.values[*value].readers.is_empty();
+        let is_end = |unit: &usize| !self.units[*unit].makes.iter().any(is_read);
+        let ends: Vec<usize> = (0..self.units.len()).filter(is_end).collect();
+        for end in ends {
+            self.reach(end);
         }
         for unit in self.order {
             let steps = &self.units[unit].steps;

@@ -438,3 +438,57 @@ fn vectors_beside_arrays_of_any_length() {
     };
     same_system!(Ladder::<3> {}, LadderPolar::<3> {}, state);
 }
+
+/// The same H twice: as declared, and in heliocentric coordinates.
+macro_rules! both {
+    ($as_declared:ident, $around_first:ident, $($h:tt)*) => {
+        hamiltonian! {
+            /// As declared.
+            pub struct $as_declared { n: usize, m: [n] }
+            $($h)*
+        }
+        hamiltonian! {
+            /// In heliocentric coordinates.
+            pub struct $around_first { n: usize, m: [n] }
+            $($h)*;
+            coordinates heliocentric(q, m)
+        }
+    };
+}
+
+both! {
+    Backwards, BackwardsAroundFirst,
+    H(q[n]; p[n]) = sum(i in 0..n) { p[n - 1 - i]^2/(2*m[i]) + sin(q[n - 1 - i])*q[i] }
+}
+both! {
+    Shifted, ShiftedAroundFirst,
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 1..n, j in 0..i) { p[i - 1]*p[j]*q[i]*q[i - j - 1]/(5 + i + 2*j) }
+}
+both! {
+    Crossed, CrossedAroundFirst,
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n - 1) { q[i + 1]*p[n - 2 - i] }
+}
+
+#[test]
+fn rows_in_any_order_are_row_0_or_another_where_they_are_read() {
+    for n in [1usize, 2, 4, 5] {
+        let m: Vec<f64> = (0..n).map(|i| 1.0 + 0.5 * i as f64).collect();
+        let numbers = |k: f64| -> Vec<f64> { (0..n).map(|i| (k * i as f64 + 0.4).sin()).collect() };
+        let state = State::new(numbers(1.1), numbers(0.7));
+        same_system!(
+            Backwards::new(n, m.clone()).unwrap(),
+            BackwardsAroundFirst::new(n, m.clone()).unwrap(),
+            state.clone()
+        );
+        same_system!(
+            Shifted::new(n, m.clone()).unwrap(),
+            ShiftedAroundFirst::new(n, m.clone()).unwrap(),
+            state.clone()
+        );
+        same_system!(
+            Crossed::new(n, m.clone()).unwrap(),
+            CrossedAroundFirst::new(n, m).unwrap(),
+            state
+        );
+    }
+}

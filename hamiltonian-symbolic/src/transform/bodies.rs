@@ -124,10 +124,15 @@ impl Bodies {
         if side == Side::Q {
             return own;
         }
-        let others = self.others(dag);
-        let each = Self::element(dag, side, self.new, column, Affine::variable(others));
-        let sum = dag.reduce(others, each);
+        let sum = self.total_of_others(dag, column);
         dag.sub(own, sum)
+    }
+
+    /// Σ_{i≥1} P_i
+    fn total_of_others(&self, dag: &mut Dag, column: u16) -> Node {
+        let others = self.others(dag);
+        let each = Self::element(dag, Side::P, self.new, column, Affine::variable(others));
+        dag.reduce(others, each)
     }
 
     /// q_i, p_i for i ≥ 1
@@ -162,13 +167,21 @@ impl Bodies {
         let (number, zero) = (dag.affine(affine), dag.integer(0));
         let is_first = dag.equal(number, zero);
         let own = Self::element(dag, side, self.new, column, affine.clone());
-        let first = self.first(dag, side, column);
         Some(match side {
             Side::Q => {
+                let first = self.first(dag, side, column);
                 let relative = dag.select(is_first, zero, own);
                 dag.add(&[first, relative])
             }
-            Side::P => dag.select(is_first, first, own),
+            // The sum over the others stands beside the choice, not in it: what it is does not
+            // depend on the row.
+            Side::P => {
+                let one = dag.integer(1);
+                let chosen = dag.select(is_first, one, zero);
+                let others = self.total_of_others(dag, column);
+                let share = dag.mul(&[chosen, others]);
+                dag.sub(own, share)
+            }
         })
     }
 

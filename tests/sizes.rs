@@ -53,6 +53,13 @@ hamiltonian! {
         + sum(i in 0..n) { norm_squared(p_r[i]) + dot(r[i], p_r[i]) + p_z[i]^2 }
 }
 
+hamiltonian! {
+    /// Others than the first are relative to it.
+    pub struct AroundFirst { n: usize, m: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) } + sum(i in 1..n, j in 0..i) { (q[i] - q[j])^2 };
+    coordinates heliocentric(q, m)
+}
+
 fn index(index: &'static str, reached: i64, extent: usize) -> Error {
     Error::Index {
         index,
@@ -83,6 +90,17 @@ fn sizes_of_run_time_are_asked_by_new() {
         "`q[2]` reaches 2, but the extent is 2: the sizes do not fit"
     );
     assert!(SplitPotential::new(2).is_err() && Split::new(3).is_ok());
+}
+
+#[test]
+fn bodies_around_the_first_are_not_none() {
+    assert_eq!(
+        AroundFirst::new(0, Vec::<f64>::new()).unwrap_err(),
+        index("q[0]", 0, 0)
+    );
+    let one = AroundFirst::new(1, vec![2.0]).unwrap();
+    let there = one.from_declared(&State::new(vec![3.0], vec![2.0]));
+    assert_eq!(one.energy(&there), 1.0);
 }
 
 #[test]
@@ -219,6 +237,20 @@ fn main() { println!(\"{}\", Tail::<2> {}.gradient(&State::new([0.0; 2], [0.0; 2
         error: Some(("4:50", "`i in N - 3..N` begins below 0 for these sizes")),
     },
     Case {
+        name: "around_first",
+        source: "
+hamiltonian! {
+    pub struct AroundFirst<const N: usize> { m: [N] }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/(2*m[i]) };
+    coordinates heliocentric(q, m)
+}
+fn main() { println!(\"{}\", AroundFirst::<0>::new([0.0; 0]).from_declared(&State::new([0.0; 0], [0.0; 0])).t) }",
+        error: Some((
+            "5:30",
+            "`q[0]` is out of range for these sizes: indices there run from 0 to N - 1",
+        )),
+    },
+    Case {
         // Nothing is reached where j is out of range: 6 > i ≥ 0, 6 > j ≥ i + 4, 2 ≥ i, 5 ≥ j.
         name: "value_well",
         source: "
@@ -263,7 +295,7 @@ fn const_generics_are_asked_when_compiled() {
         let place = format!("/{}.rs:", case.name);
         let errors: Vec<&str> = said
             .lines()
-            .filter(|line| line.contains(&place) && line.contains("error"))
+            .filter(|line| line.contains(&place) && line.contains(": error"))
             .collect();
         match case.error {
             None => assert!(errors.is_empty(), "{}: {said}", case.name),

@@ -5,7 +5,9 @@
 
 use super::Checker;
 use crate::ast::StatementKind;
-use crate::checked::{Chart, ChartKind, Component, Extent, GroupId, ParameterId, Type};
+use crate::checked::{
+    Affine, Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type,
+};
 use crate::names;
 use crate::report::Spans;
 use proc_macro2::Ident;
@@ -39,6 +41,7 @@ impl Checker<'_> {
                 if word == "jacobi" {
                     ChartKind::Jacobi(group, masses)
                 } else {
+                    self.needs_first(&arguments[0], group);
                     ChartKind::Heliocentric(group, masses)
                 }
             }),
@@ -47,6 +50,21 @@ impl Checker<'_> {
             self.out.charts.push(Chart {
                 name: name.clone(),
                 kind,
+            });
+        }
+    }
+
+    /// Notes that there is to be a body 0, to which the others are relative.
+    fn needs_first(&mut self, positions: &Ident, group: GroupId) {
+        if let Type::Vector(bodies) | Type::Matrix(bodies, _) = self.out.groups[group.0 as usize].ty
+            && let Extent::Size(_) = bodies
+        {
+            self.note(Reach {
+                shown: format!("{positions}[0]"),
+                span: positions.span(),
+                loops: Vec::new(),
+                form: Affine::constant(0),
+                extent: Some(bodies),
             });
         }
     }

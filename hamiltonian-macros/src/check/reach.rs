@@ -145,7 +145,8 @@ impl Checker<'_> {
         });
     }
 
-    fn note(&mut self, reach: Reach) {
+    /// Notes a question, once.
+    pub(super) fn note(&mut self, reach: Reach) {
         // The same index is often written many times; instances of a function have loops of their
         // own.
         let is_same = |other: &Reach| {

@@ -81,8 +81,10 @@ fn sweep(
                     yes: x[0],
                     no: x[1],
                 };
-                for (child, value) in either.adjoints(dag, adjoint, what, here, swept) {
-                    give(dag, child, here, value);
+                for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
+                    // Inside a sum of its branch a leaf lives further in than the condition.
+                    let within = inner(dag, here, dag.home(leaf));
+                    give(dag, leaf, within, value);
                 }
             }
             Kind::Call(op, arguments) => {
@@ -102,8 +104,10 @@ fn sweep(
             Kind::Reduce(domain, body) => give(dag, body, Some(domain), adjoint),
             Kind::Select(condition, yes, no) => {
                 let either = Branches { condition, yes, no };
-                for (child, value) in either.adjoints(dag, adjoint, what, here, swept) {
-                    give(dag, child, here, value);
+                for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
+                    // Inside a sum of its branch a leaf lives further in than the condition.
+                    let within = inner(dag, here, dag.home(leaf));
+                    give(dag, leaf, within, value);
                 }
             }
             Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => {
@@ -118,6 +122,16 @@ fn sweep(
             | Kind::Not(_)
             | Kind::And(..)
             | Kind::Or(..) => {}
+        }
+    }
+    // Leaves that only the sums of branches have.
+    let mut inside: Vec<(Node, Vec<Node>)> = contributions.into_iter().collect();
+    inside.sort_unstable_by_key(|(leaf, _)| *leaf);
+    for (leaf, mut parts) in inside {
+        parts.reverse();
+        let adjoint = dag.add_with_content(&parts);
+        if !dag.is_zero(adjoint) {
+            leaves.push((leaf, adjoint));
         }
     }
     leaves.sort_unstable_by_key(|(leaf, _)| *leaf);
@@ -146,7 +160,8 @@ impl Branches {
             if let Some(known) = swept.get(&(branch, here)) {
                 return known.clone();
             }
-            let adjoints = sweep(dag, branch, what, here, swept);
+            let own = dag.nested(branch, here);
+            let adjoints = sweep(dag, own, what, here, swept);
             swept.insert((branch, here), adjoints.clone());
             adjoints
         });

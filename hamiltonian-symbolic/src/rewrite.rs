@@ -136,6 +136,53 @@ impl Dag {
         new[&root]
     }
 
+    /// The same expression with its sums inside the loop `here`, each in the sum it stands in: the
+    /// loops lie on one path, and none of them is open twice.
+    pub(crate) fn nested(&mut self, root: Node, here: Option<Domain>) -> Node {
+        let is_sum = |node: &Node| matches!(self.kind(*node), Kind::Reduce(..));
+        if here.is_none() || !self.reachable(&[root]).iter().any(is_sum) {
+            return root;
+        }
+        let mut new: Map<(Node, Option<Domain>), Node> = Map::default();
+        let mut pending = vec![(root, here)];
+        while let Some(&(node, here)) = pending.last() {
+            let own = match *self.kind(node) {
+                Kind::Reduce(domain, body) => {
+                    let range = self.range(domain).clone();
+                    let own = self.domain(here, range.start, range.end);
+                    let body = self.replace(body, domain, &Affine::variable(own));
+                    Some((own, body))
+                }
+                _ => None,
+            };
+            let mut children = Vec::new();
+            match own {
+                Some((own, body)) => children.push((body, Some(own))),
+                None => self.for_children(node, |child| children.push((child, here))),
+            }
+            children.retain(|child| !new.contains_key(child));
+            if !children.is_empty() {
+                pending.extend(children);
+                continue;
+            }
+            pending.pop();
+            let image = match own {
+                // As it is: the constructor would move the loop out again.
+                Some((own, body)) => self.intern(Kind::Reduce(own, new[&(body, Some(own))])),
+                None => {
+                    let mut changed = false;
+                    self.for_children(node, |child| changed |= new[&(child, here)] != child);
+                    match changed {
+                        true => self.rebuild(node, &|child| new[&(child, here)]),
+                        false => node,
+                    }
+                }
+            };
+            new.insert((node, here), image);
+        }
+        new[&(root, here)]
+    }
+
     /// The image of a loop when `variable` is replaced.
     fn moved(
         &mut self,

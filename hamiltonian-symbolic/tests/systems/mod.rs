@@ -43,6 +43,37 @@ pub const SYSTEMS: &[System] = &[
     GRAVITY,
     SQUARE_ROOT,
     System {
+        name: "a sum in the branch of a condition",
+        signature: "q[N]; p[N]",
+        parameters: "",
+        h: "sum(i in 0..N) { p[i]^2*if i < 2 { sum(j in 0..N) { q[j]^2 } } else { 1 + q[i] } }",
+        order: 2,
+    },
+    System {
+        name: "a root of a sum in the branch of a condition",
+        signature: "q[N]; p[N]",
+        parameters: "",
+        h: "sum(i in 0..N) { if q[i] > 0 { p[i]^2*sqrt(1 + sum(j in 0..N) { q[j]^2*p[i]^2 + q[j]^4 }) }
+            else { p[i]^2 } }",
+        order: 2,
+    },
+    System {
+        name: "the larger of an element and a sum",
+        signature: "q[N]; p[N]",
+        parameters: "m[N]",
+        h: "sum(i in 0..N) { p[i]^2*max(q[i], sum(j in 0..N) { m[j]*q[j]*p[j]^2 }) }",
+        order: 2,
+    },
+    System {
+        name: "triangles in branches, and branches in them",
+        signature: "q[N]; p[N]",
+        parameters: "",
+        h: "sum(i in 0..N) { p[i]^2*if q[i] > 0 { sum(j in 0..i + 1) { sin(q[j]*p[i]) } } else { q[i] } }
+            + sum(i in 0..N, j in 0..i) { if q[i] < q[j] { sum(k in 0..N, l in 0..k) { q[k]*p[l]*q[j] } }
+            else { min(p[i], sum(k in 0..i) { if p[k] > 0 { q[k]^2*p[j] } else { sum(l in 0..N) { q[l]^3 } } }) } }",
+        order: 4,
+    },
+    System {
         name: "open chain",
         signature: "q[N]; p[N]",
         parameters: "k m[N]",

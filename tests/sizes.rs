@@ -251,6 +251,17 @@ fn main() { println!(\"{}\", AroundFirst::<0>::new([0.0; 0]).from_declared(&Stat
         )),
     },
     Case {
+        // Inner loops that are empty at the ends of the outer ones, so that these are run.
+        name: "long_well",
+        source: "
+hamiltonian! {
+    pub struct Long<const N: usize, const M: usize> {}
+    H(q[M]; p[M]) = norm_squared(p)/2 + sum(i in 0..N, j in i + 1..N, k in j + 1..N) { q[k]*q[j]*q[i] }
+}
+fn main() { println!(\"{}\", Long::<20000, 20001> {}.energy(&State::new([0.0; 20001], [0.0; 20001]))) }",
+        error: None,
+    },
+    Case {
         // Nothing is reached where j is out of range: 6 > i ≥ 0, 6 > j ≥ i + 4, 2 ≥ i, 5 ≥ j.
         name: "value_well",
         source: "

@@ -3,7 +3,8 @@
 //! Input: an index and the loops it runs in, affine, as numbers. Output: its least and greatest
 //! value. Invariants: exact (an iteration that does not take place reaches nothing); usable in
 //! constants, where sizes are const generics; the cost does not grow with the sizes for up to two
-//! loops, and with one loop less by each further one.
+//! loops, nor where every loop runs at every iteration of those around it; otherwise loops outside
+//! of the inner two are run.
 
 use crate::error::Error;
 
@@ -24,7 +25,14 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
     /// The index in an iteration that leaves `0..extent`, if there is one.
     #[must_use]
     pub const fn escape(&self, extent: usize) -> Option<i64> {
-        match self.extremes(0, [0; LOOPS]) {
+        let extremes = if self.no_loop_is_empty() {
+            let mut index = (0, [0; LOOPS]);
+            self.add(&mut index, 1, self.index);
+            Some([self.at_ends(index, false), self.at_ends(index, true)])
+        } else {
+            self.extremes(0, [0; LOOPS])
+        };
+        match extremes {
             Some([least, _]) if least < 0 => Some(narrowed(least)),
             Some([_, greatest]) if greatest >= extent as i128 => Some(narrowed(greatest)),
             Some(_) | None => None,
@@ -77,6 +85,55 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
             term += 1;
         }
         value
+    }
+
+    /// Adds a multiple of a form to another, which is a number, the sizes being known, and the
+    /// factors of loop variables.
+    const fn add(&self, to: &mut (i128, [i128; LOOPS]), factor: i128, form: &[i64]) {
+        to.0 =
+            to.0.saturating_add(factor.saturating_mul(self.value(form, &[0; LOOPS])));
+        let mut term = 1 + self.sizes.len();
+        while term < form.len() {
+            let level = term - 1 - self.sizes.len();
+            to.1[level] = to.1[level].saturating_add(factor.saturating_mul(form[term] as i128));
+            term += 1;
+        }
+    }
+
+    /// The least or greatest value of a form, if no loop is ever empty: every variable stands at an
+    /// end of its range then, the innermost first.
+    const fn at_ends(&self, mut form: (i128, [i128; LOOPS]), greatest: bool) -> i128 {
+        let mut level = LOOPS;
+        while level > 0 {
+            level -= 1;
+            let factor = form.1[level];
+            form.1[level] = 0;
+            let [lower, upper] = self.loops[level];
+            if (factor > 0) == greatest {
+                self.add(&mut form, factor, upper);
+                form.0 = form.0.saturating_sub(factor);
+            } else {
+                self.add(&mut form, factor, lower);
+            }
+        }
+        form.0
+    }
+
+    /// Whether every loop runs at every iteration of the loops around it.
+    const fn no_loop_is_empty(&self) -> bool {
+        let mut level = 0;
+        while level < LOOPS {
+            let [lower, upper] = self.loops[level];
+            let mut width = (0, [0; LOOPS]);
+            self.add(&mut width, 1, upper);
+            self.add(&mut width, -1, lower);
+            // The loops around this one were looked at before.
+            if self.at_ends(width, false) < 1 {
+                return false;
+            }
+            level += 1;
+        }
+        true
     }
 
     /// The first and the last value of a loop; the last is less where there is none.

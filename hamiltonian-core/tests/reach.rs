@@ -85,6 +85,36 @@ fn extremes_are_those_of_the_loops_run() {
 }
 
 #[test]
+fn loops_that_are_never_empty_cost_nothing_however_long_or_many() {
+    // i in 0..n, j in i + 1..i + 3, k in j + 1..j + 3, l in k..n + 5: q[l + k - j - i].
+    const N: usize = 1 << 40;
+    const NEST: [[&[i64]; 2]; 4] = [
+        [&[0, 0], &[0, 1]],
+        [&[1, 0, 1], &[3, 0, 1]],
+        [&[1, 0, 0, 1], &[3, 0, 0, 1]],
+        [&[0, 0, 0, 0, 1], &[5, 1]],
+    ];
+    // At most l = n + 4, k - j = 2, i = 0.
+    const REACH: Reach<4> = Reach {
+        sizes: &[N],
+        loops: NEST,
+        index: &[0, 0, -1, -1, 1, 1],
+    };
+    const { assert!(REACH.is_within(N + 7)) };
+    const { assert!(!REACH.is_within(N + 6)) };
+    assert_eq!(REACH.escape(N + 6), Some(N as i64 + 6));
+    // No iteration, no value.
+    assert_eq!(
+        Reach {
+            sizes: &[0],
+            ..REACH
+        }
+        .escape(0),
+        None
+    );
+}
+
+#[test]
 fn two_loops_cost_nothing_however_long() {
     // i in 0..n, j in i + 1..n: q[j] and q[j + 1].
     const N: usize = usize::MAX;

@@ -103,7 +103,8 @@ pub fn compiled(reaches: &[Reach], context: Context, generics: &Generics) -> Tok
     }
     let header = format!("impl{} {}", generics.declaration(), generics.system_type());
     let header = lex(&header);
-    quote! { #header { #constants } }
+    // Loops of three and more that may be empty are run.
+    quote! { #[allow(long_running_const_eval)] #header { #constants } }
 }
 
 /// The statements that have [`compiled`] asked.

@@ -6,6 +6,7 @@
 //! cannot be solved, a condition `index = k` is summed instead; where not even that can be said,
 //! there is no answer.
 
+use super::guard::is_nonnegative as is_never_negative;
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};
 
@@ -268,13 +269,17 @@ pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> 
     Some(new[&root])
 }
 
-/// `(variable + c) % modulo` as a real, for a variable in 0..modulo: it wraps around once at most,
-/// if c is −1, 0 or 1, or less than a modulus that is a number.
+/// `(variable + c) % modulo` as a real, where the loop stays in 0..modulo: it wraps around once at
+/// most, if c is −1, 0 or 1, or less than a modulus that is a number.
 fn wrapped(dag: &mut Dag, index: &Index, modulo: &Affine) -> Option<Node> {
     let [(variable, 1)] = index.affine.loops.as_slice() else {
         return None;
     };
     let variable = Affine::variable(*variable);
+    let slack = modulo.plus(-1, &variable).plus(-1, &Affine::constant(1));
+    if !(is_never_negative(dag, variable.clone()) && is_never_negative(dag, slack)) {
+        return None;
+    }
     let by = index.affine.plus(-1, &variable).as_constant()?;
     let by = match modulo.as_constant() {
         Some(modulo) if modulo > 0 => by.rem_euclid(modulo),

@@ -90,7 +90,7 @@ fn safe(dag: &Dag, index: Index, extent: Option<Affine>) -> Index {
 
 /// Whether an affine expression is never negative, whatever the values of its loop variables in
 /// their ranges.
-fn is_nonnegative(dag: &Dag, affine: Affine) -> bool {
+pub(super) fn is_nonnegative(dag: &Dag, affine: Affine) -> bool {
     let mut least = affine;
     // A range may name loops around it: from the innermost out.
     while let Some(&(domain, factor)) = least

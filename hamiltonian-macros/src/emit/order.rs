@@ -7,7 +7,7 @@
 
 use super::scan::{for_operands, for_update, is_number};
 use hamiltonian_symbolic::dag::Map;
-use hamiltonian_symbolic::program::{Instruction, Program, Step, Target, Update, Value};
+use hamiltonian_symbolic::program::{Instruction, Program, Step, Target, Value};
 use std::cmp::Reverse;
 
 /// Orders the steps between loops.
@@ -88,9 +88,7 @@ impl<'a> Run<'a> {
             let mut reads = Vec::new();
             for_reads(program, step, |value| reads.extend(known.get(&value)));
             let after = match step {
-                Step::Store(target, _, _, update) if !matches!(update, Update::Set(_)) => {
-                    writers.insert(*target, run.units.len())
-                }
+                Step::Store(target, ..) => writers.insert(*target, run.units.len()),
                 _ => None,
             };
             let unit = run.add(at, reads, after);

@@ -86,9 +86,7 @@ impl Dag {
         let mut new: Map<Node, Node> = Map::default();
         // The variable itself and those of the loops inside it. A sum over the same loop binds
         // the variable anew: what stands in it is not free and stays.
-        let inside = (0..self.loop_count() as u32)
-            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
-            .fold(0u64, |set, d| set | 1 << d);
+        let inside = self.inside(variable);
         for node in self.reachable(&[root]) {
             if self.variables(node) & inside == 0 {
                 new.insert(node, node);
@@ -183,8 +181,15 @@ impl Dag {
         new[&(root, here)]
     }
 
+    /// A loop and all loops inside it, as a bit set.
+    pub(crate) fn inside(&self, variable: Domain) -> u64 {
+        (0..self.loop_count() as u32)
+            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
+            .fold(0u64, |set, d| set | 1 << d)
+    }
+
     /// The image of a loop when `variable` is replaced.
-    fn moved(
+    pub(crate) fn moved(
         &mut self,
         domain: Domain,
         variable: Domain,

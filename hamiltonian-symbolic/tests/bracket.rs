@@ -351,6 +351,26 @@ fn a_loop_longer_than_its_modulus_proves_nothing() {
     assert_ne!(is_invariant(&m, bad, None), Verdict::Proven);
 }
 
+/// A sum inside a derivative that is read at an index modulo N: over a loop that another one's
+/// range names, and over the very loop that the index runs in.
+#[test]
+fn sums_read_at_an_index_with_a_modulus() {
+    for b in [
+        "sum(k in 0..N) { p[k]*sum(j in 0..N) { sin(q[k]*q[j]) } }",
+        "sum(k in 0..N) { p[k]*sum(j in 0..N, l in 0..N) { sin(q[k]*q[j] + q[l]) } }",
+        "sum(k in 0..N) { p[k]*sum(j in 0..N, l in 0..j) { sin(q[k]*q[j]*q[l]) } }",
+    ] {
+        for a in [
+            "sum(i in 0..N) { q[i]*q[(i + 1) % N] }",
+            "sum(i in 0..N, j in 0..N) { q[(i + j) % N]*q[i] }",
+            "sum(i in 0..N, j in 0..i) { q[(i - j) % N]*q[i] }",
+        ] {
+            assert!(is_that_written_out(a, b), "{a}, {b}");
+            assert!(is_that_written_out(b, a), "{b}, {a}");
+        }
+    }
+}
+
 /// {a, b} = −{b, a}, {a, bc} = b{a, c} + {a, b}c, and Jacobi's identity.
 #[test]
 fn brackets_obey_their_laws() {

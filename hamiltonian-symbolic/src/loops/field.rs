@@ -232,35 +232,43 @@ pub(crate) fn shift(dag: &mut Dag, root: Node, variable: Domain, by: &Index) -> 
         return Some(dag.replace(root, variable, &by.affine));
     };
     let bit = 1u64 << variable.0;
+    // Loops inside the variable's move along, all in one pass: one of them may be a loop of `by`.
+    let inside = dag.inside(variable);
+    let mut moved: Map<Domain, Domain> = Map::default();
     let mut new: Map<Node, Node> = Map::default();
     for node in dag.reachable(&[root]) {
-        if dag.variables(node) & bit == 0 {
+        if dag.variables(node) & inside == 0 {
             new.insert(node, node);
             continue;
         }
         let image = match dag.kind(node).clone() {
             Kind::Element(array, row, column) => {
-                let row = shift_index(dag, &row, variable, by, modulo)?;
+                let row = shift_index(dag, &row, variable, by, &mut moved)?;
                 let column = match column {
-                    Some(column) => Some(shift_index(dag, &column, variable, by, modulo)?),
+                    Some(column) => Some(shift_index(dag, &column, variable, by, &mut moved)?),
                     None => None,
                 };
                 dag.element(array, row, column)
             }
-            Kind::Variable(_) => wrapped(dag, by, modulo)?,
-            Kind::Count(_) => return None,
-            Kind::Reduce(domain, _)
+            Kind::Variable(domain) if domain == variable => wrapped(dag, by, modulo)?,
+            Kind::Variable(domain) => {
+                let domain = dag.moved(domain, variable, &by.affine, &mut moved);
+                dag.variable(domain)
+            }
+            Kind::Count(domain) | Kind::Reduce(domain, _)
                 if (dag.range(domain).start.variables() | dag.range(domain).end.variables())
                     & bit
                     != 0 =>
             {
                 return None;
             }
+            Kind::Count(domain) => {
+                let domain = dag.moved(domain, variable, &by.affine, &mut moved);
+                dag.count(domain)
+            }
             Kind::Reduce(domain, body) => {
-                let range = dag.range(domain).clone();
-                let fresh = dag.domain(dag.deepest(by.variables()), range.start, range.end);
-                let body = dag.replace(new[&body], domain, &Affine::variable(fresh));
-                dag.reduce(fresh, body)
+                let domain = dag.moved(domain, variable, &by.affine, &mut moved);
+                dag.reduce(domain, new[&body])
             }
             _ => dag.rebuild(node, &|child| new[&child]),
         };
@@ -307,30 +315,36 @@ fn wrapped(dag: &mut Dag, index: &Index, modulo: &Affine) -> Option<Node> {
     Some(dag.select(holds, inside, outside))
 }
 
+/// The index with the variable replaced; `None` unless that is modulo one size.
 fn shift_index(
-    dag: &Dag,
+    dag: &mut Dag,
     index: &Index,
     variable: Domain,
     by: &Index,
-    modulo: &Affine,
+    moved: &mut Map<Domain, Domain>,
 ) -> Option<Index> {
-    match index.affine.factor(variable) {
-        0 => return Some(index.clone()),
-        1 => {}
-        _ => return None,
+    let factor = index.affine.factor(variable);
+    let mut rest = index.affine.plus(-factor, &Affine::variable(variable));
+    for (domain, factor) in rest.loops.clone() {
+        let image = dag.moved(domain, variable, &by.affine, moved);
+        rest = rest
+            .plus(-factor, &Affine::variable(domain))
+            .plus(factor, &Affine::variable(image));
     }
-    let rest = index.affine.plus(-1, &Affine::variable(variable));
-    let whole = match &index.modulo {
-        Some(other) => other == modulo,
+    let whole = match (factor, &index.modulo) {
+        (0, modulo) => {
+            return Some(Index {
+                affine: rest,
+                modulo: modulo.clone(),
+            });
+        }
+        (1, Some(modulo)) => Some(modulo) == by.modulo.as_ref(),
         // Without a modulus of its own the index is the variable itself.
-        None => rest == Affine::default(),
+        (1, None) => rest == Affine::default(),
+        _ => false,
     };
-    whole.then(|| {
-        plain_where_possible(
-            dag,
-            Index::wrapped(by.affine.plus(1, &rest), modulo.clone()),
-        )
-    })
+    let modulo = by.modulo.clone()?;
+    whole.then(|| plain_where_possible(dag, Index::wrapped(by.affine.plus(1, &rest), modulo)))
 }
 
 /// `i % N` for i in 0..N is `i`.

@@ -114,6 +114,22 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// A chain whose neighbours share momenta, with friction: what the ends read is not there.
+    pub struct Coupled { n: usize, g = 0.1 }
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n - 1) { p[i]*p[i + 1]*q[i]*q[i + 1] };
+    force(q; p) = -g*p;
+    dt = (1 + norm_squared(q))*ds
+}
+
+hamiltonian! {
+    /// Momenta that reach further than the shortest chain is long.
+    pub struct Far<const N: usize> { g = 0.1 }
+    H(q[N]; p[N]) = norm_squared(p)/2 + sum(i in 2..N) { p[i]*p[i - 2]*q[i] };
+    force(q; p) = -g*p;
+    dt = (1 + norm_squared(q))*ds
+}
+
+hamiltonian! {
     /// Bodies with friction, any number of them.
     pub struct Swarm<const N: usize> { g = 0.1 }
     H(q[N][3]; p[N][3]) = sum(i in 0..N) { norm_squared(p[i])*(1 + i)/2 }
@@ -447,7 +463,28 @@ fn forces_on_arrays_of_any_length() {
         };
         let factor = 2.0 + state.q.q[0].powi(2);
         pulled_in_another_time!(system, state, -0.1, factor);
+        let state = State {
+            t: 0.0,
+            q: CoupledVector::new(values(1.1), 0.2),
+            p: CoupledVector::new(values(0.7), 0.0),
+        };
+        let factor = 1.0 + values(1.1).iter().map(|q| q * q).sum::<f64>();
+        pulled_in_another_time!(Coupled::new(n).unwrap(), state, -0.1, factor);
     }
+    fn far<const N: usize>() {
+        let values = |k: f64| -> [f64; N] { std::array::from_fn(|i| (i as f64 * k + 0.4).sin()) };
+        let state = State {
+            t: 0.0,
+            q: FarVector::<N, f64>::new(values(1.1), 0.2),
+            p: FarVector::<N, f64>::new(values(0.7), 0.0),
+        };
+        let factor = 1.0 + values(1.1).iter().map(|q| q * q).sum::<f64>();
+        pulled_in_another_time!(Far::<N>::default(), state, -0.1, factor);
+    }
+    far::<1>();
+    far::<2>();
+    far::<3>();
+    far::<7>();
     fn swarm<const N: usize>() {
         let rows = |k: f64| -> [[f64; 3]; N] {
             std::array::from_fn(|i| std::array::from_fn(|c| ((3 * i + c) as f64 * k + 0.4).sin()))

@@ -18,6 +18,7 @@ use super::{Refusal, element, is_taken};
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::{Affine, Index};
 use crate::loops::field::{elements, field};
+use crate::loops::guarded;
 use crate::model::{Group, Model, Shape, VectorEntry};
 use crate::rational::Rational;
 
@@ -196,12 +197,15 @@ impl Velocities {
                     group,
                     column,
                 };
+                // A neighbour's momentum is read under a condition, where it need not exist.
                 let found = field(&mut model.dag, &self.leaves, array, &rows);
-                let Some(found) = found else {
-                    return Err(Refusal::Power {
-                        momentum: declared.momentum.clone(),
-                    });
+                let found = match found {
+                    Some(found) => guarded(model, found),
+                    None => None,
                 };
+                let found = found.ok_or_else(|| Refusal::Power {
+                    momentum: model.groups[usize::from(group)].momentum.clone(),
+                })?;
                 self.known.insert((group, column), found);
                 found
             }

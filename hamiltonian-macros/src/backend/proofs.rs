@@ -61,7 +61,20 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     );
                     break;
                 }
-                Verdict::Undecided { .. } => {}
+                Verdict::Jumps { part } if !observable.assumed => {
+                    report.error(
+                        name.span(),
+                        format!(
+                            "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows",
+                            shortened(&part)
+                        ),
+                        format!(
+                            "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
+                        ),
+                    );
+                    break;
+                }
+                Verdict::Undecided { .. } | Verdict::Jumps { .. } => {}
             }
         }
     }

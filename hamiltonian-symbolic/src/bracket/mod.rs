@@ -1,9 +1,10 @@
 //! Poisson brackets and the proof or refutation of invariants.
 //!
 //! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
-//! proven means for all sizes, at all points (on the shell, if one is given); disproven comes with
+//! proven means for all sizes, at all points (on the shell, if one is given), across all switches; disproven comes with
 //! sizes and a point where the time derivative along the flow is not zero.
 
+mod jump;
 mod pair;
 mod shell;
 
@@ -37,6 +38,11 @@ pub enum Verdict {
         /// Its time derivative along the flow as text.
         residual: String,
     },
+    /// It is conserved as long as nothing jumps.
+    Jumps {
+        /// What may jump, in the statement or in H, as text.
+        part: String,
+    },
 }
 
 /// Whether an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
@@ -52,6 +58,15 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
     match judge(model, expression, shell) {
         // A point refutes for the function that was tried, which is not the one in Rust.
         Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided { residual },
+        Verdict::Proven => {
+            let mut dag = model.dag.clone();
+            match jump::find(&mut dag, &roots) {
+                Some(part) => Verdict::Jumps {
+                    part: print::text(model, part),
+                },
+                None => Verdict::Proven,
+            }
+        }
         verdict => verdict,
     }
 }

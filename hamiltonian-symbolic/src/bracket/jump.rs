@@ -1,0 +1,44 @@
+//! Where an expression may jump.
+//!
+//! Input: expressions. Output: a part of them that is not known to be continuous. Invariant:
+//! derivatives do not see a jump, so nothing is conserved across one because its derivatives say so.
+
+use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::normal_form;
+use crate::op::Op;
+
+/// What moves along a trajectory.
+const MOVING: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
+
+/// The first condition on moving quantities whose branches are not known to meet where it
+/// switches, sign of such, or angle of a point that moves.
+pub(super) fn find(dag: &mut Dag, roots: &[Node]) -> Option<Node> {
+    let nodes = dag.reachable(roots);
+    nodes
+        .into_iter()
+        .find(|node| match dag.kind(*node).clone() {
+            Kind::Select(condition, yes, no) => {
+                dag.dependence(condition).on(MOVING) && !meets(dag, condition, yes, no)
+            }
+            Kind::Call(Op::Sign | Op::Atan2, _) => dag.dependence(*node).on(MOVING),
+            _ => false,
+        })
+}
+
+/// Whether two branches are known to agree where a comparison of a coordinate, a momentum or the
+/// time with something else switches.
+fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
+    let Kind::Compare(_, a, b) = *dag.kind(condition) else {
+        return false;
+    };
+    [(a, b), (b, a)].into_iter().any(|(leaf, value)| {
+        let is_leaf = matches!(dag.kind(leaf), Kind::Element(..) | Kind::Time);
+        if !is_leaf || dag.reachable(&[value]).contains(&leaf) {
+            return false;
+        }
+        let difference = dag.sub(yes, no);
+        let at: Map<Node, Node> = [(leaf, value)].into_iter().collect();
+        let difference = dag.substitute(difference, |_, node| at.get(&node).copied());
+        dag.is_zero(difference) || normal_form::vanishes(dag, difference)
+    })
+}

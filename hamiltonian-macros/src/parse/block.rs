@@ -227,7 +227,7 @@ impl Parser<'_> {
             return self.abort(
                 dots,
                 "ranges exclude their end",
-                "write `0..n + 1` to include `n`",
+                "write `..n + 1` to include `n`",
             );
         }
         let upper = self.bound("where it ends", form)?;

@@ -1014,7 +1014,7 @@ help: write `sum(i in 0..N) { … }`"##,
     (
         r##"H(q[3]; p[3]) = sum(i in 0⟦..=⟧2) { p[i] }"##,
         r##"ranges exclude their end
-help: write `0..n + 1` to include `n`"##,
+help: write `..n + 1` to include `n`"##,
     ),
     (
         r##"H(q[3]; p[3]) = sum(i in ⟦3⟧) { p[i] }"##,

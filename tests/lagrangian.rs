@@ -331,3 +331,100 @@ fn velocities_around_a_ring() {
     });
     close(CoupledRing {}.stretching(&state), 0.49 + 1.21 + 0.16);
 }
+
+hamiltonian! {
+    /// Velocities coupled to the neighbours of their elements, on both sides.
+    struct Neighbours { n: usize }
+    L(q[n]; v[n]) = sum(i in 0..n) { v[i]^2/2 } + sum(i in 0..n - 1) { v[i]*q[i + 1]^2 }
+        + sum(i in 1..n) { v[i]*q[i - 1] } + sum(i in 0..n - 1, j in 0..i) { v[i + 1]*q[j]^3 };
+    monitor kinetic = sum(i in 0..n) { v[i]^2/2 };
+    event first = v[0];
+    monitor changed = bracket(q[0], sum(i in 0..n) { v[i]^2/2 })
+}
+
+hamiltonian! {
+    /// The same of a literal length.
+    struct Fourth<const N: usize> {}
+    L(q[N]; v[N]) = sum(i in 0..N) { v[i]^2/2 } + sum(i in 1..N) { v[i]*q[i - 1] }
+}
+
+hamiltonian! {
+    /// What a sum from `i` on is to be written as, where the velocity is that of row `i + 1`.
+    struct Later { n: usize }
+    L(q[n]; v[n]) = sum(i in 0..n) { v[i]^2/2 }
+        + sum(i in 0..n - 1, j in 0..n) { if i <= j { v[i + 1]*q[j] } else { 0 } }
+}
+
+/// b of p = v + b.
+fn pulls(q: &[f64]) -> Vec<f64> {
+    let pull = |i: usize| {
+        let after = q.get(i + 1).map_or(0.0, |q| q * q);
+        let before = if i > 0 { q[i - 1] } else { 0.0 };
+        let all = q[..i.saturating_sub(1)].iter().map(|q| q.powi(3));
+        after + before + all.sum::<f64>()
+    };
+    (0..q.len()).map(pull).collect()
+}
+
+#[test]
+fn velocities_coupled_to_neighbours() {
+    for n in [1usize, 2, 3, 4, 6] {
+        let system = Neighbours::new(n).unwrap();
+        let q: Vec<f64> = (0..n).map(|i| 0.3 + 0.2 * i as f64).collect();
+        let v: Vec<f64> = (0..n).map(|i| 0.5 - 0.3 * i as f64).collect();
+        let state = system.state_from_velocity(0.0, q.clone(), v.clone());
+        let energy = |q: &[f64]| -> f64 {
+            let velocities = state.p.iter().zip(pulls(q)).map(|(p, b)| p - b);
+            velocities.map(|v| v * v / 2.0).sum()
+        };
+        close(system.energy(&state), energy(&q));
+        close(system.kinetic(&state), energy(&q));
+        close(system.first(&state), v[0]);
+        close(system.changed(&state), v[0]);
+        let velocity = system.velocity(&state);
+        let gradient = system.gradient(&state);
+        let first = system.first_gradient(&state);
+        for i in 0..n {
+            close(state.p[i], v[i] + pulls(&q)[i]);
+            close(velocity[i], v[i]);
+            close(gradient.p[i], v[i]);
+            // ∂H/∂q = −Σ v·∂b/∂q
+            let mut slope = 0.0;
+            if i > 0 {
+                slope -= v[i - 1] * 2.0 * q[i];
+            }
+            if i + 1 < n {
+                slope -= v[i + 1];
+            }
+            slope -= v
+                .iter()
+                .skip(i + 2)
+                .map(|v| v * 3.0 * q[i] * q[i])
+                .sum::<f64>();
+            close(gradient.q[i], slope);
+            close(first.q[i], if i == 1 { -2.0 * q[1] } else { 0.0 });
+        }
+    }
+    for n in [1usize, 2, 4] {
+        let q: Vec<f64> = (0..n).map(|i| 0.3 + 0.2 * i as f64).collect();
+        let state = Later::new(n)
+            .unwrap()
+            .state_from_velocity(0.0, q.clone(), vec![0.0; n]);
+        for i in 0..n {
+            let from = if i > 0 { i - 1 } else { n };
+            close(state.p[i], q[from..].iter().sum::<f64>());
+        }
+    }
+    fn fourth<const N: usize>() {
+        let (q, p): ([f64; N], [f64; N]) = (
+            std::array::from_fn(|i| 0.1 * (i + 1) as f64),
+            std::array::from_fn(|i| (i + 1) as f64),
+        );
+        let v = |i: usize| p[i] - if i > 0 { q[i - 1] } else { 0.0 };
+        let energy: f64 = (0..N).map(|i| v(i) * v(i) / 2.0).sum();
+        close(Fourth::<N> {}.energy(&State::new(q, p)), energy);
+    }
+    fourth::<1>();
+    fourth::<2>();
+    fourth::<4>();
+}

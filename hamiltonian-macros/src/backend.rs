@@ -14,7 +14,7 @@ mod verdicts;
 
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::{lower, velocity_names};
+use crate::lower::{ends, lower, velocity_names};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::model::Model;
@@ -42,6 +42,12 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         let readable = lowered.legendre.as_ref().filter(|_| is_declared);
         let readable = readable
             .map(|legendre| Readable::of(&lowered.model, legendre, &velocity_names(checked)));
+        if ends::guard(&mut lowered).is_none() {
+            let reason = "this Lagrangian has no Hamiltonian: the momentum of an element has a sum that starts below 0 for the first elements";
+            let help = "let the sum start at 0, with a condition in it: `sum(j in 0..n) { if i <= j { … } else { 0 } }`; else give H(q; p)";
+            report.error(definition(checked), reason.to_owned(), help);
+            return None;
+        }
         let System {
             model,
             vectors,

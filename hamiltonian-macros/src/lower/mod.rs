@@ -9,6 +9,7 @@
 
 mod demand;
 mod domain;
+pub mod ends;
 mod evaluate;
 mod loops;
 mod scope;

@@ -492,3 +492,28 @@ fn rows_in_any_order_are_row_0_or_another_where_they_are_read() {
         );
     }
 }
+
+hamiltonian! {
+    /// Reads a body that few bodies do not have, and as many as another size says.
+    pub struct Reaching { n: usize, k: usize, m: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) } + (q[4] - q[0])^2 + sum(i in 0..k) { q[i]^2 }
+}
+hamiltonian! {
+    /// The same around the first.
+    pub struct ReachingAroundFirst { n: usize, k: usize, m: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/(2*m[i]) } + (q[4] - q[0])^2 + sum(i in 0..k) { q[i]^2 };
+    coordinates heliocentric(q, m)
+}
+
+#[test]
+fn sizes_that_bound_each_other() {
+    for (n, k) in [(5, 5), (6, 2), (7, 0)] {
+        let m = vec![2.0; n];
+        let numbers = |k: f64| -> Vec<f64> { (0..n).map(|i| (k * i as f64 + 0.4).sin()).collect() };
+        same_system!(
+            Reaching::new(n, k, m.clone()).unwrap(),
+            ReachingAroundFirst::new(n, k, m).unwrap(),
+            State::new(numbers(1.1), numbers(0.7))
+        );
+    }
+}

@@ -381,7 +381,7 @@ fn ten_bodies_are_done_in_time() {
 #[test]
 fn the_check_sees_a_wrong_hamiltonian() {
     let mut new = polar("p_x^2/2 + x*y", "");
-    assert_eq!(check(&new), Ok(()));
+    assert_eq!(check(&new), Ok(3));
     new.model.hamiltonian = Some(parse(&mut new.model, "p_r^2/2 + r^2*sin(phi)*cos(phi)"));
     match check(&new) {
         Err(Refusal::Unverified { point, old, new }) => {
@@ -389,6 +389,46 @@ fn the_check_sees_a_wrong_hamiltonian() {
         }
         other => panic!("{other:?}"),
     }
+}
+
+#[test]
+fn the_check_compares_where_every_index_is_in_range() {
+    let chart = [Chart::Heliocentric(bodies())];
+    let kinetic = "sum(i in 0..n) { p[i]^2/(2*m[i]) }";
+    for (sizes, more) in [
+        ("n", "(q[4] - q[0])^2"),
+        ("n", "q[40]^2"),
+        ("n k", "sum(i in 0..k) { q[i]^2 }"),
+        ("k n", "sum(i in 0..k) { q[i + 2]^2 }"),
+        ("n k", "sum(i in 0..2*k) { q[i]^2 }"),
+        ("n", "sqrt(q[0] - 20)"),
+        ("n", "sqrt(1/20 - q[0]^2)"),
+    ] {
+        let h = format!("{kinetic} + {more}");
+        let mut new = apply(&system("q[n]; p[n]", sizes, "m[n]", &h), &chart, &[]).unwrap();
+        assert!(check(&new).unwrap() > 0, "{h}");
+        // The same with a term that it does not have.
+        let wrong = parse(&mut new.model, "p_heliocentric[n - 1]/64");
+        let h = new.model.hamiltonian.unwrap();
+        new.model.hamiltonian = Some(new.model.dag.add(&[h, wrong]));
+        assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
+    }
+    // Nowhere a value, nothing compared.
+    let model = system("q[n]; p[n]", "n", "m[n]", "sqrt(-1 - q[0]^2)");
+    assert_eq!(check(&apply(&model, &chart, &[]).unwrap()), Ok(0));
+}
+
+#[test]
+fn the_check_asks_for_eight_digits_where_there_are_as_many() {
+    // A slip of 1e-7 beside numbers whose rounding is far below it.
+    let mut new = polar("p_x^2/2 + 1/(x^2 + y^2)^3", "");
+    let h = new.model.hamiltonian.unwrap();
+    let slip = parse(&mut new.model, "1/10000000");
+    new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
+    assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
+    // Rounding that leaves fewer is not a slip.
+    let new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
+    assert!(check(&new).is_ok());
 }
 
 #[test]

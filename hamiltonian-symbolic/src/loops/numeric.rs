@@ -75,9 +75,26 @@ pub fn sample(
         read: Map::default(),
         point: Vec::new(),
         visits: 0,
+        is_in_range: true,
     };
     let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
     Some((values?, numbers.point))
+}
+
+/// Whether every index is in range at these sizes; not if a loop runs too long to tell.
+#[must_use]
+pub fn is_in_range(model: &Model, roots: &[Node], sizes: &[i64]) -> bool {
+    let meaning = Numbers {
+        model,
+        how: Sample::default(),
+        given: Map::default(),
+        read: Map::default(),
+        point: Vec::new(),
+        visits: 0,
+        is_in_range: true,
+    };
+    let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
+    values.is_some() && numbers.is_in_range
 }
 
 /// The most nodes a sample may visit.
@@ -90,6 +107,7 @@ struct Numbers<'a> {
     read: Map<(Array, i64, i64), ()>,
     point: Point,
     visits: usize,
+    is_in_range: bool,
 }
 
 impl Numbers<'_> {
@@ -170,6 +188,22 @@ impl Numbers<'_> {
         }
         value
     }
+}
+
+/// Whether an array has that element.
+fn is_within(model: &Model, array: Array, (row, column): (i64, i64), place: &Place) -> bool {
+    let shape = match array {
+        Array::Phase { group, .. } | Array::Direction { group, .. } => {
+            &model.groups[usize::from(group)].shape
+        }
+        Array::Parameter(parameter) => &model.parameters[usize::from(parameter.0)].shape,
+    };
+    let (rows, columns) = match shape {
+        Shape::Scalar => (1, 1),
+        Shape::Vector(rows) => (place.affine(rows), 1),
+        Shape::Matrix(rows, columns) => (place.affine(rows), place.affine(columns)),
+    };
+    (0..rows).contains(&row) && (0..columns).contains(&column)
 }
 
 /// `q`, `q[2]`, `q[2][0]`
@@ -295,6 +329,7 @@ impl Meaning for Numbers<'_> {
                     place.index(row),
                     column.as_ref().map_or(0, |c| place.index(c)),
                 );
+                self.is_in_range &= is_within(self.model, *array, (row, column), place);
                 exact(self.element(*array, row, column))
             }
             Kind::Sum(c, terms) => {

@@ -12,38 +12,93 @@ use crate::index::Affine;
 use crate::loops::{self, Sample};
 use crate::model::{Model, Shape, VectorEntry};
 
-/// How many points [`check`] takes.
-const POINTS: u64 = 3;
+/// How many points [`check`] compares at certain sizes,
+const POINTS: usize = 3;
+/// of how many it tries for that.
+const TRIES: u64 = 9;
+/// At how many choices of sizes.
+const CHOICES: usize = 2;
 /// The largest difference it passes, relative to H or to 1.
 const CLOSE: f64 = 1e-8;
 
 /// Whether H and the observables of the new model are those of the old one: K(Q, P, t) and
-/// H(q(Q), p(Q, P), t) at pseudo-random points of the chart, to eight digits. Points outside the
-/// domain of H are passed over.
+/// H(q(Q), p(Q, P), t) at pseudo-random points of the chart, to eight digits. Sizes are such that
+/// every index is in range. Points outside the domain of H, or where rounding leaves fewer digits,
+/// are passed over for others. How many were compared is the answer: 0 where H has a value nowhere.
 ///
 /// # Errors
 /// [`Refusal::Unverified`] with the first point where they differ.
-pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
+pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
+    let old = &transformed.source;
+    let old_roots = roots(old);
+    let fitting = choices(old.sizes.len())
+        .filter(|sizes| sizes.is_empty() || loops::is_in_range(old, &old_roots, sizes))
+        .take(CHOICES);
+    let mut compared = 0;
+    for sizes in fitting {
+        compared += check_at(transformed, &old_roots, &sizes)?;
+    }
+    Ok(compared)
+}
+
+/// H and the components of observables.
+fn roots(model: &Model) -> Vec<Node> {
+    let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
+    for observable in &model.observables {
+        roots.extend(&observable.components);
+    }
+    roots
+}
+
+/// Choices of sizes, those first that are small and differ from each other.
+fn choices(count: usize) -> impl Iterator<Item = Vec<i64>> {
+    // As many as literal indices ask for: q[100] is an index too.
+    let least = [3, 4, 5, 6, 8, 11, 16, 32, 64, 128, 256, 512, 1024];
+    let in_line = least.into_iter().flat_map(move |least| {
+        let rising: Vec<i64> = (least..).take(count).collect();
+        let falling = rising.iter().rev().copied().collect();
+        let mut choices = vec![rising, falling, vec![least; count]];
+        choices.dedup();
+        choices
+    });
+    // And where sizes bound each other in other ways, all small ones; those past the fourth are as
+    // the fourth.
+    let greatest: i64 = 6;
+    let all = (0..greatest.pow(count.min(4) as u32)).map(move |number| {
+        (0..count)
+            .map(|at| greatest - number / greatest.pow(at.min(3) as u32) % greatest)
+            .collect()
+    });
+    let none = (count == 0).then(Vec::new);
+    none.into_iter()
+        .chain(in_line.chain(all).filter(|sizes| !sizes.is_empty()))
+}
+
+/// How many points were compared at these sizes.
+fn check_at(
+    transformed: &Transformed,
+    old_roots: &[Node],
+    sizes: &[i64],
+) -> Result<usize, Refusal> {
     let mut old = transformed.source.clone();
     let mut new = transformed.model.clone();
-    let sizes: Vec<i64> = (3..).take(old.sizes.len()).collect();
-    let inverse = at_sizes(&mut new, &transformed.inverse, &sizes);
-    let roots = |model: &Model| -> Vec<Node> {
-        let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
-        for observable in &model.observables {
-            roots.extend(&observable.components);
+    let inverse = at_sizes(&mut new, &transformed.inverse, sizes);
+    let new_roots = roots(&new);
+    let new_slots = slots(&new, sizes);
+    let mut compared = 0;
+    for seed in 1..=TRIES {
+        if compared == POINTS {
+            break;
         }
-        roots
-    };
-    let (old_roots, new_roots) = (roots(&old), roots(&new));
-    let new_slots = slots(&new, &sizes);
-    for seed in 1..=POINTS {
         let how = Sample {
             seed,
             ..Sample::default()
         };
         let mut random = seed;
         let mut given: Vec<(Node, f64)> = Vec::new();
+        // Where H has no value at the first points it may have one further out or in.
+        let further = seed.saturating_sub(POINTS as u64) as i32;
+        let scale = 4f64.powi(if further % 2 == 0 { further } else { -further });
         for &(side, slot) in &new_slots {
             let node = element(&mut new.dag, side, slot.group, slot.row, slot.column);
             // Between 1/4 and 9/4: inside every chart as it is; what need not be positive is of
@@ -51,12 +106,17 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
             let size = 0.25 + 2.0 * fraction(&mut random);
             let flip = fraction(&mut random) < 0.5;
             let name = &new.groups[usize::from(slot.group)].coordinate;
-            let bounded = side == Side::Q && (name == "r" || name == "theta");
-            given.push((node, if flip && !bounded { -size } else { size }));
+            let value = match (side, name.as_str()) {
+                (Side::Q, "theta") => size,
+                (Side::Q, "r") => scale * size,
+                _ if flip => -scale * size,
+                _ => scale * size,
+            };
+            given.push((node, value));
         }
         let mut all = new_roots.clone();
         all.extend(inverse.iter().map(|entry| entry.value));
-        let Some((values, point)) = loops::sample(&new, &all, &sizes, how, &given) else {
+        let Some((values, point)) = loops::sample(&new, &all, sizes, how, &given) else {
             continue;
         };
         let mut old_given: Vec<(Node, f64)> = Vec::new();
@@ -75,15 +135,22 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
                 old_given.push((node, *value));
             }
         }
-        let Some((expected, _)) = loops::sample(&old, &old_roots, &sizes, how, &old_given) else {
+        let Some((expected, _)) = loops::sample(&old, old_roots, sizes, how, &old_given) else {
             continue;
         };
+        let mut is_compared = false;
         for (a, b) in expected.iter().zip(&values) {
+            let close = CLOSE * a.value.abs().max(b.value.abs()).max(1.0);
             // The bounds of the rounding errors do not know that the arguments are rounded too.
-            let rounding = 1e4 * (a.error + b.error).min(CLOSE);
-            let tolerance = CLOSE * a.value.abs().max(b.value.abs()).max(1.0) + rounding;
-            let close = (a.value - b.value).abs() <= tolerance;
-            if a.value.is_finite() && !close {
+            let rounding = 1e4 * (a.error + b.error);
+            // Not so where there is no number, or less of one than is asked for.
+            if !a.value.is_finite() || rounding > close {
+                continue;
+            }
+            is_compared = true;
+            // A value that is none is not close.
+            let is_close = (a.value - b.value).abs() <= close + rounding;
+            if !is_close {
                 return Err(Refusal::Unverified {
                     point,
                     old: a.value,
@@ -91,8 +158,9 @@ pub fn check(transformed: &Transformed) -> Result<(), Refusal> {
                 });
             }
         }
+        compared += usize::from(is_compared);
     }
-    Ok(())
+    Ok(compared)
 }
 
 /// The entries with their loops run at the given sizes.

@@ -82,9 +82,7 @@ fn sweep(
                     no: x[1],
                 };
                 for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
-                    // Inside a sum of its branch a leaf lives further in than the condition.
-                    let within = inner(dag, here, dag.home(leaf));
-                    give(dag, leaf, within, value);
+                    give(dag, leaf, here, value);
                 }
             }
             Kind::Call(op, arguments) => {
@@ -105,9 +103,7 @@ fn sweep(
             Kind::Select(condition, yes, no) => {
                 let either = Branches { condition, yes, no };
                 for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
-                    // Inside a sum of its branch a leaf lives further in than the condition.
-                    let within = inner(dag, here, dag.home(leaf));
-                    give(dag, leaf, within, value);
+                    give(dag, leaf, here, value);
                 }
             }
             Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => {
@@ -197,7 +193,8 @@ fn inner(dag: &Dag, a: Option<Domain>, b: Option<Domain>) -> Option<Domain> {
 }
 
 /// A contribution made inside loop `within` to a node that lives further out is summed over the
-/// loops between, but not beyond `context`.
+/// loops between, but not beyond `context`. A leaf in a sum of a branch lives further in: nothing is
+/// summed.
 fn sum_out(
     dag: &mut Dag,
     child: Node,
@@ -205,9 +202,10 @@ fn sum_out(
     context: Option<Domain>,
     value: Node,
 ) -> Node {
-    let stop = inner(dag, dag.home(child), context);
+    let home = dag.home(child);
+    let stop = inner(dag, home, context);
     let mut value = value;
-    let mut at = within;
+    let mut at = inner(dag, within, home);
     while at != stop {
         let Some(domain) = at else { break };
         let parent = dag.range(domain).parent;

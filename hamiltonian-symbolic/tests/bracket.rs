@@ -451,3 +451,49 @@ fn what_no_rule_proves_is_undecided_with_its_residual() {
         other => panic!("{other:?}"),
     }
 }
+
+/// Derivatives vanish on both sides of a jump.
+#[test]
+fn nothing_is_proven_across_a_jump() {
+    let jumps = |m: &mut Model, invariant: &str| match verdict(m, invariant, None) {
+        Verdict::Jumps { part } => part,
+        other => panic!("{invariant}: {other:?}"),
+    };
+    let mut oscillator = system("x, y; u, v; t", "", "", "(u^2 + v^2 + x^2 + y^2)/2");
+    for invariant in [
+        "sign(x)",
+        "if x < y { 1 } else { 2 }",
+        "if t < 1 { 1 } else { 2 }",
+        "if x < 0 && y < 0 { 1 } else { 2 }",
+        "atan2(x, u) - t",
+    ] {
+        jumps(&mut oscillator, invariant);
+    }
+    accepted(&mut oscillator, "u^2 + if x < 0 { x^2 } else { x*abs(x) }");
+    accepted(&mut oscillator, "max(x^2 + u^2, y^2 + v^2)");
+    // A step of H takes from a momentum what no derivative shows.
+    let mut step = system(
+        "x, y; u, v",
+        "",
+        "",
+        "u^2/2 + v^2/2 + if x < 1 { 0 } else { 2 }",
+    );
+    assert_eq!(jumps(&mut step, "u"), "if x < 1 { 0 } else { 2 }");
+    let mut ramp = system(
+        "x, y; u, v",
+        "",
+        "",
+        "u^2/2 + v^2/2 + if x < 1 { 0 } else { x - 1 }",
+    );
+    accepted(&mut ramp, "v");
+    // Where one element is 0 the sum over all is not: what it binds is another element.
+    let mut saddles = system("x[N]; u[N]", "N", "", "sum(i in 0..N) { x[i]*u[i] }");
+    jumps(
+        &mut saddles,
+        "sum(i in 0..N) { if x[i] < 0 { 0 } else { sum(j in 0..N) { x[j]*u[j] } } }",
+    );
+    accepted(
+        &mut saddles,
+        "sum(i in 0..N) { if x[i] < 0 { 0 } else { x[i]*u[i] } }",
+    );
+}

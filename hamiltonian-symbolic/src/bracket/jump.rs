@@ -3,7 +3,7 @@
 //! Input: expressions. Output: a part of them that is not known to be continuous. Invariant:
 //! derivatives do not see a jump, so nothing is conserved across one because its derivatives say so.
 
-use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::normal_form;
 use crate::op::Op;
 
@@ -37,8 +37,9 @@ fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
             return false;
         }
         let difference = dag.sub(yes, no);
-        let at: Map<Node, Node> = [(leaf, value)].into_iter().collect();
-        let difference = dag.substitute(difference, |_, node| at.get(&node).copied());
+        // What a sum binds is not the leaf, though it may be called like it.
+        let difference = dag.nested(difference, dag.home(leaf));
+        let difference = dag.substitute(difference, |_, node| (node == leaf).then_some(value));
         dag.is_zero(difference) || normal_form::vanishes(dag, difference)
     })
 }

@@ -1,8 +1,8 @@
 //! Poisson brackets and the proof or refutation of invariants.
 //!
 //! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
-//! proven means for all sizes, at all points (on the shell, if one is given), across all switches; disproven comes with
-//! sizes and a point where the time derivative along the flow is not zero.
+//! proven means for all sizes, at all points (on the shell, if one is given), with nothing that may
+//! jump; disproven comes with sizes and a point where the time derivative along the flow is not zero.
 
 mod jump;
 mod pair;

@@ -289,6 +289,39 @@ fn gradients_of_events() {
 }
 
 #[test]
+fn starts_off_the_shell_are_errors() {
+    let kepler = Sundman {
+        drag: 0.0,
+        ..Default::default()
+    };
+    let run = |start| Integrator::new(&kepler, RungeKutta4, start, 1e-3).map(|_| ());
+    let start = State::new([0.4, 0.0, 0.0], [0.0, 2.0, 0.0]);
+    let Err(Error::Shell {
+        momentum,
+        given,
+        due,
+    }) = run(start.clone())
+    else {
+        panic!("p_t = 0 is not the shell");
+    };
+    assert_eq!((momentum, given), ("p_t", 0.0));
+    close(due, 0.5);
+    let mut on = kepler.on_shell(&start);
+    run(on.clone()).unwrap();
+    // What digits were cut off is no other shell; what is, is.
+    on.p[2] = 0.500_000_1;
+    run(on.clone()).unwrap();
+    on.p[2] = 0.500_1;
+    assert!(matches!(run(on), Err(Error::Shell { .. })));
+    // At rest far out nothing but p_t and the potential is there.
+    let rest = State::new([1e8, 0.0, 0.0], [0.0, 0.0, 0.0]);
+    run(kepler.on_shell(&rest)).unwrap();
+    assert!(matches!(run(rest), Err(Error::Shell { .. })));
+    // A parabola: H = 0, so that p_t is 0 on the shell.
+    run(State::new([0.5, 0.0, 0.0], [0.0, 2.0, 0.0])).unwrap();
+}
+
+#[test]
 fn sundman() {
     // a = 1, e = 0.6: the period is 2π in t, and 2π in s, as dt = r ds and the mean of 1/r is 1/a.
     let period = 2.0 * std::f64::consts::PI;

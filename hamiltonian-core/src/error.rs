@@ -53,6 +53,20 @@ pub enum Error {
         /// Its momenta.
         p: Vec<f64>,
     },
+    /// A start of a system in another time (`dt = g*ds`) that is not on the shell H = 0, where alone
+    /// its orbits are those of the declared system.
+    #[error(
+        "the start is not on the shell H = 0: `{momentum}` is {given}, and {due} there; `on_shell` and \
+         `from_declared` make starts that are"
+    )]
+    Shell {
+        /// The momentum of time.
+        momentum: &'static str,
+        /// Its value.
+        given: f64,
+        /// Its value on the shell.
+        due: f64,
+    },
     /// A step led to a NaN or an infinity. The run stays at the state before that step.
     #[error("step {step} led to a state that is not finite: t = {time}, q = {q:?}, p = {p:?}")]
     NotFinite {

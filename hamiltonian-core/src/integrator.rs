@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::observe::{Every, Observer, View, Watch, every, watch};
 use crate::scheme::{Clock, Copies, Entry, Scheme, Stepper, Unsolved};
 use crate::state::{Point, State};
-use crate::system::System;
+use crate::system::{Dynamics, System};
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Mask, Real};
@@ -82,7 +82,9 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
     ///
     /// # Errors
     /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
-    /// the system's shape; [`Error::Start`] when it is not finite.
+    /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Shell`] when the system
+    /// is one in another time and it is off the shell H = 0 by more than a millionth of the energies
+    /// in it.
     pub fn new<M: Scheme<T, S, Stepper = R>>(
         system: &S,
         scheme: M,
@@ -104,6 +106,9 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
             });
         }
         let prepared = system.prepare();
+        if S::ON_SHELL {
+            check_shell::<T, S>(&prepared, &start)?;
+        }
         let stepper = scheme.prepare(&prepared, &start, step);
         let duration = T::constant(f64::from(scheme.entry().duration), 0.0);
         Ok(Integrator {
@@ -423,6 +428,30 @@ fn finite<V: Vector>(state: &State<V>) -> bool {
 }
 
 /// The components as `f64`.
+/// An error where H = g·(h + p_t) is not 0: p_t, the last momentum, is not −h. It is held against
+/// Σ p ∂H/∂p, in which g·p_t is one term.
+fn check_shell<T: Real, S: System<T>>(
+    prepared: &S::Prepared,
+    start: &State<S::Vector>,
+) -> Result<(), Error> {
+    let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
+    let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
+    let (momenta, velocities) = (numbers(&start.p), numbers(&velocities));
+    let terms = momenta.iter().zip(&velocities);
+    let scale: f64 = terms.map(|(p, velocity)| (p * velocity).abs()).sum();
+    let (Some(given), Some(factor)) = (momenta.last(), velocities.last()) else {
+        return Ok(());
+    };
+    if h.to_f64().abs() <= 1e-6 * scale {
+        return Ok(());
+    }
+    Err(Error::Shell {
+        momentum: S::GROUPS.last().map_or("", |group| group.momentum),
+        given: *given,
+        due: given - h.to_f64() / factor,
+    })
+}
+
 fn numbers<V: Vector>(vector: &V) -> Vec<f64> {
     vector.components().map(Real::to_f64).collect()
 }

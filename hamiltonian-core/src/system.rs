@@ -62,6 +62,10 @@ pub trait System<T: Real> {
     const GROUPS: &'static [Group];
     /// Monitors, invariants and events in declaration order.
     const OBSERVABLES: &'static [Observable];
+    /// Whether only orbits with H = 0 are those of the system: in another time, dt = g ds, H is
+    /// g·(h + p_t) with h the declared one, and its last momentum is p_t = −h on the shell H = 0.
+    /// Runs ask starts for it.
+    const ON_SHELL: bool = false;
 
     /// Does all work that depends on parameters alone.
     fn prepare(&self) -> Self::Prepared;

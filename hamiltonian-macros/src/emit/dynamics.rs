@@ -11,7 +11,7 @@ use super::holder::{Holder, Receiver};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
-use super::{Definition, Form, derived, observables, reach};
+use super::{Definition, Form, derived, observables, reach, vectors};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
@@ -152,7 +152,7 @@ impl<'a> Emission<'a> {
              type Vector = {};\ntype Prepared = __Prepared{};\n\
              const NAME: &'static __h::core::primitive::str = {:?};\n\
              const GROUPS: &'static [__h::Group] = &[{}];\n\
-             const OBSERVABLES: &'static [__h::Observable] = &[{}];",
+             const OBSERVABLES: &'static [__h::Observable] = &[{}];{}",
             generics.declaration_with_scalar(),
             generics.system_type(),
             self.vector,
@@ -160,6 +160,10 @@ impl<'a> Emission<'a> {
             context.model.name,
             groups(context.model, context.layout),
             observables::entries(context.model),
+            match vectors::is_on_shell(self.definition) {
+                true => "\nconst ON_SHELL: __h::core::primitive::bool = true;",
+                false => "",
+            },
         );
         line!(
             self,

@@ -308,10 +308,10 @@ fn starts_off_the_shell_are_errors() {
     close(due, 0.5);
     let mut on = kepler.on_shell(&start);
     run(on.clone()).unwrap();
-    // What digits were cut off is no other shell; what is, is.
-    on.p[2] = 0.500_000_1;
-    run(on.clone()).unwrap();
+    // Where a run with an error in its energy ended another can go on.
     on.p[2] = 0.500_1;
+    run(on.clone()).unwrap();
+    on.p[2] = 0.51;
     assert!(matches!(run(on), Err(Error::Shell { .. })));
     // At rest far out nothing but p_t and the potential is there.
     let rest = State::new([1e8, 0.0, 0.0], [0.0, 0.0, 0.0]);

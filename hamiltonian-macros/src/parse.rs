@@ -9,6 +9,7 @@ mod block;
 mod expr;
 mod header;
 mod number;
+mod operator;
 mod statement;
 
 use crate::ast::{Ast, Expr, ExprId, ExprKind, Expression, ScopeId};
@@ -64,7 +65,7 @@ struct Parser<'a> {
     /// The limit of the group in which the condition of an `if` is being read.
     condition: Option<usize>,
     /// Operators that wait for their right operand.
-    pending: Vec<expr::Pending>,
+    pending: Vec<operator::Pending>,
     /// Nodes of `%` that are not yet the outermost of an index.
     remainders: Vec<ExprId>,
     /// Words of the language that a statement wanted to declare.

@@ -5,12 +5,10 @@
 //! and powers do; chains of left-associative operators of any length cost neither stack nor depth.
 //! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read as
 //! what was meant, so that the errors after it are found too.
-//!
-//! Binding, from loose to tight: `||`, `&&`, comparisons (not associative), `+ -`, `* / %`, prefix
-//! `- !`, `^` (right-associative, takes a prefix operator on its right), calls and indices.
 
+use super::operator::{Pending, begins_operand, left_binding};
 use super::{Parser, Result};
-use crate::ast::{BinaryOp, Comparison, ExprId, ExprKind, UnaryOp};
+use crate::ast::{BinaryOp, ExprId, ExprKind, UnaryOp};
 use crate::names;
 use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
@@ -19,50 +17,11 @@ use proc_macro2::{Delimiter, Span};
 /// What follows a function.
 const CALL: TokenKind = TokenKind::Open(Delimiter::Parenthesis);
 
-/// An operator that waits for its right operand.
-pub(super) enum Pending {
-    Unary(UnaryOp, Span),
-    Binary(BinaryOp, Spans, ExprId),
-}
-
-impl Pending {
-    /// How tightly it holds the operand on its right.
-    fn right_binding(&self) -> u8 {
-        match self {
-            Pending::Unary(..) => 11,
-            Pending::Binary(BinaryOp::Pow, ..) => 13,
-            Pending::Binary(op, ..) => left_binding(*op) + 1,
-        }
-    }
-}
-
 /// Whether a word is a keyword of Rust and none of the language.
-fn is_foreign(word: &str) -> bool {
+pub(super) fn is_foreign(word: &str) -> bool {
     names::is_rust_keyword(word)
         && !names::is_statement_word(word)
         && !matches!(word, "if" | "else" | "in")
-}
-
-/// Whether a value may begin with such a token.
-fn begins_operand(kind: TokenKind) -> bool {
-    matches!(
-        kind,
-        TokenKind::Ident
-            | TokenKind::Literal
-            | TokenKind::Open(Delimiter::Parenthesis | Delimiter::Bracket | Delimiter::None)
-    )
-}
-
-/// How tightly an operator holds the operand on its left.
-fn left_binding(op: BinaryOp) -> u8 {
-    match op {
-        BinaryOp::Or => 1,
-        BinaryOp::And => 3,
-        BinaryOp::Compare(_) => 5,
-        BinaryOp::Add | BinaryOp::Sub => 7,
-        BinaryOp::Mul | BinaryOp::Div | BinaryOp::Rem => 9,
-        BinaryOp::Pow => 14,
-    }
 }
 
 impl Parser<'_> {
@@ -299,7 +258,7 @@ impl Parser<'_> {
     }
 
     /// A keyword of Rust inside an expression. What follows `for` and the like is not read.
-    fn keyword(&mut self, token: &Token, what: &str) -> Result<()> {
+    pub(super) fn keyword(&mut self, token: &Token, what: &str) -> Result<()> {
         let name = &token.text;
         let (help, is_clause) = match name.as_str() {
             "for" | "while" | "loop" => ("write `sum(i in 0..N) { … }` to add terms", true),
@@ -518,122 +477,5 @@ impl Parser<'_> {
             );
         }
         Ok(self.push(ExprKind::Error, spans, start))
-    }
-
-    /// The operator at the cursor, which it moves past; `None` where the expression ends.
-    fn infix(&mut self) -> Result<Option<(BinaryOp, Spans)>> {
-        let Some(token) = self.peek() else {
-            return Ok(None);
-        };
-        let span = token.span;
-        let then = |parser: &Self, character| matches!(parser.kind_at(1), Some(TokenKind::Punct(found, _)) if found == character);
-        let (op, length) = match token.kind {
-            TokenKind::Punct('+', _) => (BinaryOp::Add, 1),
-            TokenKind::Punct('-', _) => (BinaryOp::Sub, 1),
-            TokenKind::Punct('*', true) if then(self, '*') => {
-                let spans = Spans {
-                    start: span,
-                    end: self.tokens[self.position + 1].span,
-                };
-                self.report
-                    .error(spans, "`**` is not an operator", "write `^` for a power");
-                (BinaryOp::Pow, 2)
-            }
-            TokenKind::Punct('*', _) => (BinaryOp::Mul, 1),
-            TokenKind::Punct('/', _) => (BinaryOp::Div, 1),
-            TokenKind::Punct('%', _) => (BinaryOp::Rem, 1),
-            TokenKind::Punct('^', _) => (BinaryOp::Pow, 1),
-            TokenKind::Punct('<', true) if then(self, '=') => {
-                (BinaryOp::Compare(Comparison::LessEqual), 2)
-            }
-            TokenKind::Punct('>', true) if then(self, '=') => {
-                (BinaryOp::Compare(Comparison::GreaterEqual), 2)
-            }
-            TokenKind::Punct('=', true) if then(self, '=') => {
-                (BinaryOp::Compare(Comparison::Equal), 2)
-            }
-            TokenKind::Punct('!', true) if then(self, '=') => {
-                (BinaryOp::Compare(Comparison::NotEqual), 2)
-            }
-            TokenKind::Punct('<', _) => (BinaryOp::Compare(Comparison::Less), 1),
-            TokenKind::Punct('>', _) => (BinaryOp::Compare(Comparison::Greater), 1),
-            TokenKind::Punct('&', true) if then(self, '&') => (BinaryOp::And, 2),
-            TokenKind::Punct('|', true) if then(self, '|') => (BinaryOp::Or, 2),
-            TokenKind::Punct(single @ ('&' | '|'), _) => {
-                self.report.error(
-                    span,
-                    format!("`{single}` is not an operator"),
-                    format!("write `{single}{single}` between conditions"),
-                );
-                (
-                    if single == '&' {
-                        BinaryOp::And
-                    } else {
-                        BinaryOp::Or
-                    },
-                    1,
-                )
-            }
-            TokenKind::Ident
-            | TokenKind::Literal
-            | TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
-                if token.kind == TokenKind::Ident && is_foreign(&token.text) {
-                    self.keyword(token, "and means nothing here")?;
-                }
-                return Ok(self.missing_operator(token));
-            }
-            TokenKind::Punct('#', _) if self.limit == self.statement_limit => {
-                return Ok(self.missing_operator(token));
-            }
-            _ => return Ok(None),
-        };
-        let end = self.tokens[self.position + length - 1].span;
-        self.position += length;
-        Ok(Some((op, Spans { start: span, end })))
-    }
-
-    /// Two values side by side, or two statements.
-    fn missing_operator(&mut self, token: &Token) -> Option<(BinaryOp, Spans)> {
-        let name = token.text.as_str();
-        if token.kind == TokenKind::Ident && matches!(name, "on" | "else" | "in") {
-            return None;
-        }
-        let before = &self.tokens[self.position - 1];
-        if self.limit == self.statement_limit && self.begins_statement() {
-            let help = if token.kind != TokenKind::Ident || names::is_statement_word(name) {
-                "statements are separated by `;`".to_owned()
-            } else {
-                format!("write `; let {name}` if it is a statement of its own")
-            };
-            let message = format!("a `;` is missing before `{}`", token.shown());
-            self.report.error(token.span, message, help);
-            self.separator_missing = Some(self.position);
-            return None;
-        }
-        if self.condition == Some(self.limit) && !self.brace_follows() {
-            return None;
-        }
-        let shown = |token: &Token| match token.kind {
-            TokenKind::Ident | TokenKind::Literal => Some(token.text.clone()),
-            TokenKind::Open(_) | TokenKind::Close(_) => Some("(…)".into()),
-            TokenKind::Punct(..) => None,
-        };
-        let function = names::function(&before.text).filter(|f| f.arguments.len() == 1);
-        let (message, help) = match (shown(before), shown(token)) {
-            (Some(left), Some(right)) if function.is_some() => (
-                format!("`{left}` needs parentheses around its argument"),
-                format!("write `{left}({right})`"),
-            ),
-            (Some(left), Some(right)) if left != "(…)" || right != "(…)" => (
-                format!("an operator is missing between `{left}` and `{right}`"),
-                format!("write `{left}*{right}`"),
-            ),
-            _ => (
-                format!("an operator is missing before `{}`", token.shown()),
-                "write `*` between the factors of a product".to_owned(),
-            ),
-        };
-        self.report.error(token.span, message, help);
-        Some((BinaryOp::Mul, token.span.into()))
     }
 }

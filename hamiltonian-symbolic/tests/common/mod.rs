@@ -6,6 +6,7 @@
 
 use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+use hamiltonian_symbolic::loops::{Sample, sample};
 use hamiltonian_symbolic::model::{External, Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
@@ -414,4 +415,10 @@ impl Parser<'_> {
             .unwrap_or_else(|| panic!("no size {token}"));
         Affine::size(Size(size as u16))
     }
+}
+
+/// The value of each node where elements have the given values.
+pub fn values(model: &Model, nodes: &[Node], given: &[(Node, f64)]) -> Vec<f64> {
+    let (values, _) = sample(model, nodes, &[], Sample::default(), given).unwrap();
+    values.iter().map(|v| v.value).collect()
 }

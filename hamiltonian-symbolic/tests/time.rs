@@ -1,0 +1,246 @@
+//! Another time: what H becomes, and what is carried along; splits and forces as they are checked.
+
+mod common;
+
+use common::{model, parse, system, values};
+use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry};
+use hamiltonian_symbolic::print;
+use hamiltonian_symbolic::transform::{Force, check_forces, check_split, retime};
+
+#[test]
+fn another_time_adds_the_old_one_as_a_coordinate() {
+    let mut kepler = system(
+        "x, y; p_x, p_y; t",
+        "",
+        "e",
+        "(p_x^2 + p_y^2)/2 - 1/sqrt(x^2 + y^2) + e*x*cos(t)",
+    );
+    let angular = parse(&mut kepler, "(x*p_y - y*p_x)*t");
+    kepler.observables.push(Observable {
+        name: "L".into(),
+        kind: ObservableKind::Monitor,
+        components: vec![angular],
+    });
+    let g = parse(&mut kepler, "sqrt(x^2 + y^2)");
+    let mut new = retime(&kepler, g, &[]).unwrap();
+    assert_eq!(new.group, 2);
+    assert_eq!(new.model.time, None);
+    assert_eq!(new.model.groups[2].coordinate, "t");
+    assert_eq!(new.model.groups[2].momentum, "p_t");
+    let h = new.model.hamiltonian.unwrap();
+    let expected = parse(
+        &mut new.model,
+        "-1 + sqrt(x^2 + y^2)*((p_x^2 + p_y^2)/2 + e*x*cos(t) + p_t)",
+    );
+    let text = print::text(&new.model, h);
+    assert_eq!(h, expected, "{text}");
+    for root in [
+        h,
+        new.energy,
+        new.start,
+        new.model.observables[0].components[0],
+    ] {
+        assert!(!new.model.dag.dependence(root).on(Dependence::TIME));
+    }
+
+    // On the shell the equations are g times the old ones, and dt/ds = g.
+    let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+    let slopes = diff::gradient(&mut new.model.dag, h, both);
+    let old = diff::gradient(&mut new.model.dag, new.energy, both);
+    let read = |new: &mut Model, side, group| {
+        let array = Array::Phase {
+            side,
+            group,
+            column: 0,
+        };
+        new.dag.element(array, Index::constant(0), None)
+    };
+    let p_t = read(&mut new.model, Side::P, 2);
+    let start = values(&new.model, &[new.start], &[])[0];
+    let given = [(p_t, start)];
+    let mut compared = 0;
+    for (leaf, slope) in &slopes {
+        let expected = if *leaf == p_t {
+            new.factor
+        } else {
+            let (_, slope) = old.iter().find(|(other, _)| other == leaf).unwrap();
+            new.model.dag.mul(&[new.factor, *slope])
+        };
+        let pair = values(&new.model, &[*slope, expected], &given);
+        assert!((pair[0] - pair[1]).abs() < 1e-12, "{pair:?}");
+        compared += 1;
+    }
+    assert_eq!(compared, 6);
+    assert!(values(&new.model, &[h], &given)[0].abs() < 1e-14);
+    // Off it they are not.
+    let x = read(&mut new.model, Side::Q, 0);
+    let of = |list: &[(Node, Node)]| list.iter().find(|(leaf, _)| *leaf == x).unwrap().1;
+    let (slope, was) = (of(&slopes), of(&old));
+    let expected = new.model.dag.mul(&[new.factor, was]);
+    let pair = values(&new.model, &[slope, expected], &[(p_t, start + 1.0)]);
+    assert!((pair[0] - pair[1]).abs() > 1e-3, "{pair:?}");
+}
+
+#[test]
+fn mino_time_takes_the_fraction_away() {
+    let mut kerr = system(
+        "r, theta; p_r, p_theta",
+        "",
+        "a",
+        "((r^2 + a^2)*p_r^2 + p_theta^2 - r^3)/(2*(r^2 + a^2*cos(theta)^2))",
+    );
+    let g = parse(&mut kerr, "r^2 + a^2*cos(theta)^2");
+    let pieces = [parse(&mut kerr, "p_theta^2/(2*(r^2 + a^2*cos(theta)^2))")];
+    let mut new = retime(&kerr, g, &pieces).unwrap();
+    let h = new.model.hamiltonian.unwrap();
+    let expected = parse(
+        &mut new.model,
+        "((r^2 + a^2)*p_r^2 + p_theta^2 - r^3)/2 + (r^2 + a^2*cos(theta)^2)*p_t",
+    );
+    let text = print::text(&new.model, h);
+    assert_eq!(h, expected, "{text}");
+    let pieces = new.pieces(&[("A".into(), new.carried[0])]);
+    let shown: Vec<(&str, String)> = pieces
+        .iter()
+        .map(|(name, node)| (name.as_str(), print::text(&new.model, *node)))
+        .collect();
+    assert_eq!(shown[0].0, "A");
+    let half = parse(&mut new.model, "p_theta^2/2");
+    assert_eq!(pieces[0].1, half);
+    assert_eq!(shown[1].0, "t");
+}
+
+#[test]
+fn taken_names_get_a_number_and_factors_are_checked() {
+    let mut model = system("t, x; p_t, p_x", "", "p_t_2", "p_x^2/2 + t^2");
+    let g = parse(&mut model, "1 + x^2");
+    let new = retime(&model, g, &[]).unwrap();
+    assert_eq!(new.model.groups[2].coordinate, "t_2");
+    assert_eq!(new.model.groups[2].momentum, "p_t_3");
+    let zero = model.dag.integer(0);
+    assert_eq!(
+        retime(&model, zero, &[]).unwrap_err().to_string(),
+        "the factor of `dt = …*ds` is 0"
+    );
+    let coefficient = model.dag.coefficient();
+    assert!(retime(&model, coefficient, &[]).is_err());
+    let mut loops = system("q[n]; p[n]", "n", "", "sum(i in 0..n) { p[i]^2 }");
+    let h = loops.hamiltonian.unwrap();
+    let Kind::Reduce(_, body) = *loops.dag.kind(h) else {
+        panic!("a loop")
+    };
+    assert!(retime(&loops, body, &[]).is_err());
+    let g = loops.dag.integer(2);
+    assert!(retime(&loops, g, &[]).is_ok());
+}
+
+#[test]
+fn a_force_in_another_time_keeps_the_shell() {
+    let mut model = system("x; p", "", "c", "p^2/2 + x^2/2");
+    let g = parse(&mut model, "1 + x^2");
+    let f = parse(&mut model, "-c*p");
+    let mut new = retime(&model, g, &[f]).unwrap();
+    let force = new
+        .force(&[VectorEntry {
+            side: Side::P,
+            group: 0,
+            row: Index::constant(0),
+            column: 0,
+            value: new.carried[0],
+        }])
+        .unwrap();
+    let expected = [
+        parse(&mut new.model, "-(1 + x^2)*c*p"),
+        parse(&mut new.model, "(1 + x^2)*c*p*p"),
+    ];
+    assert_eq!([force[0].value, force[1].value], expected);
+    assert_eq!(force[1].group, new.group);
+}
+
+#[test]
+fn a_split_adds_up_or_is_refused_with_the_difference() {
+    let mut model = system("q; p", "", "k", "(q^2 + 1)*(p^2 + 1)/2 + k*cos(2*q)");
+    let mut split = |pieces: &[&str]| {
+        let pieces: Vec<(String, Node)> = pieces
+            .iter()
+            .map(|text| ((*text).to_owned(), parse(&mut model, text)))
+            .collect();
+        check_split(&mut model, &pieces)
+    };
+    assert_eq!(
+        split(&["q^2/2 + p^2/2 + 1/2", "q^2*p^2/2 + k*cos(2*q)"]),
+        Ok(())
+    );
+    assert_eq!(
+        split(&["(q^2 + 1)*p^2/2", "(q^2 + 1)/2 + k - 2*k*sin(q)^2"]),
+        Ok(())
+    );
+    let wrong = split(&["q^2/2 + p^2/2", "q^2*p^2 + k*cos(2*q)"]).unwrap_err();
+    assert_eq!(wrong.text, "0.5 - 0.5*q^2*p^2");
+    let (point, value) = wrong.point.unwrap();
+    assert!(value != 0.0 && point.len() == 2, "{point:?}");
+    assert!(split(&["q^2/2"]).is_err());
+
+    let mut chain = system(
+        "q[n]; p[n]",
+        "n",
+        "",
+        "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }",
+    );
+    let kinetic = parse(&mut chain, "sum(i in 0..n) { p[i]^2/2 }");
+    let potential = parse(&mut chain, "sum(i in 0..n) { exp(q[i] - q[(i + 1) % n]) }");
+    let named = |a, b| [("T".to_owned(), a), ("V".to_owned(), b)];
+    assert_eq!(check_split(&mut chain, &named(kinetic, potential)), Ok(()));
+    assert!(check_split(&mut chain, &named(kinetic, kinetic)).is_err());
+}
+
+#[test]
+fn forces_act_on_every_momentum_once() {
+    let mut model = model("x, q[2], w[n][3]; p_x, p[2], v[n][3]", "n", "");
+    let value = model.dag.integer(1);
+    let force = |group: u16, row: Index, column: u16| Force {
+        group,
+        row,
+        column,
+        value,
+    };
+    let whole = model.dag.domain(
+        None,
+        Affine::constant(0),
+        Affine::size(hamiltonian_symbolic::index::Size(0)),
+    );
+    let part = model.dag.domain(
+        None,
+        Affine::constant(1),
+        Affine::size(hamiltonian_symbolic::index::Size(0)),
+    );
+    let all = |domain| Index::plain(Affine::variable(domain));
+    let mut forces = vec![
+        force(0, Index::constant(0), 0),
+        force(1, Index::constant(0), 0),
+        force(1, Index::constant(1), 0),
+        force(2, all(whole), 0),
+        force(2, all(whole), 1),
+        force(2, all(whole), 2),
+    ];
+    assert_eq!(check_forces(&model, &forces), Ok(()));
+    let missing = &forces[..5];
+    assert_eq!(
+        check_forces(&model, missing),
+        Err("no force acts on all of `v`".into())
+    );
+    forces[5] = force(2, all(part), 2);
+    assert!(check_forces(&model, &forces).unwrap_err().contains("rows"));
+    forces[5] = force(2, all(whole), 1);
+    assert_eq!(
+        check_forces(&model, &forces),
+        Err("two forces act on `v`".into())
+    );
+    forces[5] = force(2, all(whole), 3);
+    assert!(check_forces(&model, &forces).is_err());
+    forces[2] = force(1, Index::constant(2), 0);
+    assert!(check_forces(&model, &forces).unwrap_err().contains("`p`"));
+}

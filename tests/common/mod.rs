@@ -2,6 +2,7 @@
 //! system and scheme.
 #![allow(dead_code)]
 
+pub mod case;
 pub mod geometry;
 pub mod order;
 pub mod reference;

@@ -61,7 +61,7 @@ mod shadow {
     pub(crate) const t: i32 = 1;
     pub(crate) const v: i32 = 1;
     pub(crate) const c: i32 = 1;
-    pub(crate) static m: i32 = 1;
+    pub(crate) static M: i32 = 1;
     pub(crate) static i: i32 = 1;
 }
 
@@ -72,8 +72,8 @@ pub mod systems {
 
     mechanics::hamiltonian! {
         /// Scalars, a name in capitals, a constant of the user's with a parameter's name.
-        pub struct Scalars { m, G = 9.81 }
-        H(x, y; p_x, p_y; t) = (p_x^2 + p_y^2)/(2*m) - m*G*y + 3.14159*sin(pi*t)*x;
+        pub struct Scalars { M, G = 9.81 }
+        H(x, y; p_x, p_y; t) = (p_x^2 + p_y^2)/(2*M) - M*G*y + 3.14159*sin(pi*t)*x;
         monitor L_z = x*p_y - y*p_x
     }
 

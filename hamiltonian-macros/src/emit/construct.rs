@@ -41,8 +41,14 @@ pub fn new(
 ) -> TokenStream {
     let scalar = generics.scalars.first().map_or("P", String::as_str);
     let is_told = item.parameters.iter().any(|p| p.default.is_none());
-    // A constant of the user's may have a parameter's name, and an argument may not.
-    let argument = |name: &Ident| Ident::new(&format!("_{name}"), Span::call_site());
+    // A constant of the user's may have the name of a parameter in capitals, and an argument may
+    // not have a constant's.
+    let argument = |name: &Ident| match name.to_string() {
+        text if text.starts_with(char::is_uppercase) => {
+            Ident::new(&format!("_{text}"), Span::call_site())
+        }
+        _ => name.clone(),
+    };
     let (mut kinds, mut arguments, mut lets) =
         (TokenStream::new(), TokenStream::new(), TokenStream::new());
     let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());

@@ -128,13 +128,13 @@ pub fn method(
             Some(function) => write!(
                 body,
                 "let (mut _q, mut _p) = ({own_zeros}, {own_zeros});\n\
-                 {prepared}.{function}(_state.t, &_state.q, &_state.p, &mut _q, &mut _p);\n"
+                 {prepared}.{function}(state.t, &state.q, &state.p, &mut _q, &mut _p);\n"
             ),
-            None => writeln!(body, "let (_q, _p) = (&_state.q, &_state.p);"),
+            None => writeln!(body, "let (_q, _p) = (&state.q, &state.p);"),
         };
         let t = match time {
-            Some((part, at)) => format!("__h::Vector::part(&_state.q, {part})[{at}]"),
-            None => "_state.t".to_owned(),
+            Some((part, at)) => format!("__h::Vector::part(&state.q, {part})[{at}]"),
+            None => "state.t".to_owned(),
         };
         let _ = writeln!(
             body,
@@ -149,26 +149,14 @@ pub fn method(
         body.push_str("_new\n");
     } else {
         let _ = writeln!(body, "let (mut _q, mut _p) = ({own_zeros}, {own_zeros});");
-        moved(
-            &mut body,
-            declared,
-            (theirs, own),
-            ("_state.q", "_q"),
-            false,
-        );
-        moved(
-            &mut body,
-            declared,
-            (theirs, own),
-            ("_state.p", "_p"),
-            false,
-        );
-        let t = if time.is_some() { zero } else { "_state.t" };
+        moved(&mut body, declared, (theirs, own), ("state.q", "_q"), false);
+        moved(&mut body, declared, (theirs, own), ("state.p", "_p"), false);
+        let t = if time.is_some() { zero } else { "state.t" };
         let _ = match &function {
             Some(function) => write!(
                 body,
                 "let mut _new = __h::State {{ t: {t}, q: {own_zeros}, p: {own_zeros} }};\n\
-                 {prepared}.{function}(_state.t, &_q, &_p, &mut _new.q, &mut _new.p);\n"
+                 {prepared}.{function}(state.t, &_q, &_p, &mut _new.q, &mut _new.p);\n"
             ),
             None => writeln!(
                 body,
@@ -179,7 +167,7 @@ pub fn method(
             Some((part, at)) => {
                 let _ = writeln!(
                     body,
-                    "__h::Vector::part_mut(&mut _new.q, {part})[{at}] = _state.t;\n\
+                    "__h::Vector::part_mut(&mut _new.q, {part})[{at}] = state.t;\n\
                      self.on_shell(&_new)"
                 );
             }
@@ -209,7 +197,7 @@ pub fn method(
     quote! {
         #[doc = #text]
         #[must_use]
-        #visibility fn #name<T: #bound>(&self, _state: &__h::State<#from>) -> __h::State<#to> {
+        #visibility fn #name<T: #bound>(&self, state: &__h::State<#from>) -> __h::State<#to> {
             #body
         }
     }

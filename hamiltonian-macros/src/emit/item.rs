@@ -353,8 +353,8 @@ fn inherent(
         quote! {
             /// ∂H/∂(each parameter) at a state, in the fields of the same type.
             #[must_use]
-            #visibility fn parameter_gradient<T: #bound>(&self, _state: &__h::State<#state>) -> #result {
-                <Self as __h::System<T>>::prepare(self).parameters(_state.t, &_state.q, &_state.p)
+            #visibility fn parameter_gradient<T: #bound>(&self, state: &__h::State<#state>) -> #result {
+                <Self as __h::System<T>>::prepare(self).parameters(state.t, &state.q, &state.p)
             }
         }
     };

@@ -73,9 +73,8 @@ pub fn methods(
         let (name, attributes) = (&item.name, &item.attributes);
         let allow = allowances(&[name]);
         let components = observable.components.len();
-        let call = format!(
-            "<Self as __h::System<T>>::prepare(self).o{at}(_state.t, &_state.q, &_state.p)"
-        );
+        let call =
+            format!("<Self as __h::System<T>>::prepare(self).o{at}(state.t, &state.q, &state.p)");
         let (result, body) = if components == 1 {
             ("T".to_owned(), format!("let [_value] = {call}; _value"))
         } else {
@@ -100,7 +99,7 @@ pub fn methods(
             #docs
             #allow
             #[must_use]
-            #visibility fn #name<T: #bound>(&self, _state: &__h::State<#state>) -> #result { #body }
+            #visibility fn #name<T: #bound>(&self, state: &__h::State<#state>) -> #result { #body }
         });
     }
     out

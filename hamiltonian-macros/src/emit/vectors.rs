@@ -80,11 +80,13 @@ pub fn methods(
         let allow = allowances(&[name]);
         let method = match item.usage {
             VectorUse::ConjugateMomentum => quote! {
-                /// The momenta ∂L/∂v at coordinates `_q` and velocities `_v`.
+                /// The momenta ∂L/∂v at a time, coordinates and velocities.
                 #[must_use]
-                #visibility fn #name<T: #bound>(&self, _t: T, _q: &#vector, _v: &#vector) -> #vector {
+                #visibility fn #name<T: #bound>(
+                    &self, time: T, coordinates: &#vector, velocities: &#vector
+                ) -> #vector {
                     let mut _p = #zeros;
-                    #prepared.#function(_t, _q, _v, &mut _p);
+                    #prepared.#function(time, coordinates, velocities, &mut _p);
                     _p
                 }
                 #state_from_velocity
@@ -92,18 +94,18 @@ pub fn methods(
             VectorUse::Velocity => quote! {
                 /// The velocities dq/dt at a state.
                 #[must_use]
-                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> #vector {
+                #visibility fn #name<T: #bound>(&self, state: &__h::State<#vector>) -> #vector {
                     let mut _v = #zeros;
-                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _v);
+                    #prepared.#function(state.t, &state.q, &state.p, &mut _v);
                     _v
                 }
             },
             VectorUse::Force => quote! {
                 /// The force f on the momenta at a state: dp/dt = −∂H/∂q + f.
                 #[must_use]
-                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> #vector {
+                #visibility fn #name<T: #bound>(&self, state: &__h::State<#vector>) -> #vector {
                     let mut _f = #zeros;
-                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _f);
+                    #prepared.#function(state.t, &state.q, &state.p, &mut _f);
                     _f
                 }
             },
@@ -116,9 +118,9 @@ pub fn methods(
                     #[doc = #text]
                     #allow
                     #[must_use]
-                    #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::Gradient<#vector> {
+                    #visibility fn #name<T: #bound>(&self, state: &__h::State<#vector>) -> __h::Gradient<#vector> {
                         let mut _g = __h::Gradient { q: #zeros, p: #zeros };
-                        #prepared.#function(_state.t, &_state.q, &_state.p, &mut _g.q, &mut _g.p);
+                        #prepared.#function(state.t, &state.q, &state.p, &mut _g.q, &mut _g.p);
                         _g
                     }
                 }
@@ -128,10 +130,10 @@ pub fn methods(
             VectorUse::OnShell => quote! {
                 /// The state with the momentum of time set to −H, so that it moves as the system does.
                 #[must_use]
-                #visibility fn #name<T: #bound>(&self, _state: &__h::State<#vector>) -> __h::State<#vector> {
+                #visibility fn #name<T: #bound>(&self, state: &__h::State<#vector>) -> __h::State<#vector> {
                     let mut _p = #zeros;
-                    #prepared.#function(_state.t, &_state.q, &_state.p, &mut _p);
-                    __h::State { t: _state.t, q: __h::core::clone::Clone::clone(&_state.q), p: _p }
+                    #prepared.#function(state.t, &state.q, &state.p, &mut _p);
+                    __h::State { t: state.t, q: __h::core::clone::Clone::clone(&state.q), p: _p }
                 }
             },
         };
@@ -168,22 +170,23 @@ fn state_from_velocity(
     };
     let state = if definition.declared.is_some() {
         quote! {
-            let _moved = self.from_declared(&__h::State { t: _t, q: _q, p: _v });
-            let _p = self.conjugate_momentum(_t, &_moved.q, &_moved.p);
+            let _moved = self.from_declared(&__h::State { t: time, q: _q, p: _v });
+            let _p = self.conjugate_momentum(time, &_moved.q, &_moved.p);
             self.on_shell(&__h::State { t: _moved.t, q: _moved.q, p: _p })
         }
     } else {
         quote! {
-            let _p = self.conjugate_momentum(_t, &_q, &_v);
-            __h::State { t: _t, q: _q, p: _p }
+            let _p = self.conjugate_momentum(time, &_q, &_v);
+            __h::State { t: time, q: _q, p: _p }
         }
     };
     quote! {
-        /// The state at time `_t` with coordinates `_q` and velocities `_v`.
+        /// The state at a time with these coordinates and velocities.
         #visibility fn state_from_velocity<T: #bound, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
-            &self, _t: T, _q: __A, _v: __A,
+            &self, time: T, coordinates: __A, velocities: __A,
         ) -> __h::State<#own> {
-            let (_q, _v) = (__h::IntoVector::into_vector(_q), __h::IntoVector::into_vector(_v));
+            let (_q, _v) =
+                (__h::IntoVector::into_vector(coordinates), __h::IntoVector::into_vector(velocities));
             #state
         }
     }

@@ -9,7 +9,8 @@ use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print::{Notation, hamilton_equations, latex, text};
 
 fn lines(model: &Model) -> Vec<String> {
-    hamilton_equations(model, Notation::Text)
+    hamilton_equations(model)
+        .written(Notation::Text)
         .into_iter()
         .map(|(left, right)| format!("{left} = {right}"))
         .collect()
@@ -32,7 +33,7 @@ fn scalar_coordinates_have_an_equation_each() {
             "dp_x/dt = cos(t)"
         ]
     );
-    let tex = hamilton_equations(&model, Notation::Latex);
+    let tex = hamilton_equations(&model).written(Notation::Latex);
     assert_eq!(
         tex[0],
         (
@@ -145,7 +146,7 @@ fn derivatives_of_functions_in_rust() {
             "dp_r/dt = -(∂g/∂y)(q, r)"
         ]
     );
-    let tex = hamilton_equations(&system, Notation::Latex);
+    let tex = hamilton_equations(&system).written(Notation::Latex);
     assert_eq!(tex[3].1, r"-\frac{\partial g}{\partial y}\left(q, r\right)");
     assert_eq!(
         tex[2].1,

@@ -42,7 +42,7 @@ fn everything(m: &mut Model, h: Node) {
     let _ = analyse(m);
     let _ = text(m, h);
     let _ = latex(m, h);
-    let _ = hamilton_equations(m, Notation::Text);
+    let _ = hamilton_equations(m).written(Notation::Text);
     let _ = transform(m, h, &["v".into(), "w".into()]);
 }
 
@@ -95,7 +95,7 @@ fn size_is_bounded() {
 fn edges_are_answered() {
     let mut m = model("q; p", "", "a");
     assert!(matches!(analyse(&mut m).separable, Ok(split) if m.dag.is_zero(split.kinetic)));
-    assert!(hamilton_equations(&m, Notation::Text).is_empty());
+    assert!(hamilton_equations(&m).written(Notation::Text).is_empty());
     let q = parse(&mut m, "q");
     assert_eq!(is_invariant(&m, q, None), Verdict::Proven);
     for source in [
@@ -122,7 +122,7 @@ fn edges_are_answered() {
         "sum(i in 3..1) { q[i] } + sum(i in N..N) { p[i] } + sum(i in 0..N - 5) { q[i]*p[i] } + r^2",
     );
     let _ = analyse(&mut m);
-    let _ = hamilton_equations(&m, Notation::Latex);
+    let _ = hamilton_equations(&m).written(Notation::Latex);
     let s = parse(&mut m, "r");
     assert_eq!(is_invariant(&m, s, None), Verdict::Proven);
 }

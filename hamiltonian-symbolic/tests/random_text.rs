@@ -183,8 +183,8 @@ fn expansion_and_split_are_the_same_function() {
                 split += 1;
             }
         }
-        assert_eq!(hamilton_equations(&m, Notation::Text).len(), 6);
-        let _ = hamilton_equations(&m, Notation::Latex);
+        assert_eq!(hamilton_equations(&m).written(Notation::Text).len(), 6);
+        let _ = hamilton_equations(&m).written(Notation::Latex);
     }
     assert!(split > 50, "{split}");
 }

@@ -20,17 +20,11 @@ pub fn text(
     let Some(h) = model.hamiltonian else {
         return Text::default();
     };
-    let equations = |notation| {
-        if large {
-            return Vec::new();
-        }
-        if let Some(equations) = readable.and_then(|readable| readable.equations(notation)) {
-            return equations;
-        }
-        let equations = print::hamilton_equations(model, notation).into_iter();
-        equations
-            .map(|(left, right)| format!("{left} = {right}"))
-            .collect()
+    let notations = [Notation::Text, Notation::Latex];
+    let [equations, latex_equations] = if large {
+        notations.map(|_| Vec::new())
+    } else {
+        equations(model, readable, notations)
     };
     let signature = signature(model);
     Text {
@@ -38,15 +32,35 @@ pub fn text(
             Some(readable) => readable.text(&signature),
             None => format!("{signature} = {}", print::text(model, h)),
         },
-        equations: equations(Notation::Text),
+        equations,
         latex: match readable {
             Some(readable) => readable.latex(),
             None => format!("H = {}", print::latex(model, h)),
         },
-        latex_equations: equations(Notation::Latex),
+        latex_equations,
         facts: facts(structure),
         operations: Vec::new(),
     }
+}
+
+/// Hamilton's equations one a line, in each notation.
+fn equations<const N: usize>(
+    model: &Model,
+    readable: Option<&Readable>,
+    notations: [Notation; N],
+) -> [Vec<String>; N] {
+    let mut derived = None;
+    notations.map(|notation| {
+        if let Some(equations) = readable.and_then(|readable| readable.equations(notation)) {
+            return equations;
+        }
+        // Derived once for all notations.
+        let equations = derived.get_or_insert_with(|| print::hamilton_equations(model));
+        let lines = equations.written(notation).into_iter();
+        lines
+            .map(|(left, right)| format!("{left} = {right}"))
+            .collect()
+    })
 }
 
 /// A table of what value and gradient cost, one row a line. What `#[max_ops]` is held against is

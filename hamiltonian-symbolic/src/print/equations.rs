@@ -1,8 +1,8 @@
 //! Hamilton's equations as text.
 //!
 //! Input: a model. Output: one pair (left side, right side) for each scalar coordinate and
-//! momentum, for each element that is read by number, for each column of an array. Invariant: the
-//! model is not changed.
+//! momentum, for each element that is read by number, for each column of an array. Invariants: the
+//! model is not changed; derivatives are taken once, however often they are written.
 
 use super::lagrangian::multiplied;
 use super::layout::Writer;
@@ -18,80 +18,100 @@ use crate::rational::Rational;
 /// An H of more nodes than this is differentiated by nobody by hand.
 const LARGEST: usize = 2048;
 
+/// Hamilton's equations, to be written in any notation.
+#[derive(Debug)]
+pub struct Equations {
+    /// The model with the derivatives in its arena.
+    model: Model,
+    list: Vec<Equation>,
+}
+
+impl Equations {
+    /// Left and right side of each.
+    #[must_use]
+    pub fn written(&self, notation: Notation) -> Vec<(String, String)> {
+        let equations = self.list.iter();
+        equations
+            .map(|equation| equation.written(&self.model, notation))
+            .collect()
+    }
+}
+
 /// Hamilton's equations: dq/dt = ∂H/∂p for all coordinates, then dp/dt = −∂H/∂q for all momenta.
 /// Elements of an array share one equation for element k. Where the derivative cannot be written
 /// as an expression of k, or H is too large for derivatives to be read, it is named instead:
 /// `-∂H/∂q[k]`.
 #[must_use]
-pub fn hamilton_equations(model: &Model, notation: Notation) -> Vec<(String, String)> {
-    let Some(h) = model.hamiltonian else {
-        return Vec::new();
-    };
+pub fn hamilton_equations(model: &Model) -> Equations {
     let mut model = model.clone();
-    let mut equations = Vec::new();
-    let is_large = model.dag.reachable(&[h]).len() > LARGEST;
-    for side in [Side::Q, Side::P] {
-        let (other, what, sign) = match side {
-            Side::Q => (Side::P, Dependence::P, Rational::ONE),
-            Side::P => (Side::Q, Dependence::Q, Rational::MINUS_ONE),
-        };
-        let leaves = if is_large {
-            Vec::new()
-        } else {
-            let leaves = diff::gradient(&mut model.dag, h, what).into_iter();
-            // What differentiation multiplies one after another is one product to a reader.
-            leaves
-                .map(|(leaf, value)| (leaf, multiplied(&mut model.dag, value)))
-                .collect()
-        };
-        let mut of_array: Map<Array, Vec<(Index, Node)>> = Map::default();
-        for &(leaf, adjoint) in &leaves {
-            if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
-                of_array
-                    .entry(*of)
-                    .or_default()
-                    .push((row.clone(), adjoint));
-            }
+    let mut list = Vec::new();
+    if let Some(h) = model.hamiltonian {
+        let is_large = model.dag.reachable(&[h]).len() > LARGEST;
+        for side in [Side::Q, Side::P] {
+            of_side(&mut model, h, side, is_large, &mut list);
         }
-        for group in 0..model.groups.len() {
-            let (rows, columns) = match &model.groups[group].shape {
-                Shape::Scalar => (None, 1),
-                Shape::Vector(rows) => (Some(rows.clone()), 1),
-                Shape::Matrix(rows, columns) => {
-                    (Some(rows.clone()), columns.as_constant().unwrap_or(0))
-                }
+    }
+    Equations { model, list }
+}
+
+/// The equations of all coordinates, or of all momenta.
+fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Vec<Equation>) {
+    let (other, what, sign) = match side {
+        Side::Q => (Side::P, Dependence::P, Rational::ONE),
+        Side::P => (Side::Q, Dependence::Q, Rational::MINUS_ONE),
+    };
+    let leaves = if is_large {
+        Vec::new()
+    } else {
+        let leaves = diff::gradient(&mut model.dag, h, what).into_iter();
+        // What differentiation multiplies one after another is one product to a reader.
+        leaves
+            .map(|(leaf, value)| (leaf, multiplied(&mut model.dag, value)))
+            .collect()
+    };
+    let mut of_array: Map<Array, Vec<(Index, Node)>> = Map::default();
+    for &(leaf, adjoint) in &leaves {
+        if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
+            of_array
+                .entry(*of)
+                .or_default()
+                .push((row.clone(), adjoint));
+        }
+    }
+    for group in 0..model.groups.len() {
+        let (rows, columns) = match &model.groups[group].shape {
+            Shape::Scalar => (None, 1),
+            Shape::Vector(rows) => (Some(rows.clone()), 1),
+            Shape::Matrix(rows, columns) => {
+                (Some(rows.clone()), columns.as_constant().unwrap_or(0))
+            }
+        };
+        for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
+            let array = Array::Phase {
+                side: other,
+                group: group as u16,
+                column,
             };
-            for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
-                let array = Array::Phase {
-                    side: other,
-                    group: group as u16,
-                    column,
-                };
-                let own = of_array.remove(&array).unwrap_or_default();
-                let of = Derivative {
-                    side,
-                    group,
-                    column,
-                    notation,
-                    sign: sign.clone(),
-                };
-                match &rows {
-                    _ if is_large => {
-                        let row = rows.as_ref().map(|_| (index_name(&model).to_owned(), None));
-                        equations.push(of.equation(&model, row, None));
-                    }
-                    None => {
-                        let value = of.signed(&mut model, own.first().map(|(_, adjoint)| *adjoint));
-                        equations.push(of.equation(&model, None, Some(value)));
-                    }
-                    Some(rows) => {
-                        of.of_array(&mut model, rows, array, &leaves, &own, &mut equations)
-                    }
+            let own = of_array.remove(&array).unwrap_or_default();
+            let of = Derivative {
+                side,
+                group,
+                column,
+                sign: sign.clone(),
+            };
+            match &rows {
+                _ if is_large => {
+                    let row = rows.as_ref().map(|_| Row::any(model, None));
+                    list.push(of.equation(row, None));
                 }
+                None => {
+                    let value = of.signed(model, own.first().map(|(_, adjoint)| *adjoint));
+                    list.push(of.equation(None, Some(value)));
+                }
+                Some(rows) => of.of_array(model, rows, array, &leaves, &own, list),
             }
         }
     }
-    equations
 }
 
 /// The equation of a scalar coordinate or momentum with a right side that is known.
@@ -106,10 +126,11 @@ pub(super) fn scalar_equation(
         side,
         group,
         column: 0,
-        notation,
         sign: Rational::ONE,
     };
-    derivative.equation(model, None, Some(value))
+    derivative
+        .equation(None, Some(value))
+        .written(model, notation)
 }
 
 /// The name of an element's index.
@@ -120,12 +141,38 @@ fn index_name(model: &Model) -> &'static str {
         .unwrap_or("index")
 }
 
+/// The index of an element: a number, or a name with the loop that it runs in.
+#[derive(Clone, Debug)]
+struct Row {
+    name: String,
+    domain: Option<Domain>,
+}
+
+impl Row {
+    /// The row that stands for all of them.
+    fn any(model: &Model, domain: Option<Domain>) -> Row {
+        Row {
+            name: index_name(model).to_owned(),
+            domain,
+        }
+    }
+}
+
+/// What is on the left side of an equation, and the sign of the derivative on the right.
+#[derive(Clone, Debug)]
 struct Derivative {
     side: Side,
     group: usize,
     column: u16,
-    notation: Notation,
     sign: Rational,
+}
+
+/// One equation; the right side is named where its value is not there.
+#[derive(Debug)]
+struct Equation {
+    of: Derivative,
+    row: Option<Row>,
+    value: Option<Node>,
 }
 
 impl Derivative {
@@ -163,7 +210,7 @@ impl Derivative {
         array: Array,
         leaves: &[(Node, Node)],
         own: &[(Index, Node)],
-        equations: &mut Vec<(String, String)>,
+        list: &mut Vec<Equation>,
     ) {
         let numbered: Option<Vec<i64>> = own
             .iter()
@@ -185,7 +232,11 @@ impl Derivative {
                     .position(|at| *at == row)
                     .map(|at| own[at].1);
                 let value = self.signed(model, value);
-                equations.push(self.equation(model, Some((row.to_string(), None)), Some(value)));
+                let row = Row {
+                    name: row.to_string(),
+                    domain: None,
+                };
+                list.push(self.equation(Some(row), Some(value)));
             }
             return;
         }
@@ -198,50 +249,60 @@ impl Derivative {
             field::field(&mut model.dag, leaves, array, rows)
         };
         let value = value.map(|value| self.signed(model, Some(value)));
-        let name = index_name(model);
-        equations.push(self.equation(model, Some((name.to_owned(), Some(domain))), value));
+        list.push(self.equation(Some(Row::any(model, Some(domain))), value));
     }
 
+    fn equation(&self, row: Option<Row>, value: Option<Node>) -> Equation {
+        Equation {
+            of: self.clone(),
+            row,
+            value,
+        }
+    }
+}
+
+impl Equation {
     /// `dq[k]/dt` and its value.
-    fn equation(
-        &self,
-        model: &Model,
-        row: Option<(String, Option<Domain>)>,
-        value: Option<Node>,
-    ) -> (String, String) {
-        let group = &model.groups[self.group];
-        let (own, conjugate) = match self.side {
+    fn written(&self, model: &Model, notation: Notation) -> (String, String) {
+        let Derivative {
+            side,
+            group,
+            column,
+            ..
+        } = self.of;
+        let group = &model.groups[group];
+        let (own, conjugate) = match side {
             Side::Q => (&group.coordinate, &group.momentum),
             Side::P => (&group.momentum, &group.coordinate),
         };
-        let mut indices: Vec<String> = row.iter().map(|(name, _)| name.clone()).collect();
+        let mut indices: Vec<String> = self.row.iter().map(|row| row.name.clone()).collect();
         if matches!(group.shape, Shape::Matrix(..)) {
-            indices.push(self.column.to_string());
+            indices.push(column.to_string());
         }
-        let element = |name: &str| match self.notation {
+        let element = |name: &str| match notation {
             Notation::Text => indices
                 .iter()
                 .fold(name.to_owned(), |text, index| format!("{text}[{index}]")),
             Notation::Latex => latex::indexed(name, &indices),
         };
-        let time =
-            Writer::new(model, self.notation, &[]).named(model.time.as_deref().unwrap_or("t"));
-        let left = match self.notation {
+        let time = Writer::new(model, notation, &[]).named(model.time.as_deref().unwrap_or("t"));
+        let left = match notation {
             Notation::Text => format!("d{}/d{time}", element(own)),
             Notation::Latex => format!(
                 "\\frac{{\\mathrm{{d}} {}}}{{\\mathrm{{d}} {time}}}",
                 element(own)
             ),
         };
-        let bound: Vec<(Domain, &str)> = row
+        let bound: Vec<(Domain, &str)> = self
+            .row
             .iter()
-            .filter_map(|(name, domain)| domain.map(|d| (d, name.as_str())))
+            .filter_map(|row| row.domain.map(|domain| (domain, row.name.as_str())))
             .collect();
-        let right = match value {
-            Some(value) => write_within(model, value, self.notation, &bound),
+        let right = match self.value {
+            Some(value) => write_within(model, value, notation, &bound),
             None => {
-                let sign = if self.side == Side::P { "-" } else { "" };
-                match self.notation {
+                let sign = if side == Side::P { "-" } else { "" };
+                match notation {
                     Notation::Text => format!("{sign}∂H/∂{}", element(conjugate)),
                     Notation::Latex => format!(
                         "{sign}\\frac{{\\partial H}}{{\\partial {}}}",

@@ -6,7 +6,7 @@
 //! on coordinates, dp/dt is ∂L/∂q in the velocities, as one would write it. Nothing here is
 //! computed with.
 
-use super::equations::{hamilton_equations, scalar_equation};
+use super::equations::{Equations, hamilton_equations, scalar_equation};
 use super::names::is_taken;
 use super::{Notation, latex, text};
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
@@ -14,6 +14,17 @@ use crate::diff;
 use crate::legendre::{Legendre, Mass};
 use crate::model::{Model, ParameterDeclaration, Shape};
 use crate::rational::Rational;
+
+/// How the equations of motion are written.
+#[derive(Debug)]
+enum Motion {
+    /// q̇ and ṗ of each coordinate, where ∂H/∂q would read worse than ∂L/∂q.
+    Lagrange(Vec<(Node, Node)>),
+    /// From H with its abbreviations.
+    Hamilton(Box<Equations>),
+    /// From the H that is computed.
+    Computed,
+}
 
 /// Formulas with abbreviations.
 #[derive(Debug)]
@@ -24,8 +35,7 @@ pub struct Readable {
     names: Vec<(Node, Node)>,
     /// H.
     hamiltonian: Node,
-    /// q̇ and ṗ of each coordinate where ∂H/∂q would read worse than ∂L/∂q.
-    motion: Option<Vec<(Node, Node)>>,
+    motion: Motion,
     /// The velocity of each coordinate as a name.
     velocities: Vec<Node>,
 }
@@ -38,7 +48,7 @@ impl Readable {
             model: model.clone(),
             names: Vec::new(),
             hamiltonian: legendre.hamiltonian,
-            motion: None,
+            motion: Motion::Computed,
             velocities: Vec::new(),
         };
         for name in velocities {
@@ -61,9 +71,21 @@ impl Readable {
                 .iter()
                 .flat_map(|m| m.matrix.iter().flatten())
         };
-        if entries().any(varies) || readable.hides_variables() {
-            readable.motion = readable.motion(legendre, &rates);
-        }
+        let varies = entries().any(varies);
+        let hides = readable.hides_variables();
+        let lagrange = if varies || hides {
+            readable.motion(legendre, &rates)
+        } else {
+            None
+        };
+        readable.motion = match lagrange {
+            Some(motion) => Motion::Lagrange(motion),
+            None if hides => Motion::Computed,
+            None => {
+                readable.model.hamiltonian = Some(readable.hamiltonian);
+                Motion::Hamilton(Box::new(hamilton_equations(&readable.model)))
+            }
+        };
         readable
     }
 
@@ -112,14 +134,13 @@ impl Readable {
     #[must_use]
     pub fn equations(&self, notation: Notation) -> Option<Vec<String>> {
         let line = |(left, right): (String, String)| format!("{left} = {right}");
-        let Some(motion) = &self.motion else {
-            if self.hides_variables() {
-                return None;
+        let motion = match &self.motion {
+            Motion::Lagrange(motion) => motion,
+            Motion::Hamilton(equations) => {
+                let lines = equations.written(notation).into_iter().map(line);
+                return Some(lines.chain(self.shown(notation)).collect());
             }
-            let mut model = self.model.clone();
-            model.hamiltonian = Some(self.hamiltonian);
-            let equations = hamilton_equations(&model, notation).into_iter();
-            return Some(equations.map(line).chain(self.shown(notation)).collect());
+            Motion::Computed => return None,
         };
         let mut lines = Vec::new();
         let scalar =

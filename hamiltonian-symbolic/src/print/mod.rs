@@ -12,7 +12,7 @@ mod names;
 mod operations;
 mod text;
 
-pub use equations::hamilton_equations;
+pub use equations::{Equations, hamilton_equations};
 pub use lagrangian::Readable;
 pub use operations::{Count, operations};
 

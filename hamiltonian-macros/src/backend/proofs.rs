@@ -40,8 +40,9 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     report.error(
                         name.span(),
                         format!(
-                            "{what} is not conserved{on}: its time derivative is `{}`, which is {value:.6} at {}",
+                            "{what} is not conserved{on}: its time derivative is `{}`, which is {} at {}",
                             shortened(&residual),
+                            readable(value),
                             listed(&point)
                         ),
                         "correct it or H, or declare it as `monitor`",
@@ -93,7 +94,8 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
         );
         let message = match &difference.point {
             Some((point, value)) => format!(
-                "the pieces do not add up to H: H minus their sum is `{text}`, which is {value:.6} at {}",
+                "the pieces do not add up to H: H minus their sum is `{text}`, which is {} at {}",
+                readable(*value),
                 listed(point)
             ),
             None => format!(
@@ -110,6 +112,15 @@ fn shortened(formula: &str) -> String {
     match formula.char_indices().nth(LENGTH) {
         Some((end, _)) => format!("{}…", &formula[..end]),
         None => formula.to_owned(),
+    }
+}
+
+/// A number to the digits one reads.
+fn readable(value: f64) -> String {
+    if (1e-3..1e6).contains(&value.abs()) {
+        format!("{value:.6}")
+    } else {
+        format!("{value:.5e}")
     }
 }
 

@@ -5,7 +5,7 @@
 
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
-use crate::ast::{ExprId, ScopeId, Symbol};
+use crate::ast::{ExprId, ScopeId, StatementKind, Symbol};
 use crate::checked::{CaptureId, IndexVariable, Kind, NodeId, Type};
 use crate::names;
 use proc_macro2::Ident;
@@ -205,7 +205,25 @@ impl Checker<'_> {
         if let Some(known) = names::synonym(name) {
             return format!("write `{known}`");
         }
-        let known = self.known_names(false);
+        let observables = self.ast.statements.iter().filter_map(|s| match &s.kind {
+            StatementKind::Observable { kind, name, .. } => Some((kind, name)),
+            _ => None,
+        });
+        if let Some((kind, _)) = observables.into_iter().find(|(_, given)| *given == name) {
+            return format!(
+                "what `{} {name}` declares no other statement reads; write its formula as a `let` above both",
+                kind.word()
+            );
+        }
+        let mut known = self.known_names(false);
+        if self.is_lagrangian() && self.place == Place::After {
+            known.extend(self.out.groups.iter().map(|g| g.momentum.to_string()));
+            if name == "p" || name.starts_with("p_") {
+                let momenta = self.out.groups.iter().map(|g| format!("`{}`", g.momentum));
+                let momenta: Vec<_> = momenta.collect();
+                return format!("the momenta of this Lagrangian are {}", momenta.join(", "));
+            }
+        }
         if let Some(nearest) = names::nearest(name, known.iter().map(String::as_str)) {
             return format!("the nearest known name is `{nearest}`");
         }

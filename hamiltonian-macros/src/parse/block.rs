@@ -83,6 +83,10 @@ impl Parser<'_> {
                 "`!` stands before a condition".into(),
                 "there is no factorial; write the number",
             ),
+            TokenKind::Punct('?', _) => (
+                "`?` does not choose between values".into(),
+                "write `if c { a } else { b }`",
+            ),
             TokenKind::Ident if token.text == "in" => (
                 "a loop variable does not stand here".into(),
                 "write `sum(i in 0..N) { … }`",

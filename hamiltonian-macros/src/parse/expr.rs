@@ -448,6 +448,11 @@ impl Parser<'_> {
                     let known = names::synonym(word).unwrap_or(word);
                     match names::function(known).map(|entry| entry.arguments) {
                         Some([_, second]) => format!("write `{known}({receiver}, {second})`"),
+                        // `Math.cos(q)`
+                        Some([_]) if !argument.is_empty() => match self.kind_at(2) {
+                            Some(TokenKind::Close(_)) => format!("write `{known}({argument})`"),
+                            _ => format!("write `{known}(…)`"),
+                        },
                         None if known != word => {
                             format!("write `{}`", known.replace('x', &receiver))
                         }

@@ -325,7 +325,9 @@ impl Parser<'_> {
                 "`{name}` has no type of its own: `{}` is neither `usize` nor an array",
                 token.text
             ),
-            format!("write `{name} = 1.0`, or `{name}` for a scalar without default"),
+            format!(
+                "write `{name}` for a scalar, `{name} = 1.0` for one with a default, `{name}: [N]` for an array"
+            ),
         )
     }
 

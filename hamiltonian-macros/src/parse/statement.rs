@@ -244,6 +244,16 @@ impl Parser<'_> {
                 format!("write `let {name} = …`"),
             );
         }
+        if self.at_open(Delimiter::Bracket) {
+            let index = self.peek_at(1).map_or("i", |token| token.text.as_str());
+            let help =
+                format!("write `let {name}({index}) = …`, and `{name}({index})` where it is used");
+            return self.abort(
+                self.group_spans(),
+                "a `let` is no array: what depends on an index is a function of it",
+                help,
+            );
+        }
         self.equals(&format!(
             "let {name}{}",
             if arguments.is_some() { "(…)" } else { "" }

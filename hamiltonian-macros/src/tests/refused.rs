@@ -1191,9 +1191,9 @@ help: write `const N: usize`"##,
     (
         r##"pub struct A { m: ⟦f64⟧, l: ⟦f64⟧ = 1.0 } H = p^2/m"##,
         r##"`m` has no type of its own: `f64` is neither `usize` nor an array
-help: write `m = 1.0`, or `m` for a scalar without default
+help: write `m` for a scalar, `m = 1.0` for one with a default, `m: [N]` for an array
 `l` has no type of its own: `f64` is neither `usize` nor an array
-help: write `l = 1.0`, or `l` for a scalar without default"##,
+help: write `l` for a scalar, `l = 1.0` for one with a default, `l: [N]` for an array"##,
     ),
     (
         r##"pub struct A { ⟦pub⟧ m = 1.0 } H = p^2/m"##,
@@ -1493,9 +1493,29 @@ help: write `;` between statements, `==` to compare in a condition"##,
 help: write `H = …`"##,
     ),
     (
-        r##"H = p^2 ⟦?⟧ q"##,
-        r##"expected an operator or `;`, found `?`
-help: remove it"##,
+        r##"H = p^2 + (q > 0 ⟦?⟧ q : -q)"##,
+        r##"`?` does not choose between values
+help: write `if c { a } else { b }`"##,
+    ),
+    (
+        r##"H = p^2 + ⟦Math.cos(q)⟧"##,
+        r##"`Math.cos(…)`: a function stands before its argument
+help: write `cos(q)`"##,
+    ),
+    (
+        r##"let d⟦[k]⟧ = q[k]; H(q[3]; p[3]) = norm_squared(p)*d[0]"##,
+        r##"a `let` is no array: what depends on an index is a function of it
+help: write `let d(k) = …`, and `d(k)` where it is used"##,
+    ),
+    (
+        r##"pub struct A {} L(q; v) = v^2/2 - q^2; monitor e = ⟦p⟧*q"##,
+        r##"unknown name `p`
+help: the momenta of this Lagrangian are `p_q`"##,
+    ),
+    (
+        r##"pub struct A {} H = p^2; monitor e = p*q; monitor f = ⟦e⟧^2"##,
+        r##"unknown name `e`
+help: what `monitor e` declares no other statement reads; write its formula as a `let` above both"##,
     ),
     (
         r##"H = ⟦'a'⟧ + p^2"##,
@@ -1545,7 +1565,7 @@ help: write `l = 1.0`, or `l` for a parameter without default"##,
     (
         r##"struct A { m: ⟦Vec⟧<f64> } H = p^2"##,
         r##"`m` has no type of its own: `Vec` is neither `usize` nor an array
-help: write `m = 1.0`, or `m` for a scalar without default"##,
+help: write `m` for a scalar, `m = 1.0` for one with a default, `m: [N]` for an array"##,
     ),
     (
         r##"struct A { m: ⟦[]⟧ } H = p^2"##,

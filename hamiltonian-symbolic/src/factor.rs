@@ -4,18 +4,17 @@
 //! Invariant: a term used elsewhere too is left whole, so that factoring never undoes sharing;
 //! sums are regrouped by common factors only, which cannot introduce cancellation.
 
-use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
 use crate::rational::Rational;
 
 /// How often each node is used, by parents or as a root.
-pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Map<Node, u32> {
-    let mut uses: Map<Node, u32> = Map::default();
-    for root in roots {
-        *uses.entry(*root).or_default() += 1;
-    }
+pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Numbers {
+    let mut uses = Numbers::new(dag);
+    let mut count = |node| uses.set(node, uses.get(node).unwrap_or(0) + 1);
+    roots.iter().for_each(|root| count(*root));
     for &node in order {
-        dag.for_children(node, |child| *uses.entry(child).or_default() += 1);
+        dag.for_children(node, &mut count);
     }
     uses
 }
@@ -72,7 +71,7 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
             Kind::Sum(c, terms) => {
                 let terms: Vec<_> = terms
                     .into_iter()
-                    .map(|(k, n)| (k, new[&n], uses[&n] == 1))
+                    .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
                     .collect();
                 factored_sum(dag, &c, &terms, &Rational::ONE, None)
             }
@@ -103,7 +102,7 @@ fn gathered(
     dag: &Dag,
     k: &Rational,
     factors: &[(Node, i32)],
-    uses: &Map<Node, u32>,
+    uses: &Numbers,
 ) -> Option<(Domain, Node, bool)> {
     factors.iter().find_map(|&(sum, n)| {
         let Kind::Reduce(domain, body) = *dag.kind(sum) else {
@@ -111,7 +110,7 @@ fn gathered(
         };
         let others = || factors.iter().filter(|(node, _)| *node != sum);
         if n != 1
-            || uses[&sum] != 1
+            || uses.get(sum) != Some(1)
             || others().any(|(f, _)| dag.variables(*f) >> domain.0 & 1 == 1)
         {
             return None;
@@ -128,8 +127,7 @@ fn gathered(
         [false, true].into_iter().find_map(|negative| {
             let k = if negative { k.neg() } else { k.clone() };
             let known = dag.known(&Kind::Product(k, all.clone()))?;
-            uses.contains_key(&known)
-                .then_some((domain, known, negative))
+            uses.has(known).then_some((domain, known, negative))
         })
     })
 }
@@ -138,7 +136,7 @@ fn factored_product(
     dag: &mut Dag,
     k: Rational,
     factors: Vec<(Node, i32)>,
-    uses: &Map<Node, u32>,
+    uses: &Numbers,
     new: &Map<Node, Node>,
 ) -> Node {
     let place = absorbing_sum(dag, &k, &factors, uses);
@@ -156,7 +154,7 @@ fn factored_product(
     let p = dag.product(&Rational::ONE, &prepared);
     let terms: Vec<_> = terms
         .into_iter()
-        .map(|(k, n)| (k, new[&n], uses[&n] == 1))
+        .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
         .collect();
     // The sign stays outside, where it becomes a subtraction.
     let sum = factored_sum(dag, &c, &terms, &k.abs(), Some(p));
@@ -171,7 +169,7 @@ fn absorbing_sum(
     dag: &Dag,
     k: &Rational,
     factors: &[(Node, i32)],
-    uses: &Map<Node, u32>,
+    uses: &Numbers,
 ) -> Option<usize> {
     let has_prepared = factors.iter().any(|(n, _)| is_prepared(dag, *n));
     if !has_prepared && (k.is_one() || *k == Rational::MINUS_ONE) {
@@ -181,7 +179,8 @@ fn absorbing_sum(
         let Kind::Sum(c, terms) = dag.kind(node) else {
             return false;
         };
-        if n != 1 || uses[&node] != 1 || is_prepared(dag, node) || terms.len() > ABSORBING {
+        if n != 1 || uses.get(node) != Some(1) || is_prepared(dag, node) || terms.len() > ABSORBING
+        {
             return false;
         }
         let plain = terms
@@ -189,7 +188,7 @@ fn absorbing_sum(
             .filter(|(k, n)| {
                 let unit = k.is_one() || *k == Rational::MINUS_ONE;
                 let product = match dag.kind(*n) {
-                    Kind::Product(_, inner) if uses[n] == 1 => {
+                    Kind::Product(_, inner) if uses.get(*n) == Some(1) => {
                         inner.iter().any(|(f, _)| is_prepared(dag, *f))
                     }
                     _ => is_prepared(dag, *n),

@@ -5,7 +5,7 @@
 //! one level over one loop shares one nest; what needs a finished sum stands in a later nest over
 //! the same loop, where the body is computed again.
 
-use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::factor::count_uses;
 use crate::index::{Domain, Index};
 use crate::op::Op;
@@ -72,18 +72,23 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
     }
     wanted.sort_unstable();
     wanted.dedup();
+    let nothing = Numbers::new(dag);
     let (prepare, computed) = stage(
         dag,
         &mut program,
         Stage::Parameters,
         &wanted,
         &[],
-        Map::default(),
+        nothing.clone(),
     );
     program.prepare = prepare;
     // Only what is wanted is handed on, not what it was computed from.
-    let prepared: Map<Node, Value> = wanted.iter().map(|n| (*n, computed[n])).collect();
-    program.prepared = wanted.iter().map(|n| prepared[n]).collect();
+    let mut prepared = nothing;
+    for &node in &wanted {
+        let value = value_of(&computed, node);
+        prepared.set(node, value.0);
+        program.prepared.push(value);
+    }
     for request in requests {
         let (coefficients, _) = frontier(dag, &request.roots(), Stage::Evaluation);
         let (coefficient, carried) = stage(
@@ -102,7 +107,8 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
             &request.stores,
             carried,
         );
-        let results = request.results.iter().map(|n| values[n]).collect();
+        let results = request.results.iter();
+        let results = results.map(|n| value_of(&values, *n)).collect();
         program.functions.push(Function {
             purpose: request.purpose,
             coefficient,
@@ -125,11 +131,11 @@ fn stage_of(dag: &Dag, node: Node, now: Stage) -> Stage {
 
 /// The nodes of the coefficient stage and of preparation that the roots need in stage `now`.
 fn frontier(dag: &Dag, roots: &[Node], now: Stage) -> (Vec<Node>, Vec<Node>) {
-    let mut seen: Map<Node, ()> = Map::default();
+    let mut seen = vec![false; dag.len()];
     let (mut coefficients, mut prepared) = (Vec::new(), Vec::new());
     let mut pending = roots.to_vec();
     while let Some(node) = pending.pop() {
-        if seen.insert(node, ()).is_some() {
+        if std::mem::replace(&mut seen[node.0 as usize], true) {
             continue;
         }
         match stage_of(dag, node, now) {
@@ -149,8 +155,8 @@ fn stage(
     stage: Stage,
     wanted: &[Node],
     stores: &[Store],
-    carried: Map<Node, Value>,
-) -> (Vec<Step>, Map<Node, Value>) {
+    carried: Numbers,
+) -> (Vec<Step>, Numbers) {
     let roots: Vec<Node> = wanted
         .iter()
         .copied()
@@ -162,26 +168,32 @@ fn stage(
         program,
         uses: &uses,
         stage,
-        scopes: vec![carried],
+        known: carried,
+        scopes: Vec::new(),
         open: Vec::new(),
     };
     let stores: Vec<&Store> = stores.iter().collect();
     let steps = placer.block(None, wanted, &stores);
-    let mut values = placer.scopes.pop().unwrap_or_default();
-    for (node, value) in placer.scopes.pop().unwrap_or_default() {
-        values.insert(node, value);
-    }
-    (steps, values)
+    (steps, placer.known)
+}
+
+/// The value of a node that is computed.
+fn value_of(known: &Numbers, node: Node) -> Value {
+    let found = known.get(node);
+    debug_assert!(found.is_some(), "{node:?} is used before it is computed");
+    Value(found.unwrap_or(0))
 }
 
 pub(crate) struct Placer<'a> {
     pub(crate) dag: &'a Dag,
     program: &'a mut Program,
     /// How often each node is used in this stage's expressions.
-    uses: &'a Map<Node, u32>,
+    uses: &'a Numbers,
     stage: Stage,
-    /// What is computed: by earlier stages, then in the open blocks, outermost first.
-    scopes: Vec<Map<Node, Value>>,
+    /// The values of what is computed, by earlier stages and in the open blocks.
+    known: Numbers,
+    /// What is computed in each of the open blocks, outermost first.
+    scopes: Vec<Vec<Node>>,
     open: Vec<Option<Domain>>,
 }
 
@@ -197,18 +209,7 @@ impl Placer<'_> {
 
     /// The value of a node that is already computed.
     pub(crate) fn value(&self, node: Node) -> Value {
-        let found = self
-            .scopes
-            .iter()
-            .rev()
-            .find_map(|scope| scope.get(&node))
-            .copied();
-        debug_assert!(
-            found.is_some(),
-            "{node:?} is used before it is computed: {:?}",
-            self.dag.kind(node)
-        );
-        found.unwrap_or(Value(0))
+        value_of(&self.known, node)
     }
 
     /// Appends an instruction to a block.
@@ -228,17 +229,16 @@ impl Placer<'_> {
     /// The steps that compute `wanted` and make `stores` inside loop `here`; it opens a scope
     /// in which their values can be looked up and which the caller closes.
     fn block(&mut self, here: Option<Domain>, wanted: &[Node], stores: &[&Store]) -> Vec<Step> {
-        self.scopes.push(Map::default());
+        self.scopes.push(Vec::new());
         self.open.push(here);
         let needed = self.needed(wanted, stores);
-        let mut level: Map<Node, usize> = Map::default();
+        let mut level = Numbers::new(self.dag);
         let mut nests: Vec<Nest> = Vec::new();
         let mut last = 0;
         for &node in &needed {
             let mut own = 0;
-            self.dag.for_children(node, |child| {
-                own = own.max(level.get(&child).copied().unwrap_or(0))
-            });
+            self.dag
+                .for_children(node, |child| own = own.max(level.get(child).unwrap_or(0)));
             if self.dag.home(node) == here
                 && let Kind::Reduce(domain, _) = self.dag.kind(node)
             {
@@ -246,11 +246,11 @@ impl Placer<'_> {
                 Nest::at(&mut nests, own, *domain).sums.push(node);
             }
             last = last.max(own);
-            level.insert(node, own);
+            level.set(node, own);
         }
-        let mut own_stores: Vec<(usize, &Store)> = Vec::new();
+        let mut own_stores: Vec<(u32, &Store)> = Vec::new();
         for &store in stores {
-            let own = level.get(&store.value).copied().unwrap_or(0);
+            let own = level.get(store.value).unwrap_or(0);
             let home = self.home_of(store);
             if home == here {
                 own_stores.push((own, store));
@@ -271,8 +271,8 @@ impl Placer<'_> {
                 steps.push(Step::Loop(step));
             }
             for &node in &needed {
-                if level[&node] == now && self.dag.home(node) == here && !fused.contains_key(&node)
-                {
+                let is_now = level.get(node) == Some(now);
+                if is_now && self.dag.home(node) == here && !fused.contains_key(&node) {
                     self.compute(&mut steps, node, &level);
                 }
             }
@@ -286,7 +286,7 @@ impl Placer<'_> {
 
     /// The nodes of this stage not yet computed that the wanted ones need, bottom-up.
     fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
-        let mut seen: Map<Node, ()> = Map::default();
+        let mut seen = vec![false; self.dag.len()];
         let mut list = Vec::new();
         let mut pending: Vec<Node> = wanted
             .iter()
@@ -294,12 +294,8 @@ impl Placer<'_> {
             .chain(stores.iter().map(|s| s.value))
             .collect();
         while let Some(node) = pending.pop() {
-            if seen.contains_key(&node) || self.scopes.iter().any(|scope| scope.contains_key(&node))
-            {
-                continue;
-            }
-            seen.insert(node, ());
-            if self.stage_of(node) != self.stage {
+            let is_seen = std::mem::replace(&mut seen[node.0 as usize], true);
+            if is_seen || self.is_computed(node) || self.stage_of(node) != self.stage {
                 continue;
             }
             list.push(node);
@@ -315,9 +311,7 @@ impl Placer<'_> {
         for &sum in &nest.sums {
             let value = self.new_value(Instruction::Accumulator);
             accumulators.push(value);
-            if let Some(scope) = self.scopes.last_mut() {
-                scope.insert(sum, value);
-            }
+            self.define(sum, value);
         }
         let bodies: Vec<Node> = nest
             .sums
@@ -332,7 +326,9 @@ impl Placer<'_> {
             let term = self.value(*term);
             body.push(Step::Accumulate(*accumulator, term));
         }
-        self.scopes.pop();
+        for node in self.scopes.pop().unwrap_or_default() {
+            self.known.unset(node);
+        }
         Loop {
             domain: nest.domain,
             start: range.start,
@@ -386,7 +382,7 @@ impl Placer<'_> {
     pub(crate) fn can_fuse(&self, node: Node) -> bool {
         match self.dag.kind(node) {
             Kind::Product(_, factors) => {
-                self.uses.get(&node) == Some(&1)
+                self.uses.get(node) == Some(1)
                     && factors.iter().all(|(_, n)| *n > 0)
                     && factors.iter().map(|(_, n)| n).sum::<i32>() > 1
             }
@@ -397,21 +393,17 @@ impl Placer<'_> {
     /// Whether a node is a negative product, used once.
     fn is_negative_once(&self, node: Node) -> bool {
         matches!(self.dag.kind(node), Kind::Product(k, _) if k.is_negative())
-            && self.uses.get(&node) == Some(&1)
+            && self.uses.get(node) == Some(1)
     }
 
     /// Whether a node's value can be looked up.
     pub(crate) fn is_computed(&self, node: Node) -> bool {
-        self.scopes.iter().any(|scope| scope.contains_key(&node))
+        self.known.has(node)
     }
 
     /// Computes a node whose children are computed; `needed` are the nodes of the block.
-    fn compute(&mut self, steps: &mut Vec<Step>, node: Node, needed: &Map<Node, usize>) {
-        if self
-            .scopes
-            .last()
-            .is_some_and(|scope| scope.contains_key(&node))
-        {
+    fn compute(&mut self, steps: &mut Vec<Step>, node: Node, needed: &Numbers) {
+        if self.is_computed(node) {
             return;
         }
         let partner = match self.dag.kind(node) {
@@ -420,7 +412,7 @@ impl Placer<'_> {
             _ => None,
         };
         let value = match (self.dag.kind(node).clone(), partner) {
-            (Kind::Call(op, x), Some(partner)) if needed.contains_key(&partner) => {
+            (Kind::Call(op, x), Some(partner)) if needed.has(partner) => {
                 let angle = self.value(x[0]);
                 let sin = self.push(steps, Instruction::PairedSin(angle));
                 let cos = self.push(steps, Instruction::PairedCos(sin));
@@ -437,10 +429,12 @@ impl Placer<'_> {
         self.define(node, value);
     }
 
-    /// Notes a node's value.
+    /// Notes a node's value in the innermost block.
     fn define(&mut self, node: Node, value: Value) {
+        debug_assert!(!self.known.has(node), "{node:?} is computed twice");
+        self.known.set(node, value.0);
         if let Some(scope) = self.scopes.last_mut() {
-            scope.insert(node, value);
+            scope.push(node);
         }
     }
 
@@ -474,14 +468,14 @@ impl Placer<'_> {
 
 /// The work of one level over one loop.
 struct Nest<'a> {
-    level: usize,
+    level: u32,
     domain: Domain,
     sums: Vec<Node>,
     stores: Vec<&'a Store>,
 }
 
 impl<'a> Nest<'a> {
-    fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: usize, domain: Domain) -> &'n mut Nest<'a> {
+    fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: u32, domain: Domain) -> &'n mut Nest<'a> {
         let at = match nests
             .iter()
             .position(|n| n.level == level && n.domain == domain)

@@ -9,7 +9,7 @@
 mod products;
 mod sums;
 
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::factor::{count_uses, is_prepared};
 use crate::rational::Rational;
 use products::{Factors, Item, Made, Workshop, known_root, share_products};
@@ -59,7 +59,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn of(dag: &mut Dag, shop: &mut Workshop, order: &[Node], uses: &Map<Node, u32>) -> Plan {
+    fn of(dag: &mut Dag, shop: &mut Workshop, order: &[Node], uses: &Numbers) -> Plan {
         let mut plan = Plan::default();
         let mut roots: Map<Node, (Node, i32)> = Map::default();
         // What others than its parents use as it stands.
@@ -105,7 +105,7 @@ impl Plan {
                     plan.lists.push(list);
                 }
                 Kind::Sum(..) => plan.absorb(dag, shop, node, |term| {
-                    uses[&term] == 1 && !whole.contains_key(&term)
+                    uses.get(term) == Some(1) && !whole.contains_key(&term)
                 }),
                 _ => {}
             }

@@ -4,7 +4,7 @@
 //! quotients and reciprocals are items of their own. Invariant: every list stands for the product
 //! it was made from; what is made names earlier items only.
 
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::factor::is_prepared;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -143,7 +143,7 @@ fn common_power(factors: &[(Node, i32)]) -> i32 {
 }
 
 /// The product of which a product is a power, if that is computed before: (2xy)² from 2xy.
-pub(super) fn known_root(dag: &Dag, uses: &Map<Node, u32>, product: Node) -> Option<(Node, i32)> {
+pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(Node, i32)> {
     let Kind::Product(k, factors) = dag.kind(product) else {
         return None;
     };
@@ -157,7 +157,7 @@ pub(super) fn known_root(dag: &Dag, uses: &Map<Node, u32>, product: Node) -> Opt
         let mut parts: Vec<_> = factors.iter().map(|(f, n)| (*f, n / d)).collect();
         parts.sort_unstable();
         let root = dag.known(&Kind::Product(root, parts))?;
-        (root < product && uses.contains_key(&root)).then_some((root, d))
+        (root < product && uses.has(root)).then_some((root, d))
     })
 }
 

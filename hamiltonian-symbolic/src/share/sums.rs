@@ -4,7 +4,7 @@
 //! their order; nothing cancels that did not.
 
 use super::products::LONGEST;
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::factor::is_prepared;
 use crate::rational::Rational;
 
@@ -13,7 +13,7 @@ pub(super) type Terms = (Rational, Vec<(Rational, Node)>);
 
 /// A sum that goes on from another one that is computed before: `a + b + c` from `a + b`. How
 /// many terms it takes over, and the other sum.
-pub(super) fn known_start(dag: &Dag, uses: &Map<Node, u32>, sum: Node) -> Option<(usize, Node)> {
+pub(super) fn known_start(dag: &Dag, uses: &Numbers, sum: Node) -> Option<(usize, Node)> {
     let Kind::Sum(c, list) = dag.kind(sum) else {
         return None;
     };
@@ -26,14 +26,14 @@ pub(super) fn known_start(dag: &Dag, uses: &Map<Node, u32>, sum: Node) -> Option
         part.sort_unstable_by_key(|(_, n)| *n);
         let known = dag.known(&Kind::Sum(c.clone(), part))?;
         let again = list[length..].iter().any(|(_, n)| *n == known);
-        (known < sum && uses.contains_key(&known) && !again).then_some((length, known))
+        (known < sum && uses.has(known) && !again).then_some((length, known))
     })
 }
 
 /// A multiple of a term that is computed before the sum, up to sign.
 pub(super) fn known_multiple(
     dag: &Dag,
-    uses: &Map<Node, u32>,
+    uses: &Numbers,
     sum: Node,
     (k, term): &(Rational, Node),
 ) -> Option<(Rational, Node)> {
@@ -52,7 +52,7 @@ pub(super) fn known_multiple(
         .into_iter()
         .find_map(|sign| {
             let known = dag.known(&Kind::Product(c.mul(&sign), factors.clone()))?;
-            (known < sum && uses.contains_key(&known)).then_some((sign, known))
+            (known < sum && uses.has(known)).then_some((sign, known))
         })
 }
 

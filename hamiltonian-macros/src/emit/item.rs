@@ -10,8 +10,8 @@ use super::index::Indices;
 use super::layout::{self, Layout, layout};
 use super::number::Numbers;
 use super::{
-    Definition, Field, Form, Item, allowances, construct, declared, dynamics, externals, lex,
-    markers, mixed, observables, reach, vectors,
+    Definition, Field, Form, Item, VectorUse, allowances, construct, declared, dynamics, externals,
+    lex, markers, mixed, observables, reach, vectors,
 };
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
@@ -292,6 +292,16 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
             doc,
             "\n# Equations of motion\n\n```text\n{}\n```\n",
             text.equations.join("\n")
+        );
+    }
+    let is_forced = definition
+        .vectors
+        .iter()
+        .any(|v| v.usage == VectorUse::Force);
+    if is_forced {
+        doc.push_str(
+            "\nThe declared force is not in these equations: schemes integrate H alone, and the method\n\
+             `force` gives it.\n",
         );
     }
     if !text.latex.is_empty() {

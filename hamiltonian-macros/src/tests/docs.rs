@@ -198,3 +198,10 @@ where w = dtheta/dt
         "{latex}"
     );
 }
+
+#[test]
+fn a_force_is_said_not_to_be_integrated() {
+    let damped = docs("pub struct Damped { c = 0.1 } H = p^2/2 + q^2/2; force(q; p) = -c*p");
+    assert!(section(&damped, "Equations of motion").contains("schemes integrate H alone"));
+    assert!(!docs(PENDULUM).contains("force"));
+}

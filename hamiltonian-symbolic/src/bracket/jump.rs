@@ -8,7 +8,8 @@ use crate::normal_form;
 use crate::op::Op;
 
 /// What moves along a trajectory.
-const MOVING: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
+pub(super) const MOVING: Dependence =
+    Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
 
 /// The first condition on moving quantities whose branches are not known to meet where it
 /// switches, sign of such, or angle of a point that moves.

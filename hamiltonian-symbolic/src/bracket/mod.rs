@@ -2,10 +2,11 @@
 //!
 //! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
 //! proven means for all sizes, at all points (on the shell, if one is given), with nothing that may
-//! jump; disproven comes with sizes and a point where the time derivative along the flow is not zero.
+//! jump, nor was seen to jump through a pole; disproven comes with sizes and a point where the time derivative along the flow is not zero.
 
 mod jump;
 mod pair;
+mod pole;
 mod shell;
 
 pub use pair::bracket;
@@ -60,10 +61,9 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
         Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided { residual },
         Verdict::Proven => {
             let mut dag = model.dag.clone();
-            match jump::find(&mut dag, &roots) {
-                Some(part) => Verdict::Jumps {
-                    part: print::text(model, part),
-                },
+            let part = jump::find(&mut dag, &roots).map(|part| print::text(model, part));
+            match part.or_else(|| pole::find(model, &roots)) {
+                Some(part) => Verdict::Jumps { part },
                 None => Verdict::Proven,
             }
         }

@@ -50,7 +50,7 @@ pub struct Sample {
 pub type Point = Vec<(String, f64)>;
 
 /// The values of some nodes at a sample point, and the point; `None` if a loop runs too long.
-/// Some elements may be given values of their own.
+/// Some elements, and the time, may be given values of their own.
 #[must_use]
 pub fn sample(
     model: &Model,
@@ -59,19 +59,24 @@ pub fn sample(
     how: Sample,
     given: &[(Node, f64)],
 ) -> Option<(Vec<Sampled>, Point)> {
-    let given = given
-        .iter()
-        .filter_map(|(node, value)| match model.dag.kind(*node) {
+    let mut elements = Map::default();
+    let mut time = None;
+    for (node, value) in given {
+        match model.dag.kind(*node) {
             Kind::Element(array, row, None) => {
-                Some(((*array, row.affine.as_constant()?, 0), *value))
+                if let Some(row) = row.affine.as_constant() {
+                    elements.insert((*array, row, 0), *value);
+                }
             }
-            _ => None,
-        })
-        .collect();
+            Kind::Time => time = Some(*value),
+            _ => {}
+        }
+    }
     let meaning = Numbers {
         model,
         how,
-        given,
+        given: elements,
+        time,
         read: Map::default(),
         point: Vec::new(),
         visits: 0,
@@ -88,6 +93,7 @@ pub fn is_in_range(model: &Model, roots: &[Node], sizes: &[i64]) -> bool {
         model,
         how: Sample::default(),
         given: Map::default(),
+        time: None,
         read: Map::default(),
         point: Vec::new(),
         visits: 0,
@@ -104,6 +110,7 @@ struct Numbers<'a> {
     model: &'a Model,
     how: Sample,
     given: Map<(Array, i64, i64), f64>,
+    time: Option<f64>,
     read: Map<(Array, i64, i64), ()>,
     point: Point,
     visits: usize,
@@ -317,7 +324,7 @@ impl Meaning for Numbers<'_> {
             }
             Kind::Time => {
                 let name = self.model.time.clone().unwrap_or_else(|| "t".to_owned());
-                let value = self.leaf(&2u8, 0, false);
+                let value = self.time.unwrap_or_else(|| self.leaf(&2u8, 0, false));
                 exact(self.named(&name, value))
             }
             Kind::Coefficient => exact(self.leaf(&3u8, 0, false)),

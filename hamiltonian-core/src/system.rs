@@ -1,9 +1,10 @@
 //! What a Hamiltonian system is to the schemes; the `hamiltonian!` macro implements these traits.
 //!
 //! Input: parameters. Output: [`System`] → [`System::prepare`] → [`Dynamics`] → accumulating
-//! [`Kick`], [`Drift`], [`Flow`]. Invariant: everything that depends on parameters alone is
-//! computed in `prepare`, everything that depends on parameters and a step coefficient in
-//! `flow`/`kick`/`drift`; what remains per evaluation depends on (t, q, p).
+//! [`Kick`], [`Drift`], [`Flow`]. Invariant: every number that depends on parameters alone is
+//! computed in `prepare`, every one that depends on parameters and a step coefficient in
+//! `flow`/`kick`/`drift`; what remains per evaluation depends on (t, q, p) or, such as 1/m\[i\], on
+//! an element of a parameter array.
 
 use crate::error::Error;
 use crate::state::{Gradient, State};

@@ -38,8 +38,9 @@ pub enum Refusal {
 /// H → requests → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
+    let mut gradient = None;
     for &purpose in wanted {
-        let mut request = request(model, purpose);
+        let mut request = request(model, purpose, &mut gradient);
         let mut roots = request.roots();
         refuse(model, &roots)?;
         factor(&mut model.dag, &mut roots);
@@ -74,8 +75,13 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// What a purpose asks of the model's H.
-pub fn request(model: &mut Model, purpose: Purpose) -> Request {
+/// What a purpose asks of the model's H. Most ask for parts of its `gradient`, which is derived for
+/// the first of them and kept for the others.
+pub fn request(
+    model: &mut Model,
+    purpose: Purpose,
+    gradient: &mut Option<Vec<VectorEntry>>,
+) -> Request {
     let h = model.hamiltonian.unwrap_or(Node(0));
     let mut request = Request {
         purpose,
@@ -83,14 +89,29 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
         stores: Vec::new(),
         cleared: Vec::new(),
     };
+    let mut along = |model: &mut Model, sides: (bool, bool)| {
+        let entries = gradient.get_or_insert_with(|| partials(model, h));
+        let is_wanted = |entry: &&VectorEntry| match entry.side {
+            Side::Q => sides.0,
+            Side::P => sides.1,
+        };
+        entries
+            .iter()
+            .filter(is_wanted)
+            .cloned()
+            .collect::<Vec<_>>()
+    };
     match purpose {
         Purpose::Energy => request.results.push(h),
-        Purpose::GradientQ => derivatives(model, h, Dependence::Q, false, &mut request),
-        Purpose::GradientP => derivatives(model, h, Dependence::P, false, &mut request),
-        Purpose::Gradient => derivatives(model, h, BOTH, false, &mut request),
+        Purpose::GradientQ | Purpose::GradientP | Purpose::Gradient => {
+            let sides = (purpose != Purpose::GradientP, purpose != Purpose::GradientQ);
+            let entries = along(model, sides);
+            vector(model, entries, sides, &mut request);
+        }
         Purpose::EnergyAndGradient => {
             request.results.push(h);
-            derivatives(model, h, BOTH, false, &mut request);
+            let entries = along(model, (true, true));
+            vector(model, entries, (true, true), &mut request);
         }
         Purpose::TimeDerivative => {
             let adjoints = diff::gradient(&mut model.dag, h, Dependence::TIME);
@@ -102,7 +123,8 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
         Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
         Purpose::HessianVector => {
             let along = diff::along_direction(&mut model.dag, h);
-            derivatives(model, along, BOTH, false, &mut request);
+            let entries = partials(model, along);
+            vector(model, entries, (true, true), &mut request);
         }
         Purpose::Observable(number) => {
             request.results = model
@@ -115,9 +137,12 @@ pub fn request(model: &mut Model, purpose: Purpose) -> Request {
                 vector(model, function.entries, function.sides, &mut request);
             }
         }
-        Purpose::Flow => derivatives(model, h, BOTH, true, &mut request),
-        Purpose::Kick => derivatives(model, h, Dependence::Q, true, &mut request),
-        Purpose::Drift => derivatives(model, h, Dependence::P, true, &mut request),
+        Purpose::Flow | Purpose::Kick | Purpose::Drift => {
+            let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
+            for entry in along(model, sides) {
+                request.stores.push(added(scaled(&mut model.dag, entry)));
+            }
+        }
     }
     request
 }
@@ -144,9 +169,9 @@ fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
     all
 }
 
-/// The partial derivatives of a scalar, element by element.
-fn partials(model: &mut Model, root: Node, what: Dependence) -> Vec<VectorEntry> {
-    let adjoints = diff::gradient(&mut model.dag, root, what);
+/// The partial derivatives of a scalar by coordinates and momenta, element by element.
+fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
+    let adjoints = diff::gradient(&mut model.dag, root, BOTH);
     let entry = |(leaf, value): (Node, Node)| match model.dag.kind(leaf).clone() {
         Kind::Element(
             Array::Phase {
@@ -174,28 +199,8 @@ pub fn gradient_of(model: &mut Model, name: String, root: Node) -> VectorFunctio
     VectorFunction {
         name,
         sides: (true, true),
-        entries: partials(model, root, BOTH),
+        entries: partials(model, root),
     }
-}
-
-/// Stores of ∂root/∂q and ∂root/∂p: overwriting, or accumulating c·∂root/∂p into coordinates and
-/// −c·∂root/∂q into momenta.
-fn derivatives(
-    model: &mut Model,
-    root: Node,
-    what: Dependence,
-    accumulate: bool,
-    request: &mut Request,
-) {
-    let mut entries = partials(model, root, what);
-    if !accumulate {
-        let sides = (what.on(Dependence::Q), what.on(Dependence::P));
-        return vector(model, entries, sides, request);
-    }
-    for entry in &mut entries {
-        (entry.side, entry.value) = scaled(&mut model.dag, entry.side, entry.value);
-    }
-    request.stores.extend(entries.into_iter().map(added));
 }
 
 /// The store that adds an entry.
@@ -238,12 +243,17 @@ fn vector(
 }
 
 /// c·∂H/∂p goes to coordinates, −c·∂H/∂q to momenta.
-fn scaled(dag: &mut Dag, side: Side, value: Node) -> (Side, Node) {
+fn scaled(dag: &mut Dag, entry: VectorEntry) -> VectorEntry {
     let c = dag.coefficient();
-    let value = dag.mul(&[c, value]);
-    match side {
+    let value = dag.mul(&[c, entry.value]);
+    let (side, value) = match entry.side {
         Side::Q => (Side::P, dag.neg(value)),
         Side::P => (Side::Q, value),
+    };
+    VectorEntry {
+        side,
+        value,
+        ..entry
     }
 }
 

@@ -20,8 +20,9 @@ pub fn second_derivatives(
     report: &mut Report,
 ) {
     let mut blamed: Vec<String> = Vec::new();
+    let mut gradient = None;
     for purpose in wanted {
-        let roots = pipeline::request(model, *purpose).roots();
+        let roots = pipeline::request(model, *purpose, &mut gradient).roots();
         let missing = model.dag.reachable(&roots).into_iter().find_map(|node| {
             let Kind::External(function, Part::Second(..), _) = model.dag.kind(node) else {
                 return None;

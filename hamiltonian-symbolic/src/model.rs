@@ -114,6 +114,8 @@ pub struct Model {
     pub sizes: Vec<String>,
     /// The name of time, where it was declared.
     pub time: Option<String>,
+    /// The name of what orbits are functions of where that is not time: s of dt = g ds.
+    pub evolution: Option<String>,
     /// Functions written in Rust.
     pub externals: Vec<External>,
     /// Monitors, invariants and events in declaration order.

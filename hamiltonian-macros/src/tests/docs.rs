@@ -205,3 +205,22 @@ fn a_force_is_said_not_to_be_integrated() {
     assert!(section(&damped, "Equations of motion").contains("schemes integrate H alone"));
     assert!(!docs(PENDULUM).contains("force"));
 }
+
+#[test]
+fn equations_in_another_time_are_in_that_time() {
+    let sundman = docs(
+        "pub struct Sundman {} let r = hypot(x, y);
+        H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/r; dt = r*ds",
+    );
+    let equations = section(&sundman, "Equations of motion");
+    assert!(equations.contains("dx/ds = "), "{equations}");
+    assert!(equations.contains("dt/ds = hypot(x, y)\n"), "{equations}");
+    assert!(!equations.contains("/dt"), "{equations}");
+    // Where s is a coordinate, the new time has another name.
+    let lagrangian = docs("pub struct Bead {} L(s; v) = v^2/2 - s^2/2; dt = (1 + s^2)*ds");
+    let equations = section(&lagrangian, "Equations of motion");
+    assert!(equations.contains("ds/ds_2 = "), "{equations}");
+    assert!(!equations.contains("/dt"), "{equations}");
+    let latex = section(&lagrangian, "LaTeX");
+    assert!(latex.contains(r"{\mathrm{d} s_{2}}"), "{latex}");
+}

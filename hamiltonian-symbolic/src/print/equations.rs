@@ -262,7 +262,7 @@ impl Derivative {
 }
 
 impl Equation {
-    /// `dq[k]/dt` and its value.
+    /// `dq[k]/dt`, or `dq[k]/ds` in another time, and its value.
     fn written(&self, model: &Model, notation: Notation) -> (String, String) {
         let Derivative {
             side,
@@ -285,7 +285,8 @@ impl Equation {
                 .fold(name.to_owned(), |text, index| format!("{text}[{index}]")),
             Notation::Latex => latex::indexed(name, &indices),
         };
-        let time = Writer::new(model, notation, &[]).named(model.time.as_deref().unwrap_or("t"));
+        let time = model.evolution.as_deref().or(model.time.as_deref());
+        let time = Writer::new(model, notation, &[]).named(time.unwrap_or("t"));
         let left = match notation {
             Notation::Text => format!("d{}/d{time}", element(own)),
             Notation::Latex => format!(

@@ -126,6 +126,7 @@ impl Model {
             parameters: self.parameters.clone(),
             sizes: self.sizes.clone(),
             time: self.time.clone(),
+            evolution: self.evolution.clone(),
             externals: self.externals.clone(),
             observables: self.observables.clone(),
             ..Model::default()

@@ -81,6 +81,7 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
         momentum,
         shape: Shape::Scalar,
     });
+    new.evolution = Some(free(&new, "s"));
 
     let time = element(&mut new.dag, Side::Q, group, 0, 0);
     let p_t = element(&mut new.dag, Side::P, group, 0, 0);

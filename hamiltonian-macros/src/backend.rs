@@ -14,9 +14,10 @@ mod verdicts;
 
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::{ends, lower, velocity_names};
+use crate::lower::{SHARE_LOOPS, ends, lower, velocity_names};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
+use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
 use hamiltonian_symbolic::print::Readable;
@@ -199,8 +200,8 @@ fn derive(
             return None;
         }
         Err(Refusal::TooManyLoops) => (
-            "derivatives of this system need more than 64 loops".to_owned(),
-            "let several sums share a loop".to_owned(),
+            format!("derivatives of this system need more than {LOOPS} loops"),
+            SHARE_LOOPS.to_owned(),
         ),
         Err(Refusal::NoSecondDerivative { .. }) => {
             blame::second_derivatives(checked, model, &wanted, report);

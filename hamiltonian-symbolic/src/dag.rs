@@ -5,7 +5,7 @@
 //! of their operands; the order first written is kept for evaluation; a child's number is below
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
-use crate::index::{Affine, Domain, Index, Size};
+use crate::index::{Affine, Domain, Index, LOOPS, Size};
 use crate::op::Op;
 use crate::rational::Rational;
 use std::collections::HashMap;
@@ -265,6 +265,8 @@ pub struct Dag {
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
+    /// Whether a loop was asked for that there is no number for.
+    has_too_many_loops: bool,
 }
 
 impl Dag {
@@ -361,23 +363,31 @@ impl Dag {
     pub fn range(&self, domain: Domain) -> &Range {
         &self.ranges[domain.0 as usize]
     }
-    /// How many loops are known; a bit set holds 64.
+    /// How many loops are known.
     #[must_use]
     pub fn loop_count(&self) -> usize {
         self.ranges.len()
     }
-    /// The loop over `start..end` inside `parent`. At most 64 are told apart; callers check
-    /// [`Dag::loop_count`].
+    /// Whether more than [`LOOPS`] loops were asked for. What was made since may be wrong: who
+    /// makes loops asks before the result is used.
+    #[must_use]
+    pub fn has_too_many_loops(&self) -> bool {
+        self.has_too_many_loops
+    }
+    /// The loop over `start..end` inside `parent`; some other one where there are [`LOOPS`]
+    /// already, which [`Dag::has_too_many_loops`] tells.
     pub fn domain(&mut self, parent: Option<Domain>, start: Affine, end: Affine) -> Domain {
         let range = Range { parent, start, end };
         if let Some(&domain) = self.known_ranges.get(&range) {
             return domain;
         }
-        let domain = Domain(self.ranges.len().min(63) as u32);
-        if self.ranges.len() < 64 {
-            self.ranges.push(range.clone());
-            self.known_ranges.insert(range, domain);
+        if self.ranges.len() == LOOPS {
+            self.has_too_many_loops = true;
+            return Domain(LOOPS as u32 - 1);
         }
+        let domain = Domain(self.ranges.len() as u32);
+        self.ranges.push(range.clone());
+        self.known_ranges.insert(range, domain);
         domain
     }
 

@@ -12,6 +12,16 @@ pub struct Domain(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Size(pub u16);
 
+/// The most loops that one arena tells apart: a set of them is the bits of a word.
+pub const LOOPS: usize = 64;
+
+/// The loops of a set.
+pub fn members(set: u64) -> impl Iterator<Item = Domain> {
+    (0..LOOPS as u32)
+        .filter(move |number| set >> number & 1 == 1)
+        .map(Domain)
+}
+
 /// `constant + Σ k·loop variable + Σ k·size`.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
 pub struct Affine {

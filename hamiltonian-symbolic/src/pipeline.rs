@@ -26,7 +26,7 @@ pub enum Refusal {
         /// How many.
         operations: usize,
     },
-    /// More than 64 different loops.
+    /// More than [`crate::index::LOOPS`] different loops.
     TooManyLoops,
     /// A second derivative of a Rust function that came without one, by name.
     NoSecondDerivative {
@@ -48,6 +48,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         request.replace_roots(&roots);
         requests.push(request);
     }
+    refuse(model, &[])?;
     let program = schedule(&model.dag, &requests);
     for function in &program.functions {
         let operations = program.operations(function).total();
@@ -59,7 +60,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
 }
 
 fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
-    if model.dag.loop_count() >= 64 {
+    if model.dag.has_too_many_loops() {
         return Err(Refusal::TooManyLoops);
     }
     for node in model.dag.reachable(roots) {

@@ -4,7 +4,7 @@
 //! of `simplify`, so in canonical form. Invariant: what does not change keeps its node.
 
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain, Index, members};
 
 impl Dag {
     /// The same node over other children.
@@ -105,7 +105,7 @@ impl Dag {
                     for index in indices {
                         let mut targets: Map<Domain, Affine> = Map::default();
                         let all = index.variables();
-                        for d in (0..64).filter(|d| all >> d & 1 == 1).map(Domain) {
+                        for d in members(all) {
                             let target = if d == variable {
                                 by.clone()
                             } else {

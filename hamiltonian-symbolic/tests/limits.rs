@@ -3,13 +3,16 @@
 mod common;
 
 use common::{model, parse, system};
-use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::bracket::{Verdict, bracket, is_invariant};
 use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::legendre::transform;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::op::Op;
+use hamiltonian_symbolic::pipeline::{Refusal, derive};
 use hamiltonian_symbolic::print::{Notation, hamilton_equations, latex, text};
+use hamiltonian_symbolic::program::{Purpose, Step};
 use hamiltonian_symbolic::rational::Rational;
 use hamiltonian_symbolic::structure::analyse;
 
@@ -141,4 +144,37 @@ fn the_same_question_has_the_same_answer() {
         )
     };
     assert_eq!(ask(), ask());
+}
+
+/// One loop for each of `from..N` with from below `count`.
+fn many_loops(count: usize) -> Model {
+    let sums = (0..count).map(|from| format!("sum(i in {from}..N) {{ p[i]^2*{}/2 }}", from + 1));
+    system("q[N]; p[N]", "N", "", &sums.collect::<Vec<_>>().join(" + "))
+}
+
+/// Loops are told apart up to the last one, and past it nothing is said of another.
+#[test]
+fn as_many_loops_as_there_are_numbers_for() {
+    let derived = |count| derive(&mut many_loops(count), &[Purpose::EnergyAndGradient]);
+    let program = derived(LOOPS).expect("as many as there may be");
+    let mut starts: Vec<i64> = Vec::new();
+    for step in &program.functions[0].evaluation {
+        if let Step::Loop(one) = step {
+            starts.push(one.start.constant);
+        }
+    }
+    starts.sort_unstable();
+    assert_eq!(starts, (0..LOOPS as i64).collect::<Vec<_>>());
+    assert_eq!(derived(LOOPS + 1), Err(Refusal::TooManyLoops));
+
+    // Of more nothing is said: the last loops would be taken for others.
+    let mut more = many_loops(LOOPS + 1);
+    let h = more.hamiltonian.unwrap();
+    assert_eq!(bracket(&mut more, h, h), None);
+    assert!(matches!(
+        is_invariant(&more, h, None),
+        Verdict::Undecided { .. }
+    ));
+    let equations = hamilton_equations(&more).written(Notation::Text);
+    assert_eq!(equations[0].1, "∂H/∂p[k]");
 }

@@ -308,6 +308,7 @@ fn remedy(reason: &Refusal) -> &'static str {
         }
         Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
         Refusal::Loops { .. } => "give the loop literal bounds, so that it can be written out",
+        Refusal::TooManyLoops => "let several sums share a loop",
         Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
         Refusal::Power { .. } => {
             "write the sums of H over `p[i]` with the loop variable alone as the index"

@@ -10,7 +10,7 @@ use crate::checked::{self, Extent, IndexVariable, Kind, LoopId, NodeId, Type};
 use crate::names::Builtin;
 use crate::report::Spans;
 use hamiltonian_symbolic::dag::Dag;
-use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Size, members};
 
 /// The longest vector whose sums over components are written out.
 const LONGEST: i64 = 16;
@@ -158,10 +158,8 @@ impl Evaluator<'_> {
             }
             _ => {
                 let own = self.loops.free(node);
-                let outer = (0..64)
-                    .map(LoopId)
-                    .filter(|id| own >> id.0 & 1 == 1 && demand.value(*id).is_none());
-                let outer: Vec<LoopId> = outer.collect();
+                let outer = members(own).map(|id| LoopId(id.0));
+                let outer: Vec<LoopId> = outer.filter(|id| demand.value(*id).is_none()).collect();
                 let mut set = demand
                     .indices
                     .iter()

@@ -4,19 +4,19 @@
 //! from parents to children that gathers what is asked, one back that answers; each demand is
 //! answered once.
 
-use super::LARGEST;
 use super::demand::{Demand, Run};
 use super::domain;
 use super::loops::Loops;
 use super::scope::number;
 use super::velocity;
+use super::{LARGEST, SHARE_LOOPS};
 use crate::ast::Comparison;
 use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
 use crate::names::{Builtin, FUNCTIONS};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Dag, Map, Node, Parameter, Part, Side};
-use hamiltonian_symbolic::index::{Domain, Index, Size};
+use hamiltonian_symbolic::index::{Domain, Index, LOOPS, Size};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -53,7 +53,7 @@ pub struct Evaluator<'a> {
 impl<'a> Evaluator<'a> {
     /// An evaluator that has answered nothing.
     pub fn new(checked: &'a Checked, report: &'a mut Report) -> Evaluator<'a> {
-        let many = checked.loops.get(64).map(|one| one.name.span());
+        let many = checked.loops.get(LOOPS).map(|one| one.name.span());
         let mut evaluator = Evaluator {
             checked,
             loops: if many.is_none() {
@@ -75,8 +75,8 @@ impl<'a> Evaluator<'a> {
         if let Some(span) = many {
             evaluator.refuse(
                 span.into(),
-                "there are more than 64 loops",
-                "let several sums share a loop, or write a function with `let`",
+                &format!("there are more than {LOOPS} loops"),
+                SHARE_LOOPS,
             );
         }
         evaluator
@@ -341,7 +341,10 @@ impl<'a> Evaluator<'a> {
             return a;
         };
         bracket(model, a, b).unwrap_or_else(|| {
-            self.refuse(spans, UNSOLVED.0, UNSOLVED.1);
+            // What takes too many loops is reported when all is lowered.
+            if !model.dag.has_too_many_loops() {
+                self.refuse(spans, UNSOLVED.0, UNSOLVED.1);
+            }
             a
         })
     }

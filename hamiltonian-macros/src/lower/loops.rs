@@ -7,7 +7,7 @@
 use crate::checked::{Affine, Checked, IndexVariable, Kind, LoopId, Node, NodeId, Type};
 use crate::names::Builtin;
 
-/// A set of loops; there are at most 64.
+/// A set of loops; there are at most `LOOPS`.
 pub type Set = u64;
 
 /// What is known of loops.
@@ -51,7 +51,7 @@ impl Loops {
         }
     }
 
-    /// Reads a definition with at most 64 loops.
+    /// Reads a definition with at most `LOOPS` loops.
     pub fn of(checked: &Checked) -> Loops {
         let count = checked.loops.len();
         let mut loops = Loops {

@@ -23,13 +23,16 @@ use crate::report::Report;
 use demand::Demand;
 use evaluate::Evaluator;
 use hamiltonian_symbolic::dag::{Node, Side};
-use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
     VectorFunction,
 };
 use scope::{shape, size_affine};
+
+/// The way out of too many loops.
+pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
 
 /// Past this many nodes an expression is given up: its program would be past the cap many times
 /// over.
@@ -107,6 +110,13 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         .collect();
     let factor = rest.values(&mut model, &factor)?.first().copied();
     let force = rest.force(&mut model)?;
+    // What is proven and derived from here on would be of other loops.
+    if model.dag.has_too_many_loops() {
+        let message = format!("this system needs more than {LOOPS} loops");
+        let at = checked.node(h).spans;
+        rest.evaluator.refuse(at, &message, SHARE_LOOPS);
+        return None;
+    }
     Some(Lowered {
         model,
         shells,

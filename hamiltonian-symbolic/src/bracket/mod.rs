@@ -144,7 +144,8 @@ fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
     let parts: Vec<Node> = std::iter::once(flow)
         .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
         .collect();
-    Some(model.dag.add(&parts))
+    let sum = model.dag.add(&parts);
+    (!model.dag.has_too_many_loops()).then_some(sum)
 }
 
 /// The verdict on a residual without loops.

@@ -13,7 +13,7 @@ use crate::model::{Model, Shape};
 use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
-/// cannot be solved for loop variables.
+/// cannot be solved for loop variables, or where that takes too many loops.
 pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
     let shapes: Vec<Shape> = model.groups.iter().map(|g| g.shape.clone()).collect();
     let dag = &mut model.dag;
@@ -54,7 +54,8 @@ pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
             }
         }
     }
-    Some(dag.linear(&Rational::ZERO, &terms))
+    let sum = dag.linear(&Rational::ZERO, &terms);
+    (!dag.has_too_many_loops()).then_some(sum)
 }
 
 /// Every iteration of the loops around adds a value to an element.
@@ -150,6 +151,5 @@ fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Optio
         }
         terms.push(term);
     }
-    // More loops than can be told apart would be mistaken for each other.
-    (dag.loop_count() < 60).then_some(terms)
+    Some(terms)
 }

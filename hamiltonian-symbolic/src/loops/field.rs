@@ -16,7 +16,7 @@ pub fn elements(dag: &mut Dag, rows: &Affine) -> Domain {
 }
 
 /// `∂/∂array[k]` for k in 0..rows, in the loop that [`elements`] gives, from the adjoints of all
-/// leaves; `None` where an index can be neither solved nor compared.
+/// leaves; `None` where an index can be neither solved nor compared, or that takes too many loops.
 pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine) -> Option<Node> {
     let k = elements(dag, rows);
     let mut parts = Vec::new();
@@ -31,7 +31,8 @@ pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine
         let chain = dag.path(dag.home(leaf));
         parts.push(gather(dag, &row, &chain, adjoint, k, rows)?);
     }
-    Some(dag.add(&parts))
+    let sum = dag.add(&parts);
+    (!dag.has_too_many_loops()).then_some(sum)
 }
 
 /// What all iterations of `chain` together add to element k.
@@ -73,9 +74,6 @@ fn gather(
             None => Affine::variable(d),
         });
         chain = images;
-        if dag.loop_count() >= 60 {
-            return None;
-        }
     }
     let inner = chain[chain.len() - 1];
     let mut around = chain[..chain.len() - 1].to_vec();

@@ -5,7 +5,7 @@
 //! on, children first; the walk recurses only into nested loops.
 
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::index::{Affine, Domain, Index, Size};
+use crate::index::{Affine, Domain, Index, LOOPS, Size};
 use std::rc::Rc;
 
 /// What nodes mean to a walk.
@@ -38,7 +38,7 @@ impl Place {
     pub(crate) fn new(sizes: &[i64]) -> Place {
         Place {
             sizes: sizes.to_vec(),
-            variables: vec![0; 64],
+            variables: vec![0; LOOPS],
         }
     }
     /// The value of an affine index.

@@ -75,7 +75,7 @@ fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, 
     };
     let mut best: Option<(Vec<Domain>, Monomial, Rational)> = None;
     for candidate in images(dag, nest) {
-        if dag.loop_count() >= 60 {
+        if dag.has_too_many_loops() {
             return Err(Undecided);
         }
         let body = algebra.convert(dag, candidate.body)?;

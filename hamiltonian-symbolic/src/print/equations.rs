@@ -78,6 +78,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
                 .push((row.clone(), adjoint));
         }
     }
+    let is_large = is_large || model.dag.has_too_many_loops();
     for group in 0..model.groups.len() {
         let (rows, columns) = match &model.groups[group].shape {
             Shape::Scalar => (None, 1),

@@ -115,6 +115,12 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         bodies,
         rules,
     };
+    if [&transformed.source, &transformed.model]
+        .iter()
+        .any(|model| model.dag.has_too_many_loops())
+    {
+        return Err(Refusal::TooManyLoops);
+    }
     check(&transformed)?;
     Ok(transformed)
 }

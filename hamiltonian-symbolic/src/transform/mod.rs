@@ -23,7 +23,7 @@ pub use time::{Retimed, retime};
 pub use verify::check;
 
 use crate::dag::{Array, Dag, Node, Side};
-use crate::index::Index;
+use crate::index::{Index, LOOPS};
 use crate::loops::Point;
 use crate::model::Model;
 use std::fmt;
@@ -67,6 +67,8 @@ pub enum Refusal {
         /// Why not.
         reason: String,
     },
+    /// More than [`crate::index::LOOPS`] loops are needed.
+    TooManyLoops,
     /// The factor of the time transformation is none.
     Factor {
         /// Why not.
@@ -109,6 +111,7 @@ impl fmt::Display for Refusal {
                 f,
                 "`{coordinate}` is read in a loop that cannot be written out: {reason}"
             ),
+            Refusal::TooManyLoops => write!(f, "it takes more than {LOOPS} loops"),
             Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
             Refusal::Power { momentum } => write!(
                 f,

@@ -15,9 +15,6 @@ use crate::model::{Model, Shape};
 /// The most nodes that loops are written out to.
 const LARGEST: usize = 1 << 20;
 
-/// How many loops may be made.
-const LOOPS: usize = 56;
-
 /// Least values of indices.
 #[derive(Debug, Default)]
 pub(super) struct Below {
@@ -101,18 +98,14 @@ pub(super) fn open(
                 dag.add(&[first, rest])
             }
         };
-        let too_much = if dag.loop_count() > LOOPS {
-            Some("it needs too many loops")
-        } else if dag.len() > LARGEST {
-            Some("it is too long")
-        } else {
-            None
-        };
-        if let Some(reason) = too_much {
+        if dag.has_too_many_loops() {
+            return Err(Refusal::TooManyLoops);
+        }
+        if dag.len() > LARGEST {
             let group = written.first().copied().or(bodies.first().map(|b| b.old));
             return Err(Refusal::Loops {
                 coordinate: coordinate(model, group.unwrap_or(0)),
-                reason: reason.to_owned(),
+                reason: "it is too long".to_owned(),
             });
         }
         for root in &mut roots {

@@ -204,6 +204,9 @@ impl Velocities {
                     Some(found) => guarded(model, found),
                     None => None,
                 };
+                if model.dag.has_too_many_loops() {
+                    return Err(Refusal::TooManyLoops);
+                }
                 let found = found.ok_or_else(|| Refusal::Power {
                     momentum: model.groups[usize::from(group)].momentum.clone(),
                 })?;

@@ -405,9 +405,30 @@ fn the_check_compares_where_every_index_is_in_range() {
         new.model.hamiltonian = Some(new.model.dag.add(&[h, wrong]));
         assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
     }
-    // Nowhere a value, nothing compared.
-    let model = system("q[n]; p[n]", "n", "m[n]", "sqrt(-1 - q[0]^2)");
-    assert_eq!(check(&apply(&model, &chart, &[]).unwrap()), Ok(0));
+    // Nowhere a value, or no sizes that fit: nothing is compared, nor called checked.
+    for (sizes, h, why) in [
+        ("n", "sqrt(-1 - q[0]^2)", "H has no value"),
+        ("n", "q[4]*q[5000]", "no sizes"),
+        ("n k", "sum(i in 0..k + 1) { q[n - k + i] }", "no sizes"),
+    ] {
+        let model = system("q[n]; p[n]", sizes, "m[n]", h);
+        match apply(&model, &chart, &[]) {
+            Err(Refusal::Uncompared { reason }) => assert!(reason.contains(why), "{reason}"),
+            other => panic!("{h}: {other:?}"),
+        }
+    }
+    // Another function of the same system that has values says nothing of H.
+    let mut model = system("q[n]; p[n]", "n", "m[n]", "ln(-1 - q[0]^2)");
+    let components = vec![parse(&mut model, "q[0]")];
+    model.observables.push(Observable {
+        name: "first".to_owned(),
+        kind: ObservableKind::Monitor,
+        components,
+    });
+    assert!(matches!(
+        apply(&model, &chart, &[]),
+        Err(Refusal::Uncompared { .. })
+    ));
 }
 
 #[test]
@@ -419,8 +440,13 @@ fn the_check_asks_for_eight_digits_where_there_are_as_many() {
     new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
     assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
     // Rounding that leaves fewer is not a slip.
-    let new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
+    let mut new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
     assert!(check(&new).is_ok());
+    // But what is left of the digits must agree.
+    let h = new.model.hamiltonian.unwrap();
+    let slip = parse(&mut new.model, "10^15*r^2");
+    new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
+    assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
 }
 
 #[test]

@@ -313,6 +313,9 @@ fn remedy(reason: &Refusal) -> &'static str {
         Refusal::Power { .. } => {
             "write the sums of H over `p[i]` with the loop variable alone as the index"
         }
+        Refusal::Uncompared { .. } => {
+            "check where roots and logarithms in H are defined, and that literal indices and sizes fit together; units in which coordinates are of size 1 help"
+        }
         Refusal::Unverified { .. } => {
             "this is a fault of the transformation: please report it with the definition"
         }

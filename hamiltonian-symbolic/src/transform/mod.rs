@@ -79,6 +79,11 @@ pub enum Refusal {
         /// The momenta the force acts on.
         momentum: String,
     },
+    /// H in the new variables could not be compared with H in the old ones.
+    Uncompared {
+        /// Why not.
+        reason: &'static str,
+    },
     /// H in the new variables is not H in the old ones at a point.
     Unverified {
         /// The point, in the new variables.
@@ -116,6 +121,10 @@ impl fmt::Display for Refusal {
             Refusal::Power { momentum } => write!(
                 f,
                 "the work of the force on `{momentum}` needs ∂H/∂{momentum} row by row, and an index of H cannot be solved for the row"
+            ),
+            Refusal::Uncompared { reason } => write!(
+                f,
+                "H in the old and in the new ones could not be compared: {reason}"
             ),
             Refusal::Unverified { old, new, .. } => write!(
                 f,

@@ -573,3 +573,55 @@ fn poles_with_equal_sides_are_no_jumps() {
     let mut predators = system("q; p", "", "a b", "q - ln(q) + a*(p - b*ln(p))");
     accepted(&mut predators, "q - ln(q) + a*p - a*b*ln(p)");
 }
+
+/// What is false for negative parameters only, or before t = 0, is false.
+#[test]
+fn parameters_need_not_be_positive() {
+    let point = |m: &mut Model, invariant: &str, shell: Option<&str>, name: &str| match verdict(
+        m, invariant, shell,
+    ) {
+        Verdict::Disproven { point, .. } => {
+            let found = point.iter().find(|(other, _)| other == name);
+            assert!(found.is_some_and(|(_, value)| *value < 0.0), "{point:?}");
+        }
+        other => panic!("{invariant}: {other:?}"),
+    };
+    let h = "(p^2 + u^2)/2 + (abs(a) - a)*q + a*x";
+    let mut tilted = system("q, x; p, u; t", "", "a b c d", h);
+    point(&mut tilted, "p", None, "a");
+    point(&mut tilted, "p", Some("1"), "a");
+    // Another parameter must be positive.
+    point(
+        &mut tilted,
+        "p + sqrt(b)*(p^2 + u^2)/2 + sqrt(b)*(q*(abs(a) - a) + a*x)",
+        None,
+        "a",
+    );
+    // Some of an array.
+    let h = "sum(i in 0..n) { p[i]^2/2 + (abs(k[i]) - k[i])*q[i] }";
+    let mut wells = system("q[n]; p[n]", "n", "k[n]", h);
+    assert!(matches!(
+        verdict(&mut wells, "sum(i in 0..n) { p[i] }", None),
+        Verdict::Disproven { .. }
+    ));
+    let mut late = system("q; p; t", "", "", "p^2/2 + (abs(t) - t)*q");
+    point(&mut late, "p", None, "t");
+    // The system is there for a ≥ 0 only, and there it is conserved.
+    for h in [
+        "(p^2 + u^2)/2 + (abs(a) - a)*q + sqrt(a)*x",
+        "(p^2 + u^2)/2 + (abs(a) - a)*q + ln(a)*x",
+    ] {
+        let mut half = system("q, x; p, u", "", "a", h);
+        for shell in [None, Some("1")] {
+            assert!(!matches!(
+                verdict(&mut half, "p", shell),
+                Verdict::Disproven { .. }
+            ));
+        }
+    }
+    let mut jumping = system("q; p", "", "a", "p^2/2");
+    assert!(matches!(
+        verdict(&mut jumping, "abs(q^2 + a)/(q^2 + a)", None),
+        Verdict::Jumps { .. }
+    ));
+}

@@ -383,6 +383,29 @@ fn the_check_sees_a_wrong_hamiltonian() {
     }
 }
 
+/// A slip that shows for negative parameters only; and a parameter that has a root.
+#[test]
+fn the_check_compares_at_negative_parameters_too() {
+    let of = |h: &str, slip: &str| {
+        let mut new = polar(h, "a b");
+        assert_eq!(check(&new), Ok(3));
+        let h = new.model.hamiltonian.unwrap();
+        let slip = parse(&mut new.model, slip);
+        new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
+        check(&new)
+    };
+    for (h, slip) in [
+        ("a*x*y + p_x^2/2", "(abs(a) - a)*r"),
+        ("sqrt(a)*x*y + p_x^2/2 + b", "r/64"),
+        ("sqrt(a)*x*y + p_x^2/2 + sqrt(b)", "r/64"),
+    ] {
+        assert!(
+            matches!(of(h, slip), Err(Refusal::Unverified { .. })),
+            "{h}"
+        );
+    }
+}
+
 #[test]
 fn the_check_compares_where_every_index_is_in_range() {
     let chart = [Chart::Heliocentric(bodies())];

@@ -85,7 +85,7 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     if let Some(residual) = general
         && (model.dag.is_zero(residual)
             || (normal_form::vanishes(&mut model.dag, residual)
-                && witness(&model, residual, Effort::Glance).is_none()))
+                && witness(&model, residual, Effort::Glance, &[h, expression]).is_none()))
     {
         return Verdict::Proven;
     }
@@ -100,7 +100,7 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
     if !has_loops && model.sizes.is_empty() {
         return match general {
-            Some(residual) => decide(&mut model, residual, difference, text),
+            Some(residual) => decide(&mut model, residual, difference, &[h, expression], text),
             None => Verdict::Undecided { residual: text },
         };
     }
@@ -117,7 +117,8 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         if general.is_none() {
             text = readable(&mut small, residual);
         }
-        match decide(&mut small, residual, images.get(2).copied(), text.clone()) {
+        let shell = images.get(2).copied();
+        match decide(&mut small, residual, shell, &images[..2], text.clone()) {
             Verdict::Disproven {
                 residual,
                 mut point,
@@ -148,14 +149,20 @@ fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
     (!model.dag.has_too_many_loops()).then_some(sum)
 }
 
-/// The verdict on a residual without loops.
-fn decide(model: &mut Model, residual: Node, difference: Option<Node>, text: String) -> Verdict {
+/// The verdict on a residual without loops, of what has values only where `others` have.
+fn decide(
+    model: &mut Model,
+    residual: Node,
+    difference: Option<Node>,
+    others: &[Node],
+    text: String,
+) -> Verdict {
     if model.dag.is_zero(residual) {
         return Verdict::Proven;
     }
     let found = match difference {
-        None => witness(model, residual, Effort::Search),
-        Some(difference) => shell::witness(model, residual, difference),
+        None => witness(model, residual, Effort::Search, others),
+        Some(difference) => shell::witness(model, residual, difference, others),
     };
     if let Some((point, value)) = found {
         return Verdict::Disproven {

@@ -14,14 +14,15 @@
 
 use super::jump::MOVING;
 use crate::dag::{Array, Dag, Kind, Map, Node};
-use crate::loops::{Sample, Sampled, sample, unroll_nodes};
+use crate::loops::{Sample, Sampled, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::trials;
 use crate::op::Op;
 use crate::print;
 
-/// How many lines through phase space are followed,
-const LINES: u64 = 4;
+/// How many lines through phase space are followed where parameters are positive (one more for each
+/// choice of negative ones),
+const LINES: usize = 2;
 /// and how many points of one pole are looked at on each.
 const CROSSINGS: usize = 3;
 /// How far from the pole values are compared: what has limits has nearly reached them.
@@ -56,8 +57,9 @@ fn jumping(model: &mut Model, roots: &[Node]) -> Option<String> {
             .filter(|n| traits.is_suspect(*n))
             .collect();
         let poles = traits.zeros(&mut model.dag);
-        for line in 0..LINES {
-            let line = Line::new(model, root, line);
+        let signs = std::iter::repeat_n(Signs::default(), LINES).chain(Signs::negative());
+        for (number, signs) in signs.enumerate() {
+            let line = Line::new(model, root, number as u64, signs);
             for &pole in &poles {
                 let jump = line
                     .zeros(pole)
@@ -266,7 +268,7 @@ struct Line<'a> {
 
 impl Line<'_> {
     /// The line of a number, along which everything moves that the expression reads.
-    fn new(model: &Model, root: Node, number: u64) -> Line<'_> {
+    fn new(model: &Model, root: Node, number: u64, signs: Signs) -> Line<'_> {
         let mut bits = Scramble(number);
         let is_moving = |node: &Node| {
             let kind = model.dag.kind(*node);
@@ -279,6 +281,7 @@ impl Line<'_> {
             model,
             how: Sample {
                 seed: number,
+                signs,
                 ..Sample::default()
             },
             leaves: leaves.collect(),

@@ -5,7 +5,7 @@
 //! multiplication with the leading coefficient in some momentum, it is a multiple of H − e.
 
 use crate::dag::{Array, Dag, Kind, Node, Side};
-use crate::loops::{Point, Sample, sample};
+use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
 
@@ -98,7 +98,12 @@ fn remainder(
 }
 
 /// A point with `shell` = 0 where the residual is certainly not.
-pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Point, f64)> {
+pub(super) fn witness(
+    model: &Model,
+    residual: Node,
+    shell: Node,
+    others: &[Node],
+) -> Option<(Point, f64)> {
     let momenta: Vec<Node> = model
         .dag
         .reachable(&[shell])
@@ -110,13 +115,28 @@ pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Poi
             )
         })
         .collect();
-    let mut found = 0;
-    for seed in 0..6 {
-        let how = Sample {
-            seed,
-            signed: seed % 2 == 1,
-            ..Sample::default()
-        };
+    let mut all = vec![shell, residual];
+    all.extend(others);
+    let positive = (0..6).map(|seed| Sample {
+        seed,
+        signed: seed % 2 == 1,
+        ..Sample::default()
+    });
+    // The shell need not have a point at each.
+    let twice = Signs::negative().chain(Signs::negative());
+    let negative = (0..).zip(twice).map(|(seed, signs)| Sample {
+        seed,
+        signed: true,
+        signs,
+        ..Sample::default()
+    });
+    // Two points are enough where parameters are positive, and where they are not.
+    let mut found = [0; 2];
+    for how in positive.chain(negative) {
+        let found = &mut found[usize::from(how.signs != Signs::default())];
+        if *found == 2 {
+            continue;
+        }
         for &momentum in &momenta {
             let at =
                 |roots: &[Node], value: f64| sample(model, roots, &[], how, &[(momentum, value)]);
@@ -124,7 +144,10 @@ pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Poi
             let Some(root) = solve(off_shell) else {
                 continue;
             };
-            let (values, point) = at(&[shell, residual], root)?;
+            let (values, point) = at(&all, root)?;
+            if !values.iter().all(|value| value.value.is_finite()) {
+                continue;
+            }
             // How much the residual changes over the distance the root may be off.
             let off = 1e-9 * (1.0 + root.abs());
             let (above, below) = (at(&[residual], root + off)?, at(&[residual], root - off)?);
@@ -132,10 +155,7 @@ pub(super) fn witness(model: &Model, residual: Node, shell: Node) -> Option<(Poi
             if values[1].is_nonzero() && values[1].value.abs() > 16.0 * (change + values[1].error) {
                 return Some((point, values[1].value));
             }
-            found += 1;
-            break;
-        }
-        if found == 2 {
+            *found += 1;
             break;
         }
     }

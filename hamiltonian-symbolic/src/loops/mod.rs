@@ -11,5 +11,5 @@ pub mod unroll;
 mod walk;
 
 pub use guard::guarded;
-pub use numeric::{Point, Sample, Sampled, is_in_range, sample};
+pub use numeric::{Point, Sample, Sampled, Signs, is_in_range, sample};
 pub use unroll::{unroll, unroll_nodes, write_out};

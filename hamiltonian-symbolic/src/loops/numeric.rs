@@ -5,7 +5,7 @@
 //! means that the expression is not identically zero.
 
 use super::walk::{Meaning, Place, walk};
-use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Part, Relation, Side};
+use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
 use crate::model::{Model, Shape};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -42,8 +42,25 @@ pub struct Sample {
     pub q: u64,
     /// Another seed for momenta.
     pub p: u64,
-    /// Whether coordinates and momenta may be negative; parameters are always positive.
+    /// Whether coordinates and momenta may be negative.
     pub signed: bool,
+    /// Which parameters may be negative, and whether the time may.
+    pub signs: Signs,
+}
+
+/// Which parameters are negative: those whose number modulo 3 is a bit of the set; of arrays, some
+/// elements. The time may be where any is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Signs(u8);
+
+impl Signs {
+    /// All choices but that of no negative ones, all negative first.
+    pub fn negative() -> impl Iterator<Item = Signs> {
+        [7, 1, 2, 4, 3, 5, 6].into_iter().map(Signs)
+    }
+    fn of(self, parameter: Parameter) -> bool {
+        self.0 >> (parameter.0 % 3) & 1 == 1
+    }
 }
 
 /// A sample point: names with their values, in order of first use.
@@ -148,7 +165,7 @@ impl Numbers<'_> {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
             (None, Array::Direction { .. }) => self.leaf(&key, 0, self.how.signed),
-            (None, Array::Parameter(_)) => self.leaf(&key, 0, false),
+            (None, Array::Parameter(parameter)) => self.leaf(&key, 0, self.how.signs.of(parameter)),
         };
         if self.read.insert(key, ()).is_none() {
             let group = |side: Side, group: u16| {
@@ -319,12 +336,16 @@ impl Meaning for Numbers<'_> {
             },
             Kind::Scalar(parameter) => {
                 let name = self.model.parameters[usize::from(parameter.0)].name.clone();
-                let value = self.leaf(&(1u8, parameter), 0, false);
-                exact(self.named(&name, value))
+                let size = self.leaf(&(1u8, parameter), 0, false);
+                let is_negative = self.how.signs.of(*parameter);
+                exact(self.named(&name, if is_negative { -size } else { size }))
             }
             Kind::Time => {
                 let name = self.model.time.clone().unwrap_or_else(|| "t".to_owned());
-                let value = self.time.unwrap_or_else(|| self.leaf(&2u8, 0, false));
+                let value = self.time.unwrap_or_else(|| {
+                    let is_signed = self.how.signs != Signs::default();
+                    self.leaf(&2u8, 0, is_signed)
+                });
                 exact(self.named(&name, value))
             }
             Kind::Coefficient => exact(self.leaf(&3u8, 0, false)),

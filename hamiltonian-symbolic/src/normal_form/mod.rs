@@ -22,7 +22,7 @@ pub(crate) use atoms::{Algebra, Key};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::loops::{Point, Sample, sample, unroll_nodes};
+use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
 use crate::model::Model;
 
 /// What one expansion may cost.
@@ -57,11 +57,17 @@ pub enum Proof {
 /// and not zero for some small one.
 #[must_use]
 pub fn is_zero(model: &Model, node: Node) -> Proof {
+    is_zero_where(model, node, &[])
+}
+
+/// Whether a node is identically zero where other nodes have values.
+#[must_use]
+pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof {
     if model.dag.is_zero(node) {
         return Proof::Zero;
     }
     // Two points usually tell; the others are for what the normal form does not decide.
-    if let Some((point, value)) = witness(model, node, Effort::Glance) {
+    if let Some((point, value)) = witness(model, node, Effort::Glance, others) {
         return Proof::NonZero { point, value };
     }
     let mut dag = model.dag.clone();
@@ -76,7 +82,7 @@ pub fn is_zero(model: &Model, node: Node) -> Proof {
     {
         return Proof::Zero;
     }
-    match witness(model, node, Effort::Search) {
+    match witness(model, node, Effort::Search, others) {
         Some((point, value)) => Proof::NonZero { point, value },
         None => Proof::Undecided,
     }
@@ -133,15 +139,21 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
 /// How hard to look for a point.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Effort {
-    /// Two points at the first of the sizes tried.
+    /// Two points at the first of the sizes tried, and one where parameters are negative.
     Glance,
-    /// Four points at each of the sizes tried.
+    /// Four points at each of the sizes tried, and seven where parameters are negative.
     Search,
 }
 
-/// A point where a node is certainly not zero.
+/// A point where a node is certainly not zero. Where parameters or the time are negative, which
+/// they often cannot be, the others must have values there.
 #[must_use]
-pub(crate) fn witness(model: &Model, node: Node, effort: Effort) -> Option<(Point, f64)> {
+pub(crate) fn witness(
+    model: &Model,
+    node: Node,
+    effort: Effort,
+    others: &[Node],
+) -> Option<(Point, f64)> {
     let mut trials = trials(model, &[node]);
     let seeds = match effort {
         Effort::Glance => 2,
@@ -150,19 +162,47 @@ pub(crate) fn witness(model: &Model, node: Node, effort: Effort) -> Option<(Poin
     if effort == Effort::Glance {
         trials.truncate(1);
     }
-    for sizes in trials {
+    for sizes in &trials {
         for seed in 0..seeds {
             let how = Sample {
                 seed,
                 signed: seed % 2 == 1,
                 ..Sample::default()
             };
-            let Some((values, mut point)) = sample(model, &[node], &sizes, how, &[]) else {
+            let Some((values, mut point)) = sample(model, &[node], sizes, how, &[]) else {
                 break;
             };
             if values[0].is_nonzero() {
-                point.splice(0..0, named(model, &sizes));
+                point.splice(0..0, named(model, sizes));
                 return Some((point, values[0].value));
+            }
+        }
+    }
+    let given = Dependence(Dependence::PARAMETER.0 | Dependence::TIME.0);
+    if !model.dag.dependence(node).on(given) {
+        return None;
+    }
+    let mut all = vec![node];
+    all.extend(others);
+    for sizes in &trials {
+        for signs in Signs::negative() {
+            let how = Sample {
+                seed: 1,
+                signed: true,
+                signs,
+                ..Sample::default()
+            };
+            let Some((values, mut point)) = sample(model, &[node], sizes, how, &[]) else {
+                break;
+            };
+            if values[0].is_nonzero() {
+                let (around, _) = sample(model, &all, sizes, how, &[])?;
+                if around.iter().all(|other| other.value.is_finite()) {
+                    point.splice(0..0, named(model, sizes));
+                    return Some((point, values[0].value));
+                }
+            } else if values[0].value.is_finite() && effort == Effort::Glance {
+                return None;
             }
         }
     }

@@ -190,6 +190,7 @@ fn is_certainly_coupled(model: &Model, h: Node) -> bool {
                     q,
                     p,
                     signed: seed % 2 == 1,
+                    ..Sample::default()
                 },
                 &[],
             )

@@ -45,7 +45,8 @@ pub fn check_split(model: &mut Model, pieces: &[(String, Node)]) -> Result<(), B
     let difference = model.dag.linear(&Rational::ZERO, &terms);
     // Multiplied out first, so that the point names only what the difference depends on.
     let node = multiplied_out(&mut model.dag, difference);
-    let point = match normal_form::is_zero(model, node) {
+    let parts: Vec<Node> = terms.iter().map(|(_, part)| *part).collect();
+    let point = match normal_form::is_zero_where(model, node, &parts) {
         Proof::Zero => return Ok(()),
         Proof::NonZero { point, value } => Some((point, value)),
         Proof::Undecided => None,

@@ -9,7 +9,7 @@ use super::layout::Slot;
 use super::{Refusal, element};
 use crate::dag::{Array, Node, Side};
 use crate::index::Affine;
-use crate::loops::{self, Sample};
+use crate::loops::{self, Sample, Signs};
 use crate::model::{Model, Shape, VectorEntry};
 
 /// How many points [`check`] compares at certain sizes,
@@ -94,12 +94,21 @@ fn check_at(
     let new_slots = slots(&new, sizes);
     // To all the digits asked for, and to fewer.
     let (mut compared, mut roughly) = (0, 0);
-    for seed in 1..=TRIES {
+    // Parameters are negative where H has values for such, too.
+    let positive = (1..=TRIES).map(|seed| (seed, Signs::default()));
+    let negative = (2..).zip(Signs::negative().take(POINTS - 1));
+    let tries = positive
+        .clone()
+        .take(1)
+        .chain(negative)
+        .chain(positive.skip(1));
+    for (seed, signs) in tries {
         if compared == POINTS {
             break;
         }
         let how = Sample {
             seed,
+            signs,
             ..Sample::default()
         };
         let mut random = seed;

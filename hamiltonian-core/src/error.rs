@@ -106,9 +106,17 @@ pub enum Error {
         /// The first reachable time beyond it; the present time if it lies behind.
         after: f64,
     },
-    /// An index of a component, or of an observable, that there is not.
+    /// An index of a component that there is not.
     #[error("there is no component {index}: there are {count}")]
     Component {
+        /// The index given.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// An index of an observable that there is not.
+    #[error("there is no observable {index}: the system declares {count}")]
+    Observable {
         /// The index given.
         index: usize,
         /// How many there are.

@@ -86,8 +86,8 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
 /// zero nearest to the state's own value, found by its change of sign.
 ///
 /// # Errors
-/// [`Error::NoCrossing`] where none was found; [`Error::Shape`], [`Error::Component`],
-/// [`Error::Start`].
+/// [`Error::NoCrossing`] where none was found; [`Error::Observable`], [`Error::Shape`],
+/// [`Error::Component`], [`Error::Start`].
 pub fn coordinate_on_event<T: Real, S: System<T>>(
     system: &S,
     state: &State<S::Vector>,
@@ -95,7 +95,12 @@ pub fn coordinate_on_event<T: Real, S: System<T>>(
     coordinate: usize,
 ) -> Result<State<S::Vector>, Error> {
     check(system, state)?;
-    check_component(event, S::OBSERVABLES.len())?;
+    if event >= S::OBSERVABLES.len() {
+        return Err(Error::Observable {
+            index: event,
+            count: S::OBSERVABLES.len(),
+        });
+    }
     check_component(coordinate, state.q.len())?;
     let prepared = system.prepare();
     let mut at = state.clone();

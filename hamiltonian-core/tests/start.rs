@@ -328,7 +328,7 @@ fn what_is_not_there_is_an_error() {
     );
     assert_eq!(
         coordinate_on_event(&system, &start, 9, 0),
-        Err(Error::Component { index: 9, count: 4 })
+        Err(Error::Observable { index: 9, count: 4 })
     );
     let broken = State::new([f64::NAN, 1.0], [0.0, 0.0]);
     assert!(matches!(

@@ -1,4 +1,4 @@
-//! Claims that are proven or refused: invariants, and that pieces add up to H.
+//! Claims that are proven or refused: invariants, that events can happen, that pieces add up to H.
 //!
 //! Input: the lowered definition. Output: errors with the residual and, where one was found, a
 //! point. Invariant: `#[assume]` silences only what could not be decided, never what is false.
@@ -8,12 +8,14 @@ use crate::checked::Checked;
 use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;
 use hamiltonian_symbolic::transform::check_split;
 
 /// Proves what the definition claims.
 pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     invariants(checked, lowered, report);
+    events(checked, lowered, report);
     split(checked, lowered, report);
 }
 
@@ -77,6 +79,23 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                 }
                 Verdict::Undecided { .. } | Verdict::Jumps { .. } => {}
             }
+        }
+    }
+}
+
+/// What no motion changes has no zero to be crossed.
+fn events(checked: &Checked, lowered: &Lowered, report: &mut Report) {
+    let (dag, moving) = (&lowered.model.dag, Dependence::Q.0 | Dependence::P.0);
+    let moving = Dependence(moving | Dependence::TIME.0);
+    for (declared, observable) in checked.observables.iter().zip(&lowered.model.observables) {
+        let is_still = |value: &Node| !dag.dependence(*value).on(moving);
+        if declared.kind == ObservableKind::Event && observable.components.iter().all(is_still) {
+            let name = &declared.name;
+            report.error(
+                name.span(),
+                format!("`{name}` never changes along an orbit"),
+                "write a function of coordinates, momenta or time: the event is where it is 0",
+            );
         }
     }
 }

@@ -205,7 +205,20 @@ impl<'a> Checker<'a> {
         value: &Expression,
         shell: Option<&Expression>,
     ) {
-        if self.out.observables.iter().any(|other| other.name == *name) {
+        // A `let` may have the name of what is only declared to be seen.
+        let symbol = self.symbol(name);
+        let variable = symbol.and_then(|symbol| match self.bindings[symbol.0 as usize] {
+            Some(Binding::Value(_) | Binding::LetFunction(_) | Binding::Function(_)) | None => None,
+            variable => variable,
+        });
+        if let Some(variable) = variable {
+            let what = self.described(variable);
+            self.report.error(
+                name.span(),
+                format!("the name `{name}` is used twice: it is {what} already"),
+                "choose another name",
+            );
+        } else if self.out.observables.iter().any(|other| other.name == *name) {
             self.report.error(
                 name.span(),
                 format!("the name `{name}` is used twice: an observable has it already"),

@@ -300,8 +300,8 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
         .any(|v| v.usage == VectorUse::Force);
     if is_forced {
         doc.push_str(
-            "\nThe declared force is not in these equations: schemes integrate H alone, and the method\n\
-             `force` gives it.\n",
+            "\nThe declared force is in none of this, neither in what is said to be conserved nor in the\n\
+             equations: schemes integrate H alone, and the method `force` gives it.\n",
         );
     }
     if !text.latex.is_empty() {

@@ -1493,6 +1493,13 @@ help: write `;` between statements, `==` to compare in a condition"##,
 help: write `H = …`"##,
     ),
     (
+        r##"pub struct A { m = 1 } H = p^2/m; monitor ⟦p⟧ = q; monitor ⟦m⟧ = q; monitor n = q"##,
+        r##"the name `p` is used twice: it is a momentum already
+help: choose another name
+the name `m` is used twice: it is a parameter already
+help: choose another name"##,
+    ),
+    (
         r##"H = p^2 + (q > 0 ⟦?⟧ q : -q)"##,
         r##"`?` does not choose between values
 help: write `if c { a } else { b }`"##,

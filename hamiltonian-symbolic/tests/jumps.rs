@@ -1,0 +1,138 @@
+//! Derivatives do not see jumps: what is constant on both sides of one is not thereby conserved.
+
+mod common;
+
+use common::{parse, system};
+use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::model::Model;
+
+fn verdict(model: &mut Model, invariant: &str) -> Verdict {
+    let node = parse(model, invariant);
+    is_invariant(model, node, None)
+}
+
+fn accepted(model: &mut Model, invariant: &str) {
+    assert_eq!(verdict(model, invariant), Verdict::Proven, "{invariant}");
+}
+
+/// Derivatives vanish on both sides of a jump.
+#[test]
+fn nothing_is_proven_across_a_jump() {
+    let jumps = |m: &mut Model, invariant: &str| match verdict(m, invariant) {
+        Verdict::Jumps { part } => part,
+        other => panic!("{invariant}: {other:?}"),
+    };
+    let mut oscillator = system("x, y; u, v; t", "", "", "(u^2 + v^2 + x^2 + y^2)/2");
+    for invariant in [
+        "sign(x)",
+        "if x < y { 1 } else { 2 }",
+        "if t < 1 { 1 } else { 2 }",
+        "if x < 0 && y < 0 { 1 } else { 2 }",
+        "atan2(x, u) - t",
+    ] {
+        jumps(&mut oscillator, invariant);
+    }
+    accepted(&mut oscillator, "u^2 + if x < 0 { x^2 } else { x*abs(x) }");
+    accepted(&mut oscillator, "max(x^2 + u^2, y^2 + v^2)");
+    // A step of H takes from a momentum what no derivative shows.
+    let mut step = system(
+        "x, y; u, v",
+        "",
+        "",
+        "u^2/2 + v^2/2 + if x < 1 { 0 } else { 2 }",
+    );
+    assert_eq!(jumps(&mut step, "u"), "if x < 1 { 0 } else { 2 }");
+    let mut ramp = system(
+        "x, y; u, v",
+        "",
+        "",
+        "u^2/2 + v^2/2 + if x < 1 { 0 } else { x - 1 }",
+    );
+    accepted(&mut ramp, "v");
+    // Where one element is 0 the sum over all is not: what it binds is another element.
+    let mut saddles = system("x[N]; u[N]", "N", "", "sum(i in 0..N) { x[i]*u[i] }");
+    jumps(
+        &mut saddles,
+        "sum(i in 0..N) { if x[i] < 0 { 0 } else { sum(j in 0..N) { x[j]*u[j] } } }",
+    );
+    accepted(
+        &mut saddles,
+        "sum(i in 0..N) { if x[i] < 0 { 0 } else { x[i]*u[i] } }",
+    );
+}
+
+/// A free particle crosses q = 0, an oscillator every q and p.
+#[test]
+fn nothing_is_proven_across_a_pole_with_two_sides() {
+    let jumps = |m: &mut Model, invariant: &str, part: &str| match verdict(m, invariant) {
+        Verdict::Jumps { part: found } => assert_eq!(found, part, "{invariant}"),
+        other => panic!("{invariant}: {other:?}"),
+    };
+    let mut free = system("q, x; p, u; t", "", "a", "p^2/2 + u^2/2");
+    for (invariant, part) in [
+        ("abs(q)/q", "abs(q)/q"),
+        ("q/abs(q)", "q/abs(q)"),
+        ("p + sqrt(q^2)/q", "abs(q)/q"),
+        ("abs(q - a)/(q - a)", "abs(q - a)/(q - a)"),
+        ("q*sqrt(1/q^2)", "q/abs(q)"),
+        ("q*exp(-ln(abs(q)))", "q*exp(-ln(abs(q)))"),
+        (
+            "sqrt(q^2 + 2*q*x + x^2)/(q + x)",
+            "sqrt(q^2 + 2*q*x + x^2)/(q + x)",
+        ),
+        ("hypot(q, q)/q", "hypot(q, q)/q"),
+        ("abs(sin(q))/sin(q)", "abs(sin(q))/sin(q)"),
+        ("max(q, 0)/q + max(-q, 0)/q", "max(q, 0)/q"),
+        (
+            "(if q < 0 { -q } else { q })/q",
+            "(if q < 0 { -q } else { q })/q",
+        ),
+        ("abs(t - 1)/(t - 1)", "abs(t - 1)/(t - 1)"),
+        ("atan(1/q) + atan(q)", "atan(1/q)"),
+        ("atan(tan(q)) - q + p*t - p*t", "atan(tan(q))"),
+        ("abs(q)/q*u", "abs(q)*u/q"),
+    ] {
+        jumps(&mut free, invariant, part);
+    }
+    let mut oscillator = system("q; p; t", "", "", "p^2/2 + q^2/2");
+    jumps(&mut oscillator, "atan(p/q) + t", "atan(p/q)");
+    // A step of H, written as a pole.
+    let mut step = system("q, x; p, u", "", "", "p^2/2 + u^2/2 + abs(q)/q");
+    jumps(&mut step, "p", "abs(q)/q");
+    let mut steps = system(
+        "q[N], x; p[N], u",
+        "N",
+        "",
+        "sum(i in 0..N) { p[i]^2/2 + abs(q[i])/q[i] } + u^2",
+    );
+    jumps(&mut steps, "u", "abs(q[0])/q[0]");
+}
+
+/// Poles and kinks that are not in one place, or that nothing crosses, or whose sides agree.
+#[test]
+fn poles_with_equal_sides_are_no_jumps() {
+    let mut squeeze = system("q, x; p, u; t", "", "a", "q*p + u^2/2");
+    for invariant in [
+        "ln(abs(q)) - t",
+        "ln(abs(q)) + ln(abs(p))",
+        "abs(q)*abs(p)",
+        "abs(q)*p*sqrt(q^2)/q",
+        "1/(q*p) + abs(u)",
+        "max(q, 0)/q - max(-q, 0)/q",
+        "sqrt(1 + u^2)/q/p",
+        "abs(q*p)/(1 + u^2)",
+    ] {
+        accepted(&mut squeeze, invariant);
+    }
+    let mut kepler = system("x, y; u, v", "", "k", "(u^2 + v^2)/2 - k/sqrt(x^2 + y^2)");
+    accepted(&mut kepler, "v*(x*v - y*u) - k*x/sqrt(x^2 + y^2)");
+    let mut collinear = system(
+        "q[n]; p[n]",
+        "n",
+        "m[n]",
+        "sum(i in 0..n) { p[i]^2/2 } - sum(i in 0..n, j in 0..i) { 1/abs(q[i] - q[j]) }",
+    );
+    accepted(&mut collinear, "sum(i in 0..n) { p[i] }");
+    let mut predators = system("q; p", "", "a b", "q - ln(q) + a*(p - b*ln(p))");
+    accepted(&mut predators, "q - ln(q) + a*p - a*b*ln(p)");
+}

@@ -125,7 +125,7 @@ fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
     report.error(
         definition(checked),
         format!("this system needs {operations} operations, more than {CAP}"),
-        "write sums with `sum(i in 0..N) { … }`, which stay loops",
+        "write sums with `sum(i in 0..N) { … }`: they stay loops unless they choose among components",
     );
 }
 

@@ -163,7 +163,7 @@ impl<'a> Evaluator<'a> {
             self.refuse(
                 spans,
                 &format!("this grows past {count} operations"),
-                "a definition has at most 32768 operations: write sums with `sum(i in 0..N) { … }`, which stay loops",
+                "a definition has at most 32768 operations: write sums with `sum(i in 0..N) { … }`: they stay loops unless they choose among components",
             );
         }
     }

@@ -165,6 +165,8 @@ pub enum StatementKind {
     },
     /// `split { A = …; B = …; … }`
     Split {
+        /// `#[assume]` stands before it.
+        assumed: bool,
         /// The pieces.
         pieces: Vec<(Ident, Expression)>,
     },

@@ -126,6 +126,7 @@ impl<'a> Checker<'a> {
                 functions: Vec::new(),
                 observables: Vec::new(),
                 split: Vec::new(),
+                split_assumed: false,
                 force: Vec::new(),
                 time_factor: None,
                 charts: Vec::new(),

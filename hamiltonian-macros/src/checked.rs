@@ -52,6 +52,8 @@ pub struct Checked {
     pub observables: Vec<Observable>,
     /// `split { A = …; B = …; }`: scalars; empty without one.
     pub split: Vec<(Ident, NodeId)>,
+    /// `#[assume]` stands before the split.
+    pub split_assumed: bool,
     /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
     pub force: Vec<NodeId>,
     /// `dt = g*ds`: g, a scalar, with the first word of the statement.

@@ -107,21 +107,26 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     let names = checked.split.iter().map(|(name, _)| name.to_string());
     let pieces: Vec<_> = names.zip(lowered.split.iter().copied()).collect();
     if let Err(difference) = check_split(&mut lowered.model, &pieces) {
-        let (text, help) = (
-            shortened(&difference.text),
-            "change the pieces so that their sum is H",
-        );
-        let message = match &difference.point {
-            Some((point, value)) => format!(
-                "the pieces do not add up to H: H minus their sum is `{text}`, which is {} at {}",
-                readable(*value),
-                listed(point)
+        let text = shortened(&difference.text);
+        match &difference.point {
+            Some((point, value)) => report.error(
+                first.span(),
+                format!(
+                    "the pieces do not add up to H: H minus their sum is `{text}`, which is {} at {}",
+                    readable(*value),
+                    listed(point)
+                ),
+                "change the pieces so that their sum is H",
             ),
-            None => format!(
-                "it could not be shown that the pieces add up to H: H minus their sum is `{text}`"
+            None if checked.split_assumed => {}
+            None => report.error(
+                first.span(),
+                format!(
+                    "it is neither proven nor disproven that the pieces add up to H: H minus their sum is `{text}`"
+                ),
+                "if you know that they do, write `#[assume] split { … }`; else write them with the sums of H",
             ),
-        };
-        report.error(first.span(), message, help);
+        }
     }
 }
 

@@ -171,7 +171,9 @@ impl<'a> Checker<'a> {
                 } => {
                     self.observable(statement, *kind, *assumed, name, value, shell.as_ref());
                 }
-                StatementKind::Split { pieces } => self.split(statement, pieces),
+                StatementKind::Split { assumed, pieces } => {
+                    self.split(statement, *assumed, pieces);
+                }
                 StatementKind::Force { signature, value } => {
                     self.force(statement, signature, value)
                 }
@@ -279,11 +281,12 @@ impl<'a> Checker<'a> {
         None
     }
 
-    fn split(&mut self, statement: &Statement, pieces: &'a [(Ident, Expression)]) {
+    fn split(&mut self, statement: &Statement, assumed: bool, pieces: &'a [(Ident, Expression)]) {
         if !self.out.split.is_empty() {
             self.once(statement, "split");
             return;
         }
+        self.out.split_assumed = assumed;
         for (name, value) in pieces {
             let what = format!("the piece `{name}`");
             if let Some(value) = self.scalar_expression(value, &what) {

@@ -70,7 +70,7 @@ impl Parser<'_> {
             "invariant" => self.observable(ObservableKind::Invariant, assumed)?,
             "monitor" => self.observable(ObservableKind::Monitor, false)?,
             "event" => self.observable(ObservableKind::Event, false)?,
-            "split" => self.split(keyword)?,
+            "split" => self.split(keyword, assumed)?,
             "force" => self.force(keyword)?,
             "fn" => self.function()?,
             "dt" => self.time()?,
@@ -86,17 +86,17 @@ impl Parser<'_> {
         self.separator(closed)
     }
 
-    /// Whether `#[assume]` stands before an invariant; it stands nowhere else.
+    /// Whether `#[assume]` stands before an invariant or a split; it stands nowhere else.
     fn assumed(&mut self, attributes: &[Attribute], word: &str) -> bool {
         let mut assumed = false;
         for attribute in attributes {
             match attribute.word.as_str() {
                 "doc" => {}
-                "assume" if word == "invariant" => assumed = true,
+                "assume" if matches!(word, "invariant" | "split") => assumed = true,
                 "assume" => self.report.error(
                     attribute.spans,
                     format!("`#[assume]` says nothing of `{word}`"),
-                    "write it before an `invariant`",
+                    "write it before an `invariant` or a `split`",
                 ),
                 "max_ops" => self.report.error(
                     attribute.spans,
@@ -106,7 +106,7 @@ impl Parser<'_> {
                 other => self.report.error(
                     attribute.spans,
                     format!("`#[{other}]` means nothing on a statement"),
-                    "remove it; docs and, on invariants, `#[assume]` are possible",
+                    "remove it; docs and, on invariants and splits, `#[assume]` are possible",
                 ),
             }
         }
@@ -407,7 +407,7 @@ impl Parser<'_> {
         })
     }
 
-    fn split(&mut self, keyword: Span) -> Result<StatementKind> {
+    fn split(&mut self, keyword: Span, assumed: bool) -> Result<StatementKind> {
         const FORM: &str = "write `split { A = …; B = … }`";
         if !self.at_open(Delimiter::Brace) {
             return self.abort(keyword, "`split` needs its pieces in braces", FORM);
@@ -434,7 +434,7 @@ impl Parser<'_> {
         if pieces.len() < 2 {
             return self.abort(keyword, "`split` needs two pieces or more", FORM);
         }
-        Ok(StatementKind::Split { pieces })
+        Ok(StatementKind::Split { assumed, pieces })
     }
 
     fn force(&mut self, keyword: Span) -> Result<StatementKind> {

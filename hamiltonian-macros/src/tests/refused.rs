@@ -465,12 +465,12 @@ help: write `invariant e = …`"##,
     (
         r##"⟦#[assume]⟧ monitor e = p; H = p^2"##,
         r##"`#[assume]` says nothing of `monitor`
-help: write it before an `invariant`"##,
+help: write it before an `invariant` or a `split`"##,
     ),
     (
         r##"⟦#[cold]⟧ H = p^2"##,
         r##"`#[cold]` means nothing on a statement
-help: remove it; docs and, on invariants, `#[assume]` are possible"##,
+help: remove it; docs and, on invariants and splits, `#[assume]` are possible"##,
     ),
     (
         r##"⟦#[max_ops = 3]⟧ H = p^2"##,

@@ -63,6 +63,15 @@ hamiltonian! {
     }
 }
 
+hamiltonian! {
+    /// Loops over components around and between loops over rows.
+    pub struct Columns<const N: usize> {}
+    H(q[N][3]; p[N][3]) = sum(c in 0..3, i in 0..N) { p[i][c]^2/2 }
+        + sum(c in 0..3) { (sum(i in 0..N) { q[i][c] })^2 }
+        + sum(i in 0..N, c in 0..3, j in 0..i) { (c + 1)*q[i][c]*q[j][c]^2*p[i][0] };
+    monitor kinetic = sum(c in 0..3, i in 0..N) { p[i][c]^2/2 }
+}
+
 /// [`check`] for every length of a system with a length.
 macro_rules! for_lengths {
     ($system:ident) => {
@@ -130,6 +139,27 @@ fn indices_that_wrap() {
     let norm: f64 = q.iter().map(|q| q * q).sum::<f64>().sqrt();
     let expected = f64::sqrt(inner) + outer + dot * dot + norm + 3.0 * 0.3;
     close(wraps.energy(&State::new(q, p)), expected);
+}
+
+#[test]
+fn loops_over_components_stand_anywhere() {
+    for_lengths!(Columns);
+    let columns = Columns::<2>::default();
+    let (q, p) = (
+        [[0.5, -1.0, 2.0], [1.5, 0.25, -0.5]],
+        [[1.0, 2.0, 3.0], [-2.0, 0.5, 1.0]],
+    );
+    let mut expected = 0.0;
+    for c in 0..3 {
+        expected += (p[0][c] * p[0][c] + p[1][c] * p[1][c]) / 2.0;
+    }
+    let state = State::new(q, p);
+    close(columns.kinetic(&state), expected);
+    for c in 0..3 {
+        expected += (q[0][c] + q[1][c]).powi(2);
+        expected += (c as f64 + 1.0) * q[1][c] * q[0][c] * q[0][c] * p[1][0];
+    }
+    close(columns.energy(&state), expected);
 }
 
 #[test]

@@ -5,6 +5,7 @@ mod diagnostics;
 mod docs;
 mod lengths;
 mod limits;
+mod nests;
 mod precedence;
 mod refused;
 mod stub;

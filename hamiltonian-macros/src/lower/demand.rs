@@ -20,7 +20,10 @@ const LONGEST: i64 = 16;
 pub struct Demand {
     /// The component: nothing of a scalar, the index in a vector, row and column in a matrix.
     pub indices: Vec<Index>,
-    /// Loop variables that are written out, with their values, in order.
+    /// The values of the loop variables that are written out and the node depends on, in order:
+    /// those of [`Loops::numbers`], by construction of the demands.
+    ///
+    /// [`Loops::numbers`]: super::loops::Loops::numbers
     pub values: Vec<(u32, i64)>,
 }
 
@@ -98,13 +101,11 @@ impl Evaluator<'_> {
 
     /// The engine's loop of a loop that is not written out.
     pub fn domain(&self, dag: &mut Dag, id: LoopId, demand: &Demand) -> Domain {
-        // From the outermost in; those between that are written out are no loops.
+        // From the outermost in.
         let mut path = Vec::new();
         let mut at = Some(id);
         while let Some(one) = at {
-            if demand.value(one).is_none() {
-                path.push(one);
-            }
+            path.push(one);
             at = self.loops.parent(one);
         }
         let mut domains: Vec<(LoopId, Domain)> = Vec::new();
@@ -159,7 +160,7 @@ impl Evaluator<'_> {
             _ => {
                 let own = self.loops.free(node);
                 let outer = members(own).map(|id| LoopId(id.0));
-                let outer: Vec<LoopId> = outer.filter(|id| demand.value(*id).is_none()).collect();
+                let outer: Vec<LoopId> = outer.filter(|id| !self.loops.is_written(*id)).collect();
                 let mut set = demand
                     .indices
                     .iter()
@@ -329,8 +330,8 @@ impl Evaluator<'_> {
         }
         // A value is the same whatever the loops are that it does not depend on.
         for (child, demand) in &mut wanted {
-            let free = self.loops.free(*child);
-            demand.values.retain(|(id, _)| free >> id & 1 == 1);
+            let numbers = self.loops.numbers(*child);
+            demand.values.retain(|(id, _)| numbers >> id & 1 == 1);
             demand.values.sort_unstable();
         }
         wanted

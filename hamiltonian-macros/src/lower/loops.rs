@@ -1,11 +1,14 @@
 //! Loops of sums: which expression depends on which, how they nest, and which are written out.
 //!
-//! Input: [`Checked`]. Output: [`Loops`]. Invariants: the loops an expression depends on lie on
-//! one path of parents; a loop is written out only where its variable chooses a component that
-//! exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`).
+//! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is written out only where its variable
+//! chooses a component that exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`);
+//! the loops that stay and an expression depends on lie on one path of parents, all of which stay;
+//! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
+//! made of are among them, but for those that a sum in it runs through.
 
 use crate::checked::{Affine, Checked, IndexVariable, Kind, LoopId, Node, NodeId, Type};
 use crate::names::Builtin;
+use hamiltonian_symbolic::index::members;
 
 /// A set of loops; there are at most `LOOPS`.
 pub type Set = u64;
@@ -17,12 +20,15 @@ pub struct Loops {
     free: Vec<Set>,
     /// Whether components of each node (of its rows, for matrices) exist by number only.
     by_number: Vec<bool>,
-    /// The loop around each loop, as far as it matters.
+    /// The loop around each loop that stays, as far as it matters.
     parents: Vec<Option<LoopId>>,
     /// How deep each loop stands.
     depths: Vec<u32>,
     /// Loops that are written out.
     written: Set,
+    /// The loops that are written out and each loop depends on: itself, or those that its bounds
+    /// and those of the loops around it mention.
+    numbers: Vec<Set>,
 }
 
 fn bit(id: LoopId) -> Set {
@@ -48,6 +54,7 @@ impl Loops {
             parents: Vec::new(),
             depths: Vec::new(),
             written: 0,
+            numbers: Vec::new(),
         }
     }
 
@@ -60,6 +67,7 @@ impl Loops {
             parents: vec![None; count],
             depths: vec![0; count],
             written: 0,
+            numbers: vec![0; count],
         };
         for node in &checked.nodes {
             let free = loops.free_of(checked, node);
@@ -81,11 +89,19 @@ impl Loops {
         }
         for (at, node) in checked.nodes.iter().enumerate().rev() {
             if let Kind::Sum { loops: own, .. } = &node.kind {
-                let mut parent = loops.deepest(loops.free[at]);
+                let mut parent = loops.deepest(loops.free[at] & !loops.written);
                 for id in own.clone().map(LoopId) {
-                    loops.parents[id.0 as usize] = parent;
-                    loops.depths[id.0 as usize] =
-                        parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
+                    let number = id.0 as usize;
+                    if loops.is_written(id) {
+                        loops.numbers[number] = bit(id);
+                        continue;
+                    }
+                    let bounds = &checked.loops[number];
+                    let own = mentioned(&bounds.lower) | mentioned(&bounds.upper);
+                    let around = parent.map_or(0, |p| loops.numbers[p.0 as usize]);
+                    loops.numbers[number] = own & loops.written | around;
+                    loops.depths[number] = parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
+                    loops.parents[number] = parent;
                     parent = Some(id);
                 }
             }
@@ -147,12 +163,18 @@ impl Loops {
         self.free[node.0 as usize]
     }
 
+    /// The loops that are written out and a node depends on, by itself or by the range of a loop
+    /// that it depends on.
+    pub fn numbers(&self, node: NodeId) -> Set {
+        members(self.free(node)).fold(0, |set, id| set | self.numbers[id.0 as usize])
+    }
+
     /// Whether components of a vector exist by number only.
     pub fn by_number(&self, node: NodeId) -> bool {
         self.by_number[node.0 as usize]
     }
 
-    /// The loop around a loop.
+    /// The loop around a loop, if both stay.
     pub fn parent(&self, id: LoopId) -> Option<LoopId> {
         self.parents[id.0 as usize]
     }

@@ -154,6 +154,13 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// Forces on vectors of literal length, whose components are chosen by number.
+    pub struct Pulled { B: [3] }
+    H(q[3], x[2]; p[3], v[2]) = norm_squared(p)/2 + norm_squared(v)/2;
+    force(q, x; p, v) = [cross(p, B) - [0, 0, 1], sum(k in 0..3) { k*v }]
+}
+
+hamiltonian! {
     /// Coordinates of mixed shape in pieces.
     pub struct Pieces<const N: usize> { n: usize, k = 0.5 }
     H(q[N], x[n], u; p[N], v[n], w) = norm_squared(p)/2 + norm_squared(v)/2 + w^2/2
@@ -198,6 +205,11 @@ fn forces_are_carried() {
 
 #[test]
 fn forces_on_arrays() {
+    let pulled = Pulled::new([0.0, 2.0, 0.0]);
+    let zero = PulledVector::new([0.0; 3], [0.0; 2]);
+    let p = PulledVector::new([1.0, 5.0, 3.0], [0.5, -1.0]);
+    let force = pulled.force(&State { t: 0.0, q: zero, p });
+    assert_eq!(force, PulledVector::new([-6.0, 0.0, 1.0], [1.5, -3.0]));
     let m = [3.0, 1.0, 0.5];
     let system = Dragged {
         m: m.into(),

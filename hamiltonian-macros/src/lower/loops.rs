@@ -6,7 +6,7 @@
 //! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
 //! made of are among them, but for those that a sum in it runs through.
 
-use crate::checked::{Affine, Checked, IndexVariable, Kind, LoopId, Node, NodeId, Type};
+use crate::checked::{Affine, Checked, Extent, IndexVariable, Kind, LoopId, Node, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::index::members;
 
@@ -150,7 +150,10 @@ impl Loops {
             },
             Kind::Neg(a) => of(*a),
             Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Div(a, b) => of(*a) || of(*b),
-            Kind::Sum { body, .. } => of(*body),
+            // A sum is formed for each component.
+            Kind::Sum { body, .. } => {
+                of(*body) || matches!(node.ty, Type::Vector(Extent::Literal(_)))
+            }
             Kind::If {
                 then, otherwise, ..
             } => of(*then) || of(*otherwise),

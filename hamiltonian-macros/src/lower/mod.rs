@@ -190,11 +190,13 @@ impl Rest<'_> {
                     (Some(rows.clone()), columns.as_constant().unwrap_or(1))
                 }
             };
-            // Into other coordinates a force is carried element by element.
-            let moved = !self.checked.charts.is_empty();
+            // Into other coordinates a force is carried element by element, and of some vectors the
+            // components are there by number only.
+            let by_number = !self.checked.charts.is_empty()
+                || matches!(shape, Shape::Vector(_)) && self.evaluator.loops.by_number(*root);
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],
-                Some(rows) => match rows.as_constant().filter(|_| moved) {
+                Some(rows) => match rows.as_constant().filter(|_| by_number) {
                     Some(count) => (0..count).map(Index::constant).collect(),
                     None => {
                         let domain = model.dag.domain(None, Affine::constant(0), rows);

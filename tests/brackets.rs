@@ -55,6 +55,15 @@ hamiltonian! {
     monitor shifted = bracket(sum(i in 0..n) { q[i] }, sum(i in 1..n) { m[i - 1]*q[i - 1]*p_q[i] })
 }
 
+hamiltonian! {
+    /// Beside a bracket, what is written under a condition stays as it is: nothing reads past ends.
+    pub struct Conditional { n: usize }
+    let last = if p[0] < q[0] { sum(i in n - 1..n) { p[i] } } else { q[0]^2 };
+    H(q[n]; p[n]) = norm_squared(p)/2 + last;
+    split { Free = norm_squared(p)/2; Bound = last };
+    monitor along = bracket(q[0], last)
+}
+
 /// Σ ∂a/∂q·∂b/∂p − ∂a/∂p·∂b/∂q
 fn contracted(a: (&[f64], &[f64]), b: (&[f64], &[f64])) -> f64 {
     let products = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
@@ -132,6 +141,18 @@ fn h_from_a_bracket() {
     let state = State::new([0.3, -0.4, 0.5], [1.0, 2.0, 3.0]);
     let h: f64 = Squeezed::<3> {}.energy(&state);
     close(h, 0.09 + 0.16 * 2.0 + 0.25 * 3.0 + 7.0);
+}
+
+#[test]
+fn conditions_beside_a_bracket() {
+    for n in [1, 3] {
+        let system = Conditional::new(n).unwrap();
+        let state = State::new(vec![0.5; n], vec![0.25; n]);
+        let kinetic = n as f64 / 32.0;
+        close(system.energy(&state), kinetic + 0.25);
+        close(system.piece_bound().energy(&state), 0.25);
+        close(system.along(&state), f64::from(u8::from(n == 1)));
+    }
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub fn guard(lowered: &mut Lowered) -> Option<()> {
     let model = &mut lowered.model;
     let mut is_safe = true;
     for momentum in &legendre.momenta {
-        is_safe &= guarded(model, momentum.value)? == momentum.value;
+        is_safe &= guarded(model, momentum.value, &|_| false)? == momentum.value;
     }
     if is_safe {
         return Some(());
@@ -32,7 +32,7 @@ pub fn guard(lowered: &mut Lowered) -> Option<()> {
     let values: Vec<_> = places.collect();
     let mut images = Vec::with_capacity(values.len());
     for value in values {
-        images.push(guarded(model, value)?);
+        images.push(guarded(model, value, &|_| false)?);
     }
     let places = (model.hamiltonian.iter_mut())
         .chain(observables.iter_mut().flat_map(|o| &mut o.components))

@@ -38,8 +38,8 @@ pub struct Evaluator<'a> {
     report: &'a mut Report,
     /// Whether something was refused: then there is no model.
     refused: bool,
-    /// Whether there is a bracket anywhere.
-    has_brackets: bool,
+    /// The nodes that brackets made, as ranges in rising order.
+    bracketed: Vec<core::ops::Range<Node>>,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
     /// How many nodes each node is a child of.
@@ -63,10 +63,7 @@ impl<'a> Evaluator<'a> {
             },
             report,
             refused: false,
-            has_brackets: checked
-                .nodes
-                .iter()
-                .any(|node| matches!(node.kind, Kind::Bracket(..))),
+            bracketed: Vec::new(),
             velocities: None,
             uses: uses(checked),
             plain: vec![None; checked.nodes.len()],
@@ -138,11 +135,7 @@ impl<'a> Evaluator<'a> {
         let mut values = Vec::with_capacity(roots.len());
         for (root, demand) in roots {
             let value = self.answer(*root, demand).unwrap_or(zero);
-            values.push(if self.has_brackets {
-                self.guarded(model, *root, value)?
-            } else {
-                value
-            });
+            values.push(self.guarded(model, *root, value)?);
         }
         Some(values)
     }
@@ -150,7 +143,11 @@ impl<'a> Evaluator<'a> {
     /// What brackets left under conditions, safe to read. Not before all of them are formed: the
     /// bracket of a bracket solves plain indices.
     fn guarded(&mut self, model: &mut Model, root: NodeId, value: Node) -> Option<Node> {
-        let guarded = guarded(model, value);
+        if self.bracketed.is_empty() {
+            return Some(value);
+        }
+        let is_written = |node| !self.bracketed.iter().any(|made| made.contains(&node));
+        let guarded = guarded(model, value, &is_written);
         if guarded.is_none() {
             self.refuse(self.checked.node(root).spans, UNSOLVED.0, UNSOLVED.1);
         }
@@ -334,13 +331,16 @@ impl<'a> Evaluator<'a> {
             self.refuse(spans, message, help);
             return a;
         }
+        let before = Node(model.dag.len() as u32);
         let (Some(a), Some(b)) = (
             self.in_momenta(model, spans, a),
             self.in_momenta(model, spans, b),
         ) else {
             return a;
         };
-        bracket(model, a, b).unwrap_or_else(|| {
+        let bracket = bracket(model, a, b);
+        self.bracketed.push(before..Node(model.dag.len() as u32));
+        bracket.unwrap_or_else(|| {
             // What takes too many loops is reported when all is lowered.
             if !model.dag.has_too_many_loops() {
                 self.refuse(spans, UNSOLVED.0, UNSOLVED.1);

@@ -10,8 +10,9 @@ use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
 /// The expression with safe indices; `None` where a loop under a condition may start below 0, for
-/// which there is no such remedy.
-pub fn guarded(model: &mut Model, root: Node) -> Option<Node> {
+/// which there is no such remedy. What is safe already is left as it is: indices that somebody wrote
+/// are in range whatever the conditions around them.
+pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) -> Option<Node> {
     let nodes = model.dag.reachable(&[root]);
     let mut is_under: Map<Node, ()> = Map::default();
     for &node in nodes.iter().rev() {
@@ -38,7 +39,7 @@ pub fn guarded(model: &mut Model, root: Node) -> Option<Node> {
     for node in nodes {
         let kind = model.dag.kind(node).clone();
         let image = match kind {
-            Kind::Element(array, row, column) if is_under.contains_key(&node) => {
+            Kind::Element(array, row, column) if is_under.contains_key(&node) && !is_safe(node) => {
                 let (rows, columns) = extents(model, array);
                 let row = safe(&model.dag, row, rows);
                 let column = column.map(|column| safe(&model.dag, column, columns));
@@ -46,6 +47,7 @@ pub fn guarded(model: &mut Model, root: Node) -> Option<Node> {
             }
             Kind::Reduce(domain, _)
                 if is_under.contains_key(&node)
+                    && !is_safe(node)
                     && !is_nonnegative(&model.dag, model.dag.range(domain).start.clone()) =>
             {
                 return None;

@@ -201,7 +201,7 @@ impl Velocities {
                 // A neighbour's momentum is read under a condition, where it need not exist.
                 let found = field(&mut model.dag, &self.leaves, array, &rows);
                 let found = match found {
-                    Some(found) => guarded(model, found),
+                    Some(found) => guarded(model, found, &|_| false),
                     None => None,
                 };
                 if model.dag.has_too_many_loops() {

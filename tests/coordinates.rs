@@ -170,6 +170,8 @@ hamiltonian! {
     pub struct Planets { n: usize, m: [n] }
     H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
         - sum(i in 0..n, j in i + 1..n) { m[i]*m[j]/norm(q[i] - q[j]) };
+    /// A body is nowhere but where it is: the condition stands at its edge for i = j.
+    monitor least = sum(i in 0..n, j in 0..n) { if q[i][0] <= q[j][0] { q[i][0] } else { q[j][0] } };
     invariant angular = sum(i in 0..n) { q[i][0]*p[i][1] - q[i][1]*p[i][0] }
 }
 
@@ -179,6 +181,7 @@ hamiltonian! {
     H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
         - sum(i in 0..n, j in i + 1..n) { m[i]*m[j]/norm(q[i] - q[j]) };
     coordinates heliocentric(q, m);
+    monitor least = sum(i in 0..n, j in 0..n) { if q[i][0] <= q[j][0] { q[i][0] } else { q[j][0] } };
     invariant angular = sum(i in 0..n) { q[i][0]*p[i][1] - q[i][1]*p[i][0] }
 }
 
@@ -425,6 +428,7 @@ fn heliocentric_coordinates_of_any_number_of_bodies() {
         equal(&there.q, &theirs.q);
         equal(&there.p, &theirs.p);
         close(planets.angular(&state), new.angular(&there));
+        close(planets.least(&state), new.least(&there));
         same_system!(planets, new, state);
     }
 }

@@ -422,7 +422,8 @@ impl Meaning for Numbers<'_> {
                 let (a, b) = (child(*a), child(*b));
                 let distance = (a.value - b.value).abs();
                 let error = a.error + b.error;
-                if !(distance > error || error == 0.0) {
+                // No difference at all is what `q[i] <= q[j]` has at i = j: both are rounded alike.
+                if !(distance > error || distance == 0.0) {
                     return exact(f64::NAN);
                 }
                 truth(match relation {

@@ -523,6 +523,11 @@ impl Parser<'_> {
             let message = format!("expected the path of a Rust function, {}", self.found());
             return self.abort(self.here(), message, form);
         }
+        // Code that rustc could not read would take the whole definition with it.
+        if let Err(error) = syn::parse2::<syn::ExprPath>(path.clone()) {
+            let message = format!("`{path}` is not the path of a Rust function");
+            return self.abort(error.span(), message, form);
+        }
         Ok(path)
     }
 

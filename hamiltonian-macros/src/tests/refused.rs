@@ -638,6 +638,11 @@ help: write `polar(x, y)`"##,
 help: write `fn name(x) = value, (derivative)`, with paths of Rust functions"##,
     ),
     (
+        r##"fn f(x) = a::b ⟦c⟧, (d); H = p^2 + f(q)"##,
+        r##"`a :: b c` is not the path of a Rust function
+help: write `fn name(x) = value, (derivative)`, with paths of Rust functions"##,
+    ),
+    (
         r##"fn f(x) = g⟦;⟧ H = p^2"##,
         r##"expected the partial derivatives in parentheses, found `;`
 help: write `fn name(x) = value, (derivative)`, with paths of Rust functions"##,

@@ -56,6 +56,17 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// Sums that meet at indices which cannot be solved for each other, of literal length.
+    pub struct Literal {}
+    let a = sum(i in 0..2, j in 0..3) { q[(i*2 + j) % 3]^2*p[j] };
+    let b = sum(i in 0..4) { (i + 1)*p[2*i % 3]*q[(3 - i) % 3] };
+    H(q[3]; p[3]) = norm_squared(p)/2;
+    monitor first = a;
+    monitor second = b;
+    monitor both = bracket(a, b)
+}
+
+hamiltonian! {
     /// Beside a bracket, what is written under a condition stays as it is: nothing reads past ends.
     pub struct Conditional { n: usize }
     let last = if p[0] < q[0] { sum(i in n - 1..n) { p[i] } } else { q[0]^2 };
@@ -141,6 +152,22 @@ fn h_from_a_bracket() {
     let state = State::new([0.3, -0.4, 0.5], [1.0, 2.0, 3.0]);
     let h: f64 = Squeezed::<3> {}.energy(&state);
     close(h, 0.09 + 0.16 * 2.0 + 0.25 * 3.0 + 7.0);
+}
+
+#[test]
+fn indices_that_cannot_be_solved() {
+    let state = State::new([0.3, -0.4, 0.5], [1.0, 2.0, -0.7]);
+    let system = Literal {};
+    let (a, b) = (
+        system.first_gradient(&state),
+        system.second_gradient(&state),
+    );
+    let expected = contracted(
+        (a.q.as_slice(), a.p.as_slice()),
+        (b.q.as_slice(), b.p.as_slice()),
+    );
+    close(system.both(&state), expected);
+    assert!(expected.abs() > 1e-3);
 }
 
 #[test]

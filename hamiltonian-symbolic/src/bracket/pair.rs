@@ -8,13 +8,25 @@
 use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
-use crate::loops::field;
+use crate::loops::{field, write_out};
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
-/// cannot be solved for loop variables, or where that takes too many loops.
+/// cannot be solved for loop variables, or where that takes too many loops. Where all sizes are
+/// literal there are no indices left to solve once the sums are written out.
 pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
+    in_loops(model, a, b).or_else(|| {
+        if !model.sizes.is_empty() || model.dag.has_too_many_loops() {
+            return None;
+        }
+        let (a, b) = (write_out(model, a).ok()?, write_out(model, b).ok()?);
+        in_loops(model, a, b)
+    })
+}
+
+/// {a, b}, loops as loops.
+fn in_loops(model: &mut Model, a: Node, b: Node) -> Option<Node> {
     let shapes: Vec<Shape> = model.groups.iter().map(|g| g.shape.clone()).collect();
     let dag = &mut model.dag;
     let (aq, ap) = (

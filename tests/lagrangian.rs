@@ -355,6 +355,14 @@ hamiltonian! {
         + sum(i in 0..n - 1, j in 0..n) { if i <= j { v[i + 1]*q[j] } else { 0 } }
 }
 
+hamiltonian! {
+    /// Beside velocities of neighbours, a sum under a condition that starts at the last element.
+    struct Held { n: usize }
+    let last = if q[0] > 0 { sum(i in n - 1..n) { q[i]^2 } } else { q[0] };
+    L(q[n]; v[n]) = sum(i in 0..n) { v[i]^2/2 } + sum(i in 1..n) { v[i]*q[i - 1] } - last;
+    monitor potential = last
+}
+
 /// b of p = v + b.
 fn pulls(q: &[f64]) -> Vec<f64> {
     let pull = |i: usize| {
@@ -414,6 +422,13 @@ fn velocities_coupled_to_neighbours() {
             let from = if i > 0 { i - 1 } else { n };
             close(state.p[i], q[from..].iter().sum::<f64>());
         }
+    }
+    for n in [1usize, 2, 4] {
+        let system = Held::new(n).unwrap();
+        let state = State::new(vec![0.5; n], vec![0.75; n]);
+        close(system.potential(&state), 0.25);
+        let kinetic = 0.75 * 0.75 / 2.0 + (n - 1) as f64 * 0.25 * 0.25 / 2.0;
+        close(system.energy(&state), kinetic + 0.25);
     }
     fn fourth<const N: usize>() {
         let (q, p): ([f64; N], [f64; N]) = (

@@ -5,6 +5,7 @@
 //! condition, and emitted code reads both branches. Invariant: other definitions stay as they are.
 
 use super::Lowered;
+use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::loops::guarded;
 
 /// Makes all expressions safe to read; `None` where the momentum of an element has a loop that would
@@ -14,9 +15,11 @@ pub fn guard(lowered: &mut Lowered) -> Option<()> {
         return Some(());
     };
     let model = &mut lowered.model;
+    let derived = &lowered.derived;
+    let is_written = |node: Node| derived.is_written(node);
     let mut is_safe = true;
     for momentum in &legendre.momenta {
-        is_safe &= guarded(model, momentum.value, &|_| false)? == momentum.value;
+        is_safe &= guarded(model, momentum.value, &is_written)? == momentum.value;
     }
     if is_safe {
         return Some(());
@@ -32,7 +35,7 @@ pub fn guard(lowered: &mut Lowered) -> Option<()> {
     let values: Vec<_> = places.collect();
     let mut images = Vec::with_capacity(values.len());
     for value in values {
-        images.push(guarded(model, value, &|_| false)?);
+        images.push(guarded(model, value, &is_written)?);
     }
     let places = (model.hamiltonian.iter_mut())
         .chain(observables.iter_mut().flat_map(|o| &mut o.components))

@@ -30,6 +30,27 @@ const UNSOLVED: (&str, &str) = (
     "write what it is as an expression of its own",
 );
 
+/// The nodes that were derived (brackets, momenta, velocities) from those that somebody wrote.
+#[derive(Debug, Default)]
+pub struct Derived {
+    made: Vec<core::ops::Range<usize>>,
+}
+
+impl Derived {
+    /// What was made since the arena had so many nodes.
+    pub fn since(&mut self, before: usize, model: &Model) {
+        self.made.push(before..model.dag.len());
+    }
+
+    /// Whether somebody wrote it. Then its indices are in range wherever its loops run.
+    pub fn is_written(&self, node: Node) -> bool {
+        !self
+            .made
+            .iter()
+            .any(|made| made.contains(&(node.0 as usize)))
+    }
+}
+
 /// Answers demands on the expressions of one definition.
 #[derive(Debug)]
 pub struct Evaluator<'a> {
@@ -38,8 +59,10 @@ pub struct Evaluator<'a> {
     report: &'a mut Report,
     /// Whether something was refused: then there is no model.
     refused: bool,
-    /// The nodes that brackets made, as ranges in rising order.
-    bracketed: Vec<core::ops::Range<Node>>,
+    /// Whether a bracket was formed.
+    has_brackets: bool,
+    /// What is written nowhere.
+    pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
     /// How many nodes each node is a child of.
@@ -63,7 +86,8 @@ impl<'a> Evaluator<'a> {
             },
             report,
             refused: false,
-            bracketed: Vec::new(),
+            has_brackets: false,
+            derived: Derived::default(),
             velocities: None,
             uses: uses(checked),
             plain: vec![None; checked.nodes.len()],
@@ -143,11 +167,10 @@ impl<'a> Evaluator<'a> {
     /// What brackets left under conditions, safe to read. Not before all of them are formed: the
     /// bracket of a bracket solves plain indices.
     fn guarded(&mut self, model: &mut Model, root: NodeId, value: Node) -> Option<Node> {
-        if self.bracketed.is_empty() {
+        if !self.has_brackets {
             return Some(value);
         }
-        let is_written = |node| !self.bracketed.iter().any(|made| made.contains(&node));
-        let guarded = guarded(model, value, &is_written);
+        let guarded = guarded(model, value, &|node| self.derived.is_written(node));
         if guarded.is_none() {
             self.refuse(self.checked.node(root).spans, UNSOLVED.0, UNSOLVED.1);
         }
@@ -331,15 +354,16 @@ impl<'a> Evaluator<'a> {
             self.refuse(spans, message, help);
             return a;
         }
-        let before = Node(model.dag.len() as u32);
         let (Some(a), Some(b)) = (
             self.in_momenta(model, spans, a),
             self.in_momenta(model, spans, b),
         ) else {
             return a;
         };
+        self.has_brackets = true;
+        let before = model.dag.len();
         let bracket = bracket(model, a, b);
-        self.bracketed.push(before..Node(model.dag.len() as u32));
+        self.derived.since(before, model);
         bracket.unwrap_or_else(|| {
             // What takes too many loops is reported when all is lowered.
             if !model.dag.has_too_many_loops() {
@@ -354,7 +378,9 @@ impl<'a> Evaluator<'a> {
         let Some(velocities) = &self.velocities else {
             return Some(value);
         };
+        let before = model.dag.len();
         let image = velocity::as_functions(model, value, velocities);
+        self.derived.since(before, model);
         if image.is_none() {
             let message = "a velocity at an index with `%` is a function of that index here, which momenta do not give";
             let help = "let the masses be an array `m: [N]`, or write the velocity without `%` or in terms of momenta";

@@ -21,7 +21,7 @@ use crate::ast;
 use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
-use evaluate::Evaluator;
+use evaluate::{Derived, Evaluator};
 use hamiltonian_symbolic::dag::{Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
@@ -54,6 +54,8 @@ pub struct Lowered {
     pub factor: Option<Node>,
     /// How H was made of a Lagrangian.
     pub legendre: Option<Legendre>,
+    /// Which expressions are written nowhere.
+    derived: Derived,
 }
 
 /// The mathematics of a definition, if it could be made; what is wrong goes into the report.
@@ -65,8 +67,10 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     model.hamiltonian = value.first().copied();
     let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
+        let before = model.dag.len();
         match legendre(checked, &mut model) {
             Ok(legendre) => {
+                evaluator.derived.since(before, &model);
                 evaluator.velocities = Some(legendre.velocities.clone());
                 made = Some(legendre);
             }
@@ -117,6 +121,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         rest.evaluator.refuse(at, &message, SHARE_LOOPS);
         return None;
     }
+    let derived = rest.evaluator.derived;
     Some(Lowered {
         model,
         shells,
@@ -124,6 +129,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         force,
         factor,
         legendre: made,
+        derived,
     })
 }
 

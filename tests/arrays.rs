@@ -149,15 +149,12 @@ fn loops_over_components_stand_anywhere() {
         [[0.5, -1.0, 2.0], [1.5, 0.25, -0.5]],
         [[1.0, 2.0, 3.0], [-2.0, 0.5, 1.0]],
     );
-    let mut expected = 0.0;
-    for c in 0..3 {
-        expected += (p[0][c] * p[0][c] + p[1][c] * p[1][c]) / 2.0;
-    }
+    let mut expected = p.iter().flatten().map(|p| p * p / 2.0).sum();
     let state = State::new(q, p);
     close(columns.kinetic(&state), expected);
-    for c in 0..3 {
-        expected += (q[0][c] + q[1][c]).powi(2);
-        expected += (c as f64 + 1.0) * q[1][c] * q[0][c] * q[0][c] * p[1][0];
+    for (c, (a, b)) in q[0].iter().zip(q[1]).enumerate() {
+        expected += (a + b).powi(2);
+        expected += (c as f64 + 1.0) * b * a * a * p[1][0];
     }
     close(columns.energy(&state), expected);
 }

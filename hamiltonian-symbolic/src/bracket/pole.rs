@@ -306,7 +306,9 @@ impl Line<'_> {
     fn zeros(&self, node: Node) -> Vec<f64> {
         let value = |at: f64| self.value(node, at).value;
         // Near by and far away, in both directions.
-        let out: Vec<f64> = (0..28).map(|n| 0.11 * 1.6f64.powi(n)).collect();
+        let out: Vec<f64> = std::iter::successors(Some(0.11), |at| Some(1.6 * at))
+            .take(28)
+            .collect();
         let back = out.iter().rev().map(|at| -at);
         let grid: Vec<(f64, f64)> = back
             .chain(out.iter().copied())

@@ -285,3 +285,44 @@ fn coupled_elements_are_refused_or_written_out() {
     let written = hamiltonian_symbolic::loops::write_out(&mut m, l).unwrap();
     check(&mut m, &legendre, written);
 }
+
+#[test]
+fn sums_over_all_elements_couple_them() {
+    let coupled = "the mass matrix couples `v[k]` with `v[j]`; in arrays only the columns of one row may be coupled";
+    let kinetic = "sum(i in 0..N) { v[i]^2 }";
+    for l in [
+        format!("{kinetic} + (sum(i in 0..N) {{ v[i] }})^2"),
+        format!("{kinetic} + sum(i in 0..N, j in 0..N) {{ v[i]*v[j] }}"),
+        "(sum(i in 0..N) { v[i] })^2".to_owned(),
+    ] {
+        assert_eq!(refused("q[N]; v[N]", "N", "", &l), coupled, "{l}");
+    }
+    assert_eq!(
+        refused(
+            "q[3]; v[3]",
+            "",
+            "",
+            "sum(i in 0..3, j in 0..3) { v[i]*v[j] }"
+        ),
+        "the mass matrix is singular: the momentum of `v[1]` and `v[2]` is determined by the other momenta"
+    );
+    let (mut m, legendre, l) = transformed(
+        "q[3]; v[3]",
+        "",
+        "",
+        "sum(i in 0..3) { v[i]^2 } + (sum(i in 0..3) { v[i] })^2",
+    );
+    let written = hamiltonian_symbolic::loops::write_out(&mut m, l).unwrap();
+    check(&mut m, &legendre, written);
+    // Sums that cancel couple nothing.
+    let (m, legendre, _) = transformed(
+        "q[N]; v[N]",
+        "N",
+        "",
+        "sum(i in 0..N) { v[i]^2 } + q[0]*sum(i in 0..N) { v[i]*sum(j in 0..N) { v[j] } } - q[0]*(sum(i in 0..N) { v[i] })^2",
+    );
+    assert_eq!(
+        text(&m, legendre.hamiltonian),
+        "sum(i in 0..N) { p_q[i]^2 }/4"
+    );
+}

@@ -9,6 +9,7 @@
 //! each element k, over the columns of all arrays of that length. Arrays of literal length whose
 //! elements are coupled are written out, if they are short.
 
+mod elements;
 mod form;
 
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
@@ -201,15 +202,22 @@ impl Transform<'_> {
         if !scalars.elements.is_empty() {
             blocks.insert(0, scalars);
         }
-        self.check_uncoupled(&blocks)?;
+        self.check_uncoupled(&mut blocks)?;
         Ok(blocks)
     }
 
     /// Each momentum may depend on velocities of its own block and element only.
-    fn check_uncoupled(&mut self, blocks: &[Block]) -> Result<(), String> {
+    fn check_uncoupled(&mut self, blocks: &mut [Block]) -> Result<(), String> {
         for block in blocks {
-            for (&element, &momentum) in block.elements.iter().zip(&block.momenta) {
-                for (leaf, slope) in diff::gradient(&mut self.model.dag, momentum, Dependence::P) {
+            for (&element, momentum) in block.elements.iter().zip(&mut block.momenta) {
+                // A sum over all elements may be one over k: its velocities are not element k's.
+                let dag = &mut self.model.dag;
+                let has_sums = elements::has_sums_of_velocities(dag, *momentum);
+                let apart = match has_sums {
+                    true => dag.nested(*momentum, block.domain),
+                    false => *momentum,
+                };
+                for (leaf, slope) in diff::gradient(&mut self.model.dag, apart, Dependence::P) {
                     if block.elements.contains(&leaf) || is_zero(self.model, slope) == Proof::Zero {
                         continue;
                     }
@@ -220,6 +228,9 @@ impl Transform<'_> {
                     return Err(format!(
                         "the mass matrix couples {one} with {other}; in arrays only the columns of one row may be coupled"
                     ));
+                }
+                if has_sums {
+                    *momentum = elements::with_sums_at_rest(&mut self.model.dag, *momentum);
                 }
             }
         }

@@ -443,3 +443,56 @@ fn velocities_coupled_to_neighbours() {
     fourth::<2>();
     fourth::<4>();
 }
+
+hamiltonian! {
+    /// A chain whose ends are heavier, with a force on one of them.
+    struct HeavyEnds<const N: usize> { first = 3.0, last = 2.0 }
+    L(q[N]; v[N]) = first*v[0]^2/2 + sum(i in 1..N - 1) { (i + 1)*v[i]^2/2 } + last*v[N - 1]^2/2
+        + v[0]*q[N - 1] - sum(i in 1..N) { (q[i] - q[i - 1])^2/2 };
+    monitor speed = v[0] + v[N - 1]
+}
+
+#[test]
+fn elements_with_masses_of_their_own() {
+    fn check<const N: usize>() {
+        let q: [f64; N] = std::array::from_fn(|i| (i as f64 + 0.4).sin());
+        let v: [f64; N] = std::array::from_fn(|i| (i as f64 + 0.9).cos());
+        let mass = |i: usize| match i {
+            0 => 3.0,
+            i if i + 1 == N => 2.0,
+            i => i as f64 + 1.0,
+        };
+        let state = check!(HeavyEnds::<N>::default(), q, v, |q: &_, v: &_| {
+            let (q, v): (&Scalars<f64, N>, &Scalars<f64, N>) = (q, v);
+            let kinetic: f64 = (0..N).map(|i| mass(i) * v[i] * v[i] / 2.0).sum();
+            let springs: f64 = (1..N).map(|i| (q[i] - q[i - 1]).powi(2) / 2.0).sum();
+            kinetic + v[0] * q[N - 1] - springs
+        });
+        close(HeavyEnds::<N>::default().speed(&state), v[0] + v[N - 1]);
+    }
+    check::<2>();
+    check::<3>();
+    check::<7>();
+}
+
+hamiltonian! {
+    /// Bodies with a loop over components around one over bodies.
+    struct Columns<const N: usize> {}
+    L(q[N][3]; v[N][3]) = sum(c in 0..3, i in 0..N) { (c + 1)*v[i][c]^2/2 }
+        - sum(i in 0..N, c in 0..3, j in 0..i) { (q[i][c] - q[j][c])^2 }
+}
+
+#[test]
+fn loops_over_components_around_loops_over_bodies() {
+    let system = Columns::<2> {};
+    let (q, p): ([[f64; 3]; 2], [[f64; 3]; 2]) = (
+        [[0.5, -1.0, 2.0], [1.5, 0.25, -0.5]],
+        [[1.0, 2.0, 3.0], [-2.0, 0.5, 1.0]],
+    );
+    let mut energy = 0.0;
+    for c in 0..3 {
+        energy += (p[0][c].powi(2) + p[1][c].powi(2)) / (2.0 * (c as f64 + 1.0));
+        energy += (q[1][c] - q[0][c]).powi(2);
+    }
+    close(system.energy(&State::new(q, p)), energy);
+}

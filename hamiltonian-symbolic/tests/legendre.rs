@@ -5,7 +5,9 @@ mod common;
 use common::{model, parse};
 use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
-use hamiltonian_symbolic::legendre::{Legendre, transform};
+use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::legendre::{Component, Legendre, transform};
+use hamiltonian_symbolic::loops::unroll_nodes;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print::text;
@@ -325,4 +327,123 @@ fn sums_over_all_elements_couple_them() {
         text(&m, legendre.hamiltonian),
         "sum(i in 0..N) { p_q[i]^2 }/4"
     );
+}
+
+#[test]
+fn elements_without_mass_are_named() {
+    let without = |signature: &str, sizes: &str, parameters: &str, l: &str| {
+        let reason = refused(signature, sizes, parameters, l);
+        let start = "the mass matrix is singular: L has no term that is quadratic in ";
+        let element = reason.strip_prefix(start);
+        element
+            .unwrap_or_else(|| panic!("{l}: {reason}"))
+            .to_owned()
+    };
+    let of_n = |l: &str| without("q[N]; v[N]", "N", "m[N]", l);
+    assert_eq!(of_n("sum(i in 1..N) { v[i]^2 }"), "`v[0]`");
+    assert_eq!(of_n("sum(i in 0..N) { i*v[i]^2/2 }"), "`v[0]`");
+    assert_eq!(of_n("sum(i in 0..N) { (i - 3)*v[i]^2/2 }"), "`v[3]`");
+    assert_eq!(of_n("sum(i in 0..N - 1) { v[i]^2 }"), "`v[N - 1]`");
+    assert_eq!(of_n("v[0]^2 + sum(i in 2..N) { v[i]^2 }"), "`v[1]`");
+    assert_eq!(of_n("sum(i in 0..N) { (m[i] - m[0])*v[i]^2 }"), "`v[0]`");
+    assert_eq!(
+        without("q[3]; v[3]", "", "", "sum(i in 1..3) { v[i]^2 }"),
+        "`v[0]`"
+    );
+    assert_eq!(
+        without("q[1000]; v[1000]", "", "", "sum(i in 0..999) { v[i]^2 }"),
+        "`v[999]`"
+    );
+    let columns = |l: &str| refused("q[N][2]; v[N][2]", "N", "", l);
+    assert_eq!(
+        columns("sum(i in 0..N) { v[i][0]^2/2 + i*v[i][1]^2/2 }"),
+        "the mass matrix is singular: L has no term that is quadratic in `v[0][1]`"
+    );
+    assert_eq!(
+        columns("sum(i in 0..N) { v[i][0]^2/2 + v[i][0]*v[i][1] + (i + 1)*v[i][1]^2/2 }"),
+        "the mass matrix is singular: the momentum of `v[0][1]` is determined by the other momenta"
+    );
+    assert_eq!(
+        columns("sum(i in 0..N) { i*v[i][0]^2/2 + v[i][0]*v[i][1] + i*v[i][1]^2/2 }"),
+        "no formula gives the velocities of all elements: its divisor would be 0 for `v[0][0]`"
+    );
+    // A divisor that is 0 nowhere is found where there is one.
+    let (mut m, legendre, l) = transformed(
+        "q[N][2]; v[N][2]",
+        "N",
+        "",
+        "sum(i in 0..N) { i*v[i][0]^2/2 + v[i][0]*v[i][1] + v[i][1]^2 }",
+    );
+    check_looped(&mut m, &legendre, l);
+}
+
+/// [`check`] of the system written out for four elements.
+fn check_looped(m: &mut Model, legendre: &Legendre, l: Node) {
+    let k = legendre.momenta[0].domain.expect("there is a loop");
+    let sizes = vec![4; m.sizes.len()];
+    let mut roots = vec![l, legendre.hamiltonian];
+    for at in 0..4 {
+        for component in legendre.momenta.iter().chain(&legendre.velocities) {
+            for node in [component.element, component.value] {
+                roots.push(m.dag.replace(node, k, &Affine::constant(at)));
+            }
+        }
+    }
+    let (mut written, images) = unroll_nodes(m, &sizes, &roots).expect("four elements");
+    let mut images = images.into_iter();
+    let l = images.next().expect("L");
+    let mut legendre = Legendre {
+        hamiltonian: images.next().expect("H"),
+        momenta: Vec::new(),
+        velocities: Vec::new(),
+        ..legendre.clone()
+    };
+    let columns = (images.len() / 4) / 4;
+    let images: Vec<Node> = images.collect();
+    for (at, pair) in images.chunks_exact(2).enumerate() {
+        let component = Component {
+            element: pair[0],
+            domain: None,
+            value: pair[1],
+        };
+        if at / columns % 2 == 0 {
+            legendre.momenta.push(component);
+        } else {
+            legendre.velocities.push(component);
+        }
+    }
+    check(&mut written, &legendre, l);
+}
+
+#[test]
+fn elements_may_be_named_apart() {
+    let h = |l: &str| {
+        let (mut m, legendre, node) = transformed("q[N]; v[N]", "N", "m[N]", l);
+        let shown = text(&m, legendre.hamiltonian);
+        check_looped(&mut m, &legendre, node);
+        shown
+    };
+    assert_eq!(
+        h("v[0]^2 + sum(i in 1..N) { v[i]^2 }"),
+        "sum(i in 0..N) { p_q[i]^2 }/4"
+    );
+    assert_eq!(
+        h("v[0]^2 + sum(i in 1..N) { 2*v[i]^2 } - q[0]^2"),
+        "sum(i in 0..N) { p_q[i]^2/(if 1 <= i { 4 } else { 2 }) }/2 + q[0]^2"
+    );
+    assert_eq!(
+        h("sum(i in 0..N - 1) { m[i]*v[i]^2/2 } + v[N - 1]^2/2 + v[N - 1]*q[0]"),
+        "sum(i in 0..N) { (p_q[i] - (if N - 1 == i { q[0] } else { 0 }))^2/(if i + 2 <= N { m[i] } else { 1 }) }/2"
+    );
+    h("v[0]^2 + sum(i in 0..N) { v[i]^2/2 } + v[N - 1]^2");
+    h("v[0]^2/2 + v[1]^2 + 2*v[N - 1]^2 + sum(i in 2..N - 1) { m[i]*v[i]^2/2 }");
+    // Short arrays are written out.
+    let (m, legendre, _) = transformed(
+        "q[3]; v[3]",
+        "",
+        "",
+        "v[0]^2/2 + v[0]*q[2] + sum(i in 1..3) { v[i]^2 }",
+    );
+    assert_eq!(legendre.momenta.len(), 3);
+    assert_eq!(text(&m, legendre.momenta[0].value), "p_q[0] + q[2]");
 }

@@ -1,10 +1,12 @@
 //! Quadratic forms inverted.
 //!
 //! Input: a symmetric matrix M and a vector w. Output: ½wᵀM⁻¹w and M⁻¹w. Invariant: M = PLDLᵀPᵀ is
-//! taken apart with pivots that are not identically 0, plainest first, 2×2 where the diagonal is
-//! 0; nothing is multiplied out, so that entries stay as compact as the source had them.
+//! taken apart with pivots that are not identically 0, for no element, plainest first, 2×2 where the
+//! diagonal is 0; nothing is multiplied out, so that entries stay as compact as the source had them.
 
+use super::elements::zero_at;
 use crate::dag::{Dag, Node, Stage};
+use crate::index::{Affine, Domain};
 use crate::model::Model;
 use crate::normal_form::{Proof, is_zero};
 use crate::rational::Rational;
@@ -14,6 +16,8 @@ use crate::rational::Rational;
 pub(super) struct Form {
     pub(super) matrix: Vec<Vec<Node>>,
     pub(super) right: Vec<Node>,
+    /// The loop over elements, if there is a matrix for each.
+    pub(super) domain: Option<Domain>,
 }
 
 /// ½wᵀM⁻¹w and M⁻¹w.
@@ -25,9 +29,23 @@ pub(super) struct Solved {
     pub(super) order: Option<Vec<usize>>,
 }
 
-/// The rows that were left without a pivot, and whether they were empty from the start.
+/// Why there is no inverse.
 #[derive(Debug)]
-pub(super) struct Singular(pub(super) Vec<usize>, pub(super) bool);
+pub(super) enum Singular {
+    /// Rows of zeros.
+    Empty(Vec<usize>),
+    /// Rows that were left without a pivot.
+    Dependent(Vec<usize>),
+    /// The last row has no pivot for one element.
+    Element {
+        row: usize,
+        at: Affine,
+        /// Whether it is coupled to no other row.
+        is_alone: bool,
+    },
+    /// Whatever the order, some pivot is 0 for some element, as this row's is for this one.
+    NoOrder { row: usize, at: Affine },
+}
 
 /// One step of the elimination.
 enum Pivot {
@@ -49,14 +67,14 @@ impl Form {
             })
             .collect();
         if !empty.is_empty() {
-            return Err(Singular(empty, true));
+            return Err(Singular::Empty(empty));
         }
         let mut rest: Vec<usize> = (0..count).collect();
         let mut pivots = Vec::new();
         let mut terms: Vec<(Rational, Node)> = Vec::new();
         while !rest.is_empty() {
             let Some(pivot) = self.pivot(model, &rest) else {
-                return Err(Singular(rest, false));
+                return Err(self.singular(model, rest));
             };
             let dag = &mut model.dag;
             match pivot {
@@ -132,9 +150,14 @@ impl Form {
             .map(|&i| (model.dag.stage(self.matrix[i][i]), coupled(i), i))
             .collect();
         order.sort_unstable();
-        let usable = |entry: Node| is_zero(model, entry) != Proof::Zero;
+        let usable = |entry: Node| !self.vanishes(model, entry);
         if let Some((_, _, i)) = order.iter().find(|(_, _, i)| usable(self.matrix[*i][*i])) {
             return Some(Pivot::One(*i));
+        }
+        // Two rows at a time are eliminated as if their diagonal entries were 0.
+        let is_empty = |i: usize| is_zero(model, self.matrix[i][i]) == Proof::Zero;
+        if !rest.iter().all(|i| is_empty(*i)) {
+            return None;
         }
         rest.iter().enumerate().find_map(|(at, &i)| {
             rest[at + 1..]
@@ -142,6 +165,35 @@ impl Form {
                 .find(|j| usable(self.matrix[i][**j]))
                 .map(|&j| Pivot::Two(i, j))
         })
+    }
+
+    /// Whether an entry is identically 0, be it for one element.
+    fn vanishes(&self, model: &Model, entry: Node) -> bool {
+        is_zero(model, entry) == Proof::Zero || self.zero_at(model, entry).is_some()
+    }
+
+    fn zero_at(&self, model: &Model, entry: Node) -> Option<Affine> {
+        self.domain.and_then(|k| zero_at(model, entry, k))
+    }
+
+    /// Why none of these rows has a pivot.
+    fn singular(&self, model: &Model, rest: Vec<usize>) -> Singular {
+        let entries = rest
+            .iter()
+            .flat_map(|i| rest.iter().map(move |j| (*i, self.matrix[*i][*j])));
+        let found = entries
+            .filter(|(_, entry)| is_zero(model, *entry) != Proof::Zero)
+            .find_map(|(row, entry)| self.zero_at(model, entry).map(|at| (row, at)));
+        match found {
+            None => Singular::Dependent(rest),
+            Some((row, at)) if rest.len() == 1 => Singular::Element {
+                row,
+                at,
+                is_alone: (0..self.right.len())
+                    .all(|j| j == row || model.dag.is_zero(self.matrix[row][j])),
+            },
+            Some((row, at)) => Singular::NoOrder { row, at },
+        }
     }
 
     /// M⁻¹w, last pivot first: the matrix still holds each pivot's row as it was then.

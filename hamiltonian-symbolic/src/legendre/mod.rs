@@ -199,6 +199,22 @@ impl Transform<'_> {
             }
         }
         let mut blocks = arrays;
+        // Short arrays whose elements differ read better when they are written out.
+        let is_long = self.extents().is_none();
+        let dag = &mut self.model.dag;
+        for block in &mut blocks {
+            let Some(k) = block.domain.filter(|_| is_long) else {
+                continue;
+            };
+            let arrays: Vec<Array> = block
+                .elements
+                .iter()
+                .filter_map(|e| array(dag, *e))
+                .collect();
+            for momentum in &mut block.momenta {
+                *momentum = elements::at_own_index(dag, *momentum, k, &arrays);
+            }
+        }
         if !scalars.elements.is_empty() {
             blocks.insert(0, scalars);
         }
@@ -237,9 +253,8 @@ impl Transform<'_> {
         Ok(())
     }
 
-    /// The Lagrangian with its loops written out and all elements in one block; `None` if there
-    /// are too many, or their number is not literal.
-    fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
+    /// Rows and columns of each group, where these are few enough to be written out.
+    fn extents(&self) -> Option<Vec<(i64, i64)>> {
         let mut extents = Vec::new();
         let mut count = 0i64;
         for group in &self.model.groups {
@@ -254,6 +269,13 @@ impl Transform<'_> {
         if count > LONGEST || self.model.groups.iter().all(|g| g.shape == Shape::Scalar) {
             return None;
         }
+        Some(extents)
+    }
+
+    /// The Lagrangian with its loops written out and all elements in one block; `None` if there
+    /// are too many, or their number is not literal.
+    fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
+        let extents = self.extents()?;
         let written = write_out(self.model, lagrangian).ok()?;
         let leaves = diff::gradient(&mut self.model.dag, written, Dependence::P);
         let mut block = Block::default();
@@ -345,7 +367,7 @@ impl Transform<'_> {
                     .iter()
                     .find(|(leaf, _)| *leaf == velocity)
                     .map_or(zero, |(_, slope)| *slope);
-                let entry = at_rest(&mut self.model.dag, slope);
+                let mut entry = at_rest(&mut self.model.dag, slope);
                 let difference = self.model.dag.sub(slope, entry);
                 if is_zero(self.model, difference) != Proof::Zero {
                     let one = self.name(block.elements[i], block.domain);
@@ -354,28 +376,52 @@ impl Transform<'_> {
                         "L is not quadratic in the velocities: its second derivative with respect to {one} and {other} depends on them"
                     ));
                 }
+                if let Some(k) = block.domain {
+                    entry = elements::merged(&mut self.model.dag, entry, k);
+                }
                 matrix[i][j] = entry;
                 matrix[j][i] = entry;
             }
             let offset = at_rest(&mut self.model.dag, momentum);
             right.push(self.model.dag.sub(block.elements[i], offset));
         }
-        Ok(Form { matrix, right })
+        Ok(Form {
+            matrix,
+            right,
+            domain: block.domain,
+        })
     }
 
-    fn explain(&self, block: &Block, singular: Singular) -> String {
-        let names: Vec<String> = singular
-            .0
+    fn explain(&mut self, block: &Block, singular: Singular) -> String {
+        let (rows, at) = match &singular {
+            Singular::Empty(rows) | Singular::Dependent(rows) => (rows.clone(), None),
+            Singular::Element { row, at, .. } | Singular::NoOrder { row, at } => {
+                (vec![*row], Some(at))
+            }
+        };
+        let names: Vec<String> = rows
             .iter()
-            .map(|at| self.name(block.elements[*at], block.domain))
+            .map(|row| {
+                let velocity = block.elements[*row];
+                let dag = &mut self.model.dag;
+                let velocity = match (array(dag, velocity), at) {
+                    (Some(array), Some(at)) => dag.element(array, Index::plain(at.clone()), None),
+                    _ => velocity,
+                };
+                self.name(velocity, block.domain)
+            })
             .collect();
         let names = names.join(" and ");
-        if singular.1 {
-            format!("the mass matrix is singular: L has no term that is quadratic in {names}")
-        } else {
-            format!(
+        match singular {
+            Singular::Empty(_) | Singular::Element { is_alone: true, .. } => {
+                format!("the mass matrix is singular: L has no term that is quadratic in {names}")
+            }
+            Singular::Dependent(_) | Singular::Element { .. } => format!(
                 "the mass matrix is singular: the momentum of {names} is determined by the other momenta"
-            )
+            ),
+            Singular::NoOrder { .. } => format!(
+                "no formula gives the velocities of all elements: its divisor would be 0 for {names}"
+            ),
         }
     }
 
@@ -390,6 +436,14 @@ impl Transform<'_> {
             "`{}`",
             print::write_within(&named, element, Notation::Text, &bound)
         )
+    }
+}
+
+/// The array an element is of.
+fn array(dag: &Dag, element: Node) -> Option<Array> {
+    match dag.kind(element) {
+        Kind::Element(array, ..) => Some(*array),
+        _ => None,
     }
 }
 

@@ -176,7 +176,7 @@ fn is_nonnegative(affine: &Affine, k: Domain, rows: &Affine) -> bool {
 }
 
 /// The condition `affine ≥ 0`, negative terms on the left: `1 <= k`, `k + 2 <= N`.
-fn at_least_zero(dag: &mut Dag, affine: &Affine) -> Node {
+pub(crate) fn at_least_zero(dag: &mut Dag, affine: &Affine) -> Node {
     let mut above = affine.clone();
     above.constant = above.constant.max(0);
     above.loops.retain(|(_, n)| *n > 0);

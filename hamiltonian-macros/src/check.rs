@@ -22,6 +22,7 @@ use crate::checked::{
 };
 use crate::report::Report;
 use proc_macro2::{Ident, Span};
+use std::cell::OnceCell;
 
 /// Resolves and checks a definition.
 pub fn check(ast: &Ast, report: &mut Report) -> Checked {
@@ -85,6 +86,8 @@ struct Checker<'a> {
     loop_symbols: Vec<bool>,
     /// Symbols whose being unknown was reported, by symbol.
     unknown: Vec<bool>,
+    /// What stands in an index or a range, by expression; only errors ask for it.
+    in_indices: OnceCell<Vec<bool>>,
     /// Sizes whose being unknown was reported.
     unknown_sizes: Vec<String>,
     /// The statement that is being read defines this.
@@ -138,6 +141,7 @@ impl<'a> Checker<'a> {
             later: vec![false; symbols],
             loop_symbols,
             unknown: vec![false; symbols],
+            in_indices: OnceCell::new(),
             unknown_sizes: Vec::new(),
             defining: None,
             place: Place::Before,

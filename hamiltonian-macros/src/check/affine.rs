@@ -155,6 +155,10 @@ impl Checker<'_> {
                 format!("`{name}` is a parameter, not a size"),
                 format!("declare it as a size: `{name}: usize`"),
             ),
+            Some(Kind::Number(number)) if number.exponent >= 0 => (
+                "this number is too large for an index or a range".into(),
+                format!("write one up to {}", i64::MAX),
+            ),
             _ => (
                 "indices and ranges are sums of whole multiples of loop variables and sizes".into(),
                 "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`".into(),

@@ -5,7 +5,7 @@
 
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
-use crate::ast::{ExprId, ScopeId, StatementKind, Symbol};
+use crate::ast::{ExprId, ExprKind, ScopeId, StatementKind, Symbol};
 use crate::checked::{CaptureId, IndexVariable, Kind, NodeId, Type};
 use crate::names;
 use proc_macro2::Ident;
@@ -195,13 +195,13 @@ impl Checker<'_> {
             self.unknown[symbol.0 as usize] = false;
             return self.capture(raw, symbol);
         }
-        let help = self.help_for_unknown(name);
+        let help = self.help_for_unknown(raw, name);
         self.error(raw, at, &format!("unknown name `{name}`"), &help);
         None
     }
 
     /// What a name that is not known should have been.
-    fn help_for_unknown(&self, name: &str) -> String {
+    fn help_for_unknown(&self, raw: ExprId, name: &str) -> String {
         if let Some(known) = names::synonym(name) {
             return format!("write `{known}`");
         }
@@ -231,12 +231,48 @@ impl Checker<'_> {
             return format!("the nearest known name is `{longer}`");
         }
         match &self.ast.item {
+            Some(item) if self.is_in_index(raw) => format!(
+                "declare it as a size: `{name}: usize` among the parameters of `{}`",
+                item.name
+            ),
             Some(item) => format!(
                 "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`",
                 item.name
             ),
             None => format!("declare it: `let {name} = …;`"),
         }
+    }
+
+    /// Whether a name stands in an index or a range, where only whole numbers do.
+    fn is_in_index(&self, name: ExprId) -> bool {
+        let nodes = &self.ast.nodes;
+        let all = self.in_indices.get_or_init(|| {
+            let mut all = vec![false; nodes.len()];
+            let mut mark = |id: ExprId| all[id.0 as usize] = true;
+            for node in nodes {
+                match &node.kind {
+                    ExprKind::Bind { lower, upper, .. } => {
+                        mark(*lower);
+                        mark(*upper);
+                    }
+                    ExprKind::Index { index, .. } => mark(*index),
+                    _ => {}
+                }
+            }
+            // Operands stand before what is made of them.
+            for (at, node) in nodes.iter().enumerate().rev() {
+                match node.kind {
+                    ExprKind::Binary(_, a, b) if all[at] => {
+                        all[a.0 as usize] = true;
+                        all[b.0 as usize] = true;
+                    }
+                    ExprKind::Unary(_, a) if all[at] => all[a.0 as usize] = true,
+                    _ => {}
+                }
+            }
+            all
+        });
+        all[name.0 as usize]
     }
 
     /// All names that are declared: functions, or values. In the order they were declared.

@@ -4,6 +4,7 @@
 //! Input: a demand on a node. Output: the demands it makes on its children. Invariant: `evaluate`
 //! asks for children in this same order.
 
+use super::LARGEST;
 use super::evaluate::Evaluator;
 use super::scope::size_affine;
 use crate::checked::{self, Extent, IndexVariable, Kind, LoopId, NodeId, Type};
@@ -54,6 +55,15 @@ impl Demand {
     fn scalar(&self) -> Demand {
         self.with(Vec::new())
     }
+}
+
+/// Why a sum is not written out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Unwritten {
+    /// A bound is no number.
+    NotNumbers,
+    /// It has more than [`LARGEST`] terms.
+    TooLong,
 }
 
 /// How the components of a vector are run through.
@@ -174,14 +184,16 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The values a written-out sum runs through, innermost loop fastest. `None` if a bound is no
-    /// number.
+    /// The values a written-out sum runs through, innermost loop fastest.
+    ///
+    /// # Errors
+    /// [`Unwritten`]
     pub fn written_values(
         &self,
         dag: &mut Dag,
         loops: core::ops::Range<u32>,
         demand: &Demand,
-    ) -> Option<Vec<Demand>> {
+    ) -> Result<Vec<Demand>, Unwritten> {
         let mut all = vec![demand.clone()];
         for id in loops.map(LoopId) {
             if !self.loops.is_written(id) {
@@ -190,11 +202,13 @@ impl Evaluator<'_> {
             let range = &self.checked.loops[id.0 as usize];
             let mut next = Vec::new();
             for one in &all {
-                let start = self.affine(dag, &range.lower, one).as_constant()?;
-                let end = self.affine(dag, &range.upper, one).as_constant()?;
-                if end.saturating_sub(start) > super::LARGEST as i64 || next.len() > super::LARGEST
-                {
-                    return None;
+                let mut number = |bound| {
+                    let bound = self.affine(dag, bound, one);
+                    bound.as_constant().ok_or(Unwritten::NotNumbers)
+                };
+                let (start, end) = (number(&range.lower)?, number(&range.upper)?);
+                if end.saturating_sub(start) > LARGEST as i64 || next.len() > LARGEST {
+                    return Err(Unwritten::TooLong);
                 }
                 for value in start..end {
                     let mut with = one.clone();
@@ -204,7 +218,7 @@ impl Evaluator<'_> {
             }
             all = next;
         }
-        Some(all)
+        Ok(all)
     }
 
     /// The terms of a sum in the order of the source, with their signs. Sums in front that nothing
@@ -317,11 +331,16 @@ impl Evaluator<'_> {
                 "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
             ),
             Kind::Sum { loops, body } => match self.written_values(dag, loops.clone(), demand) {
-                Some(all) => wanted.extend(all.into_iter().map(|one| (*body, one))),
-                None => self.refuse(
+                Ok(all) => wanted.extend(all.into_iter().map(|one| (*body, one))),
+                Err(Unwritten::NotNumbers) => self.refuse(
                     this.spans,
                     "a loop that chooses components must have a literal range",
                     "components of a vector are chosen by number: write the range in numbers, as in `sum(c in 0..3) { … }`",
+                ),
+                Err(Unwritten::TooLong) => self.refuse(
+                    this.spans,
+                    &format!("loops that choose components are written out, and here they run more than {LARGEST} times"),
+                    "let a short loop choose the components, as in `sum(c in 0..3) { … }`, and others stay loops",
                 ),
             },
             Kind::If { condition, then, otherwise } => {

@@ -154,6 +154,34 @@ fn the_range_of_a_loop_may_need_the_number_of_a_written_one() {
     );
 }
 
+/// The only error of lowering.
+#[track_caller]
+fn refused(source: &str) -> String {
+    let checked = accept(source);
+    let mut report = Report::default();
+    assert!(lower::lower(&checked, &mut report).is_none());
+    let texts: Vec<String> = report.errors().iter().map(|error| error.text()).collect();
+    assert_eq!(texts.len(), 1, "{texts:?}");
+    texts[0].clone()
+}
+
+#[test]
+fn a_written_loop_has_a_range_in_numbers_that_is_not_too_long() {
+    let named =
+        "struct A<const N: usize> {} H(q[N]; p[N]) = sum(i in 0..N) { [p[0], q[0]][i % 2] }";
+    assert!(
+        refused(named).starts_with("a loop that chooses components must have a literal range\n")
+    );
+    let long = [
+        "sum(i in 0..300000) { [p, q][i % 2] }",
+        "sum(i in 0..600, j in 0..i + 600) { [p, q][(i + j) % 2] }",
+    ];
+    for sum in long {
+        let start = "loops that choose components are written out, and here they run more than 262144 times\n";
+        assert!(refused(&format!("H(q; p) = {sum}")).starts_with(start));
+    }
+}
+
 #[test]
 fn a_sum_over_a_written_loop_may_be_an_operand() {
     same(

@@ -1266,6 +1266,23 @@ help: write two definitions and choose between them by `#[cfg(…)]`"##,
 help: the nearest known name is `mass`"##,
     ),
     (
+        r##"pub struct A {} H(q[3]; p[3]) = norm_squared(p) + sum(i in 0..2*⟦m⟧) { q[0] } + q[1 - ⟦n⟧]"##,
+        r##"unknown name `m`
+help: declare it as a size: `m: usize` among the parameters of `A`
+unknown name `n`
+help: declare it as a size: `n: usize` among the parameters of `A`"##,
+    ),
+    (
+        r##"H(q[3]; p[3]) = norm_squared(p) + q[⟦1e21⟧] + sum(i in 0..⟦9223372036854775808⟧) { q[0] }
+            + q[0*⟦99999999999999999999⟧]"##,
+        r##"this number is too large for an index or a range
+help: write one up to 9223372036854775807
+this number is too large for an index or a range
+help: write one up to 9223372036854775807
+this number is too large for an index or a range
+help: write one up to 9223372036854775807"##,
+    ),
+    (
         r##"pub struct A { mass = 1.0 } H = p^2/(2*⟦k⟧)"##,
         r##"unknown name `k`
 help: declare it: a parameter of `A`, such as `k = 1.0`, or `let k = …;`"##,

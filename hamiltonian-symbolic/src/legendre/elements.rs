@@ -67,6 +67,14 @@ pub(super) fn merged(dag: &mut Dag, entry: Node, k: Domain) -> Node {
     let Kind::Sum(constant, terms) = dag.kind(entry).clone() else {
         return entry;
     };
+    let is_piece = |dag: &Dag, term: Node| match dag.kind(term) {
+        Kind::Select(condition, ..) => dag.variables(*condition) & 1 << k.0 != 0,
+        _ => false,
+    };
+    // Nothing is made where there is nothing to merge: the order of nodes is that of the code.
+    if !terms.iter().any(|(_, term)| is_piece(dag, *term)) {
+        return entry;
+    }
     let rows = dag.range(k).end.clone();
     let (variable, one) = (Affine::variable(k), Affine::constant(1));
     let element = dag.variable(k);
@@ -82,7 +90,7 @@ pub(super) fn merged(dag: &mut Dag, entry: Node, k: Domain) -> Node {
             rest.push((factor, term));
             continue;
         };
-        if dag.variables(condition) & 1 << k.0 == 0 {
+        if !is_piece(dag, term) {
             rest.push((factor, term));
             continue;
         }
@@ -105,9 +113,6 @@ pub(super) fn merged(dag: &mut Dag, entry: Node, k: Domain) -> Node {
         });
         pieces[at].1.push((factor.clone(), then));
         pieces[at].2.push((factor, otherwise));
-    }
-    if pieces.is_empty() {
-        return entry;
     }
     for (condition, then, otherwise) in pieces {
         let then = dag.linear(&Rational::ZERO, &then);

@@ -75,6 +75,18 @@ hamiltonian! {
     monitor along = bracket(q[0], last)
 }
 
+hamiltonian! {
+    /// What a bracket made first, and somebody wrote after it, stays as it is written.
+    pub struct Again { n: usize, w = 2.0, m: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/m[i] }/2;
+    monitor rate = bracket(sum(i in n - 1..n) { q[i] }, norm_squared(p)/2) + bracket(q[0], norm_squared(p)/2);
+    monitor last = if w > 1 { sum(i in n - 1..n) { 2*w*p[i] } } else { 0 };
+    split {
+        Free = sum(i in 0..n) { p[i]^2/m[i] }/2 - if w > 1 { p[0] } else { 0 };
+        First = if w > 1 { p[0] } else { 0 }
+    }
+}
+
 /// Σ ∂a/∂q·∂b/∂p − ∂a/∂p·∂b/∂q
 fn contracted(a: (&[f64], &[f64]), b: (&[f64], &[f64])) -> f64 {
     let products = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(x, y)| x * y).sum::<f64>();
@@ -180,6 +192,16 @@ fn conditions_beside_a_bracket() {
         close(system.piece_bound().energy(&state), 0.25);
         close(system.along(&state), f64::from(u8::from(n == 1)));
     }
+}
+
+#[test]
+fn what_a_bracket_made_first_is_written_as_it_is() {
+    let system = Again::new(3, vec![1.0, 2.0, 4.0]).unwrap();
+    let state = State::new(vec![0.0; 3], vec![0.5, 0.25, 0.125]);
+    close(system.rate(&state), 0.625);
+    close(system.last(&state), 0.5);
+    close(system.piece_first().energy(&state), 0.5);
+    assert!(!system.piece_first().to_string().contains('%'));
 }
 
 #[test]

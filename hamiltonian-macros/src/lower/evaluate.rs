@@ -34,6 +34,8 @@ const UNSOLVED: (&str, &str) = (
 #[derive(Debug, Default)]
 pub struct Derived {
     made: Vec<core::ops::Range<usize>>,
+    /// What somebody wrote after it was derived.
+    written: Map<Node, ()>,
 }
 
 impl Derived {
@@ -42,12 +44,30 @@ impl Derived {
         self.made.push(before..model.dag.len());
     }
 
+    /// Somebody wrote it, whatever made it first.
+    fn wrote(&mut self, node: Node) {
+        if !self.is_written(node) {
+            self.written.insert(node, ());
+        }
+    }
+
+    /// Somebody wrote a sum over a loop; what does not depend on the loop is a factor of it.
+    fn wrote_sum(&mut self, dag: &Dag, sum: Node, domain: Domain) {
+        let start = &dag.range(domain).start;
+        let mut wrote = |node: Node| match dag.kind(node) {
+            dag::Kind::Reduce(own, _) if dag.range(*own).start == *start => self.wrote(node),
+            _ => {}
+        };
+        match dag.kind(sum) {
+            dag::Kind::Product(_, factors) => factors.iter().for_each(|(one, _)| wrote(*one)),
+            _ => wrote(sum),
+        }
+    }
+
     /// Whether somebody wrote it. Then its indices are in range wherever its loops run.
     pub fn is_written(&self, node: Node) -> bool {
-        !self
-            .made
-            .iter()
-            .any(|made| made.contains(&(node.0 as usize)))
+        let is_made = |made: &core::ops::Range<usize>| made.contains(&(node.0 as usize));
+        !self.made.iter().any(is_made) || self.written.contains_key(&node)
     }
 }
 
@@ -147,6 +167,11 @@ impl<'a> Evaluator<'a> {
                 let value = self.combine(model, node, &demand, &values);
                 if self.refused {
                     return None;
+                }
+                if let Kind::Coordinate(_) | Kind::Momentum(_) | Kind::Parameter(_) =
+                    &self.checked.node(node).kind
+                {
+                    self.derived.wrote(value);
                 }
                 self.note(node, demand, value);
                 if model.dag.len() > LARGEST {
@@ -492,9 +517,13 @@ impl<'a> Evaluator<'a> {
         for one in &written {
             nests.push(kept.iter().map(|id| self.domain(dag, *id, one)).collect());
         }
-        let over = |dag: &mut Dag, nest: &[Domain], body: Node| {
-            nest.iter()
-                .fold(body, |sum, domain| dag.reduce(*domain, sum))
+        let derived = &mut self.derived;
+        let mut over = |dag: &mut Dag, nest: &[Domain], body: Node| {
+            nest.iter().fold(body, |body, domain| {
+                let sum = dag.reduce(*domain, body);
+                derived.wrote_sum(dag, sum, *domain);
+                sum
+            })
         };
         // What is written out stands inside the loops that stay, where these are the same.
         if let Some((first, rest)) = nests.split_first()

@@ -136,3 +136,15 @@ fn poles_with_equal_sides_are_no_jumps() {
     let mut predators = system("q; p", "", "a b", "q - ln(q) + a*(p - b*ln(p))");
     accepted(&mut predators, "q - ln(q) + a*p - a*b*ln(p)");
 }
+
+/// However many poles there are, each is looked at.
+#[test]
+fn one_jump_among_many_poles() {
+    let mut many = system("q[24]; p[24]", "", "", "sum(i in 0..24) { p[i]^2/2 }");
+    let harmless =
+        "sum(i in 1..24, j in 0..i) { (max(q[i] - q[j], 0) - max(q[j] - q[i], 0))/(q[i] - q[j]) }";
+    accepted(&mut many, harmless);
+    let last = "abs(q[0] - 2*q[23])/(q[0] - 2*q[23])";
+    let found = verdict(&mut many, &format!("{harmless} + {last}"));
+    assert!(matches!(found, Verdict::Jumps { .. }), "{found:?}");
+}

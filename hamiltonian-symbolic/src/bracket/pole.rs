@@ -23,6 +23,8 @@ use crate::print;
 /// How many lines through phase space are followed where parameters are positive (one more for each
 /// choice of negative ones),
 const LINES: usize = 2;
+/// how often a pole is looked for on a line: of many poles each is on fewer lines, the first at least,
+const LOOKS: usize = 256;
 /// and how many points of one pole are looked at on each.
 const CROSSINGS: usize = 3;
 /// How far from the pole values are compared: what has limits has nearly reached them.
@@ -58,7 +60,8 @@ fn jumping(model: &mut Model, roots: &[Node]) -> Option<String> {
             .collect();
         let poles = traits.zeros(&mut model.dag);
         let signs = std::iter::repeat_n(Signs::default(), LINES).chain(Signs::negative());
-        for (number, signs) in signs.enumerate() {
+        let lines = (LOOKS / poles.len().max(1)).max(1);
+        for (number, signs) in signs.enumerate().take(lines) {
             let line = Line::new(model, root, number as u64, signs);
             for &pole in &poles {
                 let jump = line
@@ -288,6 +291,17 @@ impl Line<'_> {
         }
     }
 
+    /// The same line with what a node reads alone.
+    fn of(&self, node: Node) -> Line<'_> {
+        let nodes = self.model.dag.reachable(&[node]);
+        let leaves = self.leaves.iter().copied();
+        Line {
+            model: self.model,
+            how: self.how,
+            leaves: leaves.filter(|(leaf, ..)| nodes.contains(leaf)).collect(),
+        }
+    }
+
     /// The value of a node and a bound of its error.
     fn value(&self, node: Node, at: f64) -> Sampled {
         let given: Vec<(Node, f64)> = self
@@ -304,7 +318,8 @@ impl Line<'_> {
 
     /// Points at which a node is 0: where it changes sign, and where it touches 0.
     fn zeros(&self, node: Node) -> Vec<f64> {
-        let value = |at: f64| self.value(node, at).value;
+        let line = self.of(node);
+        let value = |at: f64| line.value(node, at).value;
         // Near by and far away, in both directions.
         let out: Vec<f64> = std::iter::successors(Some(0.11), |at| Some(1.6 * at))
             .take(28)

@@ -422,8 +422,9 @@ impl Meaning for Numbers<'_> {
                 let (a, b) = (child(*a), child(*b));
                 let distance = (a.value - b.value).abs();
                 let error = a.error + b.error;
-                // No difference at all is what `q[i] <= q[j]` has at i = j: both are rounded alike.
-                if !(distance > error || distance == 0.0) {
+                // `q[i] <= q[j]` has no difference at i = j: both are rounded alike.
+                let is_same = distance == 0.0 && a.error == b.error;
+                if !(distance > error || is_same) {
                     return exact(f64::NAN);
                 }
                 truth(match relation {

@@ -441,12 +441,16 @@ impl Parser<'_> {
         };
         if self.at_open(Delimiter::Parenthesis) {
             let argument = self.peek_at(1).map_or("", |token| token.text.as_str());
+            // `Math.pow(q, 2)`, `Math.atan2(y, x)`
+            let is_of_two = matches!(self.kind_at(2), Some(TokenKind::Punct(',', _)));
             let help = match (word, argument) {
+                ("pow", base) if is_of_two => format!("write `{base}^n`"),
                 ("pow" | "powi" | "powf", "") => format!("write `{receiver}^n`"),
                 ("pow" | "powi" | "powf", power) => format!("write `{receiver}^{power}`"),
                 _ => {
                     let known = names::synonym(word).unwrap_or(word);
                     match names::function(known).map(|entry| entry.arguments) {
+                        Some([_, _]) if is_of_two => format!("write `{known}({argument}, …)`"),
                         Some([_, second]) => format!("write `{known}({receiver}, {second})`"),
                         // `Math.cos(q)`
                         Some([_]) if !argument.is_empty() => match self.kind_at(2) {

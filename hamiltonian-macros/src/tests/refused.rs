@@ -1532,6 +1532,13 @@ help: write `if c { a } else { b }`"##,
 help: write `cos(q)`"##,
     ),
     (
+        r##"H = p^2 + ⟦Math.pow(q, 2)⟧ + ⟦Math.atan2(p, q)⟧"##,
+        r##"`Math.pow(…)`: a function stands before its argument
+help: write `q^n`
+`Math.atan2(…)`: a function stands before its argument
+help: write `atan2(p, …)`"##,
+    ),
+    (
         r##"let d⟦[k]⟧ = q[k]; H(q[3]; p[3]) = norm_squared(p)*d[0]"##,
         r##"a `let` is no array: what depends on an index is a function of it
 help: write `let d(k) = …`, and `d(k)` where it is used"##,

@@ -42,7 +42,7 @@ pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     }
     let reason = match compared {
         Some(points @ 1..) => return Ok(points),
-        Some(0) => "H has no value at any of the points tried, which are up to 2000 from 0",
+        Some(0) => "H has no value at any of the points tried, which are up to 9000 from 0",
         None => "no sizes were found at which every index is in range",
     };
     Err(Refusal::Uncompared { reason })

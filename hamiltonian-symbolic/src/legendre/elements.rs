@@ -18,7 +18,6 @@ const LARGEST: i64 = 64;
 
 /// Where `index = k`, the elements of these arrays at that index are their elements k.
 pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array]) -> Node {
-    let variable = dag.variable(k);
     let own = Index::plain(Affine::variable(k));
     dag.substitute(root, |dag, node| {
         let Kind::Select(condition, then, otherwise) = *dag.kind(node) else {
@@ -27,7 +26,7 @@ pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array
         let Kind::Compare(Relation::Equal, index, of) = *dag.kind(condition) else {
             return None;
         };
-        if of != variable {
+        if *dag.kind(of) != Kind::Variable(k) {
             return None;
         }
         let then = dag.substitute(then, |dag, leaf| match dag.kind(leaf).clone() {

@@ -202,9 +202,9 @@ fn point(random: &mut tree::Random) -> At {
 }
 
 hamiltonian::hamiltonian! {
-    /// Almost everywhere H = p, but the condition reads both.
+    /// Always H = p + sin²q, but the condition reads both.
     pub struct Conditional { a = 1.0 }
-    H = if a/(if q <= p { q } else { 2 }) == 3 { 5 } else { p }
+    H = if a/(if q <= p { q } else { 2 }) == 3 { p + sin(q)^2 } else { p + 1 - cos(q)^2 }
 }
 
 /// A condition couples q and p without a derivative that does: the drift must not read q.

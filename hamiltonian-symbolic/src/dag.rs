@@ -135,6 +135,8 @@ impl Dependence {
     pub const COEFFICIENT: Dependence = Dependence(16);
     /// On the direction of a Hessian product.
     pub const DIRECTION: Dependence = Dependence(32);
+    /// On what moves along a trajectory.
+    pub const MOVING: Dependence = Dependence(1 | 2 | 4);
 
     /// Whether it shares anything with `other`.
     #[must_use]

@@ -503,3 +503,27 @@ fn parameters_need_not_be_positive() {
         Verdict::Jumps { .. }
     ));
 }
+
+/// Where a parameter has one certain value it still has it.
+#[test]
+fn equality_of_parameters_counts() {
+    let mut m = system(
+        "q, x; p, u",
+        "",
+        "k",
+        "p^2/2 + u^2/2 + if k == 1 { q } else { 0 }",
+    );
+    assert!(matches!(
+        verdict(&mut m, "p", None),
+        Verdict::Undecided { .. }
+    ));
+    accepted(&mut m, "p^2/2 + if k != 1 { 0 } else { q }");
+    accepted(&mut m, "u*if k == 1 { 2 } else { 3 }");
+    // Both parameters may be 0, and then this is so everywhere.
+    let line = "p^2/2 + u^2/2 + if k*q + l == 0 { x } else { 0 }";
+    let mut m = system("q, x; p, u", "", "k l", line);
+    assert!(matches!(
+        verdict(&mut m, "u", None),
+        Verdict::Undecided { .. }
+    ));
+}

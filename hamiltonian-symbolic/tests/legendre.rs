@@ -218,6 +218,10 @@ fn degenerate_ones_are_refused_with_the_reason() {
         refused("q[N]; v[N]", "N", "", "sum(i in 0..N) { v[i]^4 }"),
         "L is not quadratic in the velocities: its second derivative with respect to `v[k]` and `v[k]` depends on them"
     );
+    assert_eq!(
+        refused("x; v", "", "k", "v^2/2 + if k == 1 { v^3 } else { 0 }"),
+        "L is not quadratic in the velocities: its second derivative with respect to `v` and `v` depends on them"
+    );
     // v² all the same.
     let (mut m, legendre, l) = transformed("x; v", "", "", "v^4/(2*v^2) - x");
     check(&mut m, &legendre, l);

@@ -151,6 +151,57 @@ fn what_is_beyond_the_rules_or_the_budget_is_undecided() {
     }
 }
 
+/// Conditions on parameters hold at points that are met: nothing is zero but for them.
+#[test]
+fn where_a_condition_holds_counts() {
+    for source in [
+        "if a == 1 { x } else { 0 }",
+        "if a != 1 { 0 } else { x }",
+        "if x == y { 7*x } else { 0 }",
+        "sign(a)^2 - 1",
+        "sign(a)^2*x*u - x*u",
+        "sign(x)^2 - 1",
+        "sign(a - b)^2*a - a",
+        "sign(sqrt(x)) - 1",
+        "sign(x^2 + y^2) - 1",
+        "(if a < 1 { x } else { 0 }) + (if a > 1 { x } else { 0 }) - x",
+        // The fraction is not felt where its condition does not hold.
+        "(if a == 1 { 0 } else { (a^2 - 1)/(a - 1) }) - (a + 1)",
+        "(if a^2 == 1 { 0 } else { (a^2 - 1)/(a + 1) }) - (a - 1)",
+        "(if a > 0 { 1/a } else { 0 })*a - 1",
+        "(if a == 0 { 0 } else { abs(a)^2/a^2 }) - 1",
+        "1/(1 + if a > 0 { 1/a } else { 0 }) - a/(a + if a > 0 { 1 } else { 0 })",
+    ] {
+        assert_ne!(proof(source), Proof::Zero, "{source}");
+    }
+    for source in [
+        "(if a == 1 { x } else { y }) - y - (if a == 1 { 1 } else { 0 })*(x - y)",
+        "(if a == b { a*x } else { b*x }) - b*x",
+        "(if a == b { sin(a)^2 } else { 1 - cos(a)^2 }) - sin(a)^2",
+        "(if a < b { 1 } else { 0 }) + (if a == b { 1 } else { 0 }) + (if a > b { 1 } else { 0 }) - 1",
+        "sign(a)^2*a - a",
+        "sign(a - b)^2*(a - b)^3 - (a - b)^3",
+        "sign(a)^2*sqrt(a) - sqrt(a)",
+        "sign(a)^2*cbrt(a) - cbrt(a)",
+        "sign(a)^2/a - 1/a",
+        "sign(a + b)^2/(a + b) - 1/(a + b)",
+        "abs(a - b)^2 - (a - b)^2",
+        "abs(a - b)*sign(a - b) - a + b",
+        "sign(abs(a)) - sign(a)^2",
+        "sign(a^2 + b^2)*(a^2 + b^2) - a^2 - b^2",
+        "sign(1 + a^2) - 1",
+        "sign(exp(a)) - 1",
+        "abs(a)*sqrt(a^2) - a^2",
+        "1/abs(a)^2 - 1/a^2",
+        "a/abs(a) - sign(a)",
+        "(if a != 0 { 1/a } else { 0 })*a - sign(a)^2",
+        "(if a == 1 { 0 } else { (a^2 - 1)/(a - 1) }) - (a + 1)*(if a == 1 { 0 } else { 1 })",
+        "(if a == 0 { x } else { (sin(x)^2 + cos(x)^2)/a }) - (if a != 0 { 1/a } else { x })",
+    ] {
+        assert_eq!(proof(source), Proof::Zero, "{source}");
+    }
+}
+
 #[test]
 fn loops_are_linear_and_literal_ones_are_written_out() {
     let mut m = model("q[N], s[4]; p[N], u[4]", "N", "m[N]");

@@ -101,6 +101,23 @@ fn relations_between_functions_are_known() {
     assert_eq!(coupling("p^2*sin(x)^2 - p^2*cos(x)^2"), "p^2*sin(x)^2");
 }
 
+/// What couples at one value of a parameter couples.
+#[test]
+fn conditions_on_parameters_that_seldom_hold_count() {
+    assert_eq!(
+        coupling("p^2/2 + if k == 1 { q^2/2 + q*p } else { cos(q) }"),
+        "if k == 1 { q^2/2 + q*p } else { cos(q) }"
+    );
+    coupling("p^2/2 + q^2/2 + if k == 1 { q*p } else { 0 }");
+    coupling("p^2/2 + q^2/2 + if k != 1 { 0 } else { q*p }");
+    coupling("(p^2 + q^2)/2 + sign(k)^2*q*p - q*p");
+    coupling("(p^2 + q^2)/2 + if q == p { 7*q } else { 0 }");
+    assert_eq!(
+        parts("p^2/2 + if k == 1 { q*p } else { 0 } - q*p*(if k == 1 { 1 } else { 0 }) + q^2"),
+        ("p^2/2".to_owned(), "q^2".to_owned())
+    );
+}
+
 #[test]
 fn a_quadratic_kinetic_part_is_recognised() {
     for h in [

@@ -39,27 +39,27 @@ hamiltonian! {
 
 hamiltonian! {
     pub struct E7 { a, b, c }
-    H(x, y; px, py; t) = (((y - a) + (1 + t))*(cos((-(py*px)))/((((abs(x)^(-7/5))*5)^2) + (1^2))))
+    H(x, y; px, py; t) = (((((if (cbrt((981/100)) == px) || (sin((pi/exp(atan(sign((981/100)))))) < b) { sign((981/100)) } else { y })/((((b + c)*sinh(((a - t)^2)))^2) + (pi^2)))^2) + (1/4))^(-1/2))
 }
 
 hamiltonian! {
     pub struct E8 { a, b, c }
-    H(x, y; px, py; t) = ((if ((max(pi, 3) - pi) == 3) || (((pi^2)*asinh(5)) <= c) { (if !((981/100) < py) { (cosh(((((-(x^2))^2) + 1)^(-1/2)))^(-7/5)) } else { (x - py) }) } else { asinh(5) })/exp(atan(a)))
+    H(x, y; px, py; t) = (((y - a) + (1 + t))*(cos((-(py*px)))/((((abs(x)^(-7/5))*5)^2) + (1^2))))
 }
 
 hamiltonian! {
     pub struct E9 { a, b, c }
-    H(x, y; px, py; t) = (tanh((2 - ln_1p((pow(abs((((1/abs((1/10))) + t) + a)), sin(py)) + (if ((-7/4) <= b) { 1 } else { 1 }))))) + (((if (b < y) || (x <= y) { ((((x - b) - ((((1/2)^2) + (1/4))^(3/10)))^-3)^5) } else { (3 + y) }) - (y + pi))^7))
+    H(x, y; px, py; t) = (((if ((max(pi, 3) - pi) == 3) || (((pi^2)*asinh(5)) <= c) { (if !((981/100) < py) { (cosh(((((-(px^2))^2) + 1)^(-1/2)))^(-7/5)) } else { (px - py) }) } else { asinh(5) })/exp(atan(a))) + tanh((2 - ln_1p((pow(abs((((1/abs((1/10))) + t) + a)), sin(y)) + (if ((-7/4) <= b) { 1 } else { 1 }))))))
 }
 
 hamiltonian! {
     pub struct E10 { a, b, c }
-    H(x, y; px, py; t) = (((((py/py)^2) + (b^2))^(5/2)) + (-cosh(cos((if ((((tanh((py/py))^2) + (((((py/py)^2) + (b^2))^(5/2))^2))^(3/10)) <= x) || (y <= 1) { (b^5) } else { (px + cosh((1/2))) })))))
+    H(x, y; px, py; t) = (((if (b < y) || (px <= py) { ((((px - b) - ((((1/2)^2) + (1/4))^(3/10)))^-3)^5) } else { (3 + py) }) - (py + pi))^7)
 }
 
 hamiltonian! {
     pub struct E11 { a, b, c }
-    H(x, y; px, py; t) = (((((((-c)^7) - (((py^2) + (x^2))^(-1/2)))^2) + 2)^(-3/2)) + (c + (py + ((2 + pi)*c))))
+    H(x, y; px, py; t) = (((((py/py)^2) + (b^2))^(5/2)) + (-cosh(cos((if ((((tanh((py/py))^2) + (((((py/py)^2) + (b^2))^(5/2))^2))^(3/10)) <= x) || (y <= 1) { (b^5) } else { (px + cosh((1/2))) })))))
 }
 
 hamiltonian! {
@@ -159,1127 +159,1127 @@ hamiltonian! {
 
 hamiltonian! {
     pub struct E31 { a, b, c }
-    H(x, y; px, py; t) = (if (((1/10) - px) <= 2) || (((b^-1) - c) < px) { acosh((exp(cos((((y^2) + 2)^-3))) + 1)) } else { ((((((b - a)*py)^2) + (py^2))^(1/3))*(cbrt(1)*b)) })
+    H(x, y; px, py; t) = atanh((atan((if (px < px) { acos(((tanh(((2 - c) - ((-1)*t)))/x)/(1 + ((tanh(((2 - c) - ((-1)*t)))/x)^2)))) } else { max(b, py) }))/(1 + (atan((if (px < px) { acos(((tanh(((2 - c) - ((-1)*t)))/x)/(1 + ((tanh(((2 - c) - ((-1)*t)))/x)^2)))) } else { max(b, py) }))^2))))
 }
 
 hamiltonian! {
     pub struct E32 { a, b, c }
-    H(x, y; px, py; t) = (((((if (pi < c) && ((3 + (if (c <= t) || ((-1) < x) { b } else { pi })) <= (1/10)) { 5 } else { pi })^2) + (px^2))^(5/2))*y)
+    H(x, y; px, py; t) = (if (((1/10) - px) <= 2) || (((b^-1) - c) < px) { acosh((exp(cos((((y^2) + 2)^-3))) + 1)) } else { ((((((b - a)*py)^2) + (py^2))^(1/3))*(cbrt(1)*b)) })
 }
 
 hamiltonian! {
     pub struct E33 { a, b, c }
-    H(x, y; px, py; t) = ((if (atan((abs(t)^(-7/5))) < abs(t)) { (if (((5 - t)^-1) <= px) && ((2*px) == t) { (1 + (b*1)) } else { atan(max((pi^7), b)) }) } else { (b - acos(((atan(max((pi^7), b)) - py)/(1 + ((atan(max((pi^7), b)) - py)^2))))) }) + ((if (asinh((x - pi)) < y) || ((x^3) < x) { y } else { x })*a))
+    H(x, y; px, py; t) = (((if ((cosh(exp_m1(tanh((-7/4))))^(-7/5)) <= c) || ((b*(px^2)) < (1/2)) { max(a, px) } else { (c*b) }) + ((cosh(exp_m1(tanh((-7/4))))*c) + (t + (a^3)))) + (x - (pi*sign(((-7/4)*pi)))))
 }
 
 hamiltonian! {
     pub struct E34 { a, b, c }
-    H(x, y; px, py; t) = ((-(a/px))*(exp(sin(sin((asin((t - b))*(y*px)))))^(1/2)))
+    H(x, y; px, py; t) = (((((if (pi < c) && ((3 + (if (c <= t) || ((-1) < x) { b } else { pi })) <= (1/10)) { 5 } else { pi })^2) + (px^2))^(5/2))*y)
 }
 
 hamiltonian! {
     pub struct E35 { a, b, c }
-    H(x, y; px, py; t) = ((x*a)/exp(((((((x*a) + ln_1p(((py^2) + (a^2)))) + (-1))^2) + (c^2))^-1)))
+    H(x, y; px, py; t) = (if (atan((abs(t)^(-7/5))) < abs(t)) { (if (((5 - t)^-1) <= px) && ((2*x) == t) { (1 + (b*1)) } else { atan(max((pi^7), b)) }) } else { (b - acos(((atan(max((pi^7), b)) - py)/(1 + ((atan(max((pi^7), b)) - py)^2))))) })
 }
 
 hamiltonian! {
     pub struct E36 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(((sqrt(((px^2) + 2))^2) + 2)) + (((1/2) + (acos(sin((if (y <= t) || ((b^4) < c) { (c + y) } else { atanh(sin((981/100))) }))) + y))*(-(-(1 - x)))))
+    H(x, y; px, py; t) = (((if (asinh((px - pi)) < py) || ((px^3) < px) { py } else { px })*a) + ln(abs(acosh((((asin(cos((pi - (abs(((-7/4) - c))^(-1/2)))))^2) + 1) + 1)))))
 }
 
 hamiltonian! {
     pub struct E37 { a, b, c }
-    H(x, y; px, py; t) = tan(((cosh(sin(t))/2) - ((min(px, y) - (py*(-7/4)))*c)))
+    H(x, y; px, py; t) = ((-(a/px))*(exp(sin(sin((asin((t - b))*(y*px)))))^(1/2)))
 }
 
 hamiltonian! {
     pub struct E38 { a, b, c }
-    H(x, y; px, py; t) = pow(abs(((cbrt((py/pi))/y) - px)), sin((t/((asin(sin((cbrt((py/pi))/y)))^2) + (1/4)))))
+    H(x, y; px, py; t) = ((x*a)/exp(((((((x*a) + ln_1p(((py^2) + (a^2)))) + (-1))^2) + (c^2))^-1)))
 }
 
 hamiltonian! {
     pub struct E39 { a, b, c }
-    H(x, y; px, py; t) = ((((a^2) - (if ((((py^2) + 1)^-1) <= c) || ((px*(a^2)) < 1) { py } else { (((pi*px) + (-7/4))*a) }))^2) + sin(((if (((t*b) - t) < 2) && (((981/100)*t) < a) { (b*b) } else { ((981/100)*t) })*(y + x))))
+    H(x, y; px, py; t) = (ln_1p(((sqrt(((px^2) + 2))^2) + 2)) + (((1/2) + (acos(sin((if (y <= t) || ((b^4) < c) { (c + y) } else { atanh(sin((981/100))) }))) + y))*(-(-(1 - x)))))
 }
 
 hamiltonian! {
     pub struct E40 { a, b, c }
-    H(x, y; px, py; t) = (sign(py)/((((((((-(max(py, y) - b))/((a^2) + 2)) + ((c*2)*x)) - ((px*(981/100))/((((c*2)*x)^2) + 1))) + ((ln_1p(((b^2) + 1))*x) - py))^2) + 2)^(-1/2)))
+    H(x, y; px, py; t) = tan(((cosh(sin(t))/2) - ((min(px, y) - (py*(-7/4)))*c)))
 }
 
 hamiltonian! {
     pub struct E41 { a, b, c }
-    H(x, y; px, py; t) = min(min(2, x), sinh(tanh((((c + pi)*(py - y))^-1))))
+    H(x, y; px, py; t) = pow(abs(((cbrt((py/pi))/y) - px)), sin((t/((asin(sin((cbrt((py/pi))/y)))^2) + (1/4)))))
 }
 
 hamiltonian! {
     pub struct E42 { a, b, c }
-    H(x, y; px, py; t) = (cosh(cos(((px/(px + (px - c))) - asinh((t - c))))) + (if ((x - x) <= x) { sqrt(abs((tanh((y + sinh((5*(if (sinh((pi^2)) <= c) || (acos((exp(cos(t))/(1 + (exp(cos(t))^2)))) < c) { (1/3) } else { x })))))/y))) } else { ((x + (pi^2)) - a) }))
+    H(x, y; px, py; t) = ((((a^2) - (if ((((py^2) + 1)^-1) <= c) || ((px*(a^2)) < 1) { py } else { (((pi*px) + (-7/4))*a) }))^2) + sin(((if (((t*b) - t) < 2) && (((981/100)*t) < a) { (b*b) } else { ((981/100)*t) })*(y + x))))
 }
 
 hamiltonian! {
     pub struct E43 { a, b, c }
-    H(x, y; px, py; t) = (((x + t)*((((c^2) + 1)^-2)*((px*a) - (c^2)))) - t)
+    H(x, y; px, py; t) = (sign(py)/((((((((-(max(py, y) - b))/((a^2) + 2)) + ((c*2)*x)) - ((px*(981/100))/((((c*2)*x)^2) + 1))) + ((ln_1p(((b^2) + 1))*x) - py))^2) + 2)^(-1/2)))
 }
 
 hamiltonian! {
     pub struct E44 { a, b, c }
-    H(x, y; px, py; t) = (asin(tanh(((((1/2) - (if (((981/100)*y) < 3) || ((x/y) == pi) { b } else { py }))*(((981/100)*a)*t)) - y))) + ((if !((3*y) <= a) { (981/100) } else { ((c + x) - (1/10)) })*ln_1p((((y + b)^2) + 2))))
+    H(x, y; px, py; t) = min(min(2, x), sinh(tanh((((c + pi)*(py - y))^-1))))
 }
 
 hamiltonian! {
     pub struct E45 { a, b, c }
-    H(x, y; px, py; t) = ((-(t*(((sin(b)*c) + px)/abs((-px))))) + (((if !((x + t) <= a) { x } else { pi }) + a) - (asinh(2)*((if ((x*(a/x)) < pi) || ((y/y) < y) { t } else { tanh(a) }) - (pi - max(x, a))))))
+    H(x, y; px, py; t) = (cosh(cos(((px/(px + (px - c))) - asinh((t - c))))) + (if ((x - x) <= x) { sqrt(abs((tanh((y + sinh((5*(if (sinh((pi^2)) <= c) || (acos((exp(cos(t))/(1 + (exp(cos(t))^2)))) < c) { (1/3) } else { x })))))/y))) } else { ((x + (pi^2)) - a) }))
 }
 
 hamiltonian! {
     pub struct E46 { a, b, c }
-    H(x, y; px, py; t) = (tanh((x*atan2(py, (if ((x/py) <= (981/100)) || (((-7/4) + py) < a) { (981/100) } else { b })))) + (if (sin(y) == pi) || ((abs(t)/(1/2)) <= (-1)) { c } else { asinh((x - x)) }))
+    H(x, y; px, py; t) = (((x + t)*((((c^2) + 1)^-2)*((px*a) - (c^2)))) - t)
 }
 
 hamiltonian! {
     pub struct E47 { a, b, c }
-    H(x, y; px, py; t) = sqrt((((exp(tanh(((pi*c)/(((py*b)^2) + (1/4)))))/(y*py))^2) + 1))
+    H(x, y; px, py; t) = (asin(tanh(((((1/2) - (if (((981/100)*y) < 3) || ((x/y) == pi) { b } else { py }))*(((981/100)*a)*t)) - y))) + ((if !((3*y) <= a) { (981/100) } else { ((c + x) - (1/10)) })*ln_1p((((y + b)^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E48 { a, b, c }
-    H(x, y; px, py; t) = ((((px*t)*1) - (((px^2) + (1/4))^(-4/3))) + (if (t < y) { atan2(((981/100) + (1/10)), c) } else { y }))
+    H(x, y; px, py; t) = ((-(t*(((sin(b)*c) + px)/abs((-px))))) + (((if !((x + t) <= a) { x } else { pi }) + a) - (asinh(2)*((if ((x*(a/x)) < pi) || ((y/y) < y) { t } else { tanh(a) }) - (pi - max(x, a))))))
 }
 
 hamiltonian! {
     pub struct E49 { a, b, c }
-    H(x, y; px, py; t) = ((((((y - py)*c)/((x^2) + 2))^2) + (1/4))^(1/2))
+    H(x, y; px, py; t) = (tanh((x*atan2(py, (if ((x/py) <= (981/100)) || (((-7/4) + py) < a) { (981/100) } else { b })))) + (if (sin(y) == pi) || ((abs(t)/(1/2)) <= (-1)) { c } else { asinh((x - x)) }))
 }
 
 hamiltonian! {
     pub struct E50 { a, b, c }
-    H(x, y; px, py; t) = pow(abs((if !(asinh(y) <= y) { max((b/abs(px)), pow(abs(c), min(y, 1))) } else { cos(((((((-1)*((1/10)/(1/10)))/((((1/10) - abs(px))^2) + 2))*(b + (981/100))) + (px + ((t + b) - 2)))^2)) })), tanh(((ln(((((abs((py^5))^(-4/3)) - (2/abs(2)))^2) + 1))*hypot(ln(abs(((b/abs(px))*px))), cosh(c)))^-2)))
+    H(x, y; px, py; t) = sqrt((((exp(tanh(((pi*c)/(((py*b)^2) + (1/4)))))/(y*py))^2) + 1))
 }
 
 hamiltonian! {
     pub struct E51 { a, b, c }
-    H(x, y; px, py; t) = (cos((((a/cos((((acos(((py/py)/(1 + ((py/py)^2))))*(py*b))^2)*(acos(((py/py)/(1 + ((py/py)^2))))*(py*b))))) + (exp((cosh(atan((t - a)))^(-7/5)))^(-1/2)))^6)) + ((((((t + t) - t) + atan2((if ((t - t) < y) { c } else { (1/10) }), c))^2) + 2)^(-1/2)))
+    H(x, y; px, py; t) = ((((px*t)*1) - (((px^2) + (1/4))^(-4/3))) + (if (t < y) { atan2(((981/100) + (1/10)), c) } else { y }))
 }
 
 hamiltonian! {
     pub struct E52 { a, b, c }
-    H(x, y; px, py; t) = ((-(px - cbrt((-7/4))))*ln((((sinh(atan((-(abs((((if (y < py) || (py < c) { (-1) } else { py })^2)^3))^(-3/2))))) - x)^2) + 2)))
+    H(x, y; px, py; t) = ((((((y - py)*c)/((x^2) + 2))^2) + (1/4))^(1/2))
 }
 
 hamiltonian! {
     pub struct E53 { a, b, c }
-    H(x, y; px, py; t) = abs(((cosh((((((-7/4)/(-7/4))*((-7/4)/(-7/4)))*(-b)) - (y + ((1/2)*py))))^(1/3)) + pow(((cos(sign(((if ((sqrt(cosh(3)) - t) == b) && (y < x) { asinh(sin(1)) } else { (b*1) }) + (((-7/4)*py)*x))))^2) + 2), atan(a))))
+    H(x, y; px, py; t) = pow(abs((if !(asinh(y) <= y) { max((b/abs(px)), pow(abs(c), min(y, 1))) } else { cos(((((((-1)*((1/10)/(1/10)))/((((1/10) - abs(px))^2) + 2))*(b + (981/100))) + (px + ((t + b) - 2)))^2)) })), tanh(((ln(((((abs((py^5))^(-4/3)) - (2/abs(2)))^2) + 1))*hypot(ln(abs(((b/abs(px))*px))), cosh(c)))^-2)))
 }
 
 hamiltonian! {
     pub struct E54 { a, b, c }
-    H(x, y; px, py; t) = (((py/((((1/10) - py)^2) + 2))/(a + t)) + ((abs(((1/2)*(981/100)))^(-1/2)) + ln_1p(((pi^2) + 2))))
+    H(x, y; px, py; t) = (cos((((a/cos((((acos(((py/py)/(1 + ((py/py)^2))))*(py*b))^2)*(acos(((py/py)/(1 + ((py/py)^2))))*(py*b))))) + (exp((cosh(atan((t - a)))^(-7/5)))^(-1/2)))^6)) + ((((((t + t) - t) + atan2((if ((t - t) < y) { c } else { (1/10) }), c))^2) + 2)^(-1/2)))
 }
 
 hamiltonian! {
     pub struct E55 { a, b, c }
-    H(x, y; px, py; t) = abs(((((a - (t - py))^-1)*(((((x/cosh(px)) - ((a - (t - py)) + b))^2) + 2)^(-3/2)))^2))
+    H(x, y; px, py; t) = ((-(px - cbrt((-7/4))))*ln((((sinh(atan((-(abs((((if (y < py) || (py < c) { (-1) } else { py })^2)^3))^(-3/2))))) - x)^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E56 { a, b, c }
-    H(x, y; px, py; t) = min(((cos(c) - min(a, sqrt(((px^2) + (x^2)))))/(-(acosh((((t^2) + (sqrt(((px^2) + (x^2)))^2)) + 1))/pow(cosh(cos(3)), sin(b))))), y)
+    H(x, y; px, py; t) = abs(((cosh((((((-7/4)/(-7/4))*((-7/4)/(-7/4)))*(-b)) - (y + ((1/2)*py))))^(1/3)) + pow(((cos(sign(((if ((sqrt(cosh(3)) - t) == b) && (y < x) { asinh(sin(1)) } else { (b*1) }) + (((-7/4)*py)*x))))^2) + 2), atan(a))))
 }
 
 hamiltonian! {
     pub struct E57 { a, b, c }
-    H(x, y; px, py; t) = ((abs(asinh(asinh(cosh((px*sin(t))))))*((1/10)*atan2(exp(tanh(((exp_m1((py*px))^2)^5))), py))) + acosh((abs((((t*pi) - x)*x)) + 1)))
+    H(x, y; px, py; t) = (((py/((((1/10) - py)^2) + 2))/(a + t)) + ((abs(((1/2)*(981/100)))^(-1/2)) + ln_1p(((pi^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E58 { a, b, c }
-    H(x, y; px, py; t) = sqrt((((asin(((x*(py + t))/(1 + ((x*(py + t))^2)))) + (pi + (x*(if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (3*px)) < b) { 3 } else { c }))))^2) + (1/4)))
+    H(x, y; px, py; t) = abs(((((a - (t - py))^-1)*(((((x/cosh(px)) - ((a - (t - py)) + b))^2) + 2)^(-3/2)))^2))
 }
 
 hamiltonian! {
     pub struct E59 { a, b, c }
-    H(x, y; px, py; t) = hypot((y - py), ln(abs((b + (min(px, x)*x)))))
+    H(x, y; px, py; t) = min(((cos(c) - min(a, sqrt(((px^2) + (x^2)))))/(-(acosh((((t^2) + (sqrt(((px^2) + (x^2)))^2)) + 1))/pow(cosh(cos(3)), sin(b))))), y)
 }
 
 hamiltonian! {
     pub struct E60 { a, b, c }
-    H(x, y; px, py; t) = ((atan2(2, ((b/b)*py))*2) + ((((pi^3)*(abs(3)^(1/3))) - (exp(sin(x))^(-1/2)))^3))
+    H(x, y; px, py; t) = ((abs(asinh(asinh(cosh((px*sin(t))))))*((1/10)*atan2(exp(tanh(((exp_m1((py*px))^2)^5))), py))) + acosh((abs((((t*pi) - x)*x)) + 1)))
 }
 
 hamiltonian! {
     pub struct E61 { a, b, c }
-    H(x, y; px, py; t) = min((c^7), ((y + (c*a))*hypot(py, t)))
+    H(x, y; px, py; t) = sqrt((((asin(((x*(py + t))/(1 + ((x*(py + t))^2)))) + (pi + (x*(if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (3*px)) < b) { 3 } else { c }))))^2) + (1/4)))
 }
 
 hamiltonian! {
     pub struct E62 { a, b, c }
-    H(x, y; px, py; t) = (abs((if !((a/y) < c) { (t - x) } else { (((-hypot(py, c))*((-7/4)*ln_1p(((b^2) + (1/4)))))*(px + px)) }))^(2/3))
+    H(x, y; px, py; t) = hypot((y - py), ln(abs((b + (min(px, x)*x)))))
 }
 
 hamiltonian! {
     pub struct E63 { a, b, c }
-    H(x, y; px, py; t) = (cosh((-py)) + ((atanh(((x - b)/(1 + ((x - b)^2))))/y) + y))
+    H(x, y; px, py; t) = ((atan2(2, ((b/b)*py))*2) + ((((pi^3)*(abs(3)^(1/3))) - (exp(sin(x))^(-1/2)))^3))
 }
 
 hamiltonian! {
     pub struct E64 { a, b, c }
-    H(x, y; px, py; t) = (((abs((((a - x)*(((a^2) + ((-7/4)^2))^(-7/5)))/((t^2) + (b^2))))^(3/10))*((t*px) + (py + py)))^6)
+    H(x, y; px, py; t) = min((c^7), ((y + (c*a))*hypot(py, t)))
 }
 
 hamiltonian! {
     pub struct E65 { a, b, c }
-    H(x, y; px, py; t) = ln_1p(((((((ln(abs((((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))) + ((((y*px) + sqrt(a))^2) - (5/(((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))))^2) + 2)^-1)^2) + 1))
+    H(x, y; px, py; t) = (abs((if !((a/y) < c) { (t - x) } else { (((-hypot(py, c))*((-7/4)*ln_1p(((b^2) + (1/4)))))*(px + px)) }))^(2/3))
 }
 
 hamiltonian! {
     pub struct E66 { a, b, c }
-    H(x, y; px, py; t) = (((b*(-py))*pow(abs((if ((py + (-7/4)) < 5) { (a - py) } else { py })), atan(sign((((acosh((((3^2) + 1) + 1))^2) + 2)^-3))))) + (((b - a) + (((x*x) + a) + c)) + (-1)))
+    H(x, y; px, py; t) = (cosh((-py)) + ((atanh(((x - b)/(1 + ((x - b)^2))))/y) + y))
 }
 
 hamiltonian! {
     pub struct E67 { a, b, c }
-    H(x, y; px, py; t) = acosh((exp(tanh(abs((abs((acosh((((((py + y) - a)^2) + 1) + 1))^5))^(1/3))))) + 1))
+    H(x, y; px, py; t) = (((abs((((a - x)*(((a^2) + ((-7/4)^2))^(-7/5)))/((t^2) + (b^2))))^(3/10))*((t*px) + (py + py)))^6)
 }
 
 hamiltonian! {
     pub struct E68 { a, b, c }
-    H(x, y; px, py; t) = ((px^6) + max((if ((y - px) <= px) && (px < x) { ln(abs(y)) } else { b }), ((3/(py + t)) + ((3/(py + t)) + ((if ((c + c) <= b) && (atanh(sin(y)) < x) { (1/10) } else { x }) - (-7/4))))))
+    H(x, y; px, py; t) = ln_1p(((((((ln(abs((((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))) + ((((y*px) + sqrt(a))^2) - (5/(((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))))^2) + 2)^-1)^2) + 1))
 }
 
 hamiltonian! {
     pub struct E69 { a, b, c }
-    H(x, y; px, py; t) = ((max(sin(px), b)^2) + (if ((x*c) < y) { min(max(tanh((y*x)), b), y) } else { (if (cosh(sin((if ((if ((y + b) <= c) || (sin(y) <= x) { b } else { sin(y) }) <= c) && ((((x*c)^2) + c) == x) { (y*x) } else { y }))) <= a) || ((a^-1) < a) { x } else { acosh(((((if ((if (((-7/4) + cos(5)) == b) { t } else { (if ((((b^2) + (1/4))^(5/2)) <= y) && ((b*(x/exp(atan((((x*c)^2) + c))))) < 1) { pi } else { y }) }) <= y) { (a*y) } else { y })^2) + 1) + 1)) }) }))
+    H(x, y; px, py; t) = (((b*(-py))*pow(abs((if ((py + (-7/4)) < 5) { (a - py) } else { py })), atan(sign((((acosh((((3^2) + 1) + 1))^2) + 2)^-3))))) + (((b - a) + (((x*x) + a) + c)) + (-1)))
 }
 
 hamiltonian! {
     pub struct E70 { a, b, c }
-    H(x, y; px, py; t) = (acosh((abs(atan((x*c))) + 1))*ln(cosh(((y*1) - (((px/y) + (py + pi))*px)))))
+    H(x, y; px, py; t) = acosh((exp(tanh(abs((abs((acosh((((((py + y) - a)^2) + 1) + 1))^5))^(1/3))))) + 1))
 }
 
 hamiltonian! {
     pub struct E71 { a, b, c }
-    H(x, y; px, py; t) = ln(exp(tanh((((cosh((hypot((px + c), (t*px)) + ((((t*px) - 1)^6) - (px*y))))^-3)^2)*(y*(px*c))))))
+    H(x, y; px, py; t) = ((px^6) + max((if ((y - px) <= px) && (px < x) { ln(abs(y)) } else { b }), ((3/(py + t)) + ((3/(py + t)) + ((if ((c + c) <= b) && (atanh(sin(y)) < x) { (1/10) } else { x }) - (-7/4))))))
 }
 
 hamiltonian! {
     pub struct E72 { a, b, c }
-    H(x, y; px, py; t) = (((((abs(py)^(3/10))/((-1) - a))/abs((a/abs(px)))) + ((if ((1/3) <= b) { px } else { py }) + px)) + ((1/2)*((if !(atan((abs((-1))^(-1/2))) < y) { y } else { y }) + x)))
+    H(x, y; px, py; t) = ((max(sin(px), b)^2) + (if ((x*c) < y) { min(max(tanh((y*x)), b), y) } else { (if (cosh(sin((if ((if ((y + b) <= c) || (sin(y) <= x) { b } else { sin(y) }) <= c) && ((((x*c)^2) + c) == x) { (y*x) } else { y }))) <= a) || ((a^-1) < a) { x } else { acosh(((((if ((if (((-7/4) + cos(5)) == b) { t } else { (if ((((b^2) + (1/4))^(5/2)) <= y) && ((b*(x/exp(atan((((x*c)^2) + c))))) < 1) { pi } else { y }) }) <= y) { (a*y) } else { y })^2) + 1) + 1)) }) }))
 }
 
 hamiltonian! {
     pub struct E73 { a, b, c }
-    H(x, y; px, py; t) = ((t*(cosh(y)^(-7/5)))/px)
+    H(x, y; px, py; t) = (acosh((abs(atan((x*c))) + 1))*ln(cosh(((y*1) - (((px/y) + (py + pi))*px)))))
 }
 
 hamiltonian! {
     pub struct E74 { a, b, c }
-    H(x, y; px, py; t) = atan(max(t, ((py*pi)*ln_1p(((x^2) + 2)))))
+    H(x, y; px, py; t) = (3 + ((3*acosh((abs((if (sqrt(abs(t)) <= b) && (max((x/exp(py)), pi) == b) { t } else { (a/exp(tanh(x))) })) + 1)))*(3*acosh((abs((if (sqrt(abs(t)) <= b) && (max((x/exp(py)), pi) == b) { t } else { (a/exp(tanh(x))) })) + 1)))))
 }
 
 hamiltonian! {
     pub struct E75 { a, b, c }
-    H(x, y; px, py; t) = ((py + ((((c*(if ((c*atan2(px, t)) <= pi) || (px < px) { (c*atan2(px, t)) } else { (if !((py^7) < b) { a } else { (((1/10)*t)/hypot(pi, (981/100))) }) }))^2) + (b^2))^-1)) + (if (tanh(x) <= x) { ((x + x)*y) } else { ((b*(cosh(atan((981/100)))^(-4/3)))/hypot((x/((c^2) + 2)), c)) }))
+    H(x, y; px, py; t) = (((((1/3)^2) - (((1/3)^2)*exp_m1((1/3))))*py) + ln(exp(tanh((((cosh((hypot((x + c), (t*x)) + ((((t*x) - 1)^6) - (x*y))))^-3)^2)*(y*(x*c)))))))
 }
 
 hamiltonian! {
     pub struct E76 { a, b, c }
-    H(x, y; px, py; t) = ((acosh((exp(acosh(((((t + x)^2) + (1/4)) + 1))) + 1)) - px)^2)
+    H(x, y; px, py; t) = ((((abs(py)^(3/10))/((-1) - a))/abs((a/abs(x)))) + ((if ((1/3) <= b) { px } else { y }) + px))
 }
 
 hamiltonian! {
     pub struct E77 { a, b, c }
-    H(x, y; px, py; t) = ((if (px <= b) && ((pi + 5) < y) { a } else { (-y) })*y)
+    H(x, y; px, py; t) = ((t*(cosh(y)^(-7/5)))/px)
 }
 
 hamiltonian! {
     pub struct E78 { a, b, c }
-    H(x, y; px, py; t) = ((((1 + px) - c) + px) + (atan((-(t*a)))*(atan((-(t*a)))^-1)))
+    H(x, y; px, py; t) = ((min(t, px)*b) + atan(max(t, ((y*pi)*ln_1p(((x^2) + 2))))))
 }
 
 hamiltonian! {
     pub struct E79 { a, b, c }
-    H(x, y; px, py; t) = (max(x, ((c*a)*py))*((((-((1/2)*3))^2) + (1/4))^(-7/5)))
+    H(x, y; px, py; t) = (if (tanh(x) <= x) { ((x + px)*py) } else { ((b*(cosh(atan((981/100)))^(-4/3)))/hypot((px/((c^2) + 2)), c)) })
 }
 
 hamiltonian! {
     pub struct E80 { a, b, c }
-    H(x, y; px, py; t) = (((px + ((t*x)*y)) - ((b*px) - px))*((t - c) + asinh((exp((x*(-y))) + (if ((px - pi) < (t - c)) { t } else { (if !(((y*pi)^-1) < y) { x } else { pi }) })))))
+    H(x, y; px, py; t) = ((acosh((exp(acosh(((((t + x)^2) + (1/4)) + 1))) + 1)) - px)^2)
 }
 
 hamiltonian! {
     pub struct E81 { a, b, c }
-    H(x, y; px, py; t) = (((c - (px + a)) - (if (px < a) || (py <= px) { b } else { (c^3) })) + (x - asin((((((x*x)^2) + (x^2))^(-1/2))/(1 + (((((x*x)^2) + (x^2))^(-1/2))^2))))))
+    H(x, y; px, py; t) = (atan((cosh(sin(exp(cos((((((px/px)^2) + 2)^-3)/abs(((px + pow(((hypot(cbrt(a), atan2(c, t))^2) + 2), a)) + 2))))))) - py)) + min((a*(cos((a^5)) - y)), tanh(y)))
 }
 
 hamiltonian! {
     pub struct E82 { a, b, c }
-    H(x, y; px, py; t) = ((((-1)*y)/py) + ((t + c)/cosh(atan(atanh((t/(1 + (t^2))))))))
+    H(x, y; px, py; t) = ((if (px <= b) && ((pi + 5) < y) { a } else { (-y) })*y)
 }
 
 hamiltonian! {
     pub struct E83 { a, b, c }
-    H(x, y; px, py; t) = exp_m1(sin(((acosh((((c^2) + 1) + 1)) + cbrt(sqrt((((atan(c)*(-7/4))^2) + 2))))*(((py*sqrt(abs(b))) + (y*5)) + cosh(tanh((pi + b)))))))
+    H(x, y; px, py; t) = (max(x, ((c*a)*py))*((((-((1/2)*3))^2) + (1/4))^(-7/5)))
 }
 
 hamiltonian! {
     pub struct E84 { a, b, c }
-    H(x, y; px, py; t) = (acos((cosh(sin(sin((sinh(atan(exp_m1(sin((c - a))))) + py))))/(1 + (cosh(sin(sin((sinh(atan(exp_m1(sin((c - a))))) + py))))^2)))) + (if ((((((-1)^2) + 1)^(3/2))/b) < t) { (x^5) } else { cbrt(exp(cos(x))) }))
+    H(x, y; px, py; t) = ((((px + ((t*px)*py)) - ((b*px) - px))*((t - c) + asinh((exp((px*(-py))) + (if ((px - pi) < (t - c)) { t } else { (if !(((py*pi)^-1) < py) { px } else { pi }) }))))) + (c + ((c/pi) - (a - c))))
 }
 
 hamiltonian! {
     pub struct E85 { a, b, c }
-    H(x, y; px, py; t) = atan2((y + (1/3)), ((px + x) + cos(5)))
+    H(x, y; px, py; t) = (x - asin((((((x*px)^2) + (x^2))^(-1/2))/(1 + (((((x*px)^2) + (x^2))^(-1/2))^2)))))
 }
 
 hamiltonian! {
     pub struct E86 { a, b, c }
-    H(x, y; px, py; t) = ((px + ((((px*x)^2) + (1^2))^-3))*((((((tanh((t + (if ((981/100) < pi) || ((pi + ((981/100)*y)) < (px + ((((px*x)^2) + (1^2))^-3))) { b } else { pi })))*((px - (pi + ((981/100)*y)))*pi)) + 5)*(-((c/((px^2) + (1/4)))^2)))^2) + (1/4))^(1/3)))
+    H(x, y; px, py; t) = ((((-1)*y)/py) + ((t + c)/cosh(atan(atanh((t/(1 + (t^2))))))))
 }
 
 hamiltonian! {
     pub struct E87 { a, b, c }
-    H(x, y; px, py; t) = (min((-tan(hypot(1, min(atan2((if (sinh(cos(1)) < py) { px } else { (1/10) }), a), (((1/2)*px) - c))))), (px*py)) + ((y*(-(-x))) + x))
+    H(x, y; px, py; t) = (ln((((1 - ((((py*(-1)) + pi) - t)*(c + c)))^2) + (b^2))) + exp_m1(sin(((acosh((((c^2) + 1) + 1)) + cbrt(sqrt((((atan(c)*(-7/4))^2) + 2))))*(((y*sqrt(abs(b))) + (y*5)) + cosh(tanh((pi + b))))))))
 }
 
 hamiltonian! {
     pub struct E88 { a, b, c }
-    H(x, y; px, py; t) = (((if ((t/cosh((((px^2) + 2)^(-1/2)))) <= (-1)) { (1/2) } else { abs(px) })*max(y, (-7/4)))^-1)
+    H(x, y; px, py; t) = asin(((c*(if ((b - (1/2)) < c) || ((1/3) < t) { x } else { (if ((t/((c^2) + ((-1)^2))) == py) && ((981/100) <= pi) { (1/3) } else { c }) }))/(1 + ((c*(if ((b - (1/2)) < c) || ((1/3) < t) { x } else { (if ((t/((c^2) + ((-1)^2))) == py) && ((981/100) <= pi) { (1/3) } else { c }) }))^2))))
 }
 
 hamiltonian! {
     pub struct E89 { a, b, c }
-    H(x, y; px, py; t) = ((px/(a*(1/10))) - (-((b - c)*hypot((b - b), (px + (5 + x))))))
+    H(x, y; px, py; t) = atan2((y + (1/3)), ((px + x) + cos(5)))
 }
 
 hamiltonian! {
     pub struct E90 { a, b, c }
-    H(x, y; px, py; t) = ((if (cosh(atan(py)) < t) || (pi < py) { t } else { (b*py) }) + ((5/y)*(((pi^-3) + (y - 1))*y)))
+    H(x, y; px, py; t) = (((px + ((((px*px)^2) + (1^2))^-3))*((((((tanh((t + (if ((981/100) < pi) || ((pi + ((981/100)*py)) < (px + ((((px*px)^2) + (1^2))^-3))) { b } else { pi })))*((px - (pi + ((981/100)*py)))*pi)) + 5)*(-((c/((px^2) + (1/4)))^2)))^2) + (1/4))^(1/3))) + min((-tan(hypot(1, min(atan2((if (sinh(cos(1)) < y) { x } else { (1/10) }), a), (((1/2)*x) - c))))), (x*y)))
 }
 
 hamiltonian! {
     pub struct E91 { a, b, c }
-    H(x, y; px, py; t) = (if ((((-1)*b)^5) < a) || (((px + 5)*y) < 1) { ((t*((3/((y^2) + 2)) + b)) + (-7/4)) } else { px })
+    H(x, y; px, py; t) = ((y*(-(-px))) + px)
 }
 
 hamiltonian! {
     pub struct E92 { a, b, c }
-    H(x, y; px, py; t) = exp(sin(tan(sin((sinh(((t*(5 + pi))*(((3 - pi) - y) + tanh((c/abs((if (sign((1/2)) <= pi) && (1 <= y) { (px - y) } else { (b + (-1)) })))))))*((-a)/(py + x)))))))
+    H(x, y; px, py; t) = (((if ((t/cosh((((px^2) + 2)^(-1/2)))) <= (-1)) { (1/2) } else { abs(px) })*max(y, (-7/4)))^-1)
 }
 
 hamiltonian! {
     pub struct E93 { a, b, c }
-    H(x, y; px, py; t) = ((((if (cos(t) < py) { (py + cos(t)) } else { t })^5)*cbrt((py*py))) + (((((x*((-1) - x))^2) + (1/4))^(5/2)) - (if (t < x) || (2 < pi) { (pi + (t + c)) } else { (1*(-7/4)) })))
+    H(x, y; px, py; t) = (((px/(a*(1/10))) - (-((b - c)*hypot((b - b), (px + (5 + px)))))) + (if (cosh(atan(y)) < t) || (pi < y) { t } else { (b*y) }))
 }
 
 hamiltonian! {
     pub struct E94 { a, b, c }
-    H(x, y; px, py; t) = (py - (sin(pow(((((-x) + tan(atan(py)))^2) + 2), tanh((a*a))))/(-a)))
+    H(x, y; px, py; t) = ((5/py)*(((pi^-3) + (y - 1))*y))
 }
 
 hamiltonian! {
     pub struct E95 { a, b, c }
-    H(x, y; px, py; t) = ((x*(min(t, x) + (x + px))) + sign((abs(t)^(13/4))))
+    H(x, y; px, py; t) = (if ((((-1)*b)^5) < a) || (((px + 5)*y) < 1) { ((t*((3/((y^2) + 2)) + b)) + (-7/4)) } else { px })
 }
 
 hamiltonian! {
     pub struct E96 { a, b, c }
-    H(x, y; px, py; t) = (((b*py)*((((px - b)^2) + (1/4))^-1)) + (asinh(((x - (-7/4)) + ((1/2)*acos(((y*5)/(1 + ((y*5)^2))))))) - (max((3 - x), x) + t)))
+    H(x, y; px, py; t) = (exp(sin(tan(sin((sinh(((t*(5 + pi))*(((3 - pi) - py) + tanh((c/abs((if (sign((1/2)) <= pi) && (1 <= py) { (px - py) } else { (b + (-1)) })))))))*((-a)/(py + px))))))) + (((if (cos(t) < y) { (y + cos(t)) } else { t })^5)*cbrt((y*y))))
 }
 
 hamiltonian! {
     pub struct E97 { a, b, c }
-    H(x, y; px, py; t) = (if (y <= py) { ((1/3)*pi) } else { (abs((1/2))*(5 + (1/3))) })
+    H(x, y; px, py; t) = (py - (sin(pow(((((-x) + tan(atan(py)))^2) + 2), tanh((a*a))))/(-a)))
 }
 
 hamiltonian! {
     pub struct E98 { a, b, c }
-    H(x, y; px, py; t) = abs(((((y^2) + ((1/3)^2))^(3/10))*cbrt(((t + py)*(atanh((b/(1 + (b^2))))^2)))))
+    H(x, y; px, py; t) = ((x*(min(t, x) + (x + px))) + sign((abs(t)^(13/4))))
 }
 
 hamiltonian! {
     pub struct E99 { a, b, c }
-    H(x, y; px, py; t) = (((tanh((if (asinh((py + a)) < px) { (3*py) } else { (sign(b)/(((px + py)^2) + 1)) })) - 1)*pow(c, tanh((3 - b)))) + ((if (exp(t) <= t) { (x + y) } else { ((x*pi)*asinh(atanh(cos((x*x))))) }) + y))
+    H(x, y; px, py; t) = (((b*py)*((((px - b)^2) + (1/4))^-1)) + (asinh(((x - (-7/4)) + ((1/2)*acos(((y*5)/(1 + ((y*5)^2))))))) - (max((3 - x), x) + t)))
 }
 
 hamiltonian! {
     pub struct E100 { a, b, c }
-    H(x, y; px, py; t) = (((x - (-(abs((py - (1/10))) + cosh(tanh(abs((py - (1/10))))))))/(a*sinh(((pi - (abs((py - (1/10))) + cosh(tanh(abs((py - (1/10)))))))*(x - 5)))))^2)
+    H(x, y; px, py; t) = (if (y <= py) { ((1/3)*pi) } else { (abs((1/2))*(5 + (1/3))) })
 }
 
 hamiltonian! {
     pub struct E101 { a, b, c }
-    H(x, y; px, py; t) = ((((px^-2)*y) + (px*(py - c))) + t)
+    H(x, y; px, py; t) = abs(((((y^2) + ((1/3)^2))^(3/10))*cbrt(((t + py)*(atanh((b/(1 + (b^2))))^2)))))
 }
 
 hamiltonian! {
     pub struct E102 { a, b, c }
-    H(x, y; px, py; t) = (min((((1/3)*a)*(px + (981/100))), ((py*b)*c)) + (x*((min((x + (t + (-1))), (((((y/c)/y)^2) + (1/4))^(-4/3)))^3)^2)))
+    H(x, y; px, py; t) = (((tanh((if (asinh((py + a)) < px) { (3*py) } else { (sign(b)/(((px + py)^2) + 1)) })) - 1)*pow(c, tanh((3 - b)))) + ((if (exp(t) <= t) { (x + y) } else { ((x*pi)*asinh(atanh(cos((x*x))))) }) + y))
 }
 
 hamiltonian! {
     pub struct E103 { a, b, c }
-    H(x, y; px, py; t) = ((if (tan(pi) == x) { (if (pi <= px) && (y < t) { (1/10) } else { (x^3) }) } else { y })*((if ((x*tan(pi)) < y) && (py < px) { (-1) } else { sign((px^5)) }) + (if ((x + (-1)) < x) || ((px*(b*x)) < px) { y } else { (acosh((abs((a^-3)) + 1))*((c*px) - ((-1) - tan(pi)))) })))
+    H(x, y; px, py; t) = ((((-7/4) + cbrt((a - (a*(1/10)))))*(cbrt((a - (a*(1/10))))/a))*(if ((2 - (((pi^2) + 1)^(3/10))) == py) { a } else { y }))
 }
 
 hamiltonian! {
     pub struct E104 { a, b, c }
-    H(x, y; px, py; t) = (if (hypot((2*pi), t) < y) && (ln((((abs(b)^(2/3))^2) + (1/4))) < (1/10)) { ((((-7/4) - t)*sign(px)) - (3*5)) } else { (((b^4) - (x^2)) + a) })
+    H(x, y; px, py; t) = (((x - (-(abs((py - (1/10))) + cosh(tanh(abs((py - (1/10))))))))/(a*sinh(((pi - (abs((py - (1/10))) + cosh(tanh(abs((py - (1/10)))))))*(x - 5)))))^2)
 }
 
 hamiltonian! {
     pub struct E105 { a, b, c }
-    H(x, y; px, py; t) = ((((py + c)*py)*px) + ((if ((if ((y*(c*x)) <= pi) && ((((-1)/((y^2) + 1)) + x) <= (1/2)) { c } else { ln(exp((981/100))) }) < a) { t } else { (t*x) }) + (((((y + y)/abs(((c - a)^4)))^2) + 1)^(-1/2))))
+    H(x, y; px, py; t) = (((((px^-2)*py) + (px*(py - c))) + t) + min((((1/3)*a)*(x + (981/100))), ((y*b)*c)))
 }
 
 hamiltonian! {
     pub struct E106 { a, b, c }
-    H(x, y; px, py; t) = hypot((x^7), (((hypot(c, x)*py)*((-1) - (hypot(c, x)*py))) - sqrt(cosh(((py*(b + (y*x)))^-1)))))
+    H(x, y; px, py; t) = ((if (tan(pi) == x) { (if (pi <= px) && (y < t) { (1/10) } else { (x^3) }) } else { y })*((if ((x*tan(pi)) < y) && (py < px) { (-1) } else { sign((px^5)) }) + (if ((x + (-1)) < x) || ((px*(b*x)) < px) { y } else { (acosh((abs((a^-3)) + 1))*((c*px) - ((-1) - tan(pi)))) })))
 }
 
 hamiltonian! {
     pub struct E107 { a, b, c }
-    H(x, y; px, py; t) = tanh((-sinh(cos((y*sign(tanh(exp(atan(ln(cosh(sin((((((c*(t*x))/((if (1 < c) || (((a*px) + t) < x) { (py + y) } else { t }) - (a*(if (hypot(a, (y + (1/3))) < c) { x } else { y }))))^2) + (1/4))^(5/2))))))))))))))
+    H(x, y; px, py; t) = (if (hypot((2*pi), t) < y) && (ln((((abs(b)^(2/3))^2) + (1/4))) < (1/10)) { ((((-7/4) - t)*sign(px)) - (3*5)) } else { (((b^4) - (x^2)) + a) })
 }
 
 hamiltonian! {
     pub struct E108 { a, b, c }
-    H(x, y; px, py; t) = (((asinh(px)*(px/(1/10))) + (exp(((a + py) + ln_1p(t)))^(5/2))) + ((c/abs(hypot(atan(t), (min(atan(t), c) + y))))*sqrt(abs((x/(((-1) + a)*ln(abs(x))))))))
+    H(x, y; px, py; t) = ((((py + c)*py)*px) + ((if ((if ((y*(c*x)) <= pi) && ((((-1)/((y^2) + 1)) + x) <= (1/2)) { c } else { ln(exp((981/100))) }) < a) { t } else { (t*x) }) + (((((y + y)/abs(((c - a)^4)))^2) + 1)^(-1/2))))
 }
 
 hamiltonian! {
     pub struct E109 { a, b, c }
-    H(x, y; px, py; t) = max((if (px < a) && (x <= px) { px } else { (-1) }), (px/5))
+    H(x, y; px, py; t) = hypot((x^7), (((hypot(c, x)*py)*((-1) - (hypot(c, x)*py))) - sqrt(cosh(((py*(b + (y*x)))^-1)))))
 }
 
 hamiltonian! {
     pub struct E110 { a, b, c }
-    H(x, y; px, py; t) = (if (py < (1/3)) { asinh(px) } else { (exp(cos((x/((((1/3) + py)^2) + (px^2)))))^(3/10)) })
+    H(x, y; px, py; t) = tanh((-sinh(cos((y*sign(tanh(exp(atan(ln(cosh(sin((((((c*(t*x))/((if (1 < c) || (((a*px) + t) < x) { (py + y) } else { t }) - (a*(if (hypot(a, (y + (1/3))) < c) { x } else { y }))))^2) + (1/4))^(5/2))))))))))))))
 }
 
 hamiltonian! {
     pub struct E111 { a, b, c }
-    H(x, y; px, py; t) = ((max(c, t) + py) + (sin(x)^(13/4)))
+    H(x, y; px, py; t) = (((asinh(px)*(px/(1/10))) + (exp(((a + py) + ln_1p(t)))^(5/2))) + ((c/abs(hypot(atan(t), (min(atan(t), c) + y))))*sqrt(abs((x/(((-1) + a)*ln(abs(x))))))))
 }
 
 hamiltonian! {
     pub struct E112 { a, b, c }
-    H(x, y; px, py; t) = (((((cos(ln_1p(px)) + (px + y)) - a)^2) + (px^2))^(-4/3))
+    H(x, y; px, py; t) = max((if (px < a) && (x <= px) { px } else { (-1) }), (px/5))
 }
 
 hamiltonian! {
     pub struct E113 { a, b, c }
-    H(x, y; px, py; t) = (if !((-(x + py)) <= 2) { b } else { (((((b^2) + (1/4))^(1/2)) + t) - (t - t)) })
+    H(x, y; px, py; t) = (if (py < (1/3)) { asinh(px) } else { (exp(cos((x/((((1/3) + py)^2) + (px^2)))))^(3/10)) })
 }
 
 hamiltonian! {
     pub struct E114 { a, b, c }
-    H(x, y; px, py; t) = (max((-b), atanh(((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)/(1 + ((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)^2))))) + (cbrt(exp_m1(((if (1 == y) && ((1/10) < x) { (((y + (b + b)) + (1/10))^7) } else { ((y*acos(cos(b))) + y) })^4)))/pow(abs(x), sin((y + (if !(tanh((((t^2) + 1)^-2)) <= y) { y } else { acosh((((t^2) + (t^2)) + 1)) }))))))
+    H(x, y; px, py; t) = ((max(c, t) + py) + (sin(x)^(13/4)))
 }
 
 hamiltonian! {
     pub struct E115 { a, b, c }
-    H(x, y; px, py; t) = asinh((abs(((((((if !(a <= b) { (cbrt((c*py)) + abs((py*cbrt(a)))) } else { x })^5)^2) + (1/4))^(1/3)) - (-1)))^(3/2)))
+    H(x, y; px, py; t) = (((((cos(ln_1p(px)) + (px + y)) - a)^2) + (px^2))^(-4/3))
 }
 
 hamiltonian! {
     pub struct E116 { a, b, c }
-    H(x, y; px, py; t) = ((hypot((py - (1/2)), min(3, pi))*(sqrt((((if (ln_1p(((1^2) + 2)) < c) { ((a - px)/px) } else { x })^2) + 2))*(1/3)))^7)
+    H(x, y; px, py; t) = (if !((-(x + py)) <= 2) { b } else { (((((b^2) + (1/4))^(1/2)) + t) - (t - t)) })
 }
 
 hamiltonian! {
     pub struct E117 { a, b, c }
-    H(x, y; px, py; t) = (tanh(((-py)^4)) + (((a - sin(b)) + (y*x))*((c/c)/c)))
+    H(x, y; px, py; t) = (max((-b), atanh(((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)/(1 + ((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)^2))))) + (cbrt(exp_m1(((if (1 == y) && ((1/10) < x) { (((y + (b + b)) + (1/10))^7) } else { ((y*acos(cos(b))) + y) })^4)))/pow(abs(x), sin((y + (if !(tanh((((t^2) + 1)^-2)) <= y) { y } else { acosh((((t^2) + (t^2)) + 1)) }))))))
 }
 
 hamiltonian! {
     pub struct E118 { a, b, c }
-    H(x, y; px, py; t) = (max((t + (t*t)), cos(a)) - (if !(y <= t) { 3 } else { py }))
+    H(x, y; px, py; t) = asinh((abs(((((((if !(a <= b) { (cbrt((c*py)) + abs((py*cbrt(a)))) } else { x })^5)^2) + (1/4))^(1/3)) - (-1)))^(3/2)))
 }
 
 hamiltonian! {
     pub struct E119 { a, b, c }
-    H(x, y; px, py; t) = min((-atan2(py, py)), ((((-y)^(3/10)) + 2) + (pow(((((-y)^(3/10))^2) + (1/4)), atan((x^7)))*atan2(py, py))))
+    H(x, y; px, py; t) = ((hypot((py - (1/2)), min(3, pi))*(sqrt((((if (ln_1p(((1^2) + 2)) < c) { ((a - px)/px) } else { x })^2) + 2))*(1/3)))^7)
 }
 
 hamiltonian! {
     pub struct E120 { a, b, c }
-    H(x, y; px, py; t) = ((abs(((px + (py - b))/((((ln_1p(((((1/10)/(c + (5 - (1/2))))^2) + 1))^2) + 2)^(3/10))^4)))^(-3/2)) + (a + atan2(t, ((981/100)/cosh(atan(t))))))
+    H(x, y; px, py; t) = (tanh(((-py)^4)) + (((a - sin(b)) + (y*x))*((c/c)/c)))
 }
 
 hamiltonian! {
     pub struct E121 { a, b, c }
-    H(x, y; px, py; t) = hypot((if (y < t) && (px < (-1)) { ((-5) - 2) } else { ((5 - px) - exp(atan((atan(pi)/sin(py))))) }), x)
+    H(x, y; px, py; t) = (max((t + (t*t)), cos(a)) - (if !(y <= t) { 3 } else { py }))
 }
 
 hamiltonian! {
     pub struct E122 { a, b, c }
-    H(x, y; px, py; t) = ((hypot(t, a) - hypot(t, a)) + (pow(exp((x/((((t/((c - t)^-3))^2) + (1/4))^(3/10)))), px) - (hypot(t, t)*(y - sqrt(((a^2) + 2))))))
+    H(x, y; px, py; t) = (acos(sin((y*((if (py == b) { a } else { (b/b) })*a)))) - (2 - y))
 }
 
 hamiltonian! {
     pub struct E123 { a, b, c }
-    H(x, y; px, py; t) = (((px*cosh(sin(((if (b <= 1) || (5 < px) { (t + pi) } else { (-7/4) })*py)))) + (exp(atan(tan(py)))*5)) + (-((y*(-(1/2))) + ((y*c) - (y*t)))))
+    H(x, y; px, py; t) = (((px - hypot(a, (-b)))^2) + (pow(cosh(sin(hypot(c, 1))), atan(c))^2))
 }
 
 hamiltonian! {
     pub struct E124 { a, b, c }
-    H(x, y; px, py; t) = tan((sinh((abs(((ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))*(-((if (a < t) || ((abs(px)^(2/3)) <= ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))) { b } else { 1 })*py)))/(((if ((-y) <= x) || ((a*a) < a) { a } else { t })^2) + 1)))^(5/2))) + acosh(((((sinh(min(b, x))^2)^2) + 2) + 1))))
+    H(x, y; px, py; t) = min((-atan2(py, py)), ((((-y)^(3/10)) + 2) + (pow(((((-y)^(3/10))^2) + (1/4)), atan((x^7)))*atan2(py, py))))
 }
 
 hamiltonian! {
     pub struct E125 { a, b, c }
-    H(x, y; px, py; t) = (pow(((y^2) + 1), x) + ((b/(((x - px)^2) + 1)) + (1/2)))
+    H(x, y; px, py; t) = hypot((if (y < t) && (px < (-1)) { ((-5) - 2) } else { ((5 - px) - exp(atan((atan(pi)/sin(py))))) }), x)
 }
 
 hamiltonian! {
     pub struct E126 { a, b, c }
-    H(x, y; px, py; t) = (((px + py)*(((px + py) + b)*(if (px <= ((px + py) + b)) && (1 <= a) { b } else { ((exp(px) - max((1/2), (b + (1/3))))^(3/10)) }))) + (if (abs((y*x)) <= x) { ((((if ((x^6) < (-7/4)) { ln(((sign(y)^2) + 1)) } else { ((if (tan(tanh((981/100))) < y) && (acosh((((a^2) + (c^2)) + 1)) <= 5) { (1/3) } else { (-b) }) + ln_1p(((ln_1p(((c^2) + 2))^2) + 1))) }) - ((sign(y)^2) + 1))^-2)^6) } else { sin(exp((pi*y))) }))
+    H(x, y; px, py; t) = (((cos(px)*t) + pi) + (sign(y) + b))
 }
 
 hamiltonian! {
     pub struct E127 { a, b, c }
-    H(x, y; px, py; t) = asinh(atan(sinh(((b/((c^2) + 1)) + ((py/x)*(((asinh((((((pi + (c - c))*(y - b))^2) + 1)^(-4/3)))^2) + (1/4))^-2))))))
+    H(x, y; px, py; t) = ((hypot(t, a) - hypot(t, a)) + (pow(exp((x/((((t/((c - t)^-3))^2) + (1/4))^(3/10)))), px) - (hypot(t, t)*(y - sqrt(((a^2) + 2))))))
 }
 
 hamiltonian! {
     pub struct E128 { a, b, c }
-    H(x, y; px, py; t) = ((if (b < x) && ((-7/4) == px) { x } else { px })*y)
+    H(x, y; px, py; t) = ((x*cosh(sin(((if (b <= 1) || (5 < x) { (t + pi) } else { (-7/4) })*py)))) + (exp(atan(tan(py)))*5))
 }
 
 hamiltonian! {
     pub struct E129 { a, b, c }
-    H(x, y; px, py; t) = (((a - (pi*a)) + (cos(py) - (1/3))) + tan(atan(sin((asinh((abs(c)^(-4/3))) - y)))))
+    H(x, y; px, py; t) = ((-((py*(-(1/2))) + ((py*c) - (py*t)))) + tan((sinh((abs(((ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))*(-((if (a < t) || ((abs(x)^(2/3)) <= ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))) { b } else { 1 })*y)))/(((if ((-y) <= x) || ((a*a) < a) { a } else { t })^2) + 1)))^(5/2))) + acosh(((((sinh(min(b, x))^2)^2) + 2) + 1)))))
 }
 
 hamiltonian! {
     pub struct E130 { a, b, c }
-    H(x, y; px, py; t) = (pi - (c + asin((min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)/(1 + (min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)^2))))))
+    H(x, y; px, py; t) = (pow(((y^2) + 1), x) + ((b/(((x - px)^2) + 1)) + (1/2)))
 }
 
 hamiltonian! {
     pub struct E131 { a, b, c }
-    H(x, y; px, py; t) = ((px + py)*y)
+    H(x, y; px, py; t) = (if (abs((py*x)) <= px) { ((((if ((x^6) < (-7/4)) { ln(((sign(py)^2) + 1)) } else { ((if (tan(tanh((981/100))) < y) && (acosh((((a^2) + (c^2)) + 1)) <= 5) { (1/3) } else { (-b) }) + ln_1p(((ln_1p(((c^2) + 2))^2) + 1))) }) - ((sign(py)^2) + 1))^-2)^6) } else { sin(exp((pi*py))) })
 }
 
 hamiltonian! {
     pub struct E132 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(abs((if ((abs((if (((((pi - t)^2) + 2)^(-7/5)) < pi) && (cbrt(px) < pi) { b } else { (1/2) }))^(5/2)) < t) || (((a^4)*pi) == (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t })) { atanh((((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))/(1 + (((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))^2)))) } else { ((b + py) - py) }))) + (-(acosh(((((-ln(cosh(tanh(sin(abs((-acos((x + y)))))))))^2) + (x^2)) + 1)) + (if !(t <= b) { sin(((1/3) + (sinh(sin(b))*b))) } else { b }))))
+    H(x, y; px, py; t) = ((sqrt(((acos(((pi/((acosh((((b^2) + 1) + 1))^2) + (((b^2) + 1)^2)))/(1 + ((pi/((acosh((((b^2) + 1) + 1))^2) + (((b^2) + 1)^2)))^2))))^2) + 1))*px) + sinh(tanh(((abs(c) + (-b)) + (if !((y^5) < y) { y } else { acos(((((c - x)*x)*t)/(1 + ((((c - x)*x)*t)^2)))) })))))
 }
 
 hamiltonian! {
     pub struct E133 { a, b, c }
-    H(x, y; px, py; t) = sin((if !((px*(px/b)) < t) { (y*b) } else { (if ((y^-3) <= b) || (cos(sinh(tanh(c))) <= 5) { (1/2) } else { x }) }))
+    H(x, y; px, py; t) = asinh(atan(sinh(((b/((c^2) + 1)) + ((py/x)*(((asinh((((((pi + (c - c))*(y - b))^2) + 1)^(-4/3)))^2) + (1/4))^-2))))))
 }
 
 hamiltonian! {
     pub struct E134 { a, b, c }
-    H(x, y; px, py; t) = (((((cosh(cos(((1/2) + t)))^(2/3)) - t)*(sinh(y) - (abs(a)^(-3/2)))) - (y*exp(t))) + (((((y - (px + ((a*py) - b)))^2) + 2)^(3/10))/px))
+    H(x, y; px, py; t) = ((if (b < x) && ((-7/4) == px) { x } else { px })*y)
 }
 
 hamiltonian! {
     pub struct E135 { a, b, c }
-    H(x, y; px, py; t) = (asinh((((t + (c*a))*(pi^6)) + ((((t + (c*a))*(pi^6))*c) - (abs(px)^(-7/5))))) + (hypot(tanh(b), (((tan(sin(c)) - (pi + t))^7) - (x/(1/2))))^-3))
+    H(x, y; px, py; t) = (((a - (pi*a)) + (cos(py) - (1/3))) + tan(atan(sin((asinh((abs(c)^(-4/3))) - y)))))
 }
 
 hamiltonian! {
     pub struct E136 { a, b, c }
-    H(x, y; px, py; t) = (py/acosh(((((y*(-c))^2) + 1) + 1)))
+    H(x, y; px, py; t) = (pi - (c + asin((min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)/(1 + (min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)^2))))))
 }
 
 hamiltonian! {
     pub struct E137 { a, b, c }
-    H(x, y; px, py; t) = acosh((cosh(sin(((acos((a/(1 + (a^2))))/exp(tanh(px))) - (exp_m1(sin(y))*c)))) + 1))
+    H(x, y; px, py; t) = ((px + py)*y)
 }
 
 hamiltonian! {
     pub struct E138 { a, b, c }
-    H(x, y; px, py; t) = ((((py/(1/10))*a) - ((if (pi < px) { c } else { px }) + c)) + (if !(b < b) { (max(c, x)*(x - x)) } else { (abs(((t*x) + y))^-1) }))
+    H(x, y; px, py; t) = (ln_1p(abs((if ((abs((if (((((pi - t)^2) + 2)^(-7/5)) < pi) && (cbrt(px) < pi) { b } else { (1/2) }))^(5/2)) < t) || (((a^4)*pi) == (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t })) { atanh((((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))/(1 + (((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))^2)))) } else { ((b + py) - py) }))) + (-(acosh(((((-ln(cosh(tanh(sin(abs((-acos((x + y)))))))))^2) + (x^2)) + 1)) + (if !(t <= b) { sin(((1/3) + (sinh(sin(b))*b))) } else { b }))))
 }
 
 hamiltonian! {
     pub struct E139 { a, b, c }
-    H(x, y; px, py; t) = ((px*((-((x*py)*(x^(3/10))))*a))^3)
+    H(x, y; px, py; t) = sin((if !((px*(px/b)) < t) { (y*b) } else { (if ((y^-3) <= b) || (cos(sinh(tanh(c))) <= 5) { (1/2) } else { x }) }))
 }
 
 hamiltonian! {
     pub struct E140 { a, b, c }
-    H(x, y; px, py; t) = (atanh(sin((((py + ((py + (981/100)) + ((-7/4) - (py + (981/100))))) + (if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) }))*y))) + ((if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) })/abs(y)))
+    H(x, y; px, py; t) = (((((cosh(cos(((1/2) + t)))^(2/3)) - t)*(sinh(y) - (abs(a)^(-3/2)))) - (y*exp(t))) + (((((y - (px + ((a*py) - b)))^2) + 2)^(3/10))/px))
 }
 
 hamiltonian! {
     pub struct E141 { a, b, c }
-    H(x, y; px, py; t) = ((((asin(((1/10)/(1 + ((1/10)^2))))*(t + pi))*(px + py))*((cbrt(pow(((b^2) + 1), py)) + ((sqrt(abs((py + py)))/cosh(sin(c)))*(t + t)))^2)) + atanh((((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))/(1 + (((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))^2)))))
+    H(x, y; px, py; t) = (asinh((((t + (c*a))*(pi^6)) + ((((t + (c*a))*(pi^6))*c) - (abs(px)^(-7/5))))) + (hypot(tanh(b), (((tan(sin(c)) - (pi + t))^7) - (x/(1/2))))^-3))
 }
 
 hamiltonian! {
     pub struct E142 { a, b, c }
-    H(x, y; px, py; t) = max((((sqrt(acos(((t/(((py/abs(b))^2) + 2))/(1 + ((t/(((py/abs(b))^2) + 2))^2)))))^2) + 2)^(3/10)), tanh((a + y)))
+    H(x, y; px, py; t) = (py/acosh(((((y*(-c))^2) + 1) + 1)))
 }
 
 hamiltonian! {
     pub struct E143 { a, b, c }
-    H(x, y; px, py; t) = ((((t + y)*atanh(((x + t)/(1 + ((x + t)^2))))) + (((c + t) + c)*y)) - (if ((if (a <= a) || (t <= pi) { t } else { t }) <= py) && ((py/abs(t)) < y) { atan2((b*(t - 1)), 5) } else { b }))
+    H(x, y; px, py; t) = acosh((cosh(sin(((acos((a/(1 + (a^2))))/exp(tanh(px))) - (exp_m1(sin(y))*c)))) + 1))
 }
 
 hamiltonian! {
     pub struct E144 { a, b, c }
-    H(x, y; px, py; t) = (((3 + tanh(((-7/4) + px))) - a) + ((y + sinh(x))*(pi + 5)))
+    H(x, y; px, py; t) = ((((py/(1/10))*a) - ((if (pi < px) { c } else { px }) + c)) + (if !(b < b) { (max(c, x)*(x - x)) } else { (abs(((t*x) + y))^-1) }))
 }
 
 hamiltonian! {
     pub struct E145 { a, b, c }
-    H(x, y; px, py; t) = (if (x <= 2) { ((if (((b - y)*py) < a) { abs((2*y)) } else { c })*atan(((((((b + (b/x))^-1)/((py^2) + 2))^2) + 2)^(1/2)))) } else { (1/2) })
+    H(x, y; px, py; t) = ((px*((-((x*py)*(x^(3/10))))*a))^3)
 }
 
 hamiltonian! {
     pub struct E146 { a, b, c }
-    H(x, y; px, py; t) = (if (ln_1p((((b*py)^2) + 2)) <= c) || (((x*y)*py) <= py) { (py/(-1)) } else { (if !((b*(if (2 <= y) { 3 } else { px })) <= y) { a } else { x }) })
+    H(x, y; px, py; t) = (atanh(sin((((py + ((py + (981/100)) + ((-7/4) - (py + (981/100))))) + (if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) }))*y))) + ((if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) })/abs(y)))
 }
 
 hamiltonian! {
     pub struct E147 { a, b, c }
-    H(x, y; px, py; t) = (atanh((exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))/(1 + (exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))^2)))) + (if (acosh(((((t + (1/3))^2) + (1/4)) + 1)) == b) && (y < x) { c } else { (((ln_1p((((5 + ((b/((x^2) + 2)) + (a*atan2((a - x), (1/3)))))^2) + ((981/100)^2)))^2) + 1)^(-1/2)) }))
+    H(x, y; px, py; t) = ((((asin(((1/10)/(1 + ((1/10)^2))))*(t + pi))*(px + py))*((cbrt(pow(((b^2) + 1), py)) + ((sqrt(abs((py + py)))/cosh(sin(c)))*(t + t)))^2)) + atanh((((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))/(1 + (((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))^2)))))
 }
 
 hamiltonian! {
     pub struct E148 { a, b, c }
-    H(x, y; px, py; t) = (if !((x + (1/3)) <= t) { cosh(cos((exp(tanh((pow(px, sin(px))/exp(cos((asin((sqrt(cosh(asin(cos(c))))/(1 + (sqrt(cosh(asin(cos(c))))^2))))^2))))))^(2/3)))) } else { y })
+    H(x, y; px, py; t) = max((((sqrt(acos(((t/(((py/abs(b))^2) + 2))/(1 + ((t/(((py/abs(b))^2) + 2))^2)))))^2) + 2)^(3/10)), tanh((a + y)))
 }
 
 hamiltonian! {
     pub struct E149 { a, b, c }
-    H(x, y; px, py; t) = ((if ((x^-2) < 5) { ((a + (c - y))*(-(py*(t/exp(t))))) } else { pi })*((abs(x)^-1)^5))
+    H(x, y; px, py; t) = ((((t + y)*atanh(((x + t)/(1 + ((x + t)^2))))) + (((c + t) + c)*y)) - (if ((if (a <= a) || (t <= pi) { t } else { t }) <= py) && ((py/abs(t)) < y) { atan2((b*(t - 1)), 5) } else { b }))
 }
 
 hamiltonian! {
     pub struct E150 { a, b, c }
-    H(x, y; px, py; t) = ((b/exp((exp(py)^7))) + (((c - c)*t) + (max(x, t) + ((if (atan2(t, asin((c/(1 + (c^2))))) <= x) && ((x*(x + b)) < y) { atan2(t, asin((c/(1 + (c^2))))) } else { c }) + sin(x)))))
+    H(x, y; px, py; t) = (((3 + tanh(((-7/4) + px))) - a) + ((y + sinh(x))*(pi + 5)))
 }
 
 hamiltonian! {
     pub struct E151 { a, b, c }
-    H(x, y; px, py; t) = hypot(py, min(asin((((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)/(1 + (((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)^2)))), (py - x)))
+    H(x, y; px, py; t) = (if (x <= 2) { ((if (((b - y)*py) < a) { abs((2*y)) } else { c })*atan(((((((b + (b/x))^-1)/((py^2) + 2))^2) + 2)^(1/2)))) } else { (1/2) })
 }
 
 hamiltonian! {
     pub struct E152 { a, b, c }
-    H(x, y; px, py; t) = (((b*max((1/10), y)) + ((-pow((((abs(px)^(3/10))^2) + 1), tanh(t)))^2))*tanh((acosh((((2^2) + 1) + 1))*acos((pi*((c - px)^2))))))
+    H(x, y; px, py; t) = (if (ln_1p((((b*py)^2) + 2)) <= c) || (((x*y)*py) <= py) { (py/(-1)) } else { (if !((b*(if (2 <= y) { 3 } else { px })) <= y) { a } else { x }) })
 }
 
 hamiltonian! {
     pub struct E153 { a, b, c }
-    H(x, y; px, py; t) = ((((-1) - py)/abs((((((py + c)^3)*(py + c)) - (py + c))/(((py^2) + 1)^(-3/2))))) + tanh(sinh((1/10))))
+    H(x, y; px, py; t) = (atanh((exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))/(1 + (exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))^2)))) + (if (acosh(((((t + (1/3))^2) + (1/4)) + 1)) == b) && (y < x) { c } else { (((ln_1p((((5 + ((b/((x^2) + 2)) + (a*atan2((a - x), (1/3)))))^2) + ((981/100)^2)))^2) + 1)^(-1/2)) }))
 }
 
 hamiltonian! {
     pub struct E154 { a, b, c }
-    H(x, y; px, py; t) = (exp((1 + exp(tanh((b/a))))) + (y*px))
+    H(x, y; px, py; t) = (if !((x + (1/3)) <= t) { cosh(cos((exp(tanh((pow(px, sin(px))/exp(cos((asin((sqrt(cosh(asin(cos(c))))/(1 + (sqrt(cosh(asin(cos(c))))^2))))^2))))))^(2/3)))) } else { y })
 }
 
 hamiltonian! {
     pub struct E155 { a, b, c }
-    H(x, y; px, py; t) = (-(((((((y + y) + (((py/exp(cos((px + (px - x))))) - px)^(-1/2)))*acosh((abs(cos(max(atanh(((1/10)/(1 + ((1/10)^2)))), a))) + 1)))^2) + 1)^-3) + x))
+    H(x, y; px, py; t) = ((if ((x^-2) < 5) { ((a + (c - y))*(-(py*(t/exp(t))))) } else { pi })*((abs(x)^-1)^5))
 }
 
 hamiltonian! {
     pub struct E156 { a, b, c }
-    H(x, y; px, py; t) = ((((((hypot(sqrt(abs((((atan2((py*a), px)^2) + 1)^(-3/2)))), px)^2) + (a^2))^(5/2))^2)/abs(atan((tan(((981/100) + px)) - (ln(exp(pi))*(atan2((py*a), px)^2)))))) + sin(((((x/c) - acosh(((((-7/4)^2) + 1) + 1))) + (a - b)) - x)))
+    H(x, y; px, py; t) = ((b/exp((exp(py)^7))) + (((c - c)*t) + (max(x, t) + ((if (atan2(t, asin((c/(1 + (c^2))))) <= x) && ((x*(x + b)) < y) { atan2(t, asin((c/(1 + (c^2))))) } else { c }) + sin(x)))))
 }
 
 hamiltonian! {
     pub struct E157 { a, b, c }
-    H(x, y; px, py; t) = (asin((((a/x)*px)/(1 + (((a/x)*px)^2)))) + sin(sqrt(((2^2) + 1))))
+    H(x, y; px, py; t) = hypot(py, min(asin((((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)/(1 + (((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)^2)))), (py - x)))
 }
 
 hamiltonian! {
     pub struct E158 { a, b, c }
-    H(x, y; px, py; t) = ((((tanh((py/px)) + a) + (pow(((((py*c)^2)^2) + 2), t) + y))^2)^5)
+    H(x, y; px, py; t) = (((b*max((1/10), y)) + ((-pow((((abs(px)^(3/10))^2) + 1), tanh(t)))^2))*tanh((acosh((((2^2) + 1) + 1))*acos((pi*((c - px)^2))))))
 }
 
 hamiltonian! {
     pub struct E159 { a, b, c }
-    H(x, y; px, py; t) = (((t^(3/10))*sign(tanh((t + (py*pi))))) + atan2(sinh(sin(x)), ((abs(max(asin((t/(1 + (t^2)))), (-1)))^(-1/2))*b)))
+    H(x, y; px, py; t) = ((((-1) - py)/abs((((((py + c)^3)*(py + c)) - (py + c))/(((py^2) + 1)^(-3/2))))) + tanh(sinh((1/10))))
 }
 
 hamiltonian! {
     pub struct E160 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((x + t)*((b + b)*((if !(exp((y - x)) < c) { (1/3) } else { px })*t)))*b))
+    H(x, y; px, py; t) = (exp((1 + exp(tanh((b/a))))) + (y*px))
 }
 
 hamiltonian! {
     pub struct E161 { a, b, c }
-    H(x, y; px, py; t) = (cosh(sin((((if ((a + px) < (1/10)) && (px <= pi) { a } else { y }) + (((1 - (-1))/abs(2))/b))*(a - 2)))) - ((y^3) + ln_1p(abs(b))))
+    H(x, y; px, py; t) = (-(((((((y + y) + (((py/exp(cos((px + (px - x))))) - px)^(-1/2)))*acosh((abs(cos(max(atanh(((1/10)/(1 + ((1/10)^2)))), a))) + 1)))^2) + 1)^-3) + x))
 }
 
 hamiltonian! {
     pub struct E162 { a, b, c }
-    H(x, y; px, py; t) = ((if !(5 < py) { (if (((((if (b < t) || (((-1)*(-1)) <= py) { py } else { (1/3) })^2) + (b^2))^(1/2)) <= px) { (sqrt(abs((if ((px^6) <= a) && (((px^6) + tanh(py)) <= (if (b < t) || (((-1)*(-1)) <= py) { py } else { (1/3) })) { (1/3) } else { a })))*sinh(tanh(((-1) + py)))) } else { ((((-(px + px)) - px)/(((((-1)*(-1)) - b)^2) + (1/4)))^7) }) } else { acosh((cosh(sin(pow(abs((if ((abs((t*px))^(-3/2)) < 1) { ((if (b < t) || (((-1)*(-1)) <= py) { py } else { (1/3) }) + c) } else { (if ((a - (a + py)) < a) { sin(py) } else { a }) })), atan(c)))) + 1)) }) + (tanh((if ((abs((x*x))^(-4/3)) <= x) { ((if ((a*1) < x) { a } else { (c*x) }) + c) } else { ln_1p(((pow(cosh(cos(b)), atan(exp_m1(atan(a))))^2) + 2)) })) - pi))
+    H(x, y; px, py; t) = ((((((hypot(sqrt(abs((((atan2((py*a), px)^2) + 1)^(-3/2)))), px)^2) + (a^2))^(5/2))^2)/abs(atan((tan(((981/100) + px)) - (ln(exp(pi))*(atan2((py*a), px)^2)))))) + sin(((((x/c) - acosh(((((-7/4)^2) + 1) + 1))) + (a - b)) - x)))
 }
 
 hamiltonian! {
     pub struct E163 { a, b, c }
-    H(x, y; px, py; t) = exp_m1(sin((-((b/((hypot(b, (-c))^2) + (1/4))) - ((((((y^-2)*py)^-1)^2) + 1)^(2/3))))))
+    H(x, y; px, py; t) = (if (t <= t) && (x == a) { asinh((py/((pi^2) + (1/4)))) } else { ((pi^2) + (if ((px + px) < py) || ((exp(cos(t)) + px) == a) { t } else { t })) })
 }
 
 hamiltonian! {
     pub struct E164 { a, b, c }
-    H(x, y; px, py; t) = (y*(((3^5) + (t + (981/100)))/(ln_1p(abs((((cos((((y*a)*cbrt(t))*3))^2) + 1)^(-1/2))))*(if ((-px) <= 1) { 3 } else { py }))))
+    H(x, y; px, py; t) = (asin((((a/x)*px)/(1 + (((a/x)*px)^2)))) + sin(sqrt(((2^2) + 1))))
 }
 
 hamiltonian! {
     pub struct E165 { a, b, c }
-    H(x, y; px, py; t) = (tanh(((px + sign(1)) + ((((atan(px) - (a - px))^2) + 1)^(3/10)))) + (a*asinh((y*c))))
+    H(x, y; px, py; t) = ((((-(px/(exp(sin((py + 5))) + (abs((b*(1/2)))*exp(tanh(b))))))^7) - py) + exp_m1(atan(sin((max(a, acosh((abs((pi*(atan(cos(a)) - (-1)))) + 1))) - t)))))
 }
 
 hamiltonian! {
     pub struct E166 { a, b, c }
-    H(x, y; px, py; t) = (abs(((exp_m1(y) - asinh((if !(atan2((a + a), t) <= py) { a } else { exp_m1(sin(((py*b)^4))) })))^(1/3)))^(5/2))
+    H(x, y; px, py; t) = ((((tanh((py/px)) + a) + (pow(((((py*c)^2)^2) + 2), t) + y))^2)^5)
 }
 
 hamiltonian! {
     pub struct E167 { a, b, c }
-    H(x, y; px, py; t) = (tan(cos(((((abs(px)^(-1/2))^2) + (1/4))^(2/3))))*cbrt(min((5/c), ((pi*y)^2))))
+    H(x, y; px, py; t) = cbrt((((x + t)*((b + b)*((if !(exp((y - x)) < c) { (1/3) } else { px })*t)))*b))
 }
 
 hamiltonian! {
     pub struct E168 { a, b, c }
-    H(x, y; px, py; t) = ((cbrt((if !(px <= a) { (py*((c + b) + px)) } else { (-py) })) + (c + px)) + cbrt(((if ((x + (a + a)) <= t) { max(y, (x + y)) } else { (1/10) })/((if ((y - c) == y) { c } else { (b*x) }) - (-7/4)))))
+    H(x, y; px, py; t) = (((px - c)*px) + (cosh(sin((((if ((a + x) < (1/10)) && (x <= pi) { a } else { y }) + (((1 - (-1))/abs(2))/b))*(a - 2)))) - ((y^3) + ln_1p(abs(b)))))
 }
 
 hamiltonian! {
     pub struct E169 { a, b, c }
-    H(x, y; px, py; t) = ((px + exp_m1(tanh(max((if !((b + c) < c) { px } else { cbrt(3) }), (if (tan(cos((5*a))) <= y) { x } else { px }))))) + ((1*py)*(c^5)))
+    H(x, y; px, py; t) = (if !(5 < py) { (if (((((if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) })^2) + (b^2))^(1/2)) <= px) { (sqrt(abs((if ((px^6) <= a) && (((px^6) + tanh(py)) <= (if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) })) { (1/3) } else { a })))*sinh(tanh(((-1) + py)))) } else { ((((-(x + x)) - px)/(((((-1)*(-1)) - b)^2) + (1/4)))^7) }) } else { acosh((cosh(sin(pow(abs((if ((abs((t*x))^(-3/2)) < 1) { ((if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) }) + c) } else { (if ((a - (a + y)) < a) { sin(py) } else { a }) })), atan(c)))) + 1)) })
 }
 
 hamiltonian! {
     pub struct E170 { a, b, c }
-    H(x, y; px, py; t) = (((if (c <= t) || (sin((px - 3)) < c) { tan(pow(((c^2) + 1), sin(y))) } else { 3 }) - ((pow((((t + x)^2) + 1), cos(a)) - (x - ln_1p(((a^2) + 2)))) - py))/(((((-((atan(min(py, a)) + 2) - py)) + pi)^2)^2) + 2))
+    H(x, y; px, py; t) = exp_m1(sin((-((b/((hypot(b, (-c))^2) + (1/4))) - ((((((y^-2)*py)^-1)^2) + 1)^(2/3))))))
 }
 
 hamiltonian! {
     pub struct E171 { a, b, c }
-    H(x, y; px, py; t) = ((((if (abs(sinh(atan(px))) < c) && ((px + px) <= px) { py } else { (px + px) })*(sinh(atan(px)) - py))*((cbrt(px) - (a + py)) - (py - t))) + ln_1p(abs(((((a^2) + (1/4))^(-7/5))^-2))))
+    H(x, y; px, py; t) = ((((if ((py*px) <= c) { py } else { (if !(sin((px + px)) <= pi) { px } else { b }) })^5) + (tanh((b*(atanh(tanh(px))^-2))) + pi)) + (y*(((3^5) + (t + (981/100)))/(ln_1p(abs((((cos((((y*a)*cbrt(t))*3))^2) + 1)^(-1/2))))*(if ((-x) <= 1) { 3 } else { y })))))
 }
 
 hamiltonian! {
     pub struct E172 { a, b, c }
-    H(x, y; px, py; t) = ln(abs(((x^-3) - ((px*b)/((abs((c*t))^2) + ((1/10)^2))))))
+    H(x, y; px, py; t) = (abs(((exp_m1(y) - asinh((if !(atan2((a + a), t) <= py) { a } else { exp_m1(sin(((py*b)^4))) })))^(1/3)))^(5/2))
 }
 
 hamiltonian! {
     pub struct E173 { a, b, c }
-    H(x, y; px, py; t) = (if (x < b) { c } else { ((py/((x^2) + (1/4))) + c) })
+    H(x, y; px, py; t) = (tan(cos(((((abs(px)^(-1/2))^2) + (1/4))^(2/3))))*cbrt(min((5/c), ((pi*y)^2))))
 }
 
 hamiltonian! {
     pub struct E174 { a, b, c }
-    H(x, y; px, py; t) = (asin((asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))/(1 + (asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))^2)))) + (if (y <= y) { (a + b) } else { asinh(x) }))
+    H(x, y; px, py; t) = ((cbrt((if !(px <= a) { (py*((c + b) + px)) } else { (-py) })) + (c + px)) + cbrt(((if ((x + (a + a)) <= t) { max(y, (x + y)) } else { (1/10) })/((if ((y - c) == y) { c } else { (b*x) }) - (-7/4)))))
 }
 
 hamiltonian! {
     pub struct E175 { a, b, c }
-    H(x, y; px, py; t) = ((if ((if (((-7/4) + c) <= py) || (x <= (-7/4)) { (2*a) } else { a }) <= x) || (t <= c) { (if !(pow(((py^2) + 1), (a*px)) < a) { y } else { x }) } else { py })/sin(min(c, t)))
+    H(x, y; px, py; t) = ((px + exp_m1(tanh(max((if !((b + c) < c) { px } else { cbrt(3) }), (if (tan(cos((5*a))) <= y) { x } else { px }))))) + ((1*py)*(c^5)))
 }
 
 hamiltonian! {
     pub struct E176 { a, b, c }
-    H(x, y; px, py; t) = (sinh(atan((x - (px*(y^4)))))*(-py))
+    H(x, y; px, py; t) = (((if (c <= t) || (sin((px - 3)) < c) { tan(pow(((c^2) + 1), sin(y))) } else { 3 }) - ((pow((((t + x)^2) + 1), cos(a)) - (x - ln_1p(((a^2) + 2)))) - py))/(((((-((atan(min(py, a)) + 2) - py)) + pi)^2)^2) + 2))
 }
 
 hamiltonian! {
     pub struct E177 { a, b, c }
-    H(x, y; px, py; t) = ((((b*b)*py)^6) + (((x*a) + a)/(ln_1p((((abs((-max(y, sign((y + (y*pi))))))^(2/3))^2) + (1/4))) - ((x - pi) + (y/((a^2) + (y^2)))))))
+    H(x, y; px, py; t) = ((((if (abs(sinh(atan(px))) < c) && ((px + px) <= px) { py } else { (px + px) })*(sinh(atan(px)) - py))*((cbrt(px) - (a + py)) - (py - t))) + ln_1p(abs(((((a^2) + (1/4))^(-7/5))^-2))))
 }
 
 hamiltonian! {
     pub struct E178 { a, b, c }
-    H(x, y; px, py; t) = ((y - (x + b)) - (pow(((py^2) + (x^2)), sin((sinh(atan((x*sqrt(abs(t)))))*abs(t)))) - (if !(px <= (-1)) { ((-1) + py) } else { (y*(c*t)) })))
+    H(x, y; px, py; t) = ln(abs(((x^-3) - ((px*b)/((abs((c*t))^2) + ((1/10)^2))))))
 }
 
 hamiltonian! {
     pub struct E179 { a, b, c }
-    H(x, y; px, py; t) = hypot(b, (if ((y + py) < px) { px } else { ((((py/((a^2) + 2)) + (py^-2)) + (t*2)) + (atan(t) + py)) }))
+    H(x, y; px, py; t) = (if (x < b) { c } else { ((py/((x^2) + (1/4))) + c) })
 }
 
 hamiltonian! {
     pub struct E180 { a, b, c }
-    H(x, y; px, py; t) = (((((tan((if !(b < px) { max((abs(px)^(3/10)), py) } else { (abs(cbrt((py*py)))^3) }))^2) + (cosh(atanh(sin(((1/10) + px))))^2)) + py) + py) + ((b/(1/3)) - (y - min(((tanh(((1/2) - x))^6) - ((1/3)*(x - b))), y))))
+    H(x, y; px, py; t) = (asin((asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))/(1 + (asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))^2)))) + (if (y <= y) { (a + b) } else { asinh(x) }))
 }
 
 hamiltonian! {
     pub struct E181 { a, b, c }
-    H(x, y; px, py; t) = (atanh((a/(1 + (a^2)))) + ((-(if (asin(tanh((if ((cosh(py) + b) <= a) { x } else { py }))) < (1/3)) || ((-a) < py) { (abs(3)^(5/2)) } else { (((x + ln(abs(x))) + acos(tanh((a/acos((y/(1 + (y^2))))))))^2) })) - ((if ((a/((x^2) + 1)) <= c) || (exp_m1((px*c)) < x) { 2 } else { hypot(px, ((((-1)/(((t + b)^2) + (y^2)))^2)^2)) })^-1)))
+    H(x, y; px, py; t) = ((if ((if (((-7/4) + c) <= py) || (x <= (-7/4)) { (2*a) } else { a }) <= x) || (t <= c) { (if !(pow(((py^2) + 1), (a*px)) < a) { y } else { x }) } else { py })/sin(min(c, t)))
 }
 
 hamiltonian! {
     pub struct E182 { a, b, c }
-    H(x, y; px, py; t) = (abs((if ((c*x) <= py) { acos(cos(((y*x) - (y*x)))) } else { py }))^(-4/3))
+    H(x, y; px, py; t) = (sinh(atan((x - (px*(y^4)))))*(-py))
 }
 
 hamiltonian! {
     pub struct E183 { a, b, c }
-    H(x, y; px, py; t) = ((((if ((1/3) <= px) { a } else { (981/100) })*t) + (1/2)) + (((if ((1/10) <= y) && (t <= 5) { t } else { 2 }) + (cos(c)*t)) + (if (((pi + 5)^3) < a) && ((y*a) < c) { x } else { c })))
+    H(x, y; px, py; t) = ((((b*b)*py)^6) + (((x*a) + a)/(ln_1p((((abs((-max(y, sign((y + (y*pi))))))^(2/3))^2) + (1/4))) - ((x - pi) + (y/((a^2) + (y^2)))))))
 }
 
 hamiltonian! {
     pub struct E184 { a, b, c }
-    H(x, y; px, py; t) = ((py/((-7/4)/((((-hypot(y, a))*(py*1))^2) + 1))) + px)
+    H(x, y; px, py; t) = ((y - (x + b)) - (pow(((py^2) + (x^2)), sin((sinh(atan((x*sqrt(abs(t)))))*abs(t)))) - (if !(px <= (-1)) { ((-1) + py) } else { (y*(c*t)) })))
 }
 
 hamiltonian! {
     pub struct E185 { a, b, c }
-    H(x, y; px, py; t) = ((((if (tan(tanh(px)) < b) { py } else { (tan(tanh(px)) + t) })*px) - (-((ln(abs(b))*px) + t)))*(((-max(a, (t/py)))^2)*y))
+    H(x, y; px, py; t) = hypot(b, (if ((y + py) < px) { px } else { ((((py/((a^2) + 2)) + (py^-2)) + (t*2)) + (atan(t) + py)) }))
 }
 
 hamiltonian! {
     pub struct E186 { a, b, c }
-    H(x, y; px, py; t) = ((3/((ln((((abs(min(sign((py + px)), px))^-2)^2) + 2))^2) + 2)) + ((((abs(y)^(5/2)) + c)/t) + sign(((x*pi) + (2 + (x + y))))))
+    H(x, y; px, py; t) = (((((tan((if !(b < px) { max((abs(px)^(3/10)), py) } else { (abs(cbrt((py*py)))^3) }))^2) + (cosh(atanh(sin(((1/10) + px))))^2)) + py) + py) + ((b/(1/3)) - (y - min(((tanh(((1/2) - x))^6) - ((1/3)*(x - b))), y))))
 }
 
 hamiltonian! {
     pub struct E187 { a, b, c }
-    H(x, y; px, py; t) = (((py*x) - (c/cosh(atan(pi)))) - c)
+    H(x, y; px, py; t) = (if ((a/(if (x <= py) { x } else { b })) == c) { (c*t) } else { px })
 }
 
 hamiltonian! {
     pub struct E188 { a, b, c }
-    H(x, y; px, py; t) = (-(if (hypot((((t^2) + 2)^(13/4)), t) < (1/10)) && (b < y) { (py/(t^-2)) } else { sqrt((((sin(t) - tanh(((981/100)*py)))^2) + (t^2))) }))
+    H(x, y; px, py; t) = (atanh((a/(1 + (a^2)))) + ((-(if (asin(tanh((if ((cosh(py) + b) <= a) { x } else { py }))) < (1/3)) || ((-a) < py) { (abs(3)^(5/2)) } else { (((x + ln(abs(x))) + acos(tanh((a/acos((y/(1 + (y^2))))))))^2) })) - ((if ((a/((x^2) + 1)) <= c) || (exp_m1((px*c)) < x) { 2 } else { hypot(px, ((((-1)/(((t + b)^2) + (y^2)))^2)^2)) })^-1)))
 }
 
 hamiltonian! {
     pub struct E189 { a, b, c }
-    H(x, y; px, py; t) = (hypot((if (((1/3)/((b^2) + (1/4))) < px) { (1/3) } else { c }), 2) + (if (x < x) { (b - (x - b)) } else { (if (((y/y)^4) < x) { (1/2) } else { t }) }))
+    H(x, y; px, py; t) = (((py + a)/(((((t^2) + 2)^(-4/3))^2) + (1/4))) + (y/(((((cos((1/2))^-3)^2) + (c^2))^(5/2))^6)))
 }
 
 hamiltonian! {
     pub struct E190 { a, b, c }
-    H(x, y; px, py; t) = ((px - b)*((px - y) - ((c*b)/(1/2))))
+    H(x, y; px, py; t) = (abs((if ((c*x) <= py) { acos(cos(((y*x) - (y*x)))) } else { py }))^(-4/3))
 }
 
 hamiltonian! {
     pub struct E191 { a, b, c }
-    H(x, y; px, py; t) = pow(((c^2) + ((-7/4)^2)), (t - (((c/(atan(t) + (a/((c^2) + (y^2))))) - py) - exp_m1(a))))
+    H(x, y; px, py; t) = (((if ((1/10) <= y) && (t <= 5) { t } else { 2 }) + (cos(c)*t)) + (if (((pi + 5)^3) < a) && ((y*a) < c) { px } else { c }))
 }
 
 hamiltonian! {
     pub struct E192 { a, b, c }
-    H(x, y; px, py; t) = (min(((((pow((((cbrt((c + (-7/4)))*((981/100) + px))^2) + 2), cos(py))^2) + (t^2))^(13/4))*(abs((abs(b)^(3/10)))^(13/4))), a) + ((y + min(y, (if ((if (sin(pi) < b) { y } else { y }) < y) && (x < (-7/4)) { c } else { pi }))) + tan(ln_1p(((ln_1p(abs(((((sqrt(abs((x*c)))^2) + 1)^-2) + ((t^-1)*sign(t)))))^2) + 2)))))
+    H(x, y; px, py; t) = ((if (atan2(b, t) <= c) { ((1/10) + px) } else { ((1/10) + px) }) + (if (x <= c) { sqrt(((y^2) + (1/4))) } else { c }))
 }
 
 hamiltonian! {
     pub struct E193 { a, b, c }
-    H(x, y; px, py; t) = (x*min(((if (px <= x) && ((x + c) == t) { (exp(cos(y))^(-3/2)) } else { px }) + (y - (x*((1*px)^(-1/2))))), (if (px < x) || (3 <= b) { t } else { x })))
+    H(x, y; px, py; t) = ((py/((-7/4)/((((-hypot(y, a))*(py*1))^2) + 1))) + px)
 }
 
 hamiltonian! {
     pub struct E194 { a, b, c }
-    H(x, y; px, py; t) = (((((-(px*(a + a)))/(x*y))^2)*(((if ((if ((-7/4) <= (-7/4)) || (abs(c) < px) { (c + b) } else { (-1) }) <= py) && (b <= py) { py } else { b }) + a) + ((hypot(a, a)^5)/(py*py))))^2)
+    H(x, y; px, py; t) = ((((if (tan(tanh(px)) < b) { py } else { (tan(tanh(px)) + t) })*px) - (-((ln(abs(b))*px) + t)))*(((-max(a, (t/py)))^2)*y))
 }
 
 hamiltonian! {
     pub struct E195 { a, b, c }
-    H(x, y; px, py; t) = (((if (py < py) && (b < b) { (pi + (exp(cos((((((py*t)/((b^2) + (1/4)))^2) + (px^2))^(-1/2))))^(3/10))) } else { (px - px) }) - c) + (cosh(cos(min(t, (pi*t))))^(3/2)))
+    H(x, y; px, py; t) = ((3/((ln((((abs(min(sign((py + px)), px))^-2)^2) + 2))^2) + 2)) + ((((abs(y)^(5/2)) + c)/t) + sign(((x*pi) + (2 + (x + y))))))
 }
 
 hamiltonian! {
     pub struct E196 { a, b, c }
-    H(x, y; px, py; t) = hypot((x*py), (((y + px)^3)*(y/abs(x))))
+    H(x, y; px, py; t) = (((py*x) - (c/cosh(atan(pi)))) - c)
 }
 
 hamiltonian! {
     pub struct E197 { a, b, c }
-    H(x, y; px, py; t) = (if ((y/px) <= py) && (x < c) { ((1/2) - y) } else { ((max((py^(-3/2)), t)*(abs(px)^(13/4))) + ln_1p(cosh(atan2((exp_m1(tanh((px - (t*(y/cosh(sin(px)))))))*((1/2) + x)), max(acos((abs(py)/(1 + (abs(py)^2)))), py))))) })
+    H(x, y; px, py; t) = (-(if (hypot((((t^2) + 2)^(13/4)), t) < (1/10)) && (b < y) { (py/(t^-2)) } else { sqrt((((sin(t) - tanh(((981/100)*py)))^2) + (t^2))) }))
 }
 
 hamiltonian! {
     pub struct E198 { a, b, c }
-    H(x, y; px, py; t) = ((acosh(((((px/((((if (px <= py) { a } else { px }) + (t*t))^2) + 1))^2) + (1/4)) + 1)) + py) + (acosh((abs((y - (((y^2) + 2)^(-1/2)))) + 1))/((a + y)/sinh((exp_m1(sin(y))*3)))))
+    H(x, y; px, py; t) = (hypot((if (((1/3)/((b^2) + (1/4))) < px) { (1/3) } else { c }), 2) + (if (x < x) { (b - (x - b)) } else { (if (((y/y)^4) < x) { (1/2) } else { t }) }))
 }
 
 hamiltonian! {
     pub struct E199 { a, b, c }
-    H(x, y; px, py; t) = ((pi/(y*py))*((-a) - hypot(3, (t + px))))
+    H(x, y; px, py; t) = ((px - b)*((px - y) - ((c*b)/(1/2))))
 }
 
 hamiltonian! {
     pub struct E200 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((b/abs(b)) + (-px))*x))
+    H(x, y; px, py; t) = pow(((c^2) + ((-7/4)^2)), (t - (((c/(atan(t) + (a/((c^2) + (y^2))))) - py) - exp_m1(a))))
 }
 
 hamiltonian! {
     pub struct E201 { a, b, c }
-    H(x, y; px, py; t) = (exp_m1((a/(3/cosh(((3*py) - acos(sin(sqrt(abs((1/10)))))))))) + max(atanh((((-((c*a)*x))^6)/(1 + (((-((c*a)*x))^6)^2)))), t))
+    H(x, y; px, py; t) = (min(((((pow((((cbrt((c + (-7/4)))*((981/100) + px))^2) + 2), cos(py))^2) + (t^2))^(13/4))*(abs((abs(b)^(3/10)))^(13/4))), a) + ((y + min(y, (if ((if (sin(pi) < b) { y } else { y }) < y) && (x < (-7/4)) { c } else { pi }))) + tan(ln_1p(((ln_1p(abs(((((sqrt(abs((x*c)))^2) + 1)^-2) + ((t^-1)*sign(t)))))^2) + 2)))))
 }
 
 hamiltonian! {
     pub struct E202 { a, b, c }
-    H(x, y; px, py; t) = ((tan(ln_1p(exp((((-1)*b)*(y*tanh((px*(x + y))))))))^3) - (pow((((tanh(3) - (py*b))^2) + (t^2)), cos(px))^2))
+    H(x, y; px, py; t) = (x*min(((if (px <= x) && ((x + c) == t) { (exp(cos(y))^(-3/2)) } else { px }) + (y - (x*((1*px)^(-1/2))))), (if (px < x) || (3 <= b) { t } else { x })))
 }
 
 hamiltonian! {
     pub struct E203 { a, b, c }
-    H(x, y; px, py; t) = ((sign((x + c))*cos((px + 1)))*((a*max(x, py)) - ((981/100)*y)))
+    H(x, y; px, py; t) = (((((-(px*(a + a)))/(x*y))^2)*(((if ((if ((-7/4) <= (-7/4)) || (abs(c) < px) { (c + b) } else { (-1) }) <= py) && (b <= py) { py } else { b }) + a) + ((hypot(a, a)^5)/(py*py))))^2)
 }
 
 hamiltonian! {
     pub struct E204 { a, b, c }
-    H(x, y; px, py; t) = ((((pi*atan(px))*pow(((atan(px)^2) + 2), (exp(sin(a))^(13/4)))) + px) + cosh(sin((asin((atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)/(1 + (atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)^2))))*sin((y/c))))))
+    H(x, y; px, py; t) = (((if (py < py) && (b < b) { (pi + (exp(cos((((((py*t)/((b^2) + (1/4)))^2) + (px^2))^(-1/2))))^(3/10))) } else { (px - px) }) - c) + (cosh(cos(min(t, (pi*t))))^(3/2)))
 }
 
 hamiltonian! {
     pub struct E205 { a, b, c }
-    H(x, y; px, py; t) = (((if !(b <= x) { c } else { t })^2)*(py + c))
+    H(x, y; px, py; t) = hypot((x*py), (((y + px)^3)*(y/abs(x))))
 }
 
 hamiltonian! {
     pub struct E206 { a, b, c }
-    H(x, y; px, py; t) = (sin(px)/(cbrt((a + y))*((sinh(tanh((if (y < (-7/4)) || (((-px) - t) < a) { (-7/4) } else { (c*(t - (-7/4))) }))) - max(t, t))*((sqrt(((a^2) + 2))^6) - ((x*hypot(y, y))*1)))))
+    H(x, y; px, py; t) = (if ((y/px) <= py) && (x < c) { ((1/2) - y) } else { ((max((py^(-3/2)), t)*(abs(px)^(13/4))) + ln_1p(cosh(atan2((exp_m1(tanh((px - (t*(y/cosh(sin(px)))))))*((1/2) + x)), max(acos((abs(py)/(1 + (abs(py)^2)))), py))))) })
 }
 
 hamiltonian! {
     pub struct E207 { a, b, c }
-    H(x, y; px, py; t) = ((atanh((px/(1 + (px^2))))*(px + ((px*b) + (px - (t/b))))) + (((if ((abs(y)^(-1/2)) == (981/100)) { a } else { x }) - (y*(y*(((((1/3)*x)^2) + 1)^(2/3))))) + x))
+    H(x, y; px, py; t) = ((acosh(((((px/((((if (px <= py) { a } else { px }) + (t*t))^2) + 1))^2) + (1/4)) + 1)) + py) + (acosh((abs((y - (((y^2) + 2)^(-1/2)))) + 1))/((a + y)/sinh((exp_m1(sin(y))*3)))))
 }
 
 hamiltonian! {
     pub struct E208 { a, b, c }
-    H(x, y; px, py; t) = (((x^2) + c)/((if (t == (1/10)) || ((b*pi) < px) { px } else { exp_m1(atan(((if (cosh((c^3)) <= (1/2)) && (x <= ((x^2) + c)) { py } else { (3 + (y - b)) }) + ((a*(b - c)) + (1/3))))) })*(((c + px) + min(max(cosh((c^3)), a), px))^4)))
+    H(x, y; px, py; t) = ((pi/(y*py))*((-a) - hypot(3, (t + px))))
 }
 
 hamiltonian! {
     pub struct E209 { a, b, c }
-    H(x, y; px, py; t) = (((((sign(((-1) + px))^2) + (1/4))^(3/10))*abs(py))*((py*min(((1/10) + (-1)), (y + a)))/((if ((a/((x^2) + 2)) < py) { sinh(cos((1/2))) } else { a }) - (sqrt(cosh(cos((-(py - (1/10))))))*px))))
+    H(x, y; px, py; t) = cbrt((((b/abs(b)) + (-px))*x))
 }
 
 hamiltonian! {
     pub struct E210 { a, b, c }
-    H(x, y; px, py; t) = ((abs(((py + (px^4))*(px/(py - (1/3)))))^(3/2)) + (if (sign(y) < sign(y)) || (exp((c^-2)) <= (1/10)) { (((((y + (pi - t))^2) + 1)^-3) + (min(2, x) - b)) } else { (((b*c) - (if ((y*c) <= c) || ((((-1) - y)/5) < a) { (-1) } else { (-7/4) })) + ((a*c)/(-(((-1) - y)/5)))) }))
+    H(x, y; px, py; t) = (exp_m1((a/(3/cosh(((3*py) - acos(sin(sqrt(abs((1/10)))))))))) + max(atanh((((-((c*a)*x))^6)/(1 + (((-((c*a)*x))^6)^2)))), t))
 }
 
 hamiltonian! {
     pub struct E211 { a, b, c }
-    H(x, y; px, py; t) = (((max(((if ((px + (((t^2) + 1)^(-4/3))) < y) || ((-7/4) < b) { (-px) } else { 3 })*((-t)*(c + pi))), (((((b*(1/3))^2) + (1/4))^-3)*((c*b) - hypot(x, 2))))^2) + 1)^(-3/2))
+    H(x, y; px, py; t) = ((tan(ln_1p(exp((((-1)*b)*(y*tanh((px*(x + y))))))))^3) - (pow((((tanh(3) - (py*b))^2) + (t^2)), cos(px))^2))
 }
 
 hamiltonian! {
     pub struct E212 { a, b, c }
-    H(x, y; px, py; t) = ((if !(((y + (1/2))*t) < (1/2)) { ((y + (1/2))*t) } else { ((((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) })^2) + (1/4))^(-7/5)) })*(((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) }) - (px - 5)) - t))
+    H(x, y; px, py; t) = ((sign((x + c))*cos((px + 1)))*((a*max(x, py)) - ((981/100)*y)))
 }
 
 hamiltonian! {
     pub struct E213 { a, b, c }
-    H(x, y; px, py; t) = (atanh((cbrt(((b + py)*px))/(1 + (cbrt(((b + py)*px))^2)))) + ((2 + (2 + y))*t))
+    H(x, y; px, py; t) = ((((pi*atan(px))*pow(((atan(px)^2) + 2), (exp(sin(a))^(13/4)))) + px) + cosh(sin((asin((atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)/(1 + (atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)^2))))*sin((y/c))))))
 }
 
 hamiltonian! {
     pub struct E214 { a, b, c }
-    H(x, y; px, py; t) = ((x + (exp(tanh(x))^-3))/asin(cos((((if !((py*(((py^2) + 2)^(-7/5))) < px) { c } else { c }) - (((max((1/10), (if (((px + px)^2) <= py) { y } else { py }))^2) + (a^2))^(-7/5)))*b))))
+    H(x, y; px, py; t) = (((if !(b <= x) { c } else { t })^2)*(py + c))
 }
 
 hamiltonian! {
     pub struct E215 { a, b, c }
-    H(x, y; px, py; t) = ((ln_1p(exp(tanh(x)))*((((if ((px - px) < c) || (((px - px) + 3) < y) { b } else { px })^2)*(x + ((-x)/abs(c))))*((-7/4)/exp(px))))*py)
+    H(x, y; px, py; t) = (sin(px)/(cbrt((a + y))*((sinh(tanh((if (y < (-7/4)) || (((-px) - t) < a) { (-7/4) } else { (c*(t - (-7/4))) }))) - max(t, t))*((sqrt(((a^2) + 2))^6) - ((x*hypot(y, y))*1)))))
 }
 
 hamiltonian! {
     pub struct E216 { a, b, c }
-    H(x, y; px, py; t) = (atan2(((1/2)*(py - exp(atan(2)))), ((ln_1p(cbrt(py)) - (if (a < py) || (pi <= 1) { c } else { (t + b) }))^(3/2))) + pow((((ln(((y^2) + 1))/(((y^5)^2) + 2))^2) + (1/4)), tanh(min((x*y), (atan2(y, t)*cbrt((y*1)))))))
+    H(x, y; px, py; t) = ((atanh((px/(1 + (px^2))))*(px + ((px*b) + (px - (t/b))))) + (((if ((abs(y)^(-1/2)) == (981/100)) { a } else { x }) - (y*(y*(((((1/3)*x)^2) + 1)^(2/3))))) + x))
 }
 
 hamiltonian! {
     pub struct E217 { a, b, c }
-    H(x, y; px, py; t) = ln((-(if (a < c) || ((if (ln_1p((t - x)) <= x) || (((-pi)/b) <= px) { (px + px) } else { 3 }) < a) { min(((-7/4) + (abs((3/(((c^6)^2) + (1/4))))^(3/10))), (py + a)) } else { b })))
+    H(x, y; px, py; t) = (((x^2) + c)/((if (t == (1/10)) || ((b*pi) < px) { px } else { exp_m1(atan(((if (cosh((c^3)) <= (1/2)) && (x <= ((x^2) + c)) { py } else { (3 + (y - b)) }) + ((a*(b - c)) + (1/3))))) })*(((c + px) + min(max(cosh((c^3)), a), px))^4)))
 }
 
 hamiltonian! {
     pub struct E218 { a, b, c }
-    H(x, y; px, py; t) = (((if !((a^6) <= py) { pi } else { b }) - x)^-3)
+    H(x, y; px, py; t) = (((((sign(((-1) + px))^2) + (1/4))^(3/10))*abs(py))*((py*min(((1/10) + (-1)), (y + a)))/((if ((a/((x^2) + 2)) < py) { sinh(cos((1/2))) } else { a }) - (sqrt(cosh(cos((-(py - (1/10))))))*px))))
 }
 
 hamiltonian! {
     pub struct E219 { a, b, c }
-    H(x, y; px, py; t) = (acosh((cosh(cos((pow(abs(px), px)^-3))) + 1)) + (acosh((((((x/abs(t)) + ((((if (c <= x) { t } else { y })^2) + 1)^(1/2)))^2) + 1) + 1))*(y^-3)))
+    H(x, y; px, py; t) = ((abs(((py + (px^4))*(px/(py - (1/3)))))^(3/2)) + (if (sign(y) < sign(y)) || (exp((c^-2)) <= (1/10)) { (((((y + (pi - t))^2) + 1)^-3) + (min(2, x) - b)) } else { (((b*c) - (if ((y*c) <= c) || ((((-1) - y)/5) < a) { (-1) } else { (-7/4) })) + ((a*c)/(-(((-1) - y)/5)))) }))
 }
 
 hamiltonian! {
     pub struct E220 { a, b, c }
-    H(x, y; px, py; t) = ((b - y)*atan2(max((((pi^2) + 1)^(2/3)), (x*((py/(y*b)) + (px + py)))), (-7/4)))
+    H(x, y; px, py; t) = (((max(((if ((px + (((t^2) + 1)^(-4/3))) < y) || ((-7/4) < b) { (-px) } else { 3 })*((-t)*(c + pi))), (((((b*(1/3))^2) + (1/4))^-3)*((c*b) - hypot(x, 2))))^2) + 1)^(-3/2))
 }
 
 hamiltonian! {
     pub struct E221 { a, b, c }
-    H(x, y; px, py; t) = (((x/px)*cosh(sin(atanh(cos(1)))))*pi)
+    H(x, y; px, py; t) = ((if !(((y + (1/2))*t) < (1/2)) { ((y + (1/2))*t) } else { ((((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) })^2) + (1/4))^(-7/5)) })*(((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) }) - (px - 5)) - t))
 }
 
 hamiltonian! {
     pub struct E222 { a, b, c }
-    H(x, y; px, py; t) = (((abs((((c + 3)/px) - px))^(1/2))*((cosh(sin(ln_1p(((5^2) + (1/4)))))^-1)^2)) + (((y*x) + t)*b))
+    H(x, y; px, py; t) = (atanh((cbrt(((b + py)*px))/(1 + (cbrt(((b + py)*px))^2)))) + ((2 + (2 + y))*t))
 }
 
 hamiltonian! {
     pub struct E223 { a, b, c }
-    H(x, y; px, py; t) = (if (2 < pi) { (-1) } else { ((if (t <= 2) && (tanh(x) == pi) { x } else { x })*py) })
+    H(x, y; px, py; t) = ((x + (exp(tanh(x))^-3))/asin(cos((((if !((py*(((py^2) + 2)^(-7/5))) < px) { c } else { c }) - (((max((1/10), (if (((px + px)^2) <= py) { y } else { py }))^2) + (a^2))^(-7/5)))*b))))
 }
 
 hamiltonian! {
     pub struct E224 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((((((pi*min(((t*pi) - 2), exp(tanh(py))))^6)^2) + (py^2))^-3)^2) + (if (cbrt((c/a)) <= (t*pi)) { x } else { (pi - ((t - t)^7)) })))
+    H(x, y; px, py; t) = ((ln_1p(exp(tanh(x)))*((((if ((px - px) < c) || (((px - px) + 3) < y) { b } else { px })^2)*(x + ((-x)/abs(c))))*((-7/4)/exp(px))))*py)
 }
 
 hamiltonian! {
     pub struct E225 { a, b, c }
-    H(x, y; px, py; t) = ((tan(tanh((abs((t + asin(tanh((px*b)))))^-3))) + (b + px)) + cosh(cbrt((b*(if ((b*x) <= x) { x } else { y })))))
+    H(x, y; px, py; t) = (atan2(((1/2)*(py - exp(atan(2)))), ((ln_1p(cbrt(py)) - (if (a < py) || (pi <= 1) { c } else { (t + b) }))^(3/2))) + pow((((ln(((y^2) + 1))/(((y^5)^2) + 2))^2) + (1/4)), tanh(min((x*y), (atan2(y, t)*cbrt((y*1)))))))
 }
 
 hamiltonian! {
     pub struct E226 { a, b, c }
-    H(x, y; px, py; t) = atan2(cosh(tanh(sinh(cos((pi - (c + (px*b))))))), (x*(pi - y)))
+    H(x, y; px, py; t) = ln((-(if (a < c) || ((if (ln_1p((t - x)) <= x) || (((-pi)/b) <= px) { (px + px) } else { 3 }) < a) { min(((-7/4) + (abs((3/(((c^6)^2) + (1/4))))^(3/10))), (py + a)) } else { b })))
 }
 
 hamiltonian! {
     pub struct E227 { a, b, c }
-    H(x, y; px, py; t) = (((-y)*max(y, b)) + (if ((t + cosh(py)) < 3) { (if !((3*(py + px)) <= py) { (1/2) } else { (x^2) }) } else { sinh((y - (-px))) }))
+    H(x, y; px, py; t) = (((if !((a^6) <= py) { pi } else { b }) - x)^-3)
 }
 
 hamiltonian! {
     pub struct E228 { a, b, c }
-    H(x, y; px, py; t) = (min(cos(((py^6) - (px + ln(exp(px))))), (abs(cos(sqrt(((py^2) + (pi^2)))))^(1/2))) + (ln_1p(cosh(cos((atanh(((x + y)/(1 + ((x + y)^2)))) + c)))) - (x/cosh(atan(t)))))
+    H(x, y; px, py; t) = (acosh((cosh(cos((pow(abs(px), px)^-3))) + 1)) + (acosh((((((x/abs(t)) + ((((if (c <= x) { t } else { y })^2) + 1)^(1/2)))^2) + 1) + 1))*(y^-3)))
 }
 
 hamiltonian! {
     pub struct E229 { a, b, c }
-    H(x, y; px, py; t) = abs((((((-(((py/x) + py)^(1/2))) + ((py + t)^6))^2) + (1/4))^(-4/3)))
+    H(x, y; px, py; t) = ((b - y)*atan2(max((((pi^2) + 1)^(2/3)), (x*((py/(y*b)) + (px + py)))), (-7/4)))
 }
 
 hamiltonian! {
     pub struct E230 { a, b, c }
-    H(x, y; px, py; t) = exp(cosh((((-b)/cosh(t))*((((-b)/cosh(t))^6)/(y*((((if ((x - (y + y)) < x) { y } else { y })^4) + (1*(1/2))) + ((((a*(981/100))*1) + (py + b)) - tanh(px))))))))
+    H(x, y; px, py; t) = (((x/px)*cosh(sin(atanh(cos(1)))))*pi)
 }
 
 hamiltonian! {
     pub struct E231 { a, b, c }
-    H(x, y; px, py; t) = (((pi/abs(((pi - (if (((((c*pi)^2) + (1/4))^(2/3)) <= b) && (((t - ((c*pi)^2))/px) == py) { py } else { px }))/abs(c)))) + t) + tan((((((pi + (cosh((-(y + y)))/y)) - (t - ((((cosh(tanh((if (c < a) { x } else { (1/3) })))^2) + (y^2))^(3/10))^2)))*(-7/4))*cos(((-t)*((1/3) + pi)))) - (x*c))))
+    H(x, y; px, py; t) = (((abs((((c + 3)/px) - px))^(1/2))*((cosh(sin(ln_1p(((5^2) + (1/4)))))^-1)^2)) + (((y*x) + t)*b))
 }
 
 hamiltonian! {
     pub struct E232 { a, b, c }
-    H(x, y; px, py; t) = (((px - (sign(((t/x) + y)) + (px - b)))^2)*((px*px) + 5))
+    H(x, y; px, py; t) = (if (2 < pi) { (-1) } else { ((if (t <= 2) && (tanh(x) == pi) { x } else { x })*py) })
 }
 
 hamiltonian! {
     pub struct E233 { a, b, c }
-    H(x, y; px, py; t) = ln(cosh((((if ((t*t) < y) || ((y + (if !((t - py) <= pi) { t } else { y })) <= y) { asinh(py) } else { x }) - (cbrt(sinh(atan(((((tan(sin(py))/(((y - a)^2) + 2))^2) + (t^2))^(3/2))))) + x)) + ((((c/exp(sin((y + py)))) - (b + y)) + acos((b/(1 + (b^2))))) + x))))
+    H(x, y; px, py; t) = cbrt((((((((pi*min(((t*pi) - 2), exp(tanh(py))))^6)^2) + (py^2))^-3)^2) + (if (cbrt((c/a)) <= (t*pi)) { x } else { (pi - ((t - t)^7)) })))
 }
 
 hamiltonian! {
     pub struct E234 { a, b, c }
-    H(x, y; px, py; t) = (((((1 - 1) - 1) + (abs(sin((abs(t)^(-4/3))))^(-7/5))) + hypot(px, px)) + ln_1p(((((((-(cosh(sin((1 - x)))^-3))^2) + 1)^(-1/2))^2) + 1)))
+    H(x, y; px, py; t) = ((tan(tanh((abs((t + asin(tanh((px*b)))))^-3))) + (b + px)) + cosh(cbrt((b*(if ((b*x) <= x) { x } else { y })))))
 }
 
 hamiltonian! {
     pub struct E235 { a, b, c }
-    H(x, y; px, py; t) = sin(((cosh(cos(py)) + ((((y*max(py, c))^2) + (1/4))^(3/2)))/cos((b*c))))
+    H(x, y; px, py; t) = atan2(cosh(tanh(sinh(cos((pi - (c + (px*b))))))), (x*(pi - y)))
 }
 
 hamiltonian! {
     pub struct E236 { a, b, c }
-    H(x, y; px, py; t) = exp(((pi*px)/cosh(cos((y + b)))))
+    H(x, y; px, py; t) = (((-y)*max(y, b)) + (if ((t + cosh(py)) < 3) { (if !((3*(py + px)) <= py) { (1/2) } else { (x^2) }) } else { sinh((y - (-px))) }))
 }
 
 hamiltonian! {
     pub struct E237 { a, b, c }
-    H(x, y; px, py; t) = (exp(cos((ln((((if (a <= a) && ((b + exp_m1(cos((py^3)))) < 1) { (exp_m1(cos((py^3))) - 3) } else { a })^2) + 1)) - (c/(((a/b)^2) + 1))))) + ((x*y)/exp(a)))
+    H(x, y; px, py; t) = (min(cos(((py^6) - (px + ln(exp(px))))), (abs(cos(sqrt(((py^2) + (pi^2)))))^(1/2))) + (ln_1p(cosh(cos((atanh(((x + y)/(1 + ((x + y)^2)))) + c)))) - (x/cosh(atan(t)))))
 }
 
 hamiltonian! {
     pub struct E238 { a, b, c }
-    H(x, y; px, py; t) = ((((b - c)*((((a + x)^2) + 2)^(2/3)))*min((if !(((-7/4)*pi) <= t) { x } else { px }), ((cosh(sin(3))^(1/2)) + py))) + 3)
+    H(x, y; px, py; t) = abs((((((-(((py/x) + py)^(1/2))) + ((py + t)^6))^2) + (1/4))^(-4/3)))
 }
 
 hamiltonian! {
     pub struct E239 { a, b, c }
-    H(x, y; px, py; t) = hypot(((pow(((t^2) + 2), tanh(b)) + ((abs((1/10))^(-7/5))*((ln_1p(cosh((if !(py <= (t^2)) { (if ((b/abs(1)) == py) && (b <= (1/3)) { a } else { b }) } else { (1/2) })))/((5^2) + 2)) + t)))/(((if (cbrt((c - a)) == pi) || ((1 + x) < y) { (asinh(pi)*exp(((((b^2) + 1)^(-3/2)) + y))) } else { c })^2) + (1/4))), x)
+    H(x, y; px, py; t) = exp(cosh((((-b)/cosh(t))*((((-b)/cosh(t))^6)/(y*((((if ((x - (y + y)) < x) { y } else { y })^4) + (1*(1/2))) + ((((a*(981/100))*1) + (py + b)) - tanh(px))))))))
 }
 
 hamiltonian! {
     pub struct E240 { a, b, c }
-    H(x, y; px, py; t) = (((pi*b) - acosh((exp((px/(((b + ((-1) - t))*a) + py))) + 1))) + (if (y <= 3) { x } else { (x + hypot(x, y)) }))
+    H(x, y; px, py; t) = (((pi/abs(((pi - (if (((((c*pi)^2) + (1/4))^(2/3)) <= b) && (((t - ((c*pi)^2))/px) == py) { py } else { px }))/abs(c)))) + t) + tan((((((pi + (cosh((-(y + y)))/y)) - (t - ((((cosh(tanh((if (c < a) { x } else { (1/3) })))^2) + (y^2))^(3/10))^2)))*(-7/4))*cos(((-t)*((1/3) + pi)))) - (x*c))))
 }
 
 hamiltonian! {
     pub struct E241 { a, b, c }
-    H(x, y; px, py; t) = ((if ((x/exp(cos(b))) <= pi) && ((atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) }))/t) <= 3) { (atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) })) - (1/3)) } else { (c + cbrt((-a))) })*a)
+    H(x, y; px, py; t) = (((px - (sign(((t/x) + y)) + (px - b)))^2)*((px*px) + 5))
 }
 
 hamiltonian! {
     pub struct E242 { a, b, c }
-    H(x, y; px, py; t) = sinh(cos((abs((((y + py)*(((px^2) + 2)^(1/3))) + atan((b*px))))^(-1/2))))
+    H(x, y; px, py; t) = ln(cosh((((if ((t*t) < y) || ((y + (if !((t - py) <= pi) { t } else { y })) <= y) { asinh(py) } else { x }) - (cbrt(sinh(atan(((((tan(sin(py))/(((y - a)^2) + 2))^2) + (t^2))^(3/2))))) + x)) + ((((c/exp(sin((y + py)))) - (b + y)) + acos((b/(1 + (b^2))))) + x))))
 }
 
 hamiltonian! {
     pub struct E243 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(abs((px - (max(px, px)*(-7/4))))) + (x/((-((atanh((x/(1 + (x^2))))*asinh(3)) - (x - cosh(t))))^(1/3))))
+    H(x, y; px, py; t) = (((((1 - 1) - 1) + (abs(sin((abs(t)^(-4/3))))^(-7/5))) + hypot(px, px)) + ln_1p(((((((-(cosh(sin((1 - x)))^-3))^2) + 1)^(-1/2))^2) + 1)))
 }
 
 hamiltonian! {
     pub struct E244 { a, b, c }
-    H(x, y; px, py; t) = (((2 - c) - ((x/abs(ln_1p(exp(cos(py))))) + y)) - (px/(x + py)))
+    H(x, y; px, py; t) = ((1/2)*(if !(t <= py) { (if ((1^-3) == y) && ((((1/10)*c) - py) < 5) { 1 } else { px }) } else { 2 }))
 }
 
 hamiltonian! {
     pub struct E245 { a, b, c }
-    H(x, y; px, py; t) = ((a*a)*(if (y < px) && (2 < py) { (if ((y - px) == t) || (atan(py) < a) { c } else { (px*1) }) } else { (c*((((1/2)^2) + 1)^(2/3))) }))
+    H(x, y; px, py; t) = sin(((cosh(cos(py)) + ((((y*max(py, c))^2) + (1/4))^(3/2)))/cos((b*c))))
 }
 
 hamiltonian! {
     pub struct E246 { a, b, c }
-    H(x, y; px, py; t) = (max((atan(asin(tanh(hypot((b^-1), atan((t^2)))))) + a), abs(cos(py))) + abs(tanh((if (b == y) || ((x*pi) < t) { (1/2) } else { y }))))
+    H(x, y; px, py; t) = (((((((a^2) + (1/4))^(-3/2)) + pi) + sqrt(((px^2) + 1)))*(py + (c + pi))) + exp(((pi*x)/cosh(cos((y + b))))))
 }
 
 hamiltonian! {
     pub struct E247 { a, b, c }
-    H(x, y; px, py; t) = (acos((((((if (min((y - x), x) <= c) { ((-7/4)*pi) } else { ((((2^2) + (py^2))^(-7/5))/px) })^2) + 1)^(-7/5))/(1 + (((((if (min((y - x), x) <= c) { ((-7/4)*pi) } else { ((((2^2) + (py^2))^(-7/5))/px) })^2) + 1)^(-7/5))^2)))) - ((((pi*(b*c))^2) + 1)^(-3/2)))
+    H(x, y; px, py; t) = ((((b - c)*((((a + x)^2) + 2)^(2/3)))*min((if !(((-7/4)*pi) <= t) { x } else { px }), ((cosh(sin(3))^(1/2)) + py))) + 3)
 }
 
 hamiltonian! {
     pub struct E248 { a, b, c }
-    H(x, y; px, py; t) = (t/((if ((t + px) < a) || ((if ((a/a) < py) { (x - b) } else { pi }) <= t) { (py + a) } else { (t - (py + a)) }) + (a/(a + hypot((px - py), (t - (py + a)))))))
+    H(x, y; px, py; t) = hypot(((pow(((t^2) + 2), tanh(b)) + ((abs((1/10))^(-7/5))*((ln_1p(cosh((if !(py <= (t^2)) { (if ((b/abs(1)) == py) && (b <= (1/3)) { a } else { b }) } else { (1/2) })))/((5^2) + 2)) + t)))/(((if (cbrt((c - a)) == pi) || ((1 + x) < y) { (asinh(pi)*exp(((((b^2) + 1)^(-3/2)) + y))) } else { c })^2) + (1/4))), x)
 }
 
 hamiltonian! {
     pub struct E249 { a, b, c }
-    H(x, y; px, py; t) = ((tan(px)*b) + hypot((max((-(y/((y^2) + 1))), b) - (x - sinh(sin(y)))), atan2(x, (pi/((c^2) + 1)))))
+    H(x, y; px, py; t) = (((pi*b) - acosh((exp((px/(((b + ((-1) - t))*a) + py))) + 1))) + (if (y <= 3) { x } else { (x + hypot(x, y)) }))
 }
 
 hamiltonian! {
     pub struct E250 { a, b, c }
-    H(x, y; px, py; t) = atan2(cos((exp(tanh((px*y)))^(13/4))), (1/10))
+    H(x, y; px, py; t) = ((if ((x/exp(cos(b))) <= pi) && ((atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) }))/t) <= 3) { (atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) })) - (1/3)) } else { (c + cbrt((-a))) })*a)
 }
 
 hamiltonian! {
     pub struct E251 { a, b, c }
-    H(x, y; px, py; t) = ((a + py)/(((b - (if ((x - a) < px) || (py < a) { t } else { a }))^2) + 2))
+    H(x, y; px, py; t) = sinh(cos((abs((((y + py)*(((px^2) + 2)^(1/3))) + atan((b*px))))^(-1/2))))
 }
 
 hamiltonian! {
     pub struct E252 { a, b, c }
-    H(x, y; px, py; t) = ((((px - ln(((abs(((-1) + px))^2) + (1/4)))) - ((pi/cosh(py)) - min(pi, py)))*b) + (a*(hypot(tanh((a + (t/pi))), (b*3))^2)))
+    H(x, y; px, py; t) = (ln_1p(abs((px - (max(px, px)*(-7/4))))) + (x/((-((atanh((x/(1 + (x^2))))*asinh(3)) - (x - cosh(t))))^(1/3))))
 }
 
 hamiltonian! {
     pub struct E253 { a, b, c }
-    H(x, y; px, py; t) = ((py*(-7/4))/(((y + py) + t)/(pi + (px^7))))
+    H(x, y; px, py; t) = (((2 - c) - ((x/abs(ln_1p(exp(cos(py))))) + y)) - (px/(x + py)))
 }
 
 hamiltonian! {
     pub struct E254 { a, b, c }
-    H(x, y; px, py; t) = (x/((min(x, px)^2) + 1))
+    H(x, y; px, py; t) = ((a*a)*(if (y < px) && (2 < py) { (if ((y - px) == t) || (atan(py) < a) { c } else { (px*1) }) } else { (c*((((1/2)^2) + 1)^(2/3))) }))
 }
 
 hamiltonian! {
     pub struct E255 { a, b, c }
-    H(x, y; px, py; t) = ((px*(a*((((px^2) + 2)^(1/2)) - px))) + ((x/((abs(3)^2) + (c^2))) - 3))
+    H(x, y; px, py; t) = (max((atan(asin(tanh(hypot((b^-1), atan((t^2)))))) + a), abs(cos(py))) + abs(tanh((if (b == y) || ((x*pi) < t) { (1/2) } else { y }))))
 }
 
 crate::list! {

@@ -23,11 +23,11 @@ pub fn trees() -> Vec<(Tree, &'static str)> {
             tree = sum(&on_side(&tree, PAIRS), &on_side(&potential, 0));
         }
         tree = in_source_order(&tree);
-        let has_momentum = (PAIRS..2 * PAIRS).any(|at| tree.mentions(at));
-        if has_momentum
-            && tree.text().len() < 2000
-            && Interpreted::of(&tree).is_separable() == splits
-        {
+        if tree.text().len() >= 2000 {
+            continue;
+        }
+        let interpreted = Interpreted::of(&tree);
+        if interpreted.has_momentum() && interpreted.is_separable() == splits {
             trees.push((tree, if splits { "separable" } else { "any" }));
         }
     }

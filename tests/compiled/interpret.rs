@@ -13,12 +13,16 @@ use hamiltonian_symbolic::{diff, structure};
 pub struct Interpreted {
     program: Program,
     is_separable: bool,
+    has_momentum: bool,
 }
 
 impl Interpreted {
     /// Structure, then the program for all purposes, in the order of the back end.
     pub fn of(tree: &Tree) -> Interpreted {
         let mut model = tree.model();
+        let has_momentum = model
+            .hamiltonian
+            .is_some_and(|h| model.dag.dependence(h).on(Dependence::P));
         let structure = structure::analyse(&mut model);
         let mut wanted = vec![
             Purpose::Energy,
@@ -41,7 +45,13 @@ impl Interpreted {
         Interpreted {
             program: derive(&mut model, &wanted).expect("a program"),
             is_separable: structure.separable.is_ok(),
+            has_momentum,
         }
+    }
+
+    /// Whether H depends on momenta, of which some may cancel.
+    pub fn has_momentum(&self) -> bool {
+        self.has_momentum
     }
 
     pub fn is_separable(&self) -> bool {

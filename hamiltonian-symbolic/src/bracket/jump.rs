@@ -4,12 +4,8 @@
 //! derivatives do not see a jump, so nothing is conserved across one because its derivatives say so.
 
 use crate::dag::{Dag, Dependence, Kind, Node};
-use crate::normal_form;
+use crate::normal_form::{self, Scope};
 use crate::op::Op;
-
-/// What moves along a trajectory.
-pub(super) const MOVING: Dependence =
-    Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
 
 /// The first condition on moving quantities whose branches are not known to meet where it
 /// switches, sign of such, or angle of a point that moves.
@@ -19,9 +15,9 @@ pub(super) fn find(dag: &mut Dag, roots: &[Node]) -> Option<Node> {
         .into_iter()
         .find(|node| match dag.kind(*node).clone() {
             Kind::Select(condition, yes, no) => {
-                dag.dependence(condition).on(MOVING) && !meets(dag, condition, yes, no)
+                dag.dependence(condition).on(Dependence::MOVING) && !meets(dag, condition, yes, no)
             }
-            Kind::Call(Op::Sign | Op::Atan2, _) => dag.dependence(*node).on(MOVING),
+            Kind::Call(Op::Sign | Op::Atan2, _) => dag.dependence(*node).on(Dependence::MOVING),
             _ => false,
         })
 }
@@ -41,6 +37,6 @@ fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
         // What a sum binds is not the leaf, though it may be called like it.
         let difference = dag.nested(difference, dag.home(leaf));
         let difference = dag.substitute(difference, |_, node| (node == leaf).then_some(value));
-        dag.is_zero(difference) || normal_form::vanishes(dag, difference)
+        dag.is_zero(difference) || normal_form::vanishes(dag, difference, Scope::Everywhere)
     })
 }

@@ -15,7 +15,7 @@ use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::loops::{Point, unroll_nodes};
 use crate::model::Model;
-use crate::normal_form::{self, Algebra, BUDGET, Effort, named, trials, witness};
+use crate::normal_form::{self, Algebra, BUDGET, Effort, Scope, named, trials, witness};
 use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand;
@@ -84,7 +84,7 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     // points guards it against branches of roots that formal rules cannot see.
     if let Some(residual) = general
         && (model.dag.is_zero(residual)
-            || (normal_form::vanishes(&mut model.dag, residual)
+            || (normal_form::vanishes(&mut model.dag, residual, Scope::Densely)
                 && witness(&model, residual, Effort::Glance, &[h, expression]).is_none()))
     {
         return Verdict::Proven;
@@ -172,9 +172,9 @@ fn decide(
         };
     }
     let vanishes = match difference {
-        None => normal_form::vanishes(&mut model.dag, residual),
+        None => normal_form::vanishes(&mut model.dag, residual, Scope::Densely),
         Some(difference) => {
-            let mut algebra = Algebra::new(BUDGET);
+            let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
             shell::vanishes(&mut algebra, &model.dag, residual, difference) == Ok(true)
         }
     };

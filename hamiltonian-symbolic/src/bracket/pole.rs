@@ -12,8 +12,7 @@
 //! Invariant: expressions without both are never looked at in numbers; points are the same on every
 //! machine.
 
-use super::jump::MOVING;
-use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::loops::{Sample, Sampled, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::trials;
@@ -105,7 +104,7 @@ impl Traits {
             poles: Vec::new(),
         };
         for node in dag.reachable(roots) {
-            if !dag.dependence(node).on(MOVING) {
+            if !dag.dependence(node).on(Dependence::MOVING) {
                 continue;
             }
             let (mut has_pole, mut is_rough) = (false, false);
@@ -167,7 +166,7 @@ fn poles_of(dag: &Dag, node: Node) -> Vec<(Pole, Node)> {
     };
     let crossed = found.into_iter().filter(|(pole, node)| match pole {
         Pole::Zero => !is_thin(dag, *node),
-        _ => dag.dependence(*node).on(MOVING),
+        _ => dag.dependence(*node).on(Dependence::MOVING),
     });
     crossed
         .map(|(pole, mut node)| {
@@ -202,7 +201,7 @@ fn is_rough_itself(dag: &Dag, node: Node, has_pole: bool) -> bool {
 /// Whether the zeros of a node are nowhere, or have two dimensions less than what they lie in:
 /// nothing crosses them.
 fn is_thin(dag: &Dag, node: Node) -> bool {
-    if !dag.dependence(node).on(MOVING) {
+    if !dag.dependence(node).on(Dependence::MOVING) {
         return true;
     }
     match dag.kind(node) {

@@ -37,8 +37,8 @@ pub(super) fn vanishes(
         if let (true, Some((degree @ 1.., leading))) = (is_momentum, powers.last())
             && powers[0].0 >= 0
             && !leading.is_zero()
-            && !mentions(algebra, &shell, atom)
-            && !mentions(algebra, &residual, atom)
+            && !algebra.is_mentioned(&shell, atom)
+            && !algebra.is_mentioned(&residual, atom)
         {
             momenta.push((*degree, atom));
         }
@@ -48,24 +48,6 @@ pub(super) fn vanishes(
         return Ok(false);
     };
     Ok(remainder(algebra, &residual, &shell, atom)?.is_zero())
-}
-
-/// Whether an atom stands inside another one.
-fn mentions(algebra: &Algebra, poly: &Poly, atom: Atom) -> bool {
-    let mut stack: Vec<Atom> = poly.atoms();
-    stack.retain(|a| *a != atom);
-    let mut seen: Vec<Atom> = Vec::new();
-    while let Some(at) = stack.pop() {
-        if at == atom {
-            return true;
-        }
-        if seen.contains(&at) {
-            continue;
-        }
-        seen.push(at);
-        stack.extend(algebra.parts(at));
-    }
-    false
 }
 
 /// The pseudo-remainder of the division by `shell` as polynomials in one atom.

@@ -26,8 +26,7 @@ pub(crate) enum Key {
     Root(u32, Poly),
     /// The logarithm of an absolute value.
     Ln(Poly),
-    /// The sign: its square is 1, except where the argument takes whole values (then its cube is
-    /// itself), as measure zero does not count.
+    /// The sign, −1, 0 or 1: its rules are with [`Algebra::canonical`].
     Sign(Poly),
     /// 1/polynomial: this atom stands for the polynomial, and only negative powers of it occur.
     Divisor(Poly),
@@ -37,6 +36,15 @@ pub(crate) enum Key {
     External(u16, Part, Vec<Poly>),
     /// A sum over a loop of a product that depends on its variable.
     Sum(Domain, Monomial),
+}
+
+/// Where a statement is to hold, for all parameters and sizes.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Scope {
+    /// At every point.
+    Everywhere,
+    /// At points that come near to every point.
+    Densely,
 }
 
 /// An atom with what is known of it.
@@ -54,8 +62,8 @@ pub(crate) struct Entry {
     pub(crate) variables: u64,
     /// Whether it is known to be ≥ 0.
     pub(crate) nonnegative: bool,
-    /// Whether it takes whole values only.
-    pub(crate) whole: bool,
+    /// Whether it is known to be > 0.
+    pub(crate) positive: bool,
 }
 
 /// The base that angles or exponents with one monomial are multiples of.
@@ -80,13 +88,17 @@ pub(crate) struct Algebra {
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
     pub(super) any_redefined: bool,
+    /// Whether a condition stands before a fraction: what is not defined there may then be.
+    pub(super) any_guarded: bool,
+    /// Where statements are to hold.
+    scope: Scope,
     /// What may still be spent.
     pub(crate) budget: Budget,
 }
 
 impl Algebra {
     /// An empty algebra.
-    pub(crate) fn new(budget: Budget) -> Algebra {
+    pub(crate) fn new(budget: Budget, scope: Scope) -> Algebra {
         Algebra {
             entries: Vec::new(),
             known: Map::default(),
@@ -95,6 +107,8 @@ impl Algebra {
             converted: Map::default(),
             arguments: Vec::new(),
             any_redefined: false,
+            any_guarded: false,
+            scope,
             budget,
         }
     }
@@ -102,10 +116,6 @@ impl Algebra {
     /// What is known of an atom.
     pub(crate) fn entry(&self, atom: Atom) -> &Entry {
         &self.entries[atom as usize]
-    }
-
-    pub(super) fn relate(&mut self, atom: Atom, degree: u32, to: Poly) {
-        self.entries[atom as usize].relation = Some((degree, Rc::new(to)));
     }
 
     pub(super) fn redefine(&mut self, atom: Atom, as_what: Poly) {
@@ -119,10 +129,6 @@ impl Algebra {
         if let Some(&atom) = self.known.get(&key) {
             return atom;
         }
-        let whole = matches!(
-            dag.kind(node),
-            Kind::Variable(_) | Kind::Extent(_) | Kind::Count(_)
-        );
         let entry = Entry {
             key: key.clone(),
             relation: None,
@@ -130,7 +136,7 @@ impl Algebra {
             dependence: dag.dependence(node),
             variables: dag.variables(node),
             nonnegative: dag.is_nonnegative(node),
-            whole,
+            positive: matches!(dag.kind(node), Kind::Pi),
         };
         self.push(key, entry)
     }
@@ -148,31 +154,31 @@ impl Algebra {
                 variables |= self.entry(atom).variables;
             }
         };
-        let nonnegative = match &key {
-            Key::Leaf(_) | Key::Sum(..) => false,
-            Key::Cos(x) | Key::Sin(x) | Key::Ln(x) | Key::Sign(x) => {
+        let (nonnegative, positive) = match &key {
+            Key::Leaf(_) | Key::Sum(..) => (false, false),
+            Key::Cos(x) | Key::Sin(x) | Key::Ln(x) => {
                 read(x);
-                false
+                (false, false)
             }
             Key::Exp(x) => {
                 read(x);
-                true
+                (true, true)
             }
             Key::Root(n, x) => {
                 read(x);
-                *n == 2
+                (*n == 2 || self.is_nonnegative(x), self.is_positive(x))
             }
-            Key::Divisor(x) => {
+            Key::Divisor(x) | Key::Sign(x) => {
                 read(x);
-                self.is_nonnegative(x)
+                (self.is_nonnegative(x), self.is_positive(x))
             }
             Key::Function(op, arguments) => {
                 arguments.iter().for_each(read);
-                matches!(op, Op::Acosh)
+                (matches!(op, Op::Acosh), false)
             }
             Key::External(_, _, arguments) => {
                 arguments.iter().for_each(read);
-                false
+                (false, false)
             }
         };
         let entry = Entry {
@@ -182,7 +188,7 @@ impl Algebra {
             dependence,
             variables,
             nonnegative,
-            whole: false,
+            positive,
         };
         self.push(key, entry)
     }
@@ -215,7 +221,8 @@ impl Algebra {
             dependence,
             variables,
             nonnegative,
-            whole: false,
+            // The range may be empty.
+            positive: false,
         };
         self.push(key, entry)
     }
@@ -237,12 +244,56 @@ impl Algebra {
         })
     }
 
-    /// Whether a polynomial takes whole values only, up to a common factor.
-    pub(super) fn is_whole(&self, poly: &Poly) -> bool {
-        poly.terms().iter().all(|(m, _)| {
-            m.0.iter()
-                .all(|(atom, n)| *n > 0 && self.entry(*atom).whole)
-        })
+    /// Whether a polynomial is ≥ 0 term by term, and one term is never 0.
+    pub(super) fn is_positive(&self, poly: &Poly) -> bool {
+        self.is_nonnegative(poly)
+            && poly
+                .terms()
+                .iter()
+                .any(|(m, _)| m.0.iter().all(|(atom, _)| self.entry(*atom).positive))
+    }
+
+    /// Whether zeros of a polynomial do not count. It has few, whatever the parameters, if it is a
+    /// polynomial in something that moves with a number for its leading coefficient.
+    pub(super) fn is_anything_but_zero(&self, poly: &Poly) -> bool {
+        let moves = |atom: &Atom| {
+            let entry = self.entry(*atom);
+            matches!(entry.key, Key::Leaf(_)) && entry.dependence.on(Dependence::MOVING)
+        };
+        // Elements of a loop may be the same one.
+        let atoms = poly.atoms();
+        let is_fixed = atoms.len() == 1 || atoms.iter().all(|a| self.entry(*a).variables == 0);
+        self.scope == Scope::Densely
+            && is_fixed
+            && atoms.into_iter().filter(moves).any(|atom| {
+                let powers = poly.by_power(atom);
+                let leading = powers.last().and_then(|(_, k)| k.as_constant());
+                powers[0].0 >= 0 && leading.is_some() && !self.is_mentioned(poly, atom)
+            })
+    }
+
+    /// Whether an atom stands inside another one.
+    pub(crate) fn is_mentioned(&self, poly: &Poly, atom: Atom) -> bool {
+        let mut stack: Vec<Atom> = poly.atoms();
+        stack.retain(|a| *a != atom);
+        let mut seen: Vec<Atom> = Vec::new();
+        while let Some(at) = stack.pop() {
+            if at == atom {
+                return true;
+            }
+            if seen.contains(&at) {
+                continue;
+            }
+            seen.push(at);
+            stack.extend(self.parts(at));
+        }
+        false
+    }
+
+    /// Whether a polynomial has negative powers.
+    pub(super) fn is_divided(poly: &Poly) -> bool {
+        let terms = poly.terms();
+        terms.iter().any(|(m, _)| m.0.iter().any(|(_, n)| *n < 0))
     }
 
     /// What a polynomial depends on.
@@ -297,6 +348,10 @@ impl Algebra {
     /// polynomial of several terms without negative powers whose last term has the coefficient 1.
     pub(super) fn content(&mut self, poly: &Poly) -> Result<(Rational, Monomial, Poly), Undecided> {
         let mut rest = self.canonical(poly)?;
+        if self.any_guarded && rest.terms().len() > 1 && Algebra::is_divided(&rest) {
+            // 1 + [x > 0]/x is 1 at x = 0, of which a common denominator knows nothing.
+            return Err(Undecided);
+        }
         let mut monomial = Monomial::default();
         // Divisors inside are cleared: 1/(1 + 1/d) is d/(d + 1).
         loop {

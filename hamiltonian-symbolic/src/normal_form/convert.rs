@@ -113,6 +113,7 @@ impl Algebra {
             }
             Kind::Select(c, yes, no) => {
                 let (c, yes, no) = (self.of(*c), self.of(*yes), self.of(*no));
+                self.any_guarded |= Algebra::is_divided(&yes) || Algebra::is_divided(&no);
                 let difference = yes.sub(&no);
                 let chosen = self.mul(&c, &difference)?;
                 no.add(&chosen)

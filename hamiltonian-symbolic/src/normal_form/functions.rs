@@ -2,7 +2,7 @@
 //! logarithms and signs of products taken apart.
 //!
 //! Input: canonical polynomials. Output: polynomials. Invariant: each rule here is an identity
-//! wherever the original is defined (logarithms are of absolute values, signs at 0 do not count).
+//! wherever the original is defined (logarithms are of absolute values).
 
 use super::atoms::{Algebra, Base, Key};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
@@ -473,50 +473,44 @@ impl Algebra {
     /// The sign of a polynomial: of a product the product of its signs.
     pub(super) fn sign(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         let mut sign = Poly::integer(1);
-        let mut left = vec![poly.clone()];
-        while let Some(poly) = left.pop() {
+        // With the powers they are to.
+        let mut left = vec![(poly.clone(), 1)];
+        while let Some((poly, power)) = left.pop() {
             let (k, monomial, rest) = self.content(&poly)?;
             if k.is_zero() {
                 return Ok(Poly::default());
             }
-            if k.is_negative() {
+            if k.is_negative() && power % 2 != 0 {
                 sign = sign.scale(&Rational::MINUS_ONE);
             }
             for &(atom, n) in &monomial.0 {
+                let power = if n % 2 == 0 { 2 } else { power };
                 let entry = self.entry(atom);
-                if n % 2 == 0 || entry.nonnegative {
+                if entry.positive {
                     continue;
                 }
                 let factor = match entry.key.clone() {
-                    Key::Sign(_) => Poly::atom(atom, 1),
-                    Key::Divisor(x) => self.sign_atom(&x),
+                    Key::Sign(_) => Poly::atom(atom, power),
+                    Key::Divisor(x) => self.sign_atom(&x, power),
                     Key::Root(_, x) => {
-                        left.push(x);
+                        left.push((x, power));
                         continue;
                     }
-                    _ => self.sign_atom(&Poly::atom(atom, 1)),
+                    _ => self.sign_atom(&Poly::atom(atom, 1), power),
                 };
                 sign = self.mul(&sign, &factor)?;
             }
-            if rest.as_constant().is_none() && !self.is_nonnegative(&rest) {
-                let factor = self.sign_atom(&rest);
+            if rest.as_constant().is_none() && !self.is_positive(&rest) {
+                let factor = self.sign_atom(&rest, power);
                 sign = self.mul(&sign, &factor)?;
             }
         }
         self.canonical(&sign)
     }
 
-    fn sign_atom(&mut self, of: &Poly) -> Poly {
-        let key = Key::Sign(of.clone());
-        let atom = if self.is_whole(of) {
-            // −1, 0 or 1: indices of loops do meet.
-            let own = self.function(key.clone(), None);
-            self.relate(own, 3, Poly::atom(own, 1));
-            own
-        } else {
-            self.function(key, Some((2, Poly::integer(1))))
-        };
-        Poly::atom(atom, 1)
+    fn sign_atom(&mut self, of: &Poly, power: i32) -> Poly {
+        let atom = self.function(Key::Sign(of.clone()), None);
+        Poly::atom(atom, power)
     }
 }
 

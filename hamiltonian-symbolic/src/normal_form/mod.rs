@@ -2,13 +2,13 @@
 //! question whether an expression is identically zero.
 //!
 //! Input: nodes. Output: [`Proof`]. Invariant: deterministic, and never past a budget; what is
-//! said to be zero is zero wherever it is defined (up to a set without volume, on which conditions
-//! meet), what is said not to be is not at the point given.
+//! said to be zero is zero wherever it is defined, what is said not to be is not at the point given.
 //!
 //! Atoms are variables, parameters and functions of normal forms. Relations that are known:
 //! sin² + cos² = 1 and sums and multiples of angles, hyperbolic functions and powers as
 //! exponentials, e^a·e^b = e^(a+b), e^(n ln x) = xⁿ, (√x)² = x, logarithms of products, |x| = x·sign x,
-//! min, max and `if` as signs, polynomials below fraction lines brought over a common denominator.
+//! min, max and `if` as signs (−1, 0 or 1: the cube is the sign, the square is not 1), polynomials
+//! below fraction lines brought over a common denominator.
 //! A loop is an atom for each product it sums, the same one for all re-indexings of the loop.
 
 mod atoms;
@@ -18,7 +18,7 @@ mod polynomial;
 mod reduce;
 mod symmetry;
 
-pub(crate) use atoms::{Algebra, Key};
+pub(crate) use atoms::{Algebra, Key, Scope};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
@@ -71,14 +71,14 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
         return Proof::NonZero { point, value };
     }
     let mut dag = model.dag.clone();
-    if vanishes(&mut dag, node) {
+    if vanishes(&mut dag, node, Scope::Everywhere) {
         return Proof::Zero;
     }
     // Loops over literal ranges are sums like any other.
     if model.sizes.is_empty()
         && has_loops(&model.dag, node)
         && let Ok((mut written, images)) = unroll_nodes(model, &[], &[node])
-        && vanishes(&mut written.dag, images[0])
+        && vanishes(&mut written.dag, images[0], Scope::Everywhere)
     {
         return Proof::Zero;
     }
@@ -96,8 +96,8 @@ fn has_loops(dag: &Dag, node: Node) -> bool {
 
 /// Whether the normal form says that a node is identically zero, loops re-indexed where that
 /// helps.
-pub(crate) fn vanishes(dag: &mut Dag, node: Node) -> bool {
-    let mut algebra = Algebra::new(BUDGET);
+pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
+    let mut algebra = Algebra::new(BUDGET, scope);
     let mut decide = || {
         let poly = algebra.convert(dag, node)?;
         if symmetry::summands_vanish(&mut algebra, &poly)? {
@@ -215,9 +215,9 @@ pub(crate) fn named(model: &Model, sizes: &[i64]) -> Point {
     names.zip(sizes.iter().map(|n| *n as f64)).collect()
 }
 
-/// T and V of an H that its normal form separates.
+/// T and V of an expression that its normal form separates.
 pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
-    let mut algebra = Algebra::new(SMALL_BUDGET);
+    let mut algebra = Algebra::new(SMALL_BUDGET, Scope::Everywhere);
     let poly = algebra
         .convert(&model.dag, h)
         .and_then(|poly| algebra.canonical(&poly))

@@ -6,6 +6,7 @@
 
 use crate::dag::Map;
 use crate::rational::Rational;
+use std::cmp::Ordering;
 
 /// The number of an atom in its algebra.
 pub(crate) type Atom = u32;
@@ -86,6 +87,30 @@ impl Monomial {
     /// The same without an atom.
     pub(crate) fn without(&self, atom: Atom) -> Monomial {
         Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().collect())
+    }
+    /// The order by exponents of the newest atom first, which products keep.
+    pub(super) fn newest_first(&self, other: &Monomial) -> Ordering {
+        let (mut a, mut b) = (self.0.iter().rev(), other.0.iter().rev());
+        loop {
+            return match (a.next(), b.next()) {
+                (None, None) => Ordering::Equal,
+                (Some((_, n)), None) => n.cmp(&0),
+                (None, Some((_, n))) => 0.cmp(n),
+                (Some((x, n)), Some((y, _))) if x > y => n.cmp(&0),
+                (Some((x, _)), Some((y, n))) if x < y => 0.cmp(n),
+                (Some((_, n)), Some((_, m))) if n != m => n.cmp(m),
+                _ => continue,
+            };
+        }
+    }
+    /// The quotient, where that has no power less than both have.
+    pub(super) fn over(&self, divisor: &Monomial) -> Option<Monomial> {
+        let divides = |&(atom, n): &(Atom, i32)| n <= self.exponent(atom);
+        divisor
+            .0
+            .iter()
+            .all(divides)
+            .then(|| self.mul(&divisor.pow(-1)))
     }
     /// Whether this is 1.
     pub(crate) fn is_one(&self) -> bool {

@@ -44,7 +44,7 @@ impl Algebra {
                 let entry = self.entry(atom);
                 let special = entry.relation.is_some() || matches!(entry.key, Key::Divisor(_));
                 if special && poly.terms().iter().any(|(m, _)| m.exponent(atom) < 0) {
-                    (_, poly) = self.cleared(&poly, atom)?;
+                    poly = self.without_fractions(&poly, atom)?;
                     changed = true;
                 }
                 changed |= self.lower(&mut poly, atom)?;
@@ -86,9 +86,38 @@ impl Algebra {
         Ok((lowest, sum.finish(&self.budget)?))
     }
 
+    /// A polynomial that is 0 exactly if the given one is, without negative powers of an atom: of
+    /// two cases, that what is divided by is not 0, and that it is. In the second one fractions
+    /// are behind conditions that do not hold, or nothing is defined.
+    fn without_fractions(&mut self, poly: &Poly, atom: Atom) -> Result<Poly, Undecided> {
+        let (_, cleared) = self.cleared(poly, atom)?;
+        if !self.any_guarded {
+            return Ok(cleared);
+        }
+        let divisor = match &self.entry(atom).key {
+            Key::Divisor(divisor) => divisor.clone(),
+            _ => Poly::atom(atom, 1),
+        };
+        let sign = self.sign(&divisor)?;
+        let is_there = self.mul(&sign, &sign)?;
+        let is_not = Poly::integer(1).sub(&is_there);
+        let mut sum = Sum::default();
+        sum.add_product(&cleared, &is_there, &mut self.budget)?;
+        for (n, part) in poly.by_power(atom) {
+            if n >= 0 {
+                let part = part.times(&Monomial::atom(atom, n));
+                sum.add_product(&part, &is_not, &mut self.budget)?;
+            }
+        }
+        sum.finish(&self.budget)
+    }
+
     /// Powers of an atom that its relation replaces: those from its degree on, and negative ones
     /// where that takes no divisor. Whether there were any.
     fn lower(&mut self, poly: &mut Poly, atom: Atom) -> Result<bool, Undecided> {
+        if let Key::Sign(of) = self.entry(atom).key.clone() {
+            return self.lower_sign(poly, atom, &of);
+        }
         let Some((degree, replacement)) = self.entry(atom).relation.clone() else {
             return Ok(false);
         };
@@ -113,6 +142,73 @@ impl Algebra {
         }
         *poly = sum.finish(&self.budget)?;
         Ok(true)
+    }
+
+    /// The rules of the sign s of x: s³ = s, s² = s if x ≥ 0, and s²·x = x. The last one replaces
+    /// s²·m, where m is the leading monomial of x = c·m + r: by m + (r − s²·r)/c.
+    fn lower_sign(&mut self, poly: &mut Poly, atom: Atom, of: &Poly) -> Result<bool, Undecided> {
+        let of = self.settled(of)?;
+        let is_idempotent = self.is_nonnegative(&of);
+        let is_anything_but_zero = self.is_anything_but_zero(&of);
+        let leading = of.terms().iter().max_by(|a, b| a.0.newest_first(&b.0));
+        let (leading, c) = leading.cloned().ok_or(Undecided)?;
+        let by = c.recip().ok_or(Undecided)?;
+        let mut changed = false;
+        let mut sum = Sum::default();
+        let mut left = poly.terms().to_vec();
+        while let Some((monomial, k)) = left.pop() {
+            let n = monomial.exponent(atom);
+            if n == 0 {
+                sum.add_term(monomial, k);
+                continue;
+            }
+            let power = if n % 2 != 0 || is_idempotent { 1 } else { 2 };
+            changed |= power != n;
+            let rest = monomial.without(atom);
+            let is_square = power == 2 || is_idempotent;
+            if is_square && is_anything_but_zero || self.has_zeros_of(&rest, &of, is_square) {
+                changed = true;
+                sum.add_term(rest, k);
+                continue;
+            }
+            match rest.over(&leading) {
+                Some(quotient) if is_square => {
+                    changed = true;
+                    self.budget.charge(of.terms().len())?;
+                    for (other, l) in of.terms() {
+                        if *other == leading {
+                            continue;
+                        }
+                        let (other, l) = (quotient.mul(other), k.mul(l).mul(&by));
+                        left.push((other.mul(&Monomial::atom(atom, power)), l.neg()));
+                        sum.add_term(other, l);
+                    }
+                    sum.add_term(rest, k);
+                }
+                _ => sum.add_term(rest.mul(&Monomial::atom(atom, power)), k),
+            }
+        }
+        if changed {
+            *poly = sum.finish(&self.budget)?;
+        }
+        Ok(changed)
+    }
+
+    /// Whether a monomial is 0, or nothing, where x is, so that the sign of x is no other factor
+    /// than 1; or where x is not > 0, unless it `is_square`.
+    fn has_zeros_of(&self, monomial: &Monomial, x: &Poly, is_square: bool) -> bool {
+        let is_x = |atom: Atom| *x == Poly::atom(atom, 1);
+        // Without its condition a fraction is not 0 where it is nothing.
+        let counts = |n: i32| n > 0 || !self.any_guarded;
+        monomial
+            .0
+            .iter()
+            .any(|&(atom, n)| match &self.entry(atom).key {
+                Key::Root(2, of) => counts(n) && of == x,
+                Key::Root(_, of) => is_square && counts(n) && of == x,
+                Key::Divisor(of) => is_square && of == x,
+                _ => is_square && n < 0 && counts(n) && is_x(atom),
+            })
     }
 
     /// The polynomial with redefined atoms replaced.

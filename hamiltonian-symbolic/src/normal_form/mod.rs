@@ -24,6 +24,7 @@ pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
 use crate::model::Model;
+use crate::op::Op;
 
 /// What one expansion may cost.
 pub(crate) const BUDGET: Budget = Budget {
@@ -215,7 +216,8 @@ pub(crate) fn named(model: &Model, sizes: &[i64]) -> Point {
     names.zip(sizes.iter().map(|n| *n as f64)).collect()
 }
 
-/// T and V of an expression that its normal form separates.
+/// T and V of an expression that its normal form separates; not where they would be made of the
+/// signs that conditions are there, in which a branch that is not taken is felt.
 pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
     let mut algebra = Algebra::new(SMALL_BUDGET, Scope::Everywhere);
     let poly = algebra
@@ -232,8 +234,18 @@ pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
             _ => potential = potential.add(&term),
         }
     }
-    Some((
+    let (kinetic, potential) = (
         algebra.node(&mut model.dag, &kinetic),
         algebra.node(&mut model.dag, &potential),
-    ))
+    );
+    let dag = &model.dag;
+    let has = |roots: &[Node], is: fn(&Kind) -> bool| {
+        let mut nodes = dag.reachable(roots).into_iter();
+        nodes.any(|node| is(dag.kind(node)))
+    };
+    let has_condition = has(&[h], |kind| matches!(kind, Kind::Select(..)));
+    let has_sign = has(&[kinetic, potential], |kind| {
+        matches!(kind, Kind::Call(Op::Sign, _))
+    });
+    (!(has_condition && has_sign)).then_some((kinetic, potential))
 }

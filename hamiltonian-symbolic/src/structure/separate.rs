@@ -1,8 +1,9 @@
 //! H = T(p, t) + V(q, t), or the term that forbids it.
 //!
-//! Input: a model and its H. Output: [`Split`] or [`Coupling`]. Invariant: term by term first,
-//! which keeps the source's grouping; multiplied out only where that fails; relations between
-//! functions (sin² + cos² = 1) only where numbers do not already show that H is not separable.
+//! Input: a model and its H. Output: [`Split`] or [`Coupling`]. Invariant: a term that does not
+//! couple stays as it was written; only those that do are multiplied out, and of these only those
+//! that still do are replaced by what relations between functions (sin² + cos² = 1) leave of them,
+//! where numbers do not already show that H is not separable.
 
 use super::{Coupling, Split, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
@@ -21,134 +22,163 @@ fn couples(dag: &Dag, node: Node) -> bool {
 
 /// The split of H, or the first coupling term.
 pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
-    if let Some(split) = term_by_term(&mut model.dag, h) {
-        return Ok(split);
+    let parts = apart(model, h, false);
+    if model.dag.is_zero(parts.coupling) {
+        return Ok(parts.split());
     }
-    let mut nodes = Vec::new();
-    match expand(&mut model.dag, h) {
-        Some(terms) => terms
-            .iter()
-            .for_each(|term| nodes.push(term.node(&mut model.dag))),
-        None => nodes.push(h),
+    // What couples may cancel.
+    let may_relate = !is_certainly_coupled(model, h);
+    let parts = apart(model, h, may_relate);
+    match settled(model, parts, may_relate) {
+        Ok(parts) => Ok(parts.split()),
+        Err(term) => Err(Coupling {
+            term,
+            text: print::text(model, term),
+        }),
     }
-    let mut kinetic = Vec::new();
-    let mut potential = Vec::new();
-    let mut coupling = None;
-    for node in nodes {
-        // A term may be a sum again inside a loop or an `if`.
-        match term_by_term(&mut model.dag, node) {
-            Some(split) => {
-                kinetic.push(split.kinetic);
-                potential.push(split.potential);
-            }
-            None => {
-                coupling = Some(node);
-                break;
-            }
+}
+
+/// T, V and what is neither: they add up to the whole.
+#[derive(Clone, Copy)]
+struct Parts {
+    kinetic: Node,
+    potential: Node,
+    coupling: Node,
+}
+
+impl Parts {
+    fn split(self) -> Split {
+        Split {
+            kinetic: self.kinetic,
+            potential: self.potential,
         }
     }
-    let Some(term) = coupling else {
-        return Ok(Split {
-            kinetic: model.dag.add(&kinetic),
-            potential: model.dag.add(&potential),
-        });
-    };
-    if !is_certainly_coupled(model, h)
-        && let Some((kinetic, potential)) = normal_form::separated(model, h)
-    {
-        return Ok(Split { kinetic, potential });
+
+    /// The same for each part.
+    fn map(self, mut f: impl FnMut(Node) -> Node) -> Parts {
+        Parts {
+            kinetic: f(self.kinetic),
+            potential: f(self.potential),
+            coupling: f(self.coupling),
+        }
     }
-    Err(Coupling {
-        term,
-        text: print::text(model, term),
+}
+
+/// The parts with what couples multiplied out, and then related, or the first term that couples
+/// all the same.
+fn settled(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, Node> {
+    let zero = model.dag.integer(0);
+    let mut found = vec![parts];
+    if let Some(terms) = expand(&mut model.dag, parts.coupling) {
+        found[0].coupling = zero;
+        for term in &terms {
+            // A term may be a sum again inside a loop or an `if`.
+            let term = term.node(&mut model.dag);
+            found.push(apart(model, term, false));
+        }
+    }
+    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).collect();
+    if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
+        let coupling = model.dag.add(&couplings);
+        let separated = if may_relate {
+            normal_form::separated(model, coupling)
+        } else {
+            None
+        };
+        let (kinetic, potential) = separated.ok_or(*first)?;
+        found.push(Parts {
+            kinetic,
+            potential,
+            coupling: zero,
+        });
+    }
+    let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).collect();
+    let potential: Vec<Node> = found.iter().map(|part| part.potential).collect();
+    Ok(Parts {
+        kinetic: model.dag.add(&kinetic),
+        potential: model.dag.add(&potential),
+        coupling: zero,
     })
 }
 
-/// The split of a node whose own sums separate it.
-fn term_by_term(dag: &mut Dag, root: Node) -> Option<Split> {
-    let zero = dag.integer(0);
-    let one_sided = |dag: &Dag, node: Node| {
-        if dag.dependence(node).on(Dependence::P) {
-            Split {
-                kinetic: node,
-                potential: zero,
-            }
-        } else {
-            Split {
-                kinetic: zero,
-                potential: node,
-            }
-        }
+/// The parts of a node by its own sums, each as it was written; with `settles`, branches of
+/// conditions are settled one by one.
+fn apart(model: &mut Model, root: Node, settles: bool) -> Parts {
+    let zero = model.dag.integer(0);
+    let nothing = Parts {
+        kinetic: zero,
+        potential: zero,
+        coupling: zero,
     };
-    let mut splits: Map<Node, Split> = Map::default();
-    for node in spine(dag, root) {
-        if !couples(dag, node) {
-            splits.insert(node, one_sided(dag, node));
+    let mut parts: Map<Node, Parts> = Map::default();
+    for node in spine(&model.dag, root) {
+        if !couples(&model.dag, node) {
+            let one_sided = if model.dag.dependence(node).on(Dependence::P) {
+                Parts {
+                    kinetic: node,
+                    ..nothing
+                }
+            } else {
+                Parts {
+                    potential: node,
+                    ..nothing
+                }
+            };
+            parts.insert(node, one_sided);
             continue;
         }
-        let part = |split: &Split, kinetic: bool| {
-            if kinetic {
-                split.kinetic
-            } else {
-                split.potential
-            }
+        let whole = Parts {
+            coupling: node,
+            ..nothing
         };
-        let split = match dag.kind(node).clone() {
+        let found = match model.dag.kind(node).clone() {
             Kind::Sum(c, terms) => {
-                let mut sides = [zero; 2];
-                for (side, kinetic) in sides.iter_mut().zip([true, false]) {
-                    let mut operands = Vec::with_capacity(terms.len());
-                    for (k, child) in &terms {
-                        operands.push((k.clone(), part(splits.get(child)?, kinetic)));
-                    }
-                    *side = dag.linear(if kinetic { &Rational::ZERO } else { &c }, &operands);
-                }
-                Split {
-                    kinetic: sides[0],
-                    potential: sides[1],
+                let mut sum = |constant: &Rational, part: fn(&Parts) -> Node| {
+                    let terms = terms.iter().map(|(k, n)| (k.clone(), part(&parts[n])));
+                    let terms: Vec<(Rational, Node)> = terms.collect();
+                    model.dag.linear(constant, &terms)
+                };
+                Parts {
+                    kinetic: sum(&Rational::ZERO, |part| part.kinetic),
+                    potential: sum(&c, |part| part.potential),
+                    coupling: sum(&Rational::ZERO, |part| part.coupling),
                 }
             }
-            Kind::Product(k, factors) => {
-                let mut factors = factors;
+            Kind::Product(k, mut factors) => {
                 // One factor holds all the dependence; the others are distributed over its parts.
-                let at = factors
-                    .iter()
-                    .position(|(n, power)| *power == 1 && couples(dag, *n))?;
-                if factors
-                    .iter()
-                    .enumerate()
-                    .any(|(other, (n, _))| other != at && dag.dependence(*n).on(BOTH))
-                {
-                    return None;
-                }
-                let inner = *splits.get(&factors[at].0)?;
-                factors[at].0 = inner.kinetic;
-                let kinetic = dag.product(&k, &factors);
-                factors[at].0 = inner.potential;
-                Split {
-                    kinetic,
-                    potential: dag.product(&k, &factors),
+                let moving = |(n, _): &(Node, i32)| model.dag.dependence(*n).on(BOTH);
+                let at = factors.iter().position(moving);
+                match at {
+                    Some(at) if factors[at].1 == 1 && !factors[at + 1..].iter().any(moving) => {
+                        parts[&factors[at].0].map(|part| {
+                            factors[at].0 = part;
+                            model.dag.product(&k, &factors)
+                        })
+                    }
+                    _ => whole,
                 }
             }
-            Kind::Reduce(domain, body) => {
-                let inner = *splits.get(&body)?;
-                Split {
-                    kinetic: dag.reduce(domain, inner.kinetic),
-                    potential: dag.reduce(domain, inner.potential),
+            Kind::Reduce(domain, body) => parts[&body].map(|part| model.dag.reduce(domain, part)),
+            Kind::Select(condition, yes, no) if !model.dag.dependence(condition).on(BOTH) => {
+                let [yes, no] = [yes, no].map(|branch| {
+                    let branch = parts[&branch];
+                    if settles && !model.dag.is_zero(branch.coupling) {
+                        settled(model, branch, true).unwrap_or(branch)
+                    } else {
+                        branch
+                    }
+                });
+                Parts {
+                    kinetic: model.dag.select(condition, yes.kinetic, no.kinetic),
+                    potential: model.dag.select(condition, yes.potential, no.potential),
+                    coupling: model.dag.select(condition, yes.coupling, no.coupling),
                 }
             }
-            Kind::Select(condition, yes, no) if !dag.dependence(condition).on(BOTH) => {
-                let (yes, no) = (*splits.get(&yes)?, *splits.get(&no)?);
-                Split {
-                    kinetic: dag.select(condition, yes.kinetic, no.kinetic),
-                    potential: dag.select(condition, yes.potential, no.potential),
-                }
-            }
-            _ => return None,
+            _ => whole,
         };
-        splits.insert(node, split);
+        parts.insert(node, found);
     }
-    splits.get(&root).copied()
+    parts[&root]
 }
 
 /// The nodes that are looked into, children first: coupled ones, and their children.

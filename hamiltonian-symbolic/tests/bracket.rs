@@ -504,6 +504,20 @@ fn parameters_need_not_be_positive() {
     ));
 }
 
+/// A point has one value a size, also where the residual is found at that size only.
+#[test]
+fn a_point_names_each_size_once() {
+    let h = "sum(i in 0..N) { p[i]^2/2 + (q[i] - q[(i + 1) % N])^2/2 }";
+    let mut ring = system("q[N]; p[N]", "N", "", h);
+    match verdict(&mut ring, "sum(i in 0..N) { p[(2*i) % N] }", None) {
+        Verdict::Disproven { point, .. } => {
+            let sizes = point.iter().filter(|(name, _)| name == "N");
+            assert_eq!(sizes.count(), 1, "{point:?}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
 /// Where a parameter has one certain value it still has it.
 #[test]
 fn equality_of_parameters_counts() {

@@ -31,7 +31,7 @@ pub fn unroll(model: &Model, sizes: &[i64]) -> Result<Model, String> {
 }
 
 /// The given nodes at the given sizes, over the arena of a new model with the same names, whose
-/// shapes are literal. Its H and observables are left as they were and mean nothing.
+/// shapes are literal, so that it has no sizes. Its H and observables are left as they were and mean nothing.
 ///
 /// # Errors
 /// As [`unroll`].
@@ -42,6 +42,7 @@ pub fn unroll_nodes(
 ) -> Result<(Model, Vec<Node>), String> {
     let mut unrolled = model.clone();
     unrolled.dag = Dag::new();
+    unrolled.sizes.clear();
     let place = Place::new(sizes);
     let literal = |shape: &mut Shape| match shape {
         Shape::Scalar => {}

@@ -518,6 +518,52 @@ fn a_point_names_each_size_once() {
     }
 }
 
+/// Nothing is proven on a shell without points, and nothing refuted.
+#[test]
+fn a_shell_without_points_decides_nothing() {
+    let mut oscillator = system("q; p", "", "", "p^2/2 + q^2/2");
+    match verdict(&mut oscillator, "p", Some("-1")) {
+        Verdict::Undecided { residual } => assert_eq!(residual, "-q"),
+        other => panic!("{other:?}"),
+    }
+}
+
+/// True of three bodies is not true of any number.
+#[test]
+fn what_holds_at_one_size_only_is_refuted_at_another() {
+    let h = "sum(i in 0..N) { p[i]^2/2 } + (N - 3)*sum(i in 0..N) { q[i] }";
+    let mut tilted = system("q[N]; p[N]", "N", "", h);
+    match verdict(&mut tilted, "sum(i in 0..N) { p[i] }", None) {
+        Verdict::Disproven { point, .. } => {
+            assert!(point[0].0 == "N" && point[0].1 != 3.0, "{point:?}");
+        }
+        other => panic!("{other:?}"),
+    }
+}
+
+/// No rule about loops says that a sum over three is that of three.
+#[test]
+fn loops_over_literal_ranges_are_written_out_for_a_proof() {
+    let h = "u^2/2 + y*(sum(i in 0..3) { x[i] } - x[0] - x[1] - x[2])";
+    let mut apart = system("x[3], y; v[3], u", "", "", h);
+    accepted(&mut apart, "u");
+    rejected(&mut apart, "y");
+}
+
+/// Pairs are counted once, whichever of the two comes first.
+#[test]
+fn pairs_above_the_diagonal_are_those_below() {
+    let pairs = |range: &str| {
+        format!(
+            "sum(i in 0..n) {{ p[i]^2/(2*m[i]) }} + sum(i in 0..n, j in {range}) {{ m[i]*m[j]*exp(q[i] + q[j])*(i + j) }}"
+        )
+    };
+    let mut bodies = system("q[n]; p[n]", "n", "m[n]", &pairs("0..i"));
+    accepted(&mut bodies, &pairs("i + 1..n"));
+    let mut bodies = system("q[n]; p[n]", "n", "m[n]", &pairs("i + 1..n"));
+    accepted(&mut bodies, &pairs("0..i"));
+}
+
 /// Where a parameter has one certain value it still has it.
 #[test]
 fn equality_of_parameters_counts() {

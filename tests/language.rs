@@ -218,3 +218,40 @@ where
         close(dp[k], gradient.p[k]);
     }
 }
+
+hamiltonian! {
+    /// Another system where k is 1.
+    pub struct Exceptional { k = 1.0 }
+    H(q; p) = p^2/2 + if k == 1 { q^2/2 + q*p } else { cos(q) }
+}
+
+hamiltonian! {
+    /// 0⁰ of a sign.
+    pub struct Signed { k = 0.0 }
+    H(q; p) = (p^2 + q^2)/2 + sign(k)^2*q*p - q*p
+}
+
+/// What holds at one value of a parameter only is a value that users do set.
+#[test]
+fn conditions_on_parameters_count_at_single_values() {
+    let at = State::new([0.5], [0.25]);
+    let one = Exceptional::default();
+    assert_eq!(one.energy(&at), 0.03125 + 0.125 + 0.125);
+    assert_eq!(one.gradient(&at).q[0], 0.5 + 0.25);
+    let two = Exceptional { k: 2.0 };
+    assert_eq!(two.energy(&at), 0.03125 + 0.5f64.cos());
+    assert_eq!(two.gradient(&at).q[0], -0.5f64.sin());
+    assert_eq!(Signed { k: 0.0 }.energy(&at), 0.15625 - 0.125);
+    assert_eq!(Signed { k: -3.0 }.energy(&at), 0.15625);
+}
+
+/// T and V are what was written: 10⁻³⁰ is not the rounding of its expansion.
+#[test]
+fn what_does_not_couple_is_not_multiplied_out() {
+    let h = hamiltonian! { H = p*(p + q) - p*q + (q - 1)^10 };
+    let at = State::new([1.001], [0.0]);
+    let (energy, expected) = (h.energy(&at), (1.001f64 - 1.0).powi(10));
+    assert!((energy - expected).abs() <= 1e-14 * expected, "{energy:e}");
+    let mut run = Integrator::new(&h, StormerVerlet::default(), at, 1e-3).unwrap();
+    run.advance(1).unwrap();
+}

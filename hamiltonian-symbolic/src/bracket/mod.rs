@@ -2,7 +2,8 @@
 //!
 //! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
 //! proven means for all sizes, at all points (on the shell, if one is given), with nothing that may
-//! jump, nor was seen to jump through a pole; disproven comes with sizes and a point where the time derivative along the flow is not zero.
+//! jump, nor was seen to jump through a pole; disproven comes with sizes and a point where the time
+//! derivative along the flow is not zero.
 
 mod jump;
 mod pair;

@@ -31,7 +31,8 @@ pub fn unroll(model: &Model, sizes: &[i64]) -> Result<Model, String> {
 }
 
 /// The given nodes at the given sizes, over the arena of a new model with the same names, whose
-/// shapes are literal, so that it has no sizes. Its H and observables are left as they were and mean nothing.
+/// shapes are literal, so that it has no sizes. Its H and observables are left as they were and mean
+/// nothing.
 ///
 /// # Errors
 /// As [`unroll`].

@@ -163,10 +163,13 @@ fn check_at(
                 continue;
             }
             // The first one is H.
-            match rounding > close {
-                _ if at > 0 => {}
-                true => roughly += 1,
-                false => compared += 1,
+            if at == 0 {
+                let count = if rounding > close {
+                    &mut roughly
+                } else {
+                    &mut compared
+                };
+                *count += 1;
             }
             // A value that is none is not close.
             let is_close = (a.value - b.value).abs() <= close + rounding;

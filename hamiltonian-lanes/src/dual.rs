@@ -184,6 +184,8 @@ impl<T: Real> DivAssign for Dual<T> {
 
 impl<T: Real> Real for Dual<T> {
     type Mask = T::Mask;
+    type Size = T::Size;
+    const LANES: u32 = T::LANES;
 
     #[inline(always)]
     fn constant(hi: f64, lo: f64) -> Self {
@@ -229,12 +231,16 @@ impl<T: Real> Real for Dual<T> {
         if re < eps || eps.is_nan() { eps } else { re }
     }
     #[inline(always)]
-    fn is_finite(self) -> bool {
-        self.re.is_finite() & self.eps.is_finite()
+    fn size(self) -> T::Size {
+        self.re.size() + self.eps.size()
     }
     #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self.re.to_f64()
+    fn finite(self) -> Self::Mask {
+        self.re.finite() & self.eps.finite()
+    }
+    #[inline(always)]
+    fn lane(self, k: u32) -> f64 {
+        self.re.lane(k)
     }
     #[inline(always)]
     fn epsilon() -> f64 {

@@ -20,6 +20,14 @@ impl Mask for bool {
     fn any(self) -> bool {
         self
     }
+    #[inline(always)]
+    fn lane(self, k: u32) -> bool {
+        self & (k == 0)
+    }
+    #[inline(always)]
+    fn first(self) -> Option<u32> {
+        self.then_some(0)
+    }
 }
 
 /// [`Real`] for one float type, with its elementary functions from `$functions`.
@@ -27,6 +35,8 @@ macro_rules! float {
     ($float:ident, $functions:ident) => {
         impl Real for $float {
             type Mask = bool;
+            type Size = Self;
+            const LANES: u32 = 1;
 
             #[inline(always)]
             fn constant(hi: f64, lo: f64) -> Self {
@@ -58,12 +68,16 @@ macro_rules! float {
                 f64::from(self).abs()
             }
             #[inline(always)]
-            fn is_finite(self) -> bool {
+            fn size(self) -> Self {
+                self.abs()
+            }
+            #[inline(always)]
+            fn finite(self) -> bool {
                 $float::is_finite(self)
             }
             #[inline(always)]
-            fn to_f64(self) -> f64 {
-                f64::from(self)
+            fn lane(self, k: u32) -> f64 {
+                if k == 0 { f64::from(self) } else { f64::NAN }
             }
             #[inline(always)]
             fn epsilon() -> f64 {

@@ -27,6 +27,10 @@ pub trait Mask:
     fn all(self) -> bool;
     /// Whether any lane is set.
     fn any(self) -> bool;
+    /// The flag of lane `k`; `false` where there is no such lane.
+    fn lane(self, k: u32) -> bool;
+    /// The first lane that is set.
+    fn first(self) -> Option<u32>;
 }
 
 /// A scalar made from a value of type `P` without loss of what `P` says: parameters of type `P`
@@ -101,6 +105,10 @@ pub trait Real:
 {
     /// What comparisons return.
     type Mask: Mask;
+    /// What a [`size`](Self::size) is: one number a lane, without derivative parts.
+    type Size: Real<Mask = Self::Mask>;
+    /// How many independent numbers a value holds: 1 for scalars.
+    const LANES: u32;
 
     /// The number `hi + lo` (two words, so that double-double constants are exact to 106 bits).
     fn constant(hi: f64, lo: f64) -> Self;
@@ -123,10 +131,36 @@ pub trait Real:
     /// The largest absolute value of any component (lanes, derivative parts) as `f64`; NaN if any
     /// component is NaN.
     fn magnitude(self) -> f64;
+    /// The sum of the absolute values of a lane's components (the value and its derivative parts),
+    /// lane by lane; NaN in the lanes where any is NaN. A norm for stopping: it costs less than a
+    /// maximum that keeps NaN.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::{Dual, Real};
+    /// assert_eq!(Dual::new(-3.0, 0.5).size(), 3.5);
+    /// assert!(Dual::new(1.0, f64::NAN).size().is_nan());
+    /// ```
+    fn size(self) -> Self::Size;
+    /// The lanes all of whose components are finite.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::{Dual, Mask, Real};
+    /// assert!(!Dual::new(1.0, f64::INFINITY).finite().all());
+    /// ```
+    fn finite(self) -> Self::Mask;
     /// Whether every component is finite.
-    fn is_finite(self) -> bool;
-    /// The value rounded to `f64` (derivative parts dropped).
-    fn to_f64(self) -> f64;
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.finite().all()
+    }
+    /// The value in lane `k` rounded to `f64` (derivative parts dropped); NaN where there is no such
+    /// lane.
+    fn lane(self, k: u32) -> f64;
+    /// The value of the first lane rounded to `f64` (derivative parts dropped).
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self.lane(0)
+    }
     /// The spacing of this type's numbers at 1.
     fn epsilon() -> f64;
 

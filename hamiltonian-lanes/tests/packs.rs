@@ -59,6 +59,12 @@ impl Mask for Flags {
     fn any(self) -> bool {
         self.0.into_iter().any(|flag| flag)
     }
+    fn lane(self, k: u32) -> bool {
+        self.0.get(k as usize).copied().unwrap_or(false)
+    }
+    fn first(self) -> Option<u32> {
+        (0..LANES as u32).find(|&k| self.lane(k))
+    }
 }
 
 macro_rules! operators {
@@ -117,6 +123,8 @@ macro_rules! by_lane {
 
 impl Real for Pack {
     type Mask = Flags;
+    type Size = Self;
+    const LANES: u32 = LANES as u32;
 
     fn constant(hi: f64, lo: f64) -> Self {
         Self([f64::constant(hi, lo); LANES])
@@ -141,11 +149,14 @@ impl Real for Pack {
     fn magnitude(self) -> f64 {
         self.0.into_iter().map(f64::abs).fold(0.0, Real::max)
     }
-    fn is_finite(self) -> bool {
-        self.0.into_iter().all(f64::is_finite)
+    fn size(self) -> Self {
+        self.each(f64::abs)
     }
-    fn to_f64(self) -> f64 {
-        self.0[0]
+    fn finite(self) -> Flags {
+        Flags(self.0.map(f64::is_finite))
+    }
+    fn lane(self, k: u32) -> f64 {
+        self.0.get(k as usize).copied().unwrap_or(f64::NAN)
     }
     fn epsilon() -> f64 {
         f64::EPSILON
@@ -236,4 +247,23 @@ fn masks_of_packs_and_sizes() {
         5.0
     );
     assert_eq!(Dual::<Pack>::lift(2.0).re, Pack([2.0; LANES]));
+}
+
+#[test]
+fn lanes_are_told_apart() {
+    // Lane 3 of X is NaN.
+    let finite = Pack(X).finite();
+    assert!(finite.lane(2) && !finite.lane(3) && !finite.lane(4));
+    assert_eq!((!finite).first(), Some(3));
+    assert_eq!(Flags::splat(false).first(), None);
+    assert_eq!(Pack(X).lane(1), -2.0);
+    assert!(Pack(X).lane(4).is_nan());
+    assert_eq!(<Dual<Pack> as Real>::LANES, 4);
+    // Sizes: |value| + |derivative part|, and NaN in its own lane only.
+    let size = Dual::new(Pack(X), Pack(Y)).size();
+    assert_eq!(size.0[..3], [0.0, 5.0, 6.0]);
+    assert_eq!((!size.finite()).first(), Some(3));
+    let bad = Dual::new(Pack(Y), Pack([0.0, f64::INFINITY, 0.0, f64::NAN]));
+    assert_eq!((!bad.finite()).first(), Some(1));
+    assert!(!bad.is_finite() && Dual::new(Pack(Y), Pack(Y)).is_finite());
 }

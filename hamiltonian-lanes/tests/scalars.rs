@@ -158,3 +158,27 @@ fn values_lift_without_loss_where_they_fit() {
     assert_eq!(f64::constant(1.0, f64::EPSILON), 1.0 + f64::EPSILON);
     assert_eq!(f32::constant(0.1, 0.0), 0.1f32);
 }
+
+/// A scalar is one lane: lane 0 is the value, there is no other.
+fn one_lane<T: Real + Lift<f32>>() {
+    let x = T::lift(-2.5f32);
+    assert_eq!(T::LANES, 1);
+    assert_eq!(
+        (x.lane(0), x.to_f64(), x.size().to_f64()),
+        (-2.5, -2.5, 2.5)
+    );
+    assert!(x.lane(1).is_nan());
+    assert!(x.finite().lane(0) && !x.finite().lane(1));
+    let pole = x / T::zero();
+    assert!(!pole.is_finite() && !pole.finite().any());
+    assert_eq!((!pole.finite()).first(), Some(0));
+    assert_eq!(pole.finite().first(), None);
+    assert!((pole * T::zero()).size().to_f64().is_nan());
+}
+
+#[test]
+fn scalars_are_one_lane() {
+    one_lane::<f64>();
+    one_lane::<f32>();
+    one_lane::<DoubleDouble>();
+}

@@ -115,6 +115,8 @@ macro_rules! functions_of_two {
 
 impl Real for Counted {
     type Mask = bool;
+    type Size = f64;
+    const LANES: u32 = 1;
 
     fn constant(hi: f64, lo: f64) -> Self {
         Self(f64::constant(hi, lo))
@@ -137,11 +139,14 @@ impl Real for Counted {
     fn magnitude(self) -> f64 {
         self.0.abs()
     }
-    fn is_finite(self) -> bool {
+    fn size(self) -> f64 {
+        self.0.abs()
+    }
+    fn finite(self) -> bool {
         self.0.is_finite()
     }
-    fn to_f64(self) -> f64 {
-        self.0
+    fn lane(self, k: u32) -> f64 {
+        self.0.lane(k)
     }
     fn epsilon() -> f64 {
         f64::EPSILON

@@ -112,7 +112,7 @@ impl DoubleDouble {
 
     /// Hyperbolic cosine.
     pub(super) fn hyperbolic_cosine(self) -> Self {
-        let x = self.size();
+        let x = self.absolute();
         if x.hi > LARGE_EXPONENT {
             return x.scaled_exponential(-1);
         }
@@ -173,7 +173,7 @@ impl DoubleDouble {
         if self.hi.is_nan() || y.hi.is_nan() {
             return NAN;
         }
-        let base = self.size();
+        let base = self.absolute();
         if y.hi.is_infinite() {
             return match (base > ONE, y.hi > 0.0) {
                 _ if base == ONE => ONE,
@@ -229,7 +229,7 @@ impl DoubleDouble {
 
     /// Absolute value.
     #[inline(always)]
-    pub(super) fn size(self) -> Self {
+    pub(super) fn absolute(self) -> Self {
         if self.hi.is_sign_negative() {
             -self
         } else {

@@ -8,6 +8,8 @@ use crate::real::Real;
 
 impl Real for DoubleDouble {
     type Mask = bool;
+    type Size = f64;
+    const LANES: u32 = 1;
 
     #[inline(always)]
     fn constant(hi: f64, lo: f64) -> Self {
@@ -42,12 +44,16 @@ impl Real for DoubleDouble {
         self.hi.abs()
     }
     #[inline(always)]
-    fn is_finite(self) -> bool {
+    fn size(self) -> f64 {
+        self.hi.abs()
+    }
+    #[inline(always)]
+    fn finite(self) -> bool {
         self.hi.is_finite()
     }
     #[inline(always)]
-    fn to_f64(self) -> f64 {
-        self.hi
+    fn lane(self, k: u32) -> f64 {
+        if k == 0 { self.hi } else { f64::NAN }
     }
     #[inline(always)]
     fn epsilon() -> f64 {
@@ -56,7 +62,7 @@ impl Real for DoubleDouble {
     }
     #[inline(always)]
     fn abs(self) -> Self {
-        self.size()
+        self.absolute()
     }
     #[inline(always)]
     fn sign(self) -> Self {

@@ -181,6 +181,8 @@ macro_rules! functions {
 
 impl Real for Traced {
     type Mask = bool;
+    type Size = f64;
+    const LANES: u32 = 1;
 
     fn constant(hi: f64, lo: f64) -> Traced {
         if lo == 0.0 {
@@ -207,11 +209,14 @@ impl Real for Traced {
     fn magnitude(self) -> f64 {
         self.value.abs()
     }
-    fn is_finite(self) -> bool {
+    fn size(self) -> f64 {
+        self.value.abs()
+    }
+    fn finite(self) -> bool {
         self.value.is_finite()
     }
-    fn to_f64(self) -> f64 {
-        self.value
+    fn lane(self, k: u32) -> f64 {
+        self.value.lane(k)
     }
     fn epsilon() -> f64 {
         f64::EPSILON

@@ -25,6 +25,7 @@ mod real;
 
 mod elementary;
 mod float;
+mod word;
 
 mod double_double;
 mod dual;

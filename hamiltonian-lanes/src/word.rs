@@ -1,0 +1,102 @@
+//! The operations that elementary functions are written over.
+//!
+//! Input: [`Real`]. Output: [`Word`], lanes of `f64` whose bits can be computed with; implemented
+//! for `f64` here and for every pack beside it. Invariant: a lane's result depends on that lane's
+//! operands alone, so a function written over `Word` gives the same bits in a scalar and in a lane
+//! of every type that fuses alike.
+
+use core::ops::{BitAnd, BitOr, BitXor};
+
+use crate::real::Real;
+
+/// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
+pub(crate) trait Bits:
+    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self>
+{
+    /// Every lane `x`.
+    fn splat(x: u64) -> Self;
+    /// The sum modulo 2⁶⁴.
+    fn plus(self, other: Self) -> Self;
+    /// The difference modulo 2⁶⁴.
+    fn minus(self, other: Self) -> Self;
+    /// Towards higher bits, by `K < 64`.
+    fn shl<const K: u32>(self) -> Self;
+    /// Towards lower bits, zeros from above, by `K < 64`.
+    fn shr<const K: u32>(self) -> Self;
+}
+
+/// One `f64` a lane, with its bits. Operators are rounded one by one; [`Real::fma`] is fused where
+/// [`Word::FUSED`] says so and is `self * b + c` elsewhere.
+pub(crate) trait Word: Real {
+    /// The lanes' bits.
+    type Bits: Bits;
+    /// Whether [`Real::fma`] rounds once.
+    const FUSED: bool;
+
+    /// The lanes' bits.
+    fn bits(self) -> Self::Bits;
+    /// The lanes of which these are the bits.
+    fn from_bits(bits: Self::Bits) -> Self;
+    /// Set where the lowest bit is.
+    fn odd(bits: Self::Bits) -> Self::Mask;
+    /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
+    /// To be called where some lane is set, and never inlined (`#[cold]`).
+    fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;
+    /// [`Word::replace`] for functions of two arguments.
+    fn replace2(self, mask: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self;
+
+    /// Every lane `x`.
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self::constant(x, 0.0)
+    }
+}
+
+impl Bits for u64 {
+    #[inline(always)]
+    fn splat(x: u64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn shl<const K: u32>(self) -> Self {
+        self << K
+    }
+    #[inline(always)]
+    fn shr<const K: u32>(self) -> Self {
+        self >> K
+    }
+}
+
+impl Word for f64 {
+    type Bits = u64;
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.to_bits()
+    }
+    #[inline(always)]
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+    #[inline(always)]
+    fn odd(bits: u64) -> bool {
+        bits & 1 != 0
+    }
+    #[inline(always)]
+    fn replace(self, mask: bool, x: Self, f: fn(f64) -> f64) -> Self {
+        if mask { f(x) } else { self }
+    }
+    #[inline(always)]
+    fn replace2(self, mask: bool, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self {
+        if mask { f(x, y) } else { self }
+    }
+}

@@ -7,7 +7,7 @@
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::real::Real;
+use crate::real::{Mask, Real};
 
 /// `re + eps·ε` with ε² = 0: a value and its derivative along one direction, so that
 /// `f(x + ε) = f(x) + f′(x)·ε` for every function built from [`Real`]'s operations (W. K. Clifford,
@@ -370,7 +370,8 @@ impl<T: Real> Real for Dual<T> {
         let (x, y) = (self.re, exponent.re);
         let re = x.pow(y);
         let by_base = x.pow(y - T::one()).mul_absorbing(y).mul_absorbing(self.eps);
-        if exponent.eps.magnitude() == 0.0 {
+        let constant = exponent.eps.size().equals(T::Size::zero());
+        if constant.all() {
             return Self { re, eps: by_base };
         }
         // x^y·ln x → 0 as x → 0 from above, for y > 0.
@@ -378,7 +379,11 @@ impl<T: Real> Real for Dual<T> {
         let slope = T::select(vanishes, T::zero(), re * x.ln());
         Self {
             re,
-            eps: by_base + slope.mul_absorbing(exponent.eps),
+            eps: T::select(
+                constant,
+                by_base,
+                by_base + slope.mul_absorbing(exponent.eps),
+            ),
         }
     }
 }

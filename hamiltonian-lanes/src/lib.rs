@@ -19,7 +19,7 @@
 //! assert_eq!(energy(DoubleDouble::from(0.0), DoubleDouble::from(2.0)).to_f64(), 1.0);
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 mod real;
 
@@ -30,8 +30,14 @@ mod word;
 mod double_double;
 mod dual;
 
+#[allow(unsafe_code)]
+mod level;
+mod pack;
+
 mod lift;
 
 pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
 pub use dual::Dual;
+pub use level::{Cpu, Kernel, Level, dispatch, dispatch_at_most};
+pub use pack::{Nf, Pack, W};
 pub use real::{Lift, Mask, Real};

@@ -6,7 +6,44 @@
 
 use crate::double_double::DoubleDouble;
 use crate::dual::Dual;
+use crate::level::Register;
+use crate::pack::{Nf, Pack, V, W};
 use crate::real::{Lift, Real};
+
+/// Packs: the number as `f64` in every lane. (From `f64` itself they lift beside their definition.)
+macro_rules! lift_pack {
+    (f64) => {};
+    ($number:ident) => {
+        impl<R: Register> Lift<$number> for V<R> {
+            #[inline(always)]
+            fn lift(value: $number) -> Self {
+                Self::lift(value as f64)
+            }
+        }
+        impl<P: Pack, const K: usize> Lift<$number> for W<P, K> {
+            #[inline(always)]
+            fn lift(value: $number) -> Self {
+                Self::lift(value as f64)
+            }
+        }
+        impl<P: Pack> Lift<$number> for Nf<P> {
+            #[inline(always)]
+            fn lift(value: $number) -> Self {
+                Self::lift(value as f64)
+            }
+        }
+    };
+}
+
+/// Lifting from every number a parameter may be.
+macro_rules! lift_every {
+    ($($number:ident)*) => {
+        /// A scalar that lifts from every kind of number.
+        pub trait LiftEvery: $(Lift<$number> +)* {}
+        impl<T: $(Lift<$number> +)*> LiftEvery for T {}
+    };
+}
+lift_every!(f64 f32 i8 i16 i32 i64 isize u8 u16 u32 u64 usize);
 
 /// Scalars that hold any float: a float is cast, which is exact or rounds to nearest.
 macro_rules! lift_float {
@@ -30,6 +67,7 @@ macro_rules! lift_float {
                     Self::from(value as f64)
                 }
             }
+            lift_pack!($float);
             impl<T: Real> Lift<$float> for Dual<T> {
                 #[inline(always)]
                 fn lift(value: $float) -> Self {
@@ -63,6 +101,7 @@ macro_rules! lift_integer {
                     Self::constant(hi, lo)
                 }
             }
+            lift_pack!($integer);
             impl<T: Real> Lift<$integer> for Dual<T> {
                 #[inline(always)]
                 fn lift(value: $integer) -> Self {

@@ -10,7 +10,7 @@ use core::ops::{BitAnd, BitOr, BitXor};
 use crate::real::Real;
 
 /// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
-pub(crate) trait Bits:
+pub trait Bits:
     Copy + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self>
 {
     /// Every lane `x`.
@@ -27,7 +27,7 @@ pub(crate) trait Bits:
 
 /// One `f64` a lane, with its bits. Operators are rounded one by one; [`Real::fma`] is fused where
 /// [`Word::FUSED`] says so and is `self * b + c` elsewhere.
-pub(crate) trait Word: Real {
+pub trait Word: Real {
     /// The lanes' bits.
     type Bits: Bits;
     /// Whether [`Real::fma`] rounds once.

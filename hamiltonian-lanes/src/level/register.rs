@@ -1,0 +1,86 @@
+//! What a register of numbers can do: the table every pack is made from.
+//!
+//! Input: nothing. Output: [`Register`], and [`intrinsics!`] for its functions. Invariant:
+//! lane by lane each function gives the bits of the same operation on `f64`, but for
+//! [`Register::fma`], which rounds once where `FUSED`.
+
+use core::fmt::Debug;
+
+/// A register of `f64` lanes and the flags of its comparisons.
+pub trait Register: Copy + Send + Sync + 'static {
+    /// One flag a lane.
+    type Flags: Copy + Send + Sync + 'static;
+    /// The lanes in memory.
+    type Array: Copy
+        + Debug
+        + Default
+        + PartialEq
+        + AsRef<[f64]>
+        + AsMut<[f64]>
+        + for<'a> TryFrom<&'a [f64]>;
+    /// The number of lanes.
+    const LANES: u32;
+    /// Whether [`fma`](Self::fma) rounds once.
+    const FUSED: bool;
+
+    fn splat(value: f64) -> Self;
+    fn load(lanes: &Self::Array) -> Self;
+    fn store(a: Self) -> Self::Array;
+
+    fn add(a: Self, b: Self) -> Self;
+    fn sub(a: Self, b: Self) -> Self;
+    fn mul(a: Self, b: Self) -> Self;
+    fn div(a: Self, b: Self) -> Self;
+    /// `a·b + c`, rounded once where `FUSED`, else twice.
+    fn fma(a: Self, b: Self, c: Self) -> Self;
+    fn sqrt(a: Self) -> Self;
+
+    /// The bits of both.
+    fn and(a: Self, b: Self) -> Self;
+    /// The bits of either.
+    fn or(a: Self, b: Self) -> Self;
+    /// The bits of one of them alone.
+    fn xor(a: Self, b: Self) -> Self;
+    /// The sum of the bits as integers, modulo 2⁶⁴.
+    fn plus(a: Self, b: Self) -> Self;
+    /// The difference of the bits as integers, modulo 2⁶⁴.
+    fn minus(a: Self, b: Self) -> Self;
+    /// The bits moved up by `K < 64`.
+    fn shl<const K: u32>(a: Self) -> Self;
+    /// The bits moved down by `K < 64`.
+    fn shr<const K: u32>(a: Self) -> Self;
+    /// Whether the lowest bit is set.
+    fn odd(a: Self) -> Self::Flags;
+
+    fn lt(a: Self, b: Self) -> Self::Flags;
+    fn le(a: Self, b: Self) -> Self::Flags;
+    fn equals(a: Self, b: Self) -> Self::Flags;
+    fn select(flags: Self::Flags, yes: Self, no: Self) -> Self;
+
+    fn flags(flag: bool) -> Self::Flags;
+    fn both(a: Self::Flags, b: Self::Flags) -> Self::Flags;
+    fn either(a: Self::Flags, b: Self::Flags) -> Self::Flags;
+    fn not(a: Self::Flags) -> Self::Flags;
+    /// Bit k is the flag of lane k; the bits above the last lane are 0.
+    fn bits(a: Self::Flags) -> u32;
+}
+
+/// Functions of a register whose bodies are intrinsics, written as ordinary functions.
+#[allow(unused_macros)]
+macro_rules! intrinsics {
+    ($(fn $name:ident$(<const $K:ident: u32>)?($($argument:ident: $type:ty),*) -> $result:ty { $($body:tt)* })*) => {
+        $(
+            #[inline(always)]
+            fn $name$(<const $K: u32>)?($($argument: $type),*) -> $result {
+                // SAFETY: the instructions are of the level that names the register, and that level
+                // is entered only on a CPU that has them (see the module). Memory is read and
+                // written through arrays of as many numbers as the register has, by instructions
+                // that take any alignment.
+                #[allow(unused_unsafe)]
+                unsafe { $($body)* }
+            }
+        )*
+    };
+}
+#[allow(unused_imports)]
+pub(super) use intrinsics;

@@ -6,7 +6,7 @@
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
-use crate::op::Op;
+use crate::op::{Op, Range as Values};
 use crate::rational::Rational;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -518,10 +518,11 @@ impl Dag {
             }
             Kind::Call(op, arguments) => {
                 arguments.iter().for_each(|n| child(*n));
-                matches!(
-                    op,
-                    Op::Sqrt | Op::Abs | Op::Exp | Op::Cosh | Op::Acos | Op::Acosh | Op::Hypot
-                ) || (*op == Op::Pow && self.is_nonnegative(arguments[0]))
+                match op.row().regularity.range {
+                    Values::Any => false,
+                    Values::NonNegative | Values::Positive => true,
+                    Values::OfBase => self.is_nonnegative(arguments[0]),
+                }
             }
             Kind::External(_, _, arguments) => {
                 arguments.iter().for_each(|n| child(*n));

@@ -7,6 +7,7 @@ pub mod dag;
 pub mod diff;
 pub mod eval;
 pub mod factor;
+pub mod facts;
 pub mod index;
 mod instruct;
 pub mod legendre;

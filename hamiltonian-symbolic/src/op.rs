@@ -1,8 +1,9 @@
 //! The operation table: everything the engine knows about an elementary function, one row each.
 //!
-//! Input: nothing. Output: [`Op`] with its name, parity, value at zero, derivative and evaluation.
-//! Invariant: a new function is one row of `operations!` below (and, if it is new to arithmetic, a
-//! method of `Real`); parser, differentiation, printing and emission all read this table.
+//! Input: nothing. Output: [`Op`] with its name, parity, value at zero, regularity, derivative and
+//! evaluation. Invariant: a new function is one row of `operations!` below (and, if it is new to
+//! arithmetic, a method of `Real`); parser, differentiation, printing, proofs and emission all read
+//! this table, and a row without one of its columns does not compile.
 
 use crate::dag::{Dag, Node};
 use crate::rational::Rational;
@@ -17,6 +18,79 @@ pub enum Parity {
     Odd,
     /// Neither.
     None,
+}
+
+/// The sign of a function's values, wherever it has one.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Range {
+    /// Either sign.
+    Any,
+    /// f ≥ 0.
+    NonNegative,
+    /// f > 0.
+    Positive,
+    /// f ≥ 0 where the first argument is ≥ 0.
+    OfBase,
+}
+
+/// A set of arguments at which something happens.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum At {
+    /// x = 0
+    Zero,
+    /// x = 1
+    One,
+    /// x = −1
+    MinusOne,
+    /// x = 1 and x = −1
+    Units,
+    /// cos x = 0
+    Cosine,
+    /// x = y
+    Equal,
+    /// x = 0 and y = 0
+    Origin,
+    /// The negative half of an axis: y = 0, x ≤ 0.
+    Cut,
+}
+
+/// Where a function is not analytic though it has a value there.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Break {
+    /// Nowhere.
+    Nowhere,
+    /// It is continuous there.
+    Kink(At),
+    /// It is not continuous there.
+    Jump(At),
+}
+
+/// What a function tends to as its argument grows beyond all bounds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Far {
+    /// |f| → ∞ for both signs of the argument (for the one it is defined for).
+    Infinite,
+    /// A limit for each sign of the argument, and not the same.
+    Limits,
+    /// A limit for one sign of the argument, |f| → ∞ for the other.
+    Mixed,
+    /// Nothing, or it is not defined there.
+    Nothing,
+}
+
+/// Where a function is regular, for real arguments.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Regularity {
+    /// The sign of its values.
+    pub range: Range,
+    /// Where it is not analytic.
+    pub breaks: Break,
+    /// Where |f| → ∞ at a finite argument.
+    pub pole: Option<At>,
+    /// What it tends to.
+    pub far: Far,
+    /// Whether it is one analytic function of all complex numbers, poles aside.
+    pub is_entire: bool,
 }
 
 /// Derivatives with respect to each argument: from the arena, the arguments and the value itself.
@@ -35,12 +109,14 @@ pub struct Row {
     pub at_zero: Option<i64>,
     /// Its name in LaTeX.
     pub latex: &'static str,
+    /// Where it is regular.
+    pub regularity: Regularity,
     /// Its partial derivatives.
     pub partials: Partials,
 }
 
 macro_rules! operations {
-    ($($variant:ident $name:ident($($arg:ident),+) $parity:ident $zero:expr, $latex:literal, |$d:ident, $x:ident, $f:ident| $partials:expr;)+) => {
+    ($($variant:ident $name:ident($($arg:ident),+) $parity:ident $zero:expr, $latex:literal, [$($regularity:tt)+], |$d:ident, $x:ident, $f:ident| $partials:expr;)+) => {
         /// An elementary function.
         #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
         #[repr(u8)]
@@ -55,6 +131,7 @@ macro_rules! operations {
             parity: Parity::$parity,
             at_zero: $zero,
             latex: $latex,
+            regularity: operations!(@regularity $($regularity)+),
             #[allow(unused_variables)]
             partials: |$d, $x, $f| $partials,
         },)+];
@@ -71,26 +148,67 @@ macro_rules! operations {
             }
         }
     };
+    (@regularity $range:ident, $breaks:ident $(($at:ident))?, $pole:ident $(($of:ident))?, $far:ident, $kind:ident) => {
+        Regularity {
+            range: Range::$range,
+            breaks: Break::$breaks $((At::$at))?,
+            pole: $pole $((At::$of))?,
+            far: Far::$far,
+            is_entire: operations!(@$kind),
+        }
+    };
+    (@Entire) => { true };
+    (@Branched) => { false };
     (@call $name:ident $a:ident) => { $a.$name() };
     (@call $name:ident $a:ident $b:ident) => { $a.$name($b) };
 }
 
 operations! {
-    Sqrt sqrt(x) None Some(0), "\\sqrt", |d, x, f| { let g = d.powi(f, -1); vec![d.scale(&Rational::new(1, 2), g)] };
-    Cbrt cbrt(x) Odd Some(0), "\\sqrt[3]", |d, x, f| { let g = d.powi(f, -2); vec![d.scale(&Rational::new(1, 3), g)] };
-    Abs abs(x) Even Some(0), "\\operatorname{abs}", |d, x, f| vec![d.call(Op::Sign, x)];
-    Sign sign(x) Odd Some(0), "\\operatorname{sign}", |d, x, f| vec![d.integer(0)];
-    Sin sin(x) Odd Some(0), "\\sin", |d, x, f| vec![d.call(Op::Cos, x)];
-    Cos cos(x) Even Some(1), "\\cos", |d, x, f| { let s = d.call(Op::Sin, x); vec![d.neg(s)] };
-    Tan tan(x) Odd Some(0), "\\tan", |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
-    Asin asin(x) Odd Some(0), "\\arcsin", |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
-    Acos acos(x) None None, "\\arccos", |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
-    Atan atan(x) Odd Some(0), "\\arctan", |d, x, f| { let r = d.one_plus_square(x[0], 1); vec![d.powi(r, -1)] };
-    Sinh sinh(x) Odd Some(0), "\\sinh", |d, x, f| vec![d.call(Op::Cosh, x)];
-    Cosh cosh(x) Even Some(1), "\\cosh", |d, x, f| vec![d.call(Op::Sinh, x)];
-    Tanh tanh(x) Odd Some(0), "\\tanh", |d, x, f| vec![d.one_plus_square(f, -1)];
-    Asinh asinh(x) Odd Some(0), "\\operatorname{arsinh}", |d, x, f| { let r = d.one_plus_square(x[0], 1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
-    Acosh acosh(x) None None, "\\operatorname{arcosh}", |d, x, f| {
+    Sqrt sqrt(x) None Some(0), "\\sqrt",
+        [NonNegative, Kink(Zero), None, Infinite, Branched],
+        |d, x, f| { let g = d.powi(f, -1); vec![d.scale(&Rational::new(1, 2), g)] };
+    Cbrt cbrt(x) Odd Some(0), "\\sqrt[3]",
+        [Any, Kink(Zero), None, Infinite, Branched],
+        |d, x, f| { let g = d.powi(f, -2); vec![d.scale(&Rational::new(1, 3), g)] };
+    Abs abs(x) Even Some(0), "\\operatorname{abs}",
+        [NonNegative, Kink(Zero), None, Infinite, Branched],
+        |d, x, f| vec![d.call(Op::Sign, x)];
+    Sign sign(x) Odd Some(0), "\\operatorname{sign}",
+        [Any, Jump(Zero), None, Limits, Branched],
+        |d, x, f| vec![d.integer(0)];
+    Sin sin(x) Odd Some(0), "\\sin",
+        [Any, Nowhere, None, Nothing, Entire],
+        |d, x, f| vec![d.call(Op::Cos, x)];
+    Cos cos(x) Even Some(1), "\\cos",
+        [Any, Nowhere, None, Nothing, Entire],
+        |d, x, f| { let s = d.call(Op::Sin, x); vec![d.neg(s)] };
+    Tan tan(x) Odd Some(0), "\\tan",
+        [Any, Nowhere, Some(Cosine), Nothing, Entire],
+        |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
+    Asin asin(x) Odd Some(0), "\\arcsin",
+        [Any, Kink(Units), None, Nothing, Branched],
+        |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
+    Acos acos(x) None None, "\\arccos",
+        [NonNegative, Kink(Units), None, Nothing, Branched],
+        |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
+    Atan atan(x) Odd Some(0), "\\arctan",
+        [Any, Nowhere, None, Limits, Branched],
+        |d, x, f| { let r = d.one_plus_square(x[0], 1); vec![d.powi(r, -1)] };
+    Sinh sinh(x) Odd Some(0), "\\sinh",
+        [Any, Nowhere, None, Infinite, Entire],
+        |d, x, f| vec![d.call(Op::Cosh, x)];
+    Cosh cosh(x) Even Some(1), "\\cosh",
+        [Positive, Nowhere, None, Infinite, Entire],
+        |d, x, f| vec![d.call(Op::Sinh, x)];
+    Tanh tanh(x) Odd Some(0), "\\tanh",
+        [Any, Nowhere, None, Limits, Entire],
+        |d, x, f| vec![d.one_plus_square(f, -1)];
+    Asinh asinh(x) Odd Some(0), "\\operatorname{arsinh}",
+        [Any, Nowhere, None, Infinite, Branched],
+        |d, x, f| { let r = d.one_plus_square(x[0], 1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
+    Acosh acosh(x) None None, "\\operatorname{arcosh}",
+        [NonNegative, Kink(One), None, Infinite, Branched],
+        |d, x, f| {
         // √(x−1)·√(x+1), because √(x²−1) would cancel near 1 and be real below −1.
         let (one, minus) = (d.integer(1), d.integer(-1));
         let (below, above) = (d.add(&[x[0], minus]), d.add(&[x[0], one]));
@@ -98,32 +216,52 @@ operations! {
         let product = d.mul(&[below, above]);
         vec![d.powi(product, -1)]
     };
-    Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}", |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
-    Exp exp(x) None Some(1), "\\exp", |d, x, f| vec![f];
-    ExpM1 exp_m1(x) None Some(0), "\\operatorname{expm1}", |d, x, f| vec![d.call(Op::Exp, x)];
-    Ln ln(x) None None, "\\ln", |d, x, f| vec![d.powi(x[0], -1)];
-    Ln1p ln_1p(x) None Some(0), "\\operatorname{log1p}", |d, x, f| { let one = d.integer(1); let r = d.add(&[one, x[0]]); vec![d.powi(r, -1)] };
-    Atan2 atan2(y, x) None None, "\\operatorname{atan2}", |d, x, f| {
+    Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}",
+        [Any, Nowhere, Some(Units), Nothing, Branched],
+        |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
+    Exp exp(x) None Some(1), "\\exp",
+        [Positive, Nowhere, None, Mixed, Entire],
+        |d, x, f| vec![f];
+    ExpM1 exp_m1(x) None Some(0), "\\operatorname{expm1}",
+        [Any, Nowhere, None, Mixed, Entire],
+        |d, x, f| vec![d.call(Op::Exp, x)];
+    Ln ln(x) None None, "\\ln",
+        [Any, Nowhere, Some(Zero), Infinite, Branched],
+        |d, x, f| vec![d.powi(x[0], -1)];
+    Ln1p ln_1p(x) None Some(0), "\\operatorname{log1p}",
+        [Any, Nowhere, Some(MinusOne), Infinite, Branched],
+        |d, x, f| { let one = d.integer(1); let r = d.add(&[one, x[0]]); vec![d.powi(r, -1)] };
+    Atan2 atan2(y, x) None None, "\\operatorname{atan2}",
+        [Any, Jump(Cut), None, Nothing, Branched],
+        |d, x, f| {
         let squares = d.sum_of_squares(&[x[1], x[0]]);
         let r = d.powi(squares, -1);
         let minus = d.mul(&[x[0], r]);
         vec![d.mul(&[x[1], r]), d.neg(minus)]
     };
-    Hypot hypot(x, y) None None, "\\operatorname{hypot}", |d, x, f| {
+    Hypot hypot(x, y) None None, "\\operatorname{hypot}",
+        [NonNegative, Kink(Origin), None, Infinite, Branched],
+        |d, x, f| {
         let r = d.powi(f, -1);
         vec![d.mul(&[x[0], r]), d.mul(&[x[1], r])]
     };
-    Min min(x, y) None None, "\\min", |d, x, f| {
+    Min min(x, y) None None, "\\min",
+        [Any, Kink(Equal), None, Nothing, Branched],
+        |d, x, f| {
         let first = d.less_equal(x[0], x[1]);
         let (zero, one) = (d.integer(0), d.integer(1));
         vec![d.select(first, one, zero), d.select(first, zero, one)]
     };
-    Max max(x, y) None None, "\\max", |d, x, f| {
+    Max max(x, y) None None, "\\max",
+        [Any, Kink(Equal), None, Nothing, Branched],
+        |d, x, f| {
         let first = d.less_equal(x[1], x[0]);
         let (zero, one) = (d.integer(0), d.integer(1));
         vec![d.select(first, one, zero), d.select(first, zero, one)]
     };
-    Pow pow(x, y) None None, "\\operatorname{pow}", |d, x, f| {
+    Pow pow(x, y) None None, "\\operatorname{pow}",
+        [OfBase, Kink(Zero), Some(Zero), Infinite, Branched],
+        |d, x, f| {
         // y·x^(y−1) from its own power, not from f/x, which is 0/0 at x = 0.
         let minus = d.integer(-1);
         let lower = d.add(&[x[1], minus]);

@@ -7,7 +7,7 @@
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
 use crate::index::Domain;
-use crate::op::Op;
+use crate::op::{Op, Range};
 use crate::rational::Rational;
 use std::rc::Rc;
 
@@ -174,7 +174,11 @@ impl Algebra {
             }
             Key::Function(op, arguments) => {
                 arguments.iter().for_each(read);
-                (matches!(op, Op::Acosh), false)
+                let range = op.row().regularity.range;
+                (
+                    matches!(range, Range::NonNegative | Range::Positive),
+                    range == Range::Positive,
+                )
             }
             Key::External(_, _, arguments) => {
                 arguments.iter().for_each(read);

@@ -19,6 +19,9 @@
 //! one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
 
 mod splitting;
+pub mod tables;
+
+pub mod collocation;
 
 mod separable;
 

@@ -1,8 +1,11 @@
-//! What a wrong definition is told: a file for each diagnostic, with what rustc then shows.
+//! Errors as rustc shows them: where spans lead, that a stub raises no further error, and errors
+//! in the words of rustc.
 //!
-//! `ui/fail` holds errors in this library's words, `ui/rustc` those that rustc words (bounds that
-//! are not met, names it does not find). The latter change with the compiler and run with the one
-//! they were recorded with. `TRYBUILD=overwrite` records them anew.
+//! The words and places of every diagnostic are checked in process, in `hamiltonian-macros`
+//! (`src/tests/refused`); here stand only those whose place goes through rustc in another way.
+//! `ui/rustc` holds errors that rustc words (bounds that are not met, names it does not find). They
+//! change with the compiler and run with the one they were recorded with. `TRYBUILD=overwrite`
+//! records both anew.
 
 use std::io::Write;
 use std::process::Command;

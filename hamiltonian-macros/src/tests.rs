@@ -7,14 +7,15 @@ mod lengths;
 mod limits;
 mod nests;
 mod precedence;
-mod refused;
 mod stub;
 
 use crate::ast::Ast;
 use crate::checked::Checked;
-use crate::expand;
-use crate::report::Report;
+use crate::report::{Diagnostic, Report};
+use crate::tokens::Tokens;
+use crate::{backend, check, expand, parse};
 use proc_macro2::{LineColumn, TokenStream};
+use quote::quote;
 use std::str::FromStr;
 
 /// The tree and, if nothing is wrong, the checked tree.
@@ -30,6 +31,34 @@ fn accept(source: &str) -> Checked {
     let (_, checked, report) = read(source);
     let texts: Vec<String> = report.errors().iter().map(|error| error.text()).collect();
     checked.unwrap_or_else(|| panic!("{source}\n{}", texts.join("\n")))
+}
+
+/// The stages between whose barriers errors are gathered.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Stage {
+    Parse,
+    Check,
+    Prove,
+}
+
+/// The first stage that refuses a definition, and its errors.
+fn refuse(source: &str) -> (Option<Stage>, Vec<Diagnostic>) {
+    let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
+    let mut report = Report::default();
+    let errors = |stage, report: &Report| (Some(stage), report.errors().to_vec());
+    let ast = parse::parse(&Tokens::flatten(stream), &mut report);
+    if !report.is_empty() {
+        return errors(Stage::Parse, &report);
+    }
+    let checked = check::check(&ast, &mut report);
+    if !report.is_empty() {
+        return errors(Stage::Check, &report);
+    }
+    backend::generate(&checked, &quote!(::hamiltonian), &mut report);
+    if !report.is_empty() {
+        return errors(Stage::Prove, &report);
+    }
+    (None, Vec::new())
 }
 
 /// Where marked pieces of a source stand once the marks are taken out.

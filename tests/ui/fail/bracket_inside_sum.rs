@@ -1,7 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! {
-        H(q[3]; p[3]) = norm_squared(p)/2; monitor b = sum(i in 0..3) { bracket(q[i], p[i]) }
-    };
-}

@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { h = p^2/2 };
-}

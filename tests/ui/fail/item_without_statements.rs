@@ -1,9 +1,0 @@
-use hamiltonian::hamiltonian;
-
-hamiltonian! {
-    pub struct Pendulum {
-        m = 1.0,
-    }
-}
-
-fn main() {}

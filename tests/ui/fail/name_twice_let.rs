@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { let V = q; let V = q^2; H = p^2/2 + V };
-}

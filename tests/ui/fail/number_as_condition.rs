@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { H = p^2/2 + if q { 1 } else { 0 } };
-}

@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { H(q[3]; p[3]) = p*p/2 };
-}

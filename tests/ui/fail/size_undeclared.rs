@@ -1,8 +1,0 @@
-use hamiltonian::hamiltonian;
-
-hamiltonian! {
-    pub struct Chain {}
-    H(q[n]; p[n]) = norm_squared(p)/2
-}
-
-fn main() {}

@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { H = p^2/2 + q^2/2; split { A = p^2/2; A = q^2/2 } };
-}

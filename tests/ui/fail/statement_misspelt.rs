@@ -1,5 +1,0 @@
-use hamiltonian::hamiltonian;
-
-fn main() {
-    let _ = hamiltonian! { monitr e = q; H = p^2/2 };
-}

@@ -1,9 +1,7 @@
 //! Nothing allocates in a step: counted, for every scheme, with sizes set at compile and at run
 //! time, observed and not.
 
-mod common;
-
-use common::systems::*;
+use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
 use hamiltonian_core::{Scheme, Vector};

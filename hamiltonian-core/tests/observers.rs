@@ -1,8 +1,6 @@
 //! What observers see and what is written.
 
-mod common;
-
-use common::systems::*;
+use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::{DVector, Group, SVector};
 use hamiltonian_core::{Dynamics, Observer, Pair, Vector, View};

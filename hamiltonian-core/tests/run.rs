@@ -1,9 +1,7 @@
 //! Runs: blocks, replay, time, direction, observers, errors.
 
-mod common;
-
-use common::systems::*;
-use common::{difference, start};
+use crate::common::systems::*;
+use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
 use hamiltonian_core::{Real, Scheme, Vector, private::SVector, watch};

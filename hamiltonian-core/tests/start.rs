@@ -1,8 +1,6 @@
 //! Starts on surfaces, against values from elsewhere and against H itself; coordinates of bodies.
 
-mod common;
-
-use common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic, scalar};
+use crate::common::systems::{Formula, Hand, HenonHeiles, Paper34, Relativistic, scalar};
 use hamiltonian_core::coordinates::{from_heliocentric, from_jacobi, to_heliocentric, to_jacobi};
 use hamiltonian_core::start::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,

@@ -1,8 +1,6 @@
 //! Invariants of known systems are accepted, near misses rejected with a residual.
 
-mod common;
-
-use common::{parse, system};
+use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, bracket, is_invariant};
 use hamiltonian_symbolic::loops::{Sample, sample, unroll_nodes};
 use hamiltonian_symbolic::model::Model;

@@ -10,17 +10,15 @@
 //! it passes 1e-3·|out| the point says nothing and is counted; at most 5 % may be. The default
 //! runs a part; `HAMILTONIAN_HEAVY=1` runs 10⁵ expressions and 2·10⁴ Hessians.
 
-mod common;
-mod tape;
-mod tree;
-
+use crate::common;
+use crate::tape;
+use crate::tape::Traced;
+use crate::tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, grow, standing};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
-use tape::Traced;
-use tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, grow, standing};
 
 const FIRST: [Purpose; 10] = [
     Purpose::Energy,

@@ -1,8 +1,6 @@
 //! Hamilton's equations as text.
 
-mod common;
-
-use common::system;
+use crate::common::system;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::Model;

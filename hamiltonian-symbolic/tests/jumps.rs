@@ -1,8 +1,6 @@
 //! Derivatives do not see jumps: what is constant on both sides of one is not thereby conserved.
 
-mod common;
-
-use common::{parse, system};
+use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
 use hamiltonian_symbolic::model::Model;
 

@@ -1,8 +1,6 @@
 //! Lagrangians become Hamiltonians, or are refused with the reason.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;

@@ -1,8 +1,6 @@
 //! Depth costs no stack, size is bounded, nothing panics.
 
-mod common;
-
-use common::{model, parse, system};
+use crate::common::{model, parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, bracket, is_invariant};
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::index::LOOPS;

@@ -1,9 +1,7 @@
 //! Loops written out are the system they were, and derivatives with respect to element k are the
 //! derivatives of the written-out system.
 
-mod common;
-
-use common::{model, parse, system};
+use crate::common::{model, parse, system};
 use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;

@@ -1,22 +1,18 @@
 //! Systems with sums that stay loops: against dual numbers over the same H added up term by term,
 //! and against the same system written out over scalar coordinates; what the loops execute.
 
-mod common;
-mod soundness;
-mod sums;
-mod systems;
-mod tape;
-mod tree;
-
+use crate::common;
+use crate::soundness;
+use crate::systems::{GRAVITY, Instance, Place, SQUARE_ROOT, SYSTEMS, System, TODA, at};
+use crate::tape;
+use crate::tape::Traced;
+use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Parameter, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 use std::collections::HashMap;
-use systems::{GRAVITY, Instance, Place, SQUARE_ROOT, SYSTEMS, System, TODA, at};
-use tape::Traced;
-use tree::Random;
 
 const ALL: [Purpose; 11] = [
     Purpose::Energy,

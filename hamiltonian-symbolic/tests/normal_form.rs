@@ -1,8 +1,6 @@
 //! What is identically zero is proven, what is not is refuted at a point.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 

@@ -6,8 +6,7 @@
 //! denominators, whose range is smaller than theirs; the dipole's writes the gradient of 1/r³ by
 //! the vector μ × r, which has no counterpart component by component.
 
-mod expressions;
-
+use crate::expressions;
 use hamiltonian_symbolic::count::Operations;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::Purpose;

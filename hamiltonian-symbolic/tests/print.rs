@@ -1,8 +1,6 @@
 //! Text is the language's own notation, LaTeX is LaTeX.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print::{latex, text};
 use hamiltonian_symbolic::rational::Rational;

@@ -1,17 +1,15 @@
 //! Properties of scheduled programs: sound, deterministic, never more work than written, and the
 //! rules about domains.
 
-mod common;
-mod soundness;
-mod tree;
-
+use crate::common;
+use crate::soundness;
+use crate::tree::{Random, grow};
 use hamiltonian_symbolic::dag::{Array, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose};
-use tree::{Random, grow};
 
 const ALL: [Purpose; 11] = [
     Purpose::Energy,

@@ -1,9 +1,7 @@
 //! Random expressions: text reads back as what it was written from, LaTeX is balanced, and no
 //! analysis contradicts the numbers or panics.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::loops::{Sample, sample};

@@ -1,8 +1,6 @@
 //! Formulas of systems from Lagrangians: how they read, and that they say what is computed.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::{Dependence, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::legendre::transform;

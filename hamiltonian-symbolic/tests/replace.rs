@@ -1,8 +1,6 @@
 //! A loop variable is replaced where it is free, and only there.
 
-mod common;
-
-use common::{model, parse};
+use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::Kind;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::print::text;

@@ -1,8 +1,6 @@
 //! Structure is proven, and refused with the reason in the user's notation.
 
-mod common;
-
-use common::system;
+use crate::common::system;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print::text;
 use hamiltonian_symbolic::structure::{Structure, analyse};

@@ -1,8 +1,6 @@
 //! Another time: what H becomes, and what is carried along; splits and forces as they are checked.
 
-mod common;
-
-use common::{model, parse, system, values};
+use crate::common::{model, parse, system, values};
 use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::{Affine, Index};

@@ -1,9 +1,7 @@
 //! Canonical transformations: what H becomes, that the maps are canonical, that both ways are
 //! inverse, and what is refused.
 
-mod common;
-
-use common::{parse, system, values};
+use crate::common::{parse, system, values};
 use hamiltonian_symbolic::dag::{Array, Dependence, Node, Parameter, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Index;

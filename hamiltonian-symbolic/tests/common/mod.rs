@@ -2,7 +2,6 @@
 //!
 //! Input: declarations and expressions as text. Output: a [`Model`] and nodes of its arena. It
 //! panics on what it does not know; the real front end is the macro's.
-#![allow(dead_code)]
 
 use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};

@@ -1,5 +1,4 @@
 //! Models from text, for tests: scalar coordinates, parameters by name.
-#![allow(dead_code)]
 
 use hamiltonian_symbolic::dag::{Node, Side};
 use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};

@@ -2,7 +2,6 @@
 //!
 //! Input: a program. Output: a panic where it is not sound. Invariant: knows the form of programs
 //! only, nothing of how they are made.
-#![allow(dead_code)]
 
 use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::program::{Function, Instruction, Loop, Program, Step, Update, Value};

@@ -3,7 +3,6 @@
 //! Input: an H in the language's notation, values of sizes and arrays. Output: its value over any
 //! scalar, or the same H with every sum written out over scalar coordinates. Invariant: sums are
 //! added up one term after the other; nothing is simplified.
-#![allow(dead_code)]
 
 mod read;
 

@@ -1,5 +1,4 @@
 //! Systems with sums, of every form of loop there is.
-#![allow(dead_code)]
 
 mod instance;
 

@@ -3,7 +3,6 @@
 //!
 //! Input: `f64`s. Output: the same bits as `f64`, and a tape of the thread's operations.
 //! Invariant: inputs and exact constants are not on the tape, because they carry no error.
-#![allow(dead_code)]
 
 use hamiltonian_lanes::{Dual, Lift, Real};
 use std::cell::RefCell;

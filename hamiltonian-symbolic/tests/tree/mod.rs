@@ -3,7 +3,6 @@
 //! Input: a seed. Output: [`Tree`], which builds itself in an arena, evaluates itself over any
 //! scalar by the rules of that scalar alone, says where it is on an edge, and prints itself.
 //! Invariant: nothing here simplifies; the same seed gives the same tree.
-#![allow(dead_code, unused_imports)]
 
 mod edges;
 mod grow;

@@ -1,0 +1,7 @@
+//! Scalars: their functions against references, and their laws.
+
+mod decimal;
+mod double_double;
+mod dual;
+mod packs;
+mod scalars;

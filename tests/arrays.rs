@@ -1,10 +1,6 @@
 //! Arrays, sums and loops, end to end: derivatives against duals at every length.
 
-#[allow(dead_code)]
-#[path = "common/derivatives.rs"]
-mod derivatives;
-
-use derivatives::{LENGTHS, check, close, numbers};
+use crate::common::derivatives::{LENGTHS, check, close, numbers};
 use hamiltonian::prelude::*;
 
 hamiltonian! {

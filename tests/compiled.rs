@@ -5,19 +5,16 @@
 //! the same tree. Both go H → structure → program with the same purposes in the same order, so
 //! every value computed ahead agrees, and over `f64` every bit must.
 
-mod compiled {
-    pub mod expressions;
-    pub mod generate;
-    pub mod interpret;
-}
-#[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
-mod tree;
+mod expressions;
+mod generate;
+mod interpret;
 
-use compiled::expressions::compiled;
-use compiled::generate::{COUNT, TESTS, file, trees};
-use compiled::interpret::Interpreted;
+use crate::tree;
+use expressions::compiled;
+use generate::{COUNT, TESTS, file, trees};
 use hamiltonian::private::SVector;
 use hamiltonian::{Drift, Dynamics, Flow, Kick, Separable, System};
+use interpret::Interpreted;
 
 /// Where everything is evaluated.
 #[derive(Clone, Debug)]
@@ -45,7 +42,7 @@ fn two(outputs: &mut Outputs, name: &'static str, values: SVector<f64, 2>) {
     outputs.extend(values.iter().map(|value| (name, *value)));
 }
 
-/// What every system gives, in the order of [`interpret`](compiled::interpret).
+/// What every system gives, in the order of [`interpret`](interpret).
 fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs {
     let prepared = system.prepare();
     let (t, q, p) = (at.t, SVector::from(at.q), SVector::from(at.p));
@@ -97,12 +94,12 @@ where
 macro_rules! list {
     ($($number:literal $name:ident $kind:ident)*) => {
         /// The evaluation of an expression as the macro compiled it.
-        pub fn compiled(number: usize) -> fn(&crate::At) -> crate::Outputs {
+        pub fn compiled(number: usize) -> fn(&super::At) -> super::Outputs {
             match number {
                 $($number => |at| {
                     let [a, b, c] = at.parameters;
                     let system = $name { a, b, c };
-                    let mut outputs = crate::$kind(&system, at);
+                    let mut outputs = super::$kind(&system, at);
                     let state = hamiltonian::State::new(at.q, at.p).at(at.t);
                     let gradient = system.parameter_gradient(&state);
                     let values = [gradient.a, gradient.b, gradient.c];

@@ -2,10 +2,7 @@
 
 use hamiltonian::prelude::*;
 
-#[macro_use]
-#[path = "common/canonical.rs"]
-mod canonical;
-use canonical::{close, equal};
+use crate::common::canonical::{close, equal, same_system};
 
 hamiltonian! {
     /// A planet in the plane.

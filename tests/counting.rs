@@ -1,9 +1,7 @@
 //! What compiled code does, counted by the scalar it runs on: as many operations a site, a bond or
 //! a pair whatever the size, and none beside.
 
-mod counting {
-    pub mod counted;
-}
+mod counted;
 // The definitions of the examples, with what they do with them.
 #[allow(clippy::duplicate_mod, dead_code)]
 #[path = "../examples/solar_system.rs"]
@@ -12,7 +10,7 @@ mod solar_system;
 #[path = "../examples/toda.rs"]
 mod toda;
 
-use counting::counted::{Counted, Counts, counted};
+use counted::{Counted, Counts, counted};
 use hamiltonian::{Dynamics, Flow, System, Vector};
 use solar_system::Gravity;
 use toda::Toda;

@@ -3,10 +3,7 @@
 //!
 //! Their sources stand in `tests/crates`; packages around them are made in the target directory.
 
-#[allow(dead_code)]
-mod cargo;
-
-use cargo::{Outcome, Package, workspace};
+use crate::cargo::{self, Outcome, Package, workspace};
 
 const PACKAGES: &[Package] = &[
     Package::new("systems_2018", "systems.rs")

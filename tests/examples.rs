@@ -4,8 +4,6 @@
 // Of the examples the definitions are used, and what they have in common is read many times.
 #![allow(dead_code, clippy::duplicate_mod)]
 
-#[path = "common/derivatives.rs"]
-mod derivatives;
 #[path = "../examples/dipole.rs"]
 mod dipole;
 #[path = "../examples/double_pendulum.rs"]
@@ -27,7 +25,9 @@ mod three_body;
 #[path = "../examples/toda.rs"]
 mod toda;
 
-use derivatives::{LENGTHS, Plain, agree, check_at, check_plain, chosen, close, numbers};
+use crate::common::derivatives::{
+    LENGTHS, Plain, agree, check_at, check_plain, chosen, close, numbers,
+};
 use dipole::Dipole;
 use double_pendulum::{FromHamiltonian, FromLagrangian};
 use driven_pendulum::DrivenPendulum;

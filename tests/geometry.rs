@@ -1,9 +1,7 @@
 //! The forms that steps preserve, by exact tangents, with negative controls.
 
-mod common;
-
-use common::geometry::*;
-use common::systems::*;
+use crate::common::geometry::*;
+use crate::common::systems::*;
 use hamiltonian::schemes::*;
 use hamiltonian::{Dual, Separable};
 

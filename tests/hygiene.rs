@@ -1,6 +1,5 @@
-//! Emitted code in hostile surroundings: no `std`, warnings denied, names of the language and of
+//! Emitted code in hostile surroundings: warnings denied, names of the language and of
 //! the library taken, the library under another name.
-#![no_std]
 #![deny(
     warnings,
     missing_docs,
@@ -15,9 +14,6 @@
 )]
 #![deny(clippy::all, clippy::pedantic)]
 #![forbid(unsafe_code)]
-
-extern crate hamiltonian as mechanics;
-extern crate std;
 
 use mechanics::System;
 

@@ -3,10 +3,8 @@
 //!
 //! `HAMILTONIAN_HEAVY=1` adds a sum just below the largest that is accepted.
 
-#[allow(dead_code)]
-mod cargo;
-
-use cargo::{Package, workspace, write};
+use crate::cargo::{Package, workspace, write};
+use crate::common;
 use std::fmt::Write;
 use std::fs;
 
@@ -69,7 +67,7 @@ fn cases() -> Vec<Case> {
         ),
         case("different_300", waves(300), None),
     ];
-    if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
+    if common::is_heavy() {
         cases.push(case("different_6_500", waves(6_500), None));
     }
     cases

@@ -1,10 +1,8 @@
 //! The order of every scheme of the catalogue, measured by slopes over five steps, on systems
 //! that are neither linear nor quadratic, with and without time in H.
 
-mod common;
-
-use common::order::Order;
-use common::systems::*;
+use crate::common::order::Order;
+use crate::common::systems::*;
 use hamiltonian::schemes::{catalogue, visit_any, visit_separable};
 use hamiltonian::{DoubleDouble, Separable};
 

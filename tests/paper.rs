@@ -5,11 +5,9 @@
 // Check values stand as they were computed, with more digits than a double holds.
 #![allow(clippy::excessive_precision)]
 
-mod common;
-
-use common::reference::{difference, jacobi, solution};
-use common::systems::*;
-use common::{assert_digits, state};
+use crate::common::reference::{difference, jacobi, solution};
+use crate::common::systems::*;
+use crate::common::{assert_digits, state};
 use hamiltonian::prelude::*;
 use hamiltonian::private::SVector;
 use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Vector};

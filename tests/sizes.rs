@@ -1,10 +1,7 @@
 //! Indices that only the sizes keep in range: const generics are asked when code is compiled,
 //! sizes set at run time by `new`.
 
-#[allow(dead_code)]
-mod cargo;
-
-use cargo::{Package, workspace, write};
+use crate::cargo::{Package, workspace, write};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
 use std::fs;

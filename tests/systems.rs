@@ -8,12 +8,10 @@
 // Check values stand as they were computed.
 #![allow(clippy::excessive_precision)]
 
-mod common;
-
-use common::case::{Case, exactly, unit};
-use common::reference::{difference, quarter_period, solution};
-use common::systems::*;
-use common::{assert_digits, is_heavy, state};
+use crate::common::case::{Case, exactly, unit};
+use crate::common::reference::{difference, quarter_period, solution};
+use crate::common::systems::*;
+use crate::common::{assert_digits, is_heavy, state};
 use hamiltonian::prelude::*;
 use hamiltonian::{DoubleDouble, Dual, Real, Vector};
 use std::f64::consts::FRAC_PI_4;

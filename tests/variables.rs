@@ -4,9 +4,7 @@ use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, Section, momentum_from_energy, on_section};
 use hamiltonian::{Dual, Dynamics, Vector};
 
-#[path = "common/canonical.rs"]
-mod canonical;
-use canonical::{close, equal};
+use crate::common::canonical::{close, equal};
 
 hamiltonian! {
     /// A planet in the plane, with drag and an event.

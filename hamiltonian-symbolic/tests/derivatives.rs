@@ -11,8 +11,7 @@
 //! runs a part; `HAMILTONIAN_HEAVY=1` runs 10⁵ expressions and 2·10⁴ Hessians.
 
 use crate::common;
-use crate::tape;
-use crate::tape::Traced;
+use crate::tape::{self, Traced};
 use crate::tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, grow, standing};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Side};
@@ -332,13 +331,6 @@ fn close(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-6 * (a.abs() + b.abs())
 }
 
-fn many(default: usize) -> usize {
-    match std::env::var_os("HAMILTONIAN_HEAVY") {
-        Some(_) => 5 * default,
-        None => default,
-    }
-}
-
 /// Grows, derives and judges `count` expressions.
 fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
     let second = wanted.contains(&Purpose::HessianVector);
@@ -398,14 +390,14 @@ fn accept(tally: Tally, undecided: usize, count: usize) {
 
 #[test]
 fn first_derivatives_of_random_expressions() {
-    let count = many(20_000);
+    let count = common::cases(5_000, 100_000);
     let (tally, undecided) = campaign(1, count, &FIRST);
     accept(tally, undecided, count);
 }
 
 #[test]
 fn second_derivatives_of_random_expressions() {
-    let count = many(4_000);
+    let count = common::cases(1_000, 20_000);
     let (tally, undecided) = campaign(2, count, &SECOND);
     accept(tally, undecided, count);
 }

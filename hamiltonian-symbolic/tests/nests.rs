@@ -245,10 +245,15 @@ fn against_written_out(system: &System, n: usize) {
     }
 }
 
+/// The lengths that systems are taken at.
+fn lengths() -> &'static [usize] {
+    &[1, 2, 3, 7, 64, 200][..common::cases(4, 6)]
+}
+
 #[test]
 fn loops_against_duals() {
     for system in SYSTEMS {
-        for n in [1usize, 2, 3, 7, 64, 200] {
+        for &n in lengths() {
             if n.pow(system.order) <= 1_000_000 {
                 against_duals(system, n);
             }
@@ -259,7 +264,7 @@ fn loops_against_duals() {
 #[test]
 fn loops_against_the_system_written_out() {
     for system in SYSTEMS {
-        for n in [1usize, 2, 3, 7, 64, 200] {
+        for &n in lengths() {
             if n.pow(system.order) <= 350 {
                 against_written_out(system, n);
             }

@@ -28,7 +28,7 @@ const ALL: [Purpose; 11] = [
 #[test]
 fn programs_of_random_expressions_are_sound() {
     let mut random = Random(11);
-    for _ in 0..3_000 {
+    for _ in 0..common::cases(1_000, 3_000) {
         let (tree, _) = grow(&mut random);
         let program = derive(&mut tree.model(), &ALL).unwrap();
         if std::panic::catch_unwind(|| soundness::check(&program)).is_err() {
@@ -61,7 +61,8 @@ fn work(program: &Program, function: &Function) -> usize {
 fn simplification_adds_no_operation() {
     let mut random = Random(13);
     let (mut more, mut written, mut left) = (0, 0, 0);
-    for _ in 0..10_000 {
+    let count = common::cases(3_000, 10_000);
+    for _ in 0..count {
         let (tree, _) = grow(&mut random);
         let program = derive(&mut tree.model(), &[Purpose::Energy]).unwrap();
         let (before, after) = (tree.operations(), work(&program, &program.functions[0]));
@@ -75,7 +76,7 @@ fn simplification_adds_no_operation() {
         }
     }
     println!("{written} operations written, {left} left; {more} expressions have more");
-    assert!(left <= written && more * 80 <= 10_000);
+    assert!(left <= written && more * 80 <= count);
 }
 
 /// The derived program of an H over scalar groups.

@@ -1,5 +1,4 @@
 //! Whether a system in other coordinates is the system as it was declared.
-#![allow(dead_code, unused_macros)]
 
 use hamiltonian::{State, Vector};
 
@@ -52,7 +51,7 @@ macro_rules! same_system {
     ($declared:expr, $new:expr, $state:expr) => {{
         use hamiltonian::prelude::{Integrator, RungeKutta4, State};
         use hamiltonian::{Dual, Dynamics, System, Vector};
-        use $crate::canonical::{close, equal, flat, shaped, symplectic};
+        use $crate::common::canonical::{close, equal, flat, shaped, symplectic};
         let (declared, new, written) = ($declared, $new, $state);
         let ones = State {
             t: 0.0,
@@ -122,3 +121,4 @@ macro_rules! same_system {
         }
     }};
 }
+pub(crate) use same_system;

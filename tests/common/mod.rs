@@ -1,8 +1,9 @@
 //! What the tests share: the systems, a reference solution, and checks that are generic over
 //! system and scheme.
-#![allow(dead_code)]
 
+pub mod canonical;
 pub mod case;
+pub mod derivatives;
 pub mod geometry;
 pub mod order;
 pub mod reference;

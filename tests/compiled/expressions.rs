@@ -1282,7 +1282,7 @@ hamiltonian! {
     H(x, y; px, py; t) = (max((atan(asin(tanh(hypot((b^-1), atan((t^2)))))) + a), abs(cos(py))) + abs(tanh((if (b == y) || ((x*pi) < t) { (1/2) } else { y }))))
 }
 
-crate::list! {
+super::list! {
     0 E0 separable
     1 E1 any
     2 E2 any

@@ -112,7 +112,7 @@ pub fn file() -> String {
             "\nhamiltonian! {{\n    pub struct E{number} {{ a, b, c }}\n    H(x, y; px, py; t) = {h}\n}}\n"
         );
     }
-    text.push_str("\ncrate::list! {\n");
+    text.push_str("\nsuper::list! {\n");
     for (number, (_, kind)) in trees.iter().enumerate() {
         let _ = writeln!(text, "    {number} E{number} {kind}");
     }

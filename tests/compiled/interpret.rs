@@ -1,7 +1,7 @@
 //! The same trees through the engine and its interpreter, as the macro's back end drives it.
 
+use super::{At, Outputs};
 use crate::tree::{PAIRS, PARAMETERS, Tree};
-use crate::{At, Outputs};
 use hamiltonian_symbolic::dag::{Array, Dependence, Parameter, Side};
 use hamiltonian_symbolic::eval::{Outcome, Point, run};
 use hamiltonian_symbolic::model::Model;

@@ -11,6 +11,27 @@ hamiltonian! {
     H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + c*exp(q[i] - q[(i + 1) % N]) }
 }
 
+hamiltonian! {
+    /// A size of run time, vectors, an observable.
+    pub struct Bodies { n: usize, m: [n] }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) + norm(q[i]) };
+    monitor momentum = sum(i in 0..n) { p[i] }
+}
+
+hamiltonian! {
+    /// Mixed shapes and time.
+    pub struct Mixed { w: [3][3] }
+    H(x, q[3]; y, p[3]; t) = x^2 + y^2*cos(t) + dot(q, w*p)
+}
+
+hamiltonian! {
+    /// Pieces of its own, in other coordinates.
+    pub struct Planar { k = 1.0 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - k/hypot(x, y);
+    coordinates polar(x, y);
+    split { Kinetic = (p_x^2 + p_y^2)/2; Potential = -k/hypot(x, y) }
+}
+
 /// A definition that is a value, run.
 ///
 /// # Errors

@@ -48,6 +48,12 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
     model
 }
 
+/// How many of `all` cases a test takes: a part, or with `HAMILTONIAN_HEAVY=1` every one.
+pub fn cases(part: usize, all: usize) -> usize {
+    let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
+    if is_heavy { all } else { part }
+}
+
 /// A model with its H.
 pub fn system(signature: &str, sizes: &str, parameters: &str, h: &str) -> Model {
     let mut model = model(signature, sizes, parameters);

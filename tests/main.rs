@@ -1,0 +1,35 @@
+//! The library as its users see it: definitions through the macro, runs, and what rustc and cargo
+//! make of them.
+
+// Under another name, as `hygiene` names it.
+extern crate hamiltonian as mechanics;
+
+pub mod arrays;
+pub mod brackets;
+mod budgets;
+mod cargo;
+mod common;
+pub mod compiled;
+pub mod coordinates;
+mod counting;
+mod crates;
+mod examples;
+pub mod geometry;
+pub mod hygiene;
+pub mod invariants;
+pub mod lagrangian;
+pub mod language;
+mod layout;
+mod limits;
+pub mod long;
+pub mod order;
+pub mod paper;
+pub mod sizes;
+pub mod systems;
+#[allow(dead_code, unused_imports)]
+#[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]
+mod tree;
+mod ui;
+#[path = "../benches/support/valgrind.rs"]
+mod valgrind;
+pub mod variables;

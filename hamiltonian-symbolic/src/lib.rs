@@ -23,6 +23,7 @@ pub mod rewrite;
 pub mod schedule;
 pub mod share;
 pub mod simplify;
+pub mod split;
 pub mod structure;
 pub mod transform;
 

@@ -1,0 +1,104 @@
+//! G(y − A(x; c); c), A a polynomial in x: x += gs, y += ΔA, and the conjugate of c feels ∂A/∂c
+//! along the way.
+//!
+//! Input: h and s. Output: [`Motion`]. Invariant: h is proven to depend on x and y through
+//! K = y − A only; A is taken to be 0 at x = 0, the rest of it is in G.
+
+use super::Axes;
+use crate::dag::Node;
+use crate::rational::Rational;
+use crate::split::motion::Motion;
+use crate::split::space::Space;
+
+/// The highest degree of A.
+const DEGREE: i32 = 8;
+
+pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
+    let active = space.active(h);
+    let [pair] = active.as_slice() else {
+        return None;
+    };
+    let (q, p) = space.pairs[*pair];
+    Axes::both(q, p)
+        .into_iter()
+        .find_map(|axes| along(space, axes, h, s))
+}
+
+fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
+    let y = axes.y(space);
+    let (x_set, y_set) = (space.set(axes.x), space.set(y));
+    let (hx, hy) = (space.d(h, axes.x), axes.dy(space, h));
+    if space.dag().is_zero(hy) {
+        return None;
+    }
+    let ratio = space.dag().div(hx, hy);
+    let slope = space.dag().neg(ratio);
+    let slope = space.section(slope, y_set);
+    // A′ as a polynomial: Taylor's coefficients at 0.
+    let zero = space.dag().integer(0);
+    let (mut derivative, mut factorial) = (slope, Rational::ONE);
+    let (mut terms, mut integral) = (Vec::new(), Vec::new());
+    let mut n = 0;
+    while !space.dag().is_zero(derivative) {
+        if n > DEGREE {
+            return None;
+        }
+        let at_zero = space.at(derivative, &[(axes.x, zero)]);
+        n += 1;
+        let over = Rational::integer(i64::from(n));
+        let k = factorial.mul(&over).recip()?;
+        let factors = |n: i32| [(at_zero, 1), (axes.x, n)];
+        terms.push(space.dag().product(&k, &factors(n)));
+        let over = Rational::integer(i64::from(n) + 1).recip()?;
+        integral.push(space.dag().product(&k.mul(&over), &factors(n + 1)));
+        factorial = factorial.mul(&Rational::integer(i64::from(n)));
+        derivative = space.d(derivative, axes.x);
+        if space.set(derivative) & x_set != 0 && space.is_zero(derivative) {
+            derivative = zero;
+        }
+    }
+    let a = space.dag().add(&terms);
+    let integral = space.dag().add(&integral);
+    // G(κ; c) = h(0, κ; c), with y for κ.
+    let general = space.at(h, &[(axes.x, zero)]);
+    let k = space.dag().sub(y, a);
+    let in_y = |space: &mut Space, node: Node| {
+        // y is a variable or minus one: y → K.
+        let (leaf, image) = if space.set(axes.leaf) == space.set(y) && axes.leaf == y {
+            (axes.leaf, k)
+        } else {
+            let minus = space.dag().neg(k);
+            (axes.leaf, minus)
+        };
+        space.at(node, &[(leaf, image)])
+    };
+    let form = in_y(space, general);
+    if !space.same(h, form) {
+        return None;
+    }
+    let rate = axes.dy(space, general);
+    let rate = in_y(space, rate);
+    let mut motion = Motion::default();
+    let step = space.dag().mul(&[rate, s]);
+    let x1 = space.dag().add(&[axes.x, step]);
+    let there = |space: &mut Space, node: Node| {
+        let moved = space.at(node, &[(axes.x, x1)]);
+        space.dag().sub(moved, node)
+    };
+    let gained = there(space, a);
+    let gained = axes.signed(space, gained);
+    motion.add(space.dag(), axes.x, step);
+    motion.add(space.dag(), axes.leaf, gained);
+    let rest = space.set(h) & !(x_set | y_set);
+    for bit in super::super::space::bits(rest) {
+        let inert = space.variable(bit);
+        let kick = space.d(general, inert);
+        let kick = in_y(space, kick);
+        let kick = space.dag().mul(&[kick, s]);
+        let swept = space.d(integral, inert);
+        let swept = there(space, swept);
+        let total = space.dag().sub(kick, swept);
+        space.push(&mut motion, bit, total);
+    }
+    Some(motion)
+}

@@ -1,0 +1,362 @@
+//! The exact flow of an expression, or none: the rows, functions of what has one, several pairs,
+//! and sums of what commutes.
+//!
+//! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: what a
+//! row takes is its pattern, parts of a sum commute, and s is constant along the flow.
+
+use super::motion::Motion;
+use super::rows::{Axes, Moved, ROWS, Row, Solve};
+use super::space::{Set, Space, bits};
+use crate::dag::{Kind, Node};
+use crate::rational::Rational;
+
+/// An exact flow with the rows it is made of.
+#[derive(Clone)]
+pub(crate) struct Flow {
+    pub(crate) motion: Motion,
+    /// The rows' names; none for what is linear in time.
+    pub(crate) rows: Vec<&'static str>,
+}
+
+impl Flow {
+    fn of(motion: Motion, row: &Row) -> Flow {
+        Flow {
+            motion,
+            rows: vec![row.name],
+        }
+    }
+    fn noted(mut self, rows: &[&'static str]) -> Flow {
+        for row in rows {
+            if !self.rows.contains(row) {
+                self.rows.push(row);
+            }
+        }
+        self
+    }
+}
+
+/// The flow of h for the time s; `None` where no row takes it.
+pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    if space.active(h).is_empty() {
+        return Some(shear(space, h, s));
+    }
+    whole(space, h, s)
+        .or_else(|| function(space, h, s))
+        .or_else(|| separated(space, h, s))
+        .or_else(|| commuting(space, h, s))
+}
+
+/// No conjugate pair meets: everything moves at a constant rate.
+fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
+    let mut motion = Motion::default();
+    for bit in bits(space.set(h)) {
+        let variable = space.variable(bit);
+        let slope = space.d(h, variable);
+        let value = space.dag().mul(&[s, slope]);
+        space.push(&mut motion, bit, value);
+    }
+    Flow {
+        motion,
+        rows: Vec::new(),
+    }
+}
+
+/// The rows that take all of h.
+fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    ROWS.iter().find_map(|row| match row.solve {
+        Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row)),
+        Solve::Pair(_) => None,
+    })
+}
+
+/// h = G(u, c) of one expression u in which all pairs meet: u's flow for the time s·∂G/∂u.
+fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    let active = space.active(h);
+    let set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let u = waist(space, h, set)?;
+    let rate = space.by_node(h, u);
+    let time = space.dag().mul(&[s, rate]);
+    let inner = whole(space, u, time)
+        .or_else(|| separated(space, u, time))
+        .or_else(|| commuting(space, u, time))?;
+    // What stands beside u is a constant of the motion only where u's flow leaves it alone.
+    let beside = beside(space, h, u);
+    if inner.motion.moved(space) & beside != 0 {
+        return None;
+    }
+    let mut motion = Motion::default();
+    for bit in bits(beside) {
+        let variable = space.variable(bit);
+        let all = space.d(h, variable);
+        let through = space.d(u, variable);
+        let through = space.dag().mul(&[rate, through]);
+        let own = match space.dag().is_zero(through) {
+            true => all,
+            false => partial(space, h, u, variable),
+        };
+        let value = space.dag().mul(&[s, own]);
+        space.push(&mut motion, bit, value);
+    }
+    let rows = inner.rows.clone();
+    let kicked = motion.moved(space);
+    // A kick beside must not change what u is made of.
+    if kicked & space.set(u) != 0 {
+        return None;
+    }
+    let motion = inner.motion.then(space, &motion);
+    Some(Flow { motion, rows })
+}
+
+/// ∂h/∂v with u held.
+fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
+    let place = space.dag().parameter(crate::dag::Parameter(u16::MAX - 1));
+    let over = space
+        .dag()
+        .substitute(h, |_, node| (node == u).then_some(place));
+    let slope = space.d(over, variable);
+    space
+        .dag()
+        .substitute(slope, |_, node| (node == place).then_some(u))
+}
+
+/// The variables of h outside u.
+fn beside(space: &mut Space, h: Node, u: Node) -> Set {
+    let place = space.dag().parameter(crate::dag::Parameter(u16::MAX));
+    let over = space
+        .dag()
+        .substitute(h, |_, node| (node == u).then_some(place));
+    space.set(over)
+}
+
+/// The deepest node other than h through which alone h depends on some variables.
+fn waist(space: &mut Space, h: Node, set: Set) -> Option<Node> {
+    let nodes = space.model.dag.reachable(&[h]);
+    for node in nodes {
+        let is_condition = matches!(
+            space.model.dag.kind(node),
+            Kind::Compare(..) | Kind::Not(_) | Kind::And(..) | Kind::Or(..)
+        );
+        if node == h || is_condition || space.set(node) & set != set {
+            continue;
+        }
+        let over = beside(space, h, node);
+        if over & set == 0 {
+            return Some(node);
+        }
+    }
+    None
+}
+
+/// h = G(K₁, …, K_m, c) with a K of each pair that meets: each moves for its own time s·∂G/∂K.
+fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    let active = space.active(h);
+    let own: Set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let mut motion = Motion::default();
+    let mut rows = Vec::new();
+    for pair in active {
+        let (found, row) = atom(space, h, pair, s)?;
+        rows.push(row);
+        for m in found.moves {
+            motion.set(m.leaf, m.value);
+        }
+        motion.domain.extend(found.domain);
+    }
+    for bit in bits(space.set(h) & !own) {
+        let variable = space.variable(bit);
+        let slope = space.d(h, variable);
+        let value = space.dag().mul(&[s, slope]);
+        space.push(&mut motion, bit, value);
+    }
+    let flow = Flow {
+        motion,
+        rows: Vec::new(),
+    };
+    Some(flow.noted(&rows))
+}
+
+/// The motion of one pair under h, all other variables held.
+fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<(Motion, &'static str)> {
+    let own: Set = 3 << (2 * pair);
+    let u = waist(space, h, own).unwrap_or(h);
+    let outer = space.by_node(h, u);
+    let (k, rate) = kernel(space, u, own)?;
+    let time = space.dag().mul(&[s, outer, rate]);
+    let (q, p) = space.pairs[pair];
+    for row in ROWS {
+        match row.solve {
+            Solve::Pair(solve) => {
+                for axes in Axes::both(q, p) {
+                    if let Some(moved) = solve(space, axes, k, time) {
+                        return Some((of_pair(space, axes, &moved), row.name));
+                    }
+                }
+            }
+            Solve::Whole(solve) => {
+                if let Some(motion) = solve(space, k, time) {
+                    return Some((motion, row.name));
+                }
+            }
+        }
+    }
+    None
+}
+
+fn of_pair(space: &mut Space, axes: Axes, moved: &Moved) -> Motion {
+    let mut motion = Motion::default();
+    motion.set(axes.x, moved.x);
+    let y = axes.signed(space, moved.y);
+    motion.set(axes.leaf(), y);
+    for &positive in &moved.domain {
+        motion.asks(space.dag(), positive);
+    }
+    motion
+}
+
+/// u = rate·K + rest with K of one pair alone, rate and rest free of it.
+fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
+    if space.set(u) & !own == 0 {
+        return Some((u, space.dag().integer(1)));
+    }
+    let of_pair = |space: &mut Space, node: Node| space.set(node) & own != 0;
+    let (k, rate) = match space.model.dag.kind(u).clone() {
+        Kind::Product(c, factors) => {
+            let (mut inside, mut outside) = (Vec::new(), Vec::new());
+            for factor in factors {
+                let list = match of_pair(space, factor.0) {
+                    true => &mut inside,
+                    false => &mut outside,
+                };
+                list.push(factor);
+            }
+            let dag = space.dag();
+            (
+                dag.product(&Rational::ONE, &inside),
+                dag.product(&c, &outside),
+            )
+        }
+        Kind::Sum(_, terms) => {
+            let mut inside = Vec::new();
+            for term in terms {
+                if of_pair(space, term.1) {
+                    inside.push(term);
+                }
+            }
+            let k = space.dag().linear(&Rational::ZERO, &inside);
+            (k, space.dag().integer(1))
+        }
+        _ => (u, space.dag().integer(1)),
+    };
+    if space.set(k) & !own == 0 {
+        return Some((k, rate));
+    }
+    // Other variables inside: held at numbers, if u is a multiple of what that gives.
+    let others = space.set(k) & !own;
+    let held = space.section(k, others);
+    let bit = bits(own).find(|bit| space.set(held) >> bit & 1 == 1)?;
+    let variable = space.variable(bit);
+    let (a, b) = (space.d(k, variable), space.d(held, variable));
+    let ratio = space.dag().div(a, b);
+    let inner = space.section(ratio, own);
+    let multiple = space.dag().mul(&[inner, held]);
+    let rest = space.dag().sub(k, multiple);
+    let section = space.section(rest, own);
+    if !space.same(rest, section) {
+        return None;
+    }
+    Some((held, space.dag().mul(&[rate, inner])))
+}
+
+/// A sum of parts that have flows and commute: one flow after the other.
+fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    /// The most parts.
+    const PARTS: usize = 6;
+    /// The most terms.
+    const TERMS: usize = 16;
+    let terms = terms(space, h);
+    if !(2..=TERMS).contains(&terms.len()) {
+        return None;
+    }
+    let parts = apart(space, &terms).or_else(|| by_pairs(space, &terms))?;
+    if parts.len() > PARTS {
+        return None;
+    }
+    let mut all = Flow {
+        motion: Motion::default(),
+        rows: Vec::new(),
+    };
+    for part in parts {
+        let next = flow(space, part, s)?;
+        all = all.noted(&next.rows);
+        all.motion = all.motion.then(space, &next.motion);
+    }
+    Some(all)
+}
+
+/// The terms of a sum, and of sums in it; numbers are left out.
+fn terms(space: &mut Space, h: Node) -> Vec<Node> {
+    let mut found = Vec::new();
+    let mut left = vec![(Rational::ONE, h)];
+    while let Some((k, node)) = left.pop() {
+        match space.model.dag.kind(node).clone() {
+            Kind::Sum(_, terms) => {
+                let scaled = terms.into_iter().map(|(c, node)| (c.mul(&k), node));
+                left.extend(scaled.rev());
+            }
+            Kind::Product(c, factors) if matches!(factors.as_slice(), [(_, 1)]) => {
+                left.push((c.mul(&k), factors[0].0));
+            }
+            _ if space.set(node) == 0 => {}
+            _ => found.push(space.dag().scale(&k, node)),
+        }
+    }
+    found
+}
+
+/// Parts that commute: terms that do not belong together.
+fn apart(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
+    let mut parts: Vec<Node> = Vec::new();
+    for &term in terms {
+        let mut joined = Vec::new();
+        let mut others = Vec::new();
+        for part in parts {
+            match space.commute(part, term) {
+                true => others.push(part),
+                false => joined.push(part),
+            }
+        }
+        joined.push(term);
+        others.push(space.dag().add(&joined));
+        parts = others;
+    }
+    if parts.len() < 2 {
+        return None;
+    }
+    for (at, &a) in parts.iter().enumerate() {
+        for &b in &parts[at + 1..] {
+            if !space.commute(a, b) {
+                return None;
+            }
+        }
+    }
+    Some(parts)
+}
+
+/// Two parts that commute: what stands in one pair each, and what joins pairs.
+fn by_pairs(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
+    let (mut single, mut joining) = (Vec::new(), Vec::new());
+    for &term in terms {
+        let set = space.set(term);
+        let pairs = (set | set >> 1) & 0x5555_5555_5555_5555;
+        match pairs.count_ones() {
+            0 | 1 => single.push(term),
+            _ => joining.push(term),
+        }
+    }
+    if single.is_empty() || joining.is_empty() {
+        return None;
+    }
+    let (single, joining) = (space.dag().add(&single), space.dag().add(&joining));
+    space
+        .commute(single, joining)
+        .then(|| vec![single, joining])
+}

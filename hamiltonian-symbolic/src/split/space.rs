@@ -1,0 +1,320 @@
+//! Phase space as the search sees it: pairs, derivatives, and the questions whether an expression
+//! is zero and of what it is free.
+//!
+//! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
+//! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
+//! after [`TESTS`] questions every answer is no.
+
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::diff;
+use crate::loops::{Sample, sample};
+use crate::model::Model;
+use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes, witness};
+use super::motion::Motion;
+use crate::rational::Rational;
+
+/// The most questions whether an expression is zero.
+pub(crate) const TESTS: usize = 1500;
+
+/// The most pairs, so that a set of variables is a word.
+const PAIRS: usize = 32;
+
+/// A set of variables: bit 2i is coordinate i, bit 2i + 1 its momentum.
+pub(crate) type Set = u64;
+
+/// Phase space with what is known of expressions over it.
+pub(crate) struct Space {
+    /// The model, to whose arena the search adds.
+    pub(crate) model: Model,
+    /// Coordinates with their momenta, in the order of the model.
+    pub(crate) pairs: Vec<(Node, Node)>,
+    sets: Map<Node, Set>,
+    derivatives: Map<Node, Map<Node, Node>>,
+    zeros: Map<Node, bool>,
+    /// How many questions were asked.
+    pub(crate) tests: usize,
+}
+
+impl Space {
+    /// The space of the pairs that stand in some expressions; `None` where elements are not
+    /// given by number, or there are too many.
+    pub(crate) fn new(model: &Model, roots: &[Node]) -> Option<Space> {
+        let mut model = model.clone();
+        let mut places: Vec<(u16, u16, i64)> = Vec::new();
+        for node in model.dag.reachable(roots) {
+            match model.dag.kind(node) {
+                Kind::Element(Array::Phase { group, column, .. }, row, None) => {
+                    let row = (row.modulo.is_none()).then(|| row.affine.as_constant())??;
+                    places.push((*group, *column, row));
+                }
+                Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => return None,
+                _ => {}
+            }
+        }
+        places.sort_unstable_by_key(|(group, column, row)| (*group, *row, *column));
+        places.dedup();
+        if places.len() > PAIRS {
+            return None;
+        }
+        let mut pairs = Vec::with_capacity(places.len());
+        for (group, column, row) in places {
+            let mut leaf = |side| {
+                let array = Array::Phase {
+                    side,
+                    group,
+                    column,
+                };
+                let row = crate::index::Index::constant(row);
+                model.dag.element(array, row, None)
+            };
+            pairs.push((leaf(Side::Q), leaf(Side::P)));
+        }
+        Some(Space {
+            model,
+            pairs,
+            sets: Map::default(),
+            derivatives: Map::default(),
+            zeros: Map::default(),
+            tests: 0,
+        })
+    }
+
+    /// The arena.
+    pub(crate) fn dag(&mut self) -> &mut Dag {
+        &mut self.model.dag
+    }
+    /// The variable of a bit.
+    pub(crate) fn variable(&self, bit: usize) -> Node {
+        let (q, p) = self.pairs[bit / 2];
+        if bit % 2 == 0 { q } else { p }
+    }
+    /// The variables of a set.
+    pub(crate) fn variables(&self, set: Set) -> Vec<Node> {
+        bits(set).map(|bit| self.variable(bit)).collect()
+    }
+
+    /// The variables an expression is written with.
+    pub(crate) fn set(&mut self, root: Node) -> Set {
+        if let Some(&set) = self.sets.get(&root) {
+            return set;
+        }
+        let mut set = 0;
+        for node in self.model.dag.reachable(&[root]) {
+            if let Kind::Element(Array::Phase { .. }, ..) = self.model.dag.kind(node) {
+                let at = |(q, p): &(Node, Node)| *q == node || *p == node;
+                if let Some(pair) = self.pairs.iter().position(at) {
+                    set |= 1 << (2 * pair + usize::from(self.pairs[pair].1 == node));
+                }
+            }
+        }
+        self.sets.insert(root, set);
+        set
+    }
+    /// The pairs both of whose variables stand in an expression.
+    pub(crate) fn active(&mut self, root: Node) -> Vec<usize> {
+        let set = self.set(root);
+        (0..self.pairs.len())
+            .filter(|pair| set >> (2 * pair) & 3 == 3)
+            .collect()
+    }
+
+    /// ∂h/∂v of a variable v.
+    pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
+        if !self.derivatives.contains_key(&h) {
+            let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+            let gradient = diff::gradient(&mut self.model.dag, h, both);
+            self.derivatives.insert(h, gradient.into_iter().collect());
+        }
+        let known = self.derivatives[&h].get(&variable).copied();
+        known.unwrap_or_else(|| self.model.dag.integer(0))
+    }
+
+    /// ∂h/∂u of a node u that stands in h, all else held.
+    pub(crate) fn by_node(&mut self, h: Node, u: Node) -> Node {
+        let dag = &mut self.model.dag;
+        if h == u {
+            return dag.integer(1);
+        }
+        let place = dag.parameter(Parameter(u16::MAX));
+        let over = dag.substitute(h, |_, node| (node == u).then_some(place));
+        let slope = diff::gradient(dag, over, Dependence::PARAMETER)
+            .into_iter()
+            .find(|(leaf, _)| *leaf == place);
+        let slope = slope.map_or_else(|| dag.integer(0), |(_, slope)| slope);
+        dag.substitute(slope, |_, node| (node == place).then_some(u))
+    }
+
+    /// {a, b}
+    pub(crate) fn bracket(&mut self, a: Node, b: Node) -> Node {
+        let (in_a, in_b) = (self.set(a), self.set(b));
+        let mut terms = Vec::new();
+        for pair in 0..self.pairs.len() {
+            let (q, p) = self.pairs[pair];
+            let has = |set: Set, side: usize| set >> (2 * pair + side) & 1 == 1;
+            for (x, y, first, second, sign) in [
+                (q, p, 0, 1, Rational::ONE),
+                (p, q, 1, 0, Rational::MINUS_ONE),
+            ] {
+                if has(in_a, first) && has(in_b, second) {
+                    let factors = [self.d(a, x), self.d(b, y)];
+                    terms.push((sign, self.model.dag.mul(&factors)));
+                }
+            }
+        }
+        self.model.dag.linear(&Rational::ZERO, &terms)
+    }
+    /// Whether {a, b} = 0 is proven.
+    pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
+        let bracket = self.bracket(a, b);
+        self.is_zero(bracket)
+    }
+
+    /// Whether an expression is proven to be 0 wherever it has a value.
+    pub(crate) fn is_zero(&mut self, node: Node) -> bool {
+        if self.model.dag.is_zero(node) {
+            return true;
+        }
+        if let Some(&known) = self.zeros.get(&node) {
+            return known;
+        }
+        self.tests += 1;
+        let answer = self.tests <= TESTS
+            && witness(&self.model, node, Effort::Glance, &[]).is_none()
+            && vanishes(&mut self.model.dag, node, Scope::Everywhere);
+        self.zeros.insert(node, answer);
+        answer
+    }
+    /// Whether two expressions are proven to be the same.
+    pub(crate) fn same(&mut self, a: Node, b: Node) -> bool {
+        let difference = self.model.dag.sub(a, b);
+        self.is_zero(difference)
+    }
+
+    /// An expression with numbers in place of some variables.
+    pub(crate) fn section(&mut self, node: Node, set: Set) -> Node {
+        if self.set(node) & set == 0 {
+            return node;
+        }
+        let values: Map<Node, Rational> = bits(set)
+            .map(|bit| (self.variable(bit), place_of(bit)))
+            .collect();
+        self.model.dag.substitute(node, |dag, node| {
+            let value = values.get(&node)?.clone();
+            Some(dag.constant(value))
+        })
+    }
+    /// The expression written without some variables, if it is proven not to depend on them.
+    pub(crate) fn free(&mut self, node: Node, set: Set) -> Option<Node> {
+        if self.set(node) & set == 0 {
+            return Some(node);
+        }
+        let section = self.section(node, set);
+        if !self.same(node, section) {
+            return None;
+        }
+        // The normal form knows that sin² + cos² = 1, which numbers in their place hide.
+        match tidy(&mut self.model.dag, node) {
+            Some(tidy) if self.set(tidy) & set == 0 => Some(tidy),
+            _ => Some(section),
+        }
+    }
+    /// An expression with others in place of variables.
+    pub(crate) fn at(&mut self, node: Node, new: &[(Node, Node)]) -> Node {
+        self.model.dag.substitute(node, |_, node| {
+            let found = new.iter().find(|(leaf, _)| *leaf == node);
+            found.map(|(_, image)| *image)
+        })
+    }
+
+    /// Adds to a motion that the conjugate of an inert variable feels `value` = ∂h/∂v·time.
+    pub(crate) fn push(&mut self, motion: &mut Motion, bit: usize, value: Node) {
+        let conjugate = self.variable(bit ^ 1);
+        let dag = &mut self.model.dag;
+        let value = if bit % 2 == 0 { dag.neg(value) } else { value };
+        motion.add(dag, conjugate, value);
+    }
+
+    /// The value at a point where all is positive.
+    pub(crate) fn value(&self, node: Node) -> f64 {
+        let sizes = vec![3; self.model.sizes.len()];
+        let found = sample(&self.model, &[node], &sizes, Sample::default(), &[]);
+        found.map_or(f64::NAN, |(values, _)| values[0].value)
+    }
+    /// The integer n with a = n·b, if that is proven.
+    pub(crate) fn ratio(&mut self, a: Node, b: Node) -> Option<i32> {
+        let guess = (self.value(a) / self.value(b)).round();
+        if !(guess.abs() <= 64.0) {
+            return None;
+        }
+        let n = guess as i32;
+        let multiple = self.model.dag.scale(&Rational::integer(i64::from(n)), b);
+        self.same(a, multiple).then_some(n)
+    }
+
+    /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
+    /// or the point decide.
+    pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
+        if let Some(value) = self.model.dag.as_constant(node) {
+            return Some(if value.is_zero() {
+                0
+            } else if value.is_negative() {
+                -1
+            } else {
+                1
+            });
+        }
+        if is_positive(&self.model.dag, node) {
+            return Some(1);
+        }
+        let negative = self.model.dag.neg(node);
+        if is_positive(&self.model.dag, negative) {
+            return Some(-1);
+        }
+        self.is_zero(node).then_some(0)
+    }
+}
+
+/// Whether a value is > 0 at every point where there is one: a sum of what is ≥ 0 with a positive
+/// number, exponentials, and products of these.
+fn is_positive(dag: &Dag, node: Node) -> bool {
+    match dag.kind(node) {
+        Kind::Constant(value) => !value.is_negative() && !value.is_zero(),
+        Kind::Pi => true,
+        Kind::Sum(c, terms) => {
+            let positive = |(k, n): &(Rational, Node)| !k.is_negative() && is_positive(dag, *n);
+            dag.is_nonnegative(node)
+                && ((!c.is_negative() && !c.is_zero()) || terms.iter().any(positive))
+        }
+        Kind::Product(k, factors) => {
+            !k.is_negative() && factors.iter().all(|(n, _)| is_positive(dag, *n))
+        }
+        Kind::Call(op, arguments) => match op {
+            crate::op::Op::Exp | crate::op::Op::Cosh => true,
+            crate::op::Op::Sqrt => is_positive(dag, arguments[0]),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// The expression as its normal form writes it.
+fn tidy(dag: &mut Dag, node: Node) -> Option<Node> {
+    let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
+    let poly = algebra.convert(dag, node).ok()?;
+    let poly = algebra.canonical(&poly).ok()?;
+    Some(algebra.node(dag, &poly))
+}
+
+/// The bits of a set.
+pub(crate) fn bits(set: Set) -> impl Iterator<Item = usize> {
+    (0..Set::BITS as usize).filter(move |bit| set >> bit & 1 == 1)
+}
+
+/// The number that stands for a variable in sections: coordinates and momenta differ.
+fn place_of(bit: usize) -> Rational {
+    let pair = bit as i64 / 2;
+    match bit % 2 {
+        0 => Rational::new(3 + pair, 3),
+        _ => Rational::new(1 + pair % 3, 2),
+    }
+}

@@ -52,3 +52,55 @@ const CASES: &[Case] = &[
     Case { signature: "r, th; p, pt", parameters: "", h: "p^2*pt^2/r^2", rows: "monomial" },
     Case { signature: "q, u; p, v", parameters: "", h: "q*p^2*u + v^2*0", rows: "monomial" },
 ];
+
+/// A system, and the pieces it is split into.
+struct Found {
+    signature: &'static str,
+    parameters: &'static str,
+    h: &'static str,
+}
+
+#[test]
+fn systems_split() {
+    for found in FOUND {
+        let mut model = common::system(found.signature, "", found.parameters, found.h);
+        let time = std::time::Instant::now();
+        let result = hamiltonian_symbolic::split::find(&mut model);
+        match result {
+            Ok(splitting) => {
+                println!("{}  [{:?}] {:?}", found.h, time.elapsed(), splitting.choice);
+                for piece in splitting.pieces {
+                    println!("      {}   {:?}", piece.name, piece.flow.rows);
+                }
+            }
+            Err(refusal) => println!("{} [{:?}]\n   REFUSED {refusal:?}", found.h, time.elapsed()),
+        }
+    }
+}
+
+const FOUND: &[Found] = &[
+    Found { signature: "q; p", parameters: "", h: "0.5*(q^2 + 1)*(p^2 + 1)" },
+    Found { signature: "r, th; pr, pt", parameters: "E L", h: "(1 - 2/r)*pr^2/2 + pt^2/(2*r^2) - E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(th)^2)" },
+    Found { signature: "r, th; pr, pt", parameters: "E L B", h: "(1 - 2/r)*pr^2/2 + pt^2/(2*r^2) - E^2/(2*(1 - 2/r)) + (L - B*r^2*sin(th)^2/2)^2/(2*r^2*sin(th)^2)" },
+    Found { signature: "r, th; pr, pt", parameters: "a", h: "pr^2/2 + pt^2/(2*r^2) + r^2/2 + a*r^3*sin(3*th)/3" },
+    Found { signature: "x, y; px, py", parameters: "B", h: "(px + B*y/2)^2/2 + (py - B*x/2)^2/2" },
+    Found { signature: "x, y; px, py", parameters: "B", h: "(px + B*y/2)^2/2 + (py - B*x/2)^2/2 + x^4" },
+    Found { signature: "x, y, z; px, py, pz", parameters: "mu", h: "(px^2 + py^2 + pz^2)/2 - mu*(x*py - y*px)/(x^2 + y^2 + z^2)^(3/2) + mu^2*(x^2 + y^2)/(2*(x^2 + y^2 + z^2)^3)" },
+    Found { signature: "x, y, z; px, py, pz", parameters: "", h: "((px + y/(x^2+y^2+z^2)^(3/2))^2 + (py - x/(x^2 + y^2+z^2)^(3/2))^2 + pz^2)/2" },
+    Found { signature: "r, z, f; pr, pz, pf", parameters: "", h: "(pr^2 + pz^2)/2 + (pf/r - r/sqrt(r^2 + z^2)^3)^2/2" },
+    Found { signature: "x, y, z; px, py, pz", parameters: "", h: "(px - y^2*z)^2/2 + (py - x*z^2)^2/2 + (pz - x^2*y)^2/2" },
+    Found { signature: "l, g; L, G", parameters: "A B C", h: "(G^2 - L^2)*(sin(l)^2/A + cos(l)^2/B)/2 + L^2/(2*C)" },
+    Found { signature: "x, y; px, py", parameters: "m", h: "(px^2 + py^2)/2 - x*py + y*px - (1 - m)/sqrt((x + m)^2 + y^2) - m/sqrt((x - 1 + m)^2 + y^2)" },
+    Found { signature: "r, th; pr, pt", parameters: "a E L", h: "(r^2 - 2*r + a^2)*pr^2/2 + pt^2/2 + (a*E*sin(th) - L/sin(th))^2/2 - ((r^2 + a^2)*E - a*L)^2/(2*(r^2 - 2*r + a^2)) + (r^2 + a^2*cos(th)^2)/2" },
+    Found { signature: "a, b; z, w", parameters: "J D", h: "J*sqrt(1 - z^2)*sqrt(1 - w^2)*cos(a)*cos(b) + J*sqrt(1 - z^2)*sqrt(1 - w^2)*sin(a)*sin(b) + D*z*w" },
+    Found { signature: "x, y; px, py", parameters: "B", h: "sqrt(1 + (px + B*y/2)^2 + (py - B*x/2)^2) + x^3*y" },
+    Found { signature: "x, y, z; px, py, pz", parameters: "B", h: "(px^2 + py^2 + pz^2)/2 + B*(x*py - y*px)/2 + 1/sqrt(x^2 + y^2 + z^2)" },
+    Found { signature: "th, f, s; pt, pf, ps", parameters: "A C m", h: "pt^2/(2*A) + (pf - ps*cos(th))^2/(2*A*sin(th)^2) + ps^2/(2*C) + m*cos(th)" },
+    Found { signature: "q; p", parameters: "", h: "p^2/(2*(1 + q^2))" },
+    Found { signature: "x, f; px, pf", parameters: "", h: "(px^2/2 + pf^2 - px*pf*cos(f))/(1 + sin(f)^2) + cos(f)" },
+    Found { signature: "q; p", parameters: "", h: "sqrt((q^2 + 1)*(p^2 + 1))" },
+    Found { signature: "a, b; u, v", parameters: "", h: "(u^2 + 2*v^2 - 2*u*v*cos(a - b))/(2*(1 + sin(a - b)^2)) - 2*cos(a) - cos(b)" },
+    Found { signature: "r, th; pr, pt", parameters: "a", h: "(r^2 - 2*r + a^2)*pr^2/(2*(r^2 + a^2*cos(th)^2)) + pt^2/(2*(r^2 + a^2*cos(th)^2))" },
+    Found { signature: "q; p; t", parameters: "", h: "0.5*(q^2 + 1)*(p^2 + 1) + q*cos(t)" },
+    Found { signature: "x, y; px, py", parameters: "", h: "sqrt(1 + (px + y^2)^2 + (py - x^2)^2)" },
+];

@@ -190,6 +190,13 @@ impl Space {
         self.is_zero(difference)
     }
 
+    /// Whether two expressions are proven to differ by what does not move.
+    pub(crate) fn constant_apart(&mut self, a: Node, b: Node) -> bool {
+        let difference = self.model.dag.sub(a, b);
+        let set = self.set(difference);
+        self.free(difference, set).is_some()
+    }
+
     /// An expression with numbers in place of some variables.
     pub(crate) fn section(&mut self, node: Node, set: Set) -> Node {
         if self.set(node) & set == 0 {

@@ -15,6 +15,8 @@ mod shear;
 mod spin;
 mod square;
 
+pub(super) use quadratic::is_quadratic;
+
 use super::motion::Motion;
 use super::space::Space;
 use crate::dag::Node;

@@ -165,3 +165,12 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Pa
     let flow = vec![(one, unit), (s, m.clone()), (g.c2, squared), (g.c3, cubed)];
     Some((flow, Vec::new()))
 }
+
+/// Whether an expression is a polynomial of second degree.
+pub(in crate::split) fn is_quadratic(space: &mut Space, h: Node) -> bool {
+    let set = space.set(h);
+    let z: Vec<Node> = super::super::space::bits(set)
+        .map(|bit| space.variable(bit))
+        .collect();
+    coefficients(space, h, set, &z).is_some()
+}

@@ -1,0 +1,218 @@
+//! H as the terms it is written with, and as finer ones where a term has no flow.
+//!
+//! Input: H. Output: [`Units`]. Invariant: units add up to H with the constant; a term in which no
+//! conjugate pair meets stays as it was written; products are multiplied out only where no row
+//! takes them, and only where that loses few digits.
+
+use super::solve::flow;
+use super::space::Space;
+use crate::dag::{Dependence, Kind, Node};
+use crate::rational::Rational;
+use crate::structure::expand;
+
+/// The most digits that multiplying out may lose, as a factor.
+const LOSS: f64 = 16.0;
+
+/// A term of H.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Unit {
+    /// The term.
+    pub(crate) node: Node,
+    /// The term as it was written, which it is, or is a part of.
+    pub(crate) source: Node,
+    /// Whether a conjugate pair meets in it.
+    pub(crate) is_hard: bool,
+}
+
+/// H by terms.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Units {
+    pub(crate) units: Vec<Unit>,
+    /// What depends on no variable.
+    pub(crate) constant: Vec<Node>,
+}
+
+/// The terms as they are written, those without a flow taken apart as little as helps; and, where
+/// that is something else, all of them multiplied out.
+pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
+    let written = written(space, h);
+    let mut first = Units {
+        units: Vec::new(),
+        constant: written.constant.clone(),
+    };
+    let mut second = first.clone();
+    let c = space.dag().coefficient();
+    for unit in &written.units {
+        if !unit.is_hard {
+            first.units.push(*unit);
+            second.units.push(*unit);
+            continue;
+        }
+        let whole = out(space, unit.node);
+        if flow(space, unit.node, c).is_some() {
+            first.units.push(*unit);
+        } else {
+            let apart = taken_apart(space, unit.node).unwrap_or_else(|| vec![unit.node]);
+            append(space, &mut first, &apart, unit.source);
+        }
+        append(space, &mut second, &whole.unwrap_or_else(|| vec![unit.node]), unit.source);
+    }
+    let (first, second) = (merged(space, first), merged(space, second));
+    if second == first || second.units.len() > 12 {
+        vec![first]
+    } else {
+        vec![first, second]
+    }
+}
+
+fn append(space: &mut Space, units: &mut Units, nodes: &[Node], source: Node) {
+    for &node in nodes {
+        match space.set(node) {
+            0 => units.constant.push(node),
+            _ => {
+                let is_hard = !space.active(node).is_empty();
+                units.units.push(Unit {
+                    node,
+                    source,
+                    is_hard,
+                });
+            }
+        }
+    }
+}
+
+/// Like terms of different origin are one.
+fn merged(space: &mut Space, units: Units) -> Units {
+    let mut out: Vec<(Rational, Node, Unit)> = Vec::new();
+    for unit in units.units {
+        let (k, bare) = space.dag().split_coefficient(unit.node);
+        match out.iter_mut().find(|(_, node, _)| *node == bare) {
+            Some(known) => known.0 = known.0.add(&k),
+            None => out.push((k, bare, unit)),
+        }
+    }
+    let mut merged = Units {
+        units: Vec::new(),
+        constant: units.constant,
+    };
+    for (k, bare, unit) in out {
+        if !k.is_zero() {
+            let node = space.dag().scale(&k, bare);
+            merged.units.push(Unit { node, ..unit });
+        }
+    }
+    merged
+}
+
+/// The terms of H by its own sums, through factors that do not move.
+fn written(space: &mut Space, h: Node) -> Units {
+    let mut units = Units {
+        units: Vec::new(),
+        constant: Vec::new(),
+    };
+    let mut left = vec![h];
+    while let Some(node) = left.pop() {
+        match parts(space, node) {
+            Some(parts) => left.extend(parts.into_iter().rev()),
+            None => append(space, &mut units, &[node], node),
+        }
+    }
+    units
+}
+
+/// The terms of a sum with factors that do not move.
+fn parts(space: &mut Space, node: Node) -> Option<Vec<Node>> {
+    let moving = Dependence(Dependence::Q.0 | Dependence::P.0);
+    let dag = space.dag();
+    match dag.kind(node).clone() {
+        Kind::Sum(c, terms) => {
+            let mut parts: Vec<Node> = terms.iter().map(|(k, n)| dag.scale(k, *n)).collect();
+            if !c.is_zero() {
+                parts.push(dag.constant(c));
+            }
+            Some(parts)
+        }
+        Kind::Product(k, factors) => {
+            let is_moving = |(n, _): &&(Node, i32)| dag.dependence(*n).on(moving);
+            let mut those = factors.iter().filter(is_moving);
+            let (sum, 1) = *those.next()? else {
+                return None;
+            };
+            if those.next().is_some() || !matches!(dag.kind(sum), Kind::Sum(..)) {
+                return None;
+            }
+            let rest: Vec<(Node, i32)> = factors.iter().filter(|(n, _)| *n != sum).copied().collect();
+            let rest = dag.product(&k, &rest);
+            distributed(space, sum, rest)
+        }
+        _ => None,
+    }
+}
+
+/// A sum times a factor, term by term.
+fn distributed(space: &mut Space, sum: Node, factor: Node) -> Option<Vec<Node>> {
+    let dag = space.dag();
+    let Kind::Sum(c, terms) = dag.kind(sum).clone() else {
+        return None;
+    };
+    let mut parts: Vec<Node> = Vec::new();
+    for (k, node) in terms {
+        let term = dag.mul(&[factor, node]);
+        parts.push(dag.scale(&k, term));
+    }
+    if !c.is_zero() {
+        parts.push(dag.scale(&c, factor));
+    }
+    Some(parts)
+}
+
+/// The term multiplied out by one of its factors: the one that leaves fewest parts without a flow.
+fn taken_apart(space: &mut Space, node: Node) -> Option<Vec<Node>> {
+    let Kind::Product(k, factors) = space.dag().kind(node).clone() else {
+        return out(space, node);
+    };
+    let c = space.dag().coefficient();
+    let mut best: Option<(usize, Vec<Node>)> = None;
+    for (at, (factor, n)) in factors.iter().enumerate() {
+        if *n != 1 || !matches!(space.dag().kind(*factor), Kind::Sum(..)) {
+            continue;
+        }
+        let mut rest = factors.clone();
+        rest.remove(at);
+        let rest = space.dag().product(&k, &rest);
+        let Some(parts) = distributed(space, *factor, rest) else {
+            continue;
+        };
+        if loss(space, &parts, node) > LOSS {
+            continue;
+        }
+        let mut bad = 0;
+        for &part in &parts {
+            bad += usize::from(flow(space, part, c).is_none());
+        }
+        if best.as_ref().is_none_or(|(least, _)| bad < *least) {
+            best = Some((bad, parts));
+        }
+    }
+    match best {
+        Some((0, parts)) => Some(parts),
+        _ => out(space, node).or(best.map(|(_, parts)| parts)),
+    }
+}
+
+/// The term multiplied out altogether.
+fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
+    let terms = expand(space.dag(), node)?;
+    if terms.len() > 16 {
+        return None;
+    }
+    let parts: Vec<Node> = terms.iter().map(|term| term.node(space.dag())).collect();
+    (loss(space, &parts, node) <= LOSS).then_some(parts)
+}
+
+/// Σ|parts|/|whole|, at a point.
+fn loss(space: &Space, parts: &[Node], whole: Node) -> f64 {
+    let sum: f64 = parts.iter().map(|part| space.value(*part).abs()).sum();
+    let loss = sum / space.value(whole).abs();
+    if loss.is_finite() { loss } else { 1.0 }
+}

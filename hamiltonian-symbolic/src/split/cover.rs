@@ -40,7 +40,9 @@ impl Search<'_> {
     }
     fn of(&self, mask: u64) -> impl Iterator<Item = &Unit> {
         let units = self.units.iter().enumerate();
-        units.filter(move |(at, _)| mask >> at & 1 == 1).map(|(_, unit)| unit)
+        units
+            .filter(move |(at, _)| mask >> at & 1 == 1)
+            .map(|(_, unit)| unit)
     }
     fn block(&mut self, mask: u64) -> Option<Block> {
         let node = self.sum(mask);
@@ -153,14 +155,20 @@ fn hard_blocks(search: &mut Search, hard: u64, easy: u64) {
         seen.push(*mask);
         is_new
     });
-    let numbers: Vec<u64> = (0..64).map(|at| 1 << at).filter(|m| hard & m != 0).collect();
+    let numbers: Vec<u64> = (0..64)
+        .map(|at| 1 << at)
+        .filter(|m| hard & m != 0)
+        .collect();
     let mut subsets: Vec<u64> = numbers.clone();
     if numbers.len() <= SUBSETS {
         let larger = 1u64..1 << numbers.len();
         let mut larger: Vec<u64> = larger.filter(|set| set.count_ones() > 1).collect();
         larger.sort_by_key(|set| set.count_ones());
         let as_units = |set: u64| {
-            let chosen = numbers.iter().enumerate().filter(move |(at, _)| set >> at & 1 == 1);
+            let chosen = numbers
+                .iter()
+                .enumerate()
+                .filter(move |(at, _)| set >> at & 1 == 1);
             chosen.fold(0, |mask, (_, bit)| mask | bit)
         };
         subsets.extend(larger.into_iter().map(as_units));
@@ -183,7 +191,13 @@ fn hard_blocks(search: &mut Search, hard: u64, easy: u64) {
 
 /// Disjoint blocks that hold all hard units.
 fn covers(blocks: &[Block], hard: u64) -> Vec<Vec<Block>> {
-    fn extend(blocks: &[Block], left: u64, used: u64, now: &mut Vec<Block>, all: &mut Vec<Vec<Block>>) {
+    fn extend(
+        blocks: &[Block],
+        left: u64,
+        used: u64,
+        now: &mut Vec<Block>,
+        all: &mut Vec<Vec<Block>>,
+    ) {
         if all.len() >= COVERS {
             return;
         }
@@ -235,12 +249,12 @@ fn easy_blocks(search: &mut Search, easy: u64) -> Vec<Block> {
     let mut found: Vec<Block> = Vec::new();
     for mask in masks {
         let is_known = found.iter().any(|block| block.units == mask);
-        if mask.count_ones() > 1 && !is_known {
-            if let Some(block) = search.block(mask) {
-                if !block.flow.rows.is_empty() {
-                    found.push(block);
-                }
-            }
+        if mask.count_ones() > 1
+            && !is_known
+            && let Some(block) = search.block(mask)
+            && !block.flow.rows.is_empty()
+        {
+            found.push(block);
         }
     }
     found
@@ -248,7 +262,9 @@ fn easy_blocks(search: &mut Search, easy: u64) -> Vec<Block> {
 
 /// Easy units as few pieces in which no conjugate pair meets.
 fn linear_pieces(search: &mut Search, easy: u64) -> Vec<Block> {
-    let mut numbers: Vec<usize> = (0..search.units.len()).filter(|at| easy >> at & 1 == 1).collect();
+    let mut numbers: Vec<usize> = (0..search.units.len())
+        .filter(|at| easy >> at & 1 == 1)
+        .collect();
     let order = |set: Set| match (set & COORDINATES != 0, set & !COORDINATES != 0) {
         (false, _) => 0,
         (_, false) => 1,

@@ -15,7 +15,9 @@ pub(crate) struct Names(Map<String, Node>);
 impl Names {
     /// Names with their nodes.
     pub(crate) fn of(entries: &[(&str, Node)]) -> Names {
-        let entries = entries.iter().map(|(name, node)| ((*name).to_owned(), *node));
+        let entries = entries
+            .iter()
+            .map(|(name, node)| ((*name).to_owned(), *node));
         Names(entries.collect())
     }
     /// Gives a name its node.
@@ -118,7 +120,10 @@ impl Reader<'_> {
         while self.text.get(self.at).is_some_and(u8::is_ascii_digit) {
             self.at += 1;
         }
-        std::str::from_utf8(&self.text[start..self.at]).ok()?.parse().ok()
+        std::str::from_utf8(&self.text[start..self.at])
+            .ok()?
+            .parse()
+            .ok()
     }
     fn atom(&mut self) -> Option<Node> {
         if self.takes(b'(') {

@@ -187,7 +187,10 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
 ///
 /// # Errors
 /// The number of the first part without a flow, with the first term of it that no row takes.
-pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting, (usize, Refusal)> {
+pub fn declared(
+    model: &mut Model,
+    parts: &[(String, Node)],
+) -> Result<Splitting, (usize, Refusal)> {
     let mut pieces = Vec::with_capacity(parts.len());
     for (at, (name, h)) in parts.iter().enumerate() {
         let mut space = Space::new(model, &[*h]).ok_or((at, Refusal::Loops))?;
@@ -199,7 +202,13 @@ pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting
         model.dag = space.model.dag;
         let Some(flow) = found else {
             let text = print::text(model, refused);
-            return Err((at, Refusal::Term { node: refused, text }));
+            return Err((
+                at,
+                Refusal::Term {
+                    node: refused,
+                    text,
+                },
+            ));
         };
         pieces.push(Piece {
             h: *h,

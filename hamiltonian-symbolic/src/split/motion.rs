@@ -5,7 +5,7 @@
 //! conditions everything that moves becomes NaN.
 
 use super::space::{Set, Space};
-use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::dag::{Array, Dag, Kind, Node};
 use crate::op::Op;
 use crate::program::Target;
 use crate::schedule::Store;
@@ -56,7 +56,9 @@ impl Motion {
     /// Adds a condition.
     pub(crate) fn asks(&mut self, dag: &mut Dag, positive: Node) {
         let zero = dag.integer(0);
-        let holds = dag.as_constant(positive).is_some_and(|c| !c.is_negative() && !c.is_zero());
+        let holds = dag
+            .as_constant(positive)
+            .is_some_and(|c| !c.is_negative() && !c.is_zero());
         if !holds {
             self.domain.push(dag.less(zero, positive));
         }
@@ -100,37 +102,26 @@ impl Motion {
         self
     }
 
-    /// The motion with another expression for the step coefficient.
-    pub(crate) fn for_time(&self, dag: &mut Dag, time: Node) -> Motion {
-        let c = dag.coefficient();
-        let mut known: Map<Node, Node> = Map::default();
-        let mut over = |node: Node| {
-            *known.entry(node).or_insert_with(|| {
-                dag.substitute(node, |_, node| (node == c).then_some(time))
-            })
-        };
-        let moves = self.moves.iter().map(|m| Move {
-            value: over(m.value),
-            ..*m
-        });
-        let moves = moves.collect();
-        Motion {
-            moves,
-            domain: self.domain.iter().map(|c| over(*c)).collect(),
-        }
-    }
-
     /// What the motion asks of a program: one update a variable, all values from the point before.
     #[must_use]
     pub fn stores(&self, dag: &mut Dag) -> Vec<Store> {
-        let guard = self.domain.split_first().map(|(first, rest)| {
-            rest.iter().fold(*first, |all, next| dag.and(all, *next))
-        });
+        let guard = self
+            .domain
+            .split_first()
+            .map(|(first, rest)| rest.iter().fold(*first, |all, next| dag.and(all, *next)));
         let minus = dag.integer(-1);
         let nan = dag.call(Op::Sqrt, &[minus]);
         let mut stores = Vec::with_capacity(self.moves.len());
         for m in &self.moves {
-            let Kind::Element(Array::Phase { side, group, column }, row, _) = dag.kind(m.leaf)
+            let Kind::Element(
+                Array::Phase {
+                    side,
+                    group,
+                    column,
+                },
+                row,
+                _,
+            ) = dag.kind(m.leaf)
             else {
                 continue;
             };

@@ -55,7 +55,11 @@ pub(crate) fn best(
                 (Some(energy), Some(tapes)) => error(space, energy, tapes, &order),
                 _ => f64::NAN,
             };
-            let cost = if pieces.len() == 1 { 1 } else { 2 * pieces.len() - 2 };
+            let cost = if pieces.len() == 1 {
+                1
+            } else {
+                2 * pieces.len() - 2
+            };
             let price = error * cost as f64;
             let outer = space.set(pieces[order[0]].node);
             let mirrored = usize::from(outer & 0x5555_5555_5555_5555 != 0);
@@ -103,9 +107,16 @@ fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
     match pieces.len() {
         0 | 1 => vec![(0..pieces.len()).collect()],
         2 => vec![vec![0, 1], vec![1, 0]],
-        3 => [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]]
-            .map(|order| order.to_vec())
-            .to_vec(),
+        3 => [
+            [0, 1, 2],
+            [0, 2, 1],
+            [1, 0, 2],
+            [1, 2, 0],
+            [2, 0, 1],
+            [2, 1, 0],
+        ]
+        .map(|order| order.to_vec())
+        .to_vec(),
         count => {
             let mut by_cost: Vec<usize> = (0..count).collect();
             let cost = |block: &Block| {
@@ -128,7 +139,9 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
     let images = block.flow.motion.images(space.dag());
     let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).collect();
     roots.extend(&block.flow.motion.domain);
-    let moved = images.iter().map(|(leaf, _)| space.set(*leaf).trailing_zeros() as usize);
+    let moved = images
+        .iter()
+        .map(|(leaf, _)| space.set(*leaf).trailing_zeros() as usize);
     let moved = moved.collect();
     Some(Piece {
         tape: Tape::of(space, &roots)?,
@@ -139,11 +152,15 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
 /// The points orbits start from: (coordinates, momenta) by the number of the variable.
 fn start(orbit: usize, bit: usize) -> f64 {
     let spread = ((bit * 7 + orbit * 3) % 11) as f64 / 22.0;
-    let sign = if (bit + orbit * (1 + bit / 2)) % 3 == 1 { -1.0 } else { 1.0 };
+    let sign = if (bit + orbit * (1 + bit / 2)) % 3 == 1 {
+        -1.0
+    } else {
+        1.0
+    };
     match orbit {
         0 => 0.7 + spread,
         // Far out and slow: radii outside horizons and centres.
-        3 if bit % 2 == 0 => 4.0 + spread,
+        3 if bit.is_multiple_of(2) => 4.0 + spread,
         3 => sign * 0.3 * (0.7 + spread),
         _ => sign * (0.7 + spread),
     }
@@ -157,7 +174,9 @@ fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64
     let mut sum = 0.0;
     let mut count = 0;
     for orbit in 0..ORBITS {
-        let mut z: Vec<f64> = (0..2 * space.pairs.len()).map(|bit| start(orbit, bit)).collect();
+        let mut z: Vec<f64> = (0..2 * space.pairs.len())
+            .map(|bit| start(orbit, bit))
+            .collect();
         let mut value = |z: &[f64]| {
             energy.run(z, 0.0, &mut numbers, &mut results);
             results[0]
@@ -184,7 +203,11 @@ fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64
                 act(&mut z, *at, STEP / 2.0);
             }
             let off = (value(&z) - first).abs();
-            largest = if off.is_finite() { largest.max(off) } else { f64::INFINITY };
+            largest = if off.is_finite() {
+                largest.max(off)
+            } else {
+                f64::INFINITY
+            };
         }
         if first.is_finite() {
             // An orbit that ends is an error of the size of H.
@@ -192,6 +215,9 @@ fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64
             count += 1;
         }
     }
-    if count == 0 { f64::NAN } else { (sum / f64::from(count)).exp() }
+    if count == 0 {
+        f64::NAN
+    } else {
+        (sum / f64::from(count)).exp()
+    }
 }
-

@@ -5,12 +5,12 @@
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
 //! after [`TESTS`] questions every answer is no.
 
+use super::motion::Motion;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::loops::{Sample, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes, witness};
-use super::motion::Motion;
 use crate::rational::Rational;
 
 /// The most questions whether an expression is zero.
@@ -86,11 +86,7 @@ impl Space {
     /// The variable of a bit.
     pub(crate) fn variable(&self, bit: usize) -> Node {
         let (q, p) = self.pairs[bit / 2];
-        if bit % 2 == 0 { q } else { p }
-    }
-    /// The variables of a set.
-    pub(crate) fn variables(&self, set: Set) -> Vec<Node> {
-        bits(set).map(|bit| self.variable(bit)).collect()
+        if bit.is_multiple_of(2) { q } else { p }
     }
 
     /// The variables an expression is written with.
@@ -237,7 +233,11 @@ impl Space {
     pub(crate) fn push(&mut self, motion: &mut Motion, bit: usize, value: Node) {
         let conjugate = self.variable(bit ^ 1);
         let dag = &mut self.model.dag;
-        let value = if bit % 2 == 0 { dag.neg(value) } else { value };
+        let value = if bit.is_multiple_of(2) {
+            dag.neg(value)
+        } else {
+            value
+        };
         motion.add(dag, conjugate, value);
     }
 
@@ -250,10 +250,7 @@ impl Space {
     /// The integer n with a = n·b, if that is proven.
     pub(crate) fn ratio(&mut self, a: Node, b: Node) -> Option<i32> {
         let guess = (self.value(a) / self.value(b)).round();
-        if !(guess.abs() <= 64.0) {
-            return None;
-        }
-        let n = guess as i32;
+        let n = (guess.abs() <= 64.0).then_some(guess as i32)?;
         let multiple = self.model.dag.scale(&Rational::integer(i64::from(n)), b);
         self.same(a, multiple).then_some(n)
     }

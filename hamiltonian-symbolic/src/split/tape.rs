@@ -62,10 +62,9 @@ impl Tape {
                 Kind::And(a, b) => Step::And(at(&a), at(&b)),
                 Kind::Or(a, b) => Step::Or(at(&a), at(&b)),
                 Kind::Select(c, a, b) => Step::Select(at(&c), at(&a), at(&b)),
-                Kind::External(..)
-                | Kind::Reduce(..)
-                | Kind::Count(_)
-                | Kind::Variable(_) => return None,
+                Kind::External(..) | Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => {
+                    return None;
+                }
             };
             place.insert(node, steps.len());
             steps.push(step);

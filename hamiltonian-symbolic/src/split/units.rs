@@ -55,7 +55,12 @@ pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
             let apart = taken_apart(space, unit.node).unwrap_or_else(|| vec![unit.node]);
             append(space, &mut first, &apart, unit.source);
         }
-        append(space, &mut second, &whole.unwrap_or_else(|| vec![unit.node]), unit.source);
+        append(
+            space,
+            &mut second,
+            &whole.unwrap_or_else(|| vec![unit.node]),
+            unit.source,
+        );
     }
     let (first, second) = (merged(space, first), merged(space, second));
     if second == first || second.units.len() > 12 {
@@ -141,7 +146,8 @@ fn parts(space: &mut Space, node: Node) -> Option<Vec<Node>> {
             if those.next().is_some() || !matches!(dag.kind(sum), Kind::Sum(..)) {
                 return None;
             }
-            let rest: Vec<(Node, i32)> = factors.iter().filter(|(n, _)| *n != sum).copied().collect();
+            let rest: Vec<(Node, i32)> =
+                factors.iter().filter(|(n, _)| *n != sum).copied().collect();
             let rest = dag.product(&k, &rest);
             distributed(space, sum, rest)
         }

@@ -11,9 +11,7 @@ use crate::split::space::Space;
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
-    active
-        .into_iter()
-        .find_map(|pair| along(space, pair, h, s))
+    active.into_iter().find_map(|pair| along(space, pair, h, s))
 }
 
 fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {

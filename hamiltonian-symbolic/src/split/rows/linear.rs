@@ -55,7 +55,11 @@ pub(super) fn solve(space: &mut Space, axes: Axes, k: Node, s: Node) -> Option<M
             space.dag().is_nonnegative(negative).then_some(-1)?
         }
     };
-    let size = if sign < 0 { space.dag().neg(kappa) } else { kappa };
+    let size = if sign < 0 {
+        space.dag().neg(kappa)
+    } else {
+        kappa
+    };
     let a = super::root(space, size);
     names.set("a", a);
     let dag = space.dag();

@@ -5,6 +5,7 @@
 //! that the flow of the pattern is exact is proven once a row by tests. A new atom is a file here
 //! and a line in [`ROWS`].
 
+mod axes;
 mod circle;
 mod flight;
 mod linear;
@@ -155,6 +156,13 @@ pub static ROWS: &[Row] = &[
         domain: "K ≠ 0",
         source: "a turn of the vector (K, K_l, cL) about its first axis",
         solve: Solve::Whole(spin::solve),
+    },
+    Row {
+        name: "body axis",
+        pattern: "κ·M², M the angular momentum along a body axis, in Euler angles φ, θ, ψ",
+        domain: "off the poles of the angles",
+        source: "a turn of the body about the axis",
+        solve: Solve::Whole(axes::solve),
     },
 ];
 

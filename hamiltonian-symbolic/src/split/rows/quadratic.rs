@@ -34,7 +34,11 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         false => space.dag().neg(node),
     };
     let m: Matrix = (0..2 * n)
-        .map(|i| (0..2 * n).map(|j| signed(space, i, a[turned(i)][j])).collect())
+        .map(|i| {
+            (0..2 * n)
+                .map(|j| signed(space, i, a[turned(i)][j]))
+                .collect()
+        })
         .collect();
     let b: Vec<Node> = (0..2 * n).map(|i| signed(space, i, g[turned(i)])).collect();
     let (flow, shift) = exponential(space, &m, &b, s)?;
@@ -100,7 +104,7 @@ fn product(space: &mut Space, a: &Matrix, b: &Matrix) -> Matrix {
     let mut rows = Vec::with_capacity(n);
     for row in a {
         let mut out = Vec::with_capacity(n);
-        for j in 0..n {
+        for (j, _) in row.iter().enumerate() {
             let terms: Vec<Node> = (0..n)
                 .map(|k| space.dag().mul(&[row[k], b[k][j]]))
                 .collect();

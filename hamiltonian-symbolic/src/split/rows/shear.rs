@@ -33,7 +33,7 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     }
     let ratio = space.dag().div(hx, hy);
     let slope = space.dag().neg(ratio);
-    let slope = space.section(slope, y_set);
+    let slope = space.free(slope, y_set)?;
     // A′ as a polynomial: Taylor's coefficients at 0.
     let zero = space.dag().integer(0);
     let (mut derivative, mut factorial) = (slope, Rational::ONE);

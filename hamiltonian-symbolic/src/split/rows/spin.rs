@@ -64,13 +64,7 @@ fn square_root(space: &mut Space, h: Node) -> Option<Node> {
     Some(dag.product(&Rational::ONE, &halves))
 }
 
-fn component(
-    space: &mut Space,
-    axes: Axes,
-    k: Node,
-    s: Node,
-    is_squared: bool,
-) -> Option<Motion> {
+fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) -> Option<Motion> {
     let y = axes.y(space);
     let l = axes.x;
     let own = space.set(l) | space.set(y);

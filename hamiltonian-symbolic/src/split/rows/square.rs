@@ -89,7 +89,10 @@ fn in_chart(
     let a = names.one(space.dag(), "big - b*u - f2*u^2/2")?;
     let a = space.section(a, x_set);
     names.set("a", a);
-    names.read(space.dag(), "F = a + b*u + f2*u^2/2; Fu = b + f2*u; P = y/du")?;
+    names.read(
+        space.dag(),
+        "F = a + b*u + f2*u^2/2; Fu = b + f2*u; P = y/du",
+    )?;
     let whole = names.get("F")?;
     if !space.same(big, whole) {
         return None;
@@ -98,10 +101,7 @@ fn in_chart(
     let signs = (space.sign(f2), space.sign(whole));
     match signs {
         (Some(0), _) => {
-            names.read(
-                space.dag(),
-                "d = 1 + b*P*s; u1 = u + F*P*s*(1 + d)",
-            )?;
+            names.read(space.dag(), "d = 1 + b*P*s; u1 = u + F*P*s*(1 + d)")?;
             domain.push(names.get("d")?);
         }
         (Some(1), Some(1)) => {
@@ -117,10 +117,7 @@ fn in_chart(
             names.set("C", growth.c);
             names.set("S", growth.s);
             names.set("c2", growth.c2);
-            names.read(
-                space.dag(),
-                "d = C + Fu*P*S; u1 = u + 2*F*P*(S + Fu*P*c2)",
-            )?;
+            names.read(space.dag(), "d = C + Fu*P*S; u1 = u + 2*F*P*(S + Fu*P*c2)")?;
             domain.push(names.get("d")?);
             names.set("l", lambda);
             let whole = names.one(space.dag(), "pi^2 + l*s^2")?;

@@ -6,3 +6,4 @@ mod observers;
 mod reach;
 mod run;
 mod start;
+mod tables;

@@ -3,5 +3,6 @@
 mod decimal;
 mod double_double;
 mod dual;
+mod levels;
 mod packs;
 mod scalars;

@@ -54,7 +54,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             vectors,
             pieces,
             declared,
-        } = variables::settle(checked, lowered, report)?;
+        } = variables::change(checked, lowered, report)?;
         let mut code = TokenStream::new();
         for (name, hamiltonian) in &pieces {
             let piece = surface::Part::piece(checked, name);
@@ -156,7 +156,7 @@ fn wanted(checked: &Checked, model: &Model, large: bool, separable: bool) -> Vec
     wanted
 }
 
-/// Whether H is so long that writing out every function would cost rustc more than it gives.
+/// Whether H is so long that emitting every function would cost rustc more than it gives.
 fn is_large(checked: &Checked, model: &Model) -> bool {
     let roots: Vec<_> = model.hamiltonian.into_iter().collect();
     let is_static = checked

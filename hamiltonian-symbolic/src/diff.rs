@@ -222,7 +222,7 @@ fn derivative_of(part: Part, i: u16) -> Part {
     }
 }
 
-/// ∂(k·Π f^n)/∂f for each factor that matters. Up to [`FEW`] factors each is written out; longer
+/// ∂(k·Π f^n)/∂f for each factor that matters. Up to [`FEW`] factors each is a product by itself; longer
 /// products are cut into prefixes and suffixes, 3n − 6 multiplications in all (Speelpenning 1980).
 fn product_partials(
     dag: &mut Dag,

@@ -278,14 +278,14 @@ impl Dag {
         if k.is_zero() {
             return self.integer(0);
         }
-        self.settle_roots(&mut factors);
+        self.collect_roots(&mut factors);
         factors.retain(|(_, n)| *n != 0);
         self.bare_product(k, factors)
     }
 
     /// Powers of √x with x ≥ 0 known: x·√x is (√x)³, and an even power of √x is a power of x;
     /// |x| to an even power is x to that power.
-    fn settle_roots(&mut self, factors: &mut Vec<(Node, i32)>) {
+    fn collect_roots(&mut self, factors: &mut Vec<(Node, i32)>) {
         for at in 0..factors.len() {
             let (node, n) = factors[at];
             let Kind::Call(op, arguments) = self.kind(node) else {

@@ -15,7 +15,7 @@ use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
-use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Refusal, Standing};
+use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Placement, Refusal};
 use proc_macro2::Ident;
 use quote::format_ident;
 
@@ -33,7 +33,7 @@ pub struct System {
 }
 
 /// Carries a definition into its final variables.
-pub fn settle(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
+pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
     let Lowered {
         model,
         split,
@@ -189,9 +189,9 @@ impl Settling {
         };
         let mut transformed = transformed;
         let carried = std::mem::take(&mut transformed.carried);
-        let from = transformed.forward_standing();
+        let from = transformed.forward_placed();
         let from = map(&mut transformed, from);
-        let to = transformed.inverse_standing();
+        let to = transformed.inverse_placed();
         let to = map(&mut transformed, to);
         self.declared = Some(Declared {
             model: names_of(&transformed.source),
@@ -231,7 +231,7 @@ impl Settling {
     }
 
     fn time(&mut self, factor: Node) -> Result<(), (String, &'static str)> {
-        let whole = |group: u16| Standing {
+        let whole = |group: u16| Placement {
             old: (group, None),
             new: group,
         };
@@ -307,7 +307,7 @@ fn remedy(reason: &Refusal) -> &'static str {
             "write the term that closes the ring by itself, or declare a literal number of bodies"
         }
         Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
-        Refusal::Loops { .. } => "give the loop literal bounds, so that it can be written out",
+        Refusal::Loops { .. } => "give the loop literal bounds, so that it can be unrolled",
         Refusal::TooManyLoops => "let several sums share a loop",
         Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
         Refusal::Power { .. } => {

@@ -542,7 +542,7 @@ impl Checker<'_> {
                 raw,
                 at,
                 &format!("functions call each other deeper than {MAX_DEPTH}"),
-                "write out the inner ones",
+                "inline the inner ones",
             );
             return None;
         }

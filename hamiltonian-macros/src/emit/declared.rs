@@ -13,7 +13,7 @@ use super::holder::Receiver;
 use super::layout::{Layout, layout};
 use super::{Definition, lex};
 use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::transform::Standing;
+use hamiltonian_symbolic::transform::Placement;
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
@@ -24,7 +24,7 @@ pub struct Declared {
     /// Their groups; nothing else of this model is read.
     pub model: Model,
     /// Where each stands among the system's own variables.
-    pub places: Vec<Standing>,
+    pub places: Vec<Placement>,
     /// The group of the system that is the declared time, where it has another.
     pub time: Option<u16>,
 }
@@ -69,12 +69,12 @@ fn moved(
     back: bool,
 ) {
     let (theirs, own) = contexts;
-    for standing in &declared.places {
-        let (group, row) = standing.old;
+    for placement in &declared.places {
+        let (group, row) = placement.old;
         let is_array =
             row.is_none() && declared.model.groups[usize::from(group)].shape != Shape::Scalar;
         let old = place(theirs, group, row.unwrap_or(0));
-        let new = place(own, standing.new, 0);
+        let new = place(own, placement.new, 0);
         let ((a, i), (b, j)) = if back { (new, old) } else { (old, new) };
         let _ = if is_array {
             writeln!(

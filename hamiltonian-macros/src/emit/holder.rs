@@ -105,8 +105,8 @@ impl Holder {
     /// Takes the holder's arrays apart as far as they are read; what it does not have.
     fn read(&self, out: &mut String, reads: &[Value]) -> Vec<Value> {
         let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
-        parts::open(out, "_self.v", &self.values, &rest);
-        parts::open(out, "_self.m", &self.masks, &rest);
+        parts::bind(out, "_self.v", &self.values, &rest);
+        parts::bind(out, "_self.m", &self.masks, &rest);
         for value in self.values() {
             rest.remove(&value);
         }

@@ -51,15 +51,15 @@ pub type Wanted = Map<Value, ()>;
 
 /// Values that a part hands on: numbers in one array, masks in another.
 #[derive(Debug)]
-struct Parcel {
+struct LiveOuts {
     numbers: Vec<Value>,
     masks: Vec<Value>,
 }
 
-impl Parcel {
-    fn of(program: &Program, values: impl Iterator<Item = Value>) -> Parcel {
+impl LiveOuts {
+    fn of(program: &Program, values: impl Iterator<Item = Value>) -> LiveOuts {
         let (masks, numbers) = values.partition(|value| is_mask(program.instruction(*value)));
-        Parcel { numbers, masks }
+        LiveOuts { numbers, masks }
     }
     fn is_empty(&self) -> bool {
         self.numbers.is_empty() && self.masks.is_empty()
@@ -80,14 +80,14 @@ impl Parcel {
         format!("([T; {numbers}], [<T as __h::Real>::Mask; {masks}])")
     }
     /// Binds those of its values that are wanted.
-    fn open(&self, out: &mut String, name: &str, wanted: &Wanted) {
-        open(out, &format!("{name}.0"), &self.numbers, wanted);
-        open(out, &format!("{name}.1"), &self.masks, wanted);
+    fn bind(&self, out: &mut String, name: &str, wanted: &Wanted) {
+        bind(out, &format!("{name}.0"), &self.numbers, wanted);
+        bind(out, &format!("{name}.1"), &self.masks, wanted);
     }
 }
 
 /// Binds the `wanted` elements of the array of `values` that stands in `place`.
-pub fn open(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
+pub fn bind(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
     let is_wanted = |value: &Value| wanted.contains_key(value);
     let (Some(first), Some(last)) = (
         values.iter().position(is_wanted),
@@ -127,41 +127,41 @@ impl Bodies<'_> {
                 last[value.0 as usize] = at;
             }
         }
-        let mut parcels: Vec<Parcel> = Vec::with_capacity(parts.len());
+        let mut earlier: Vec<LiveOuts> = Vec::with_capacity(parts.len());
         for (at, (part, scan)) in parts.iter().zip(&scans).enumerate() {
             let until = |value: &Value| last[value.0 as usize] > at;
-            let given = Parcel::of(program, scan.computes.iter().copied().filter(until));
-            let call = self.part(body, &steps[part.clone()], scan, &parcels, &given);
+            let given = LiveOuts::of(program, scan.computes.iter().copied().filter(until));
+            let call = self.part(body, &steps[part.clone()], scan, &earlier, &given);
             let _ = match given.is_empty() {
                 true => writeln!(out, "{call};"),
                 false => writeln!(out, "let _g{at} = &{call};"),
             };
-            parcels.push(given);
+            earlier.push(given);
         }
         let arrays = body.arrays.iter().map(|array| Slice::Parameter(*array));
         self.bind(out, body.receiver, arrays.collect());
         let wanted = scans.last().map_or(&[][..], |scan| &scan.reads);
-        self.open(out, body, wanted, &parcels);
+        self.bind_live(out, body, wanted, &earlier);
     }
 
-    /// Binds what was computed by earlier parts and by earlier stages; the parcels that were
-    /// opened.
-    fn open(
+    /// Binds what was computed by earlier parts and by earlier stages. Returns the
+    /// numbers of the parts whose live-outs were bound.
+    fn bind_live(
         &self,
         out: &mut String,
         body: Body,
         wanted: &[Value],
-        parcels: &[Parcel],
+        earlier: &[LiveOuts],
     ) -> Vec<usize> {
         let mut rest: Wanted = wanted.iter().map(|value| (*value, ())).collect();
-        let mut opened = Vec::new();
-        for (number, parcel) in parcels.iter().enumerate() {
-            if parcel.has(&rest) {
-                parcel.open(out, &format!("_g{number}"), &rest);
-                for value in parcel.numbers.iter().chain(&parcel.masks) {
+        let mut bound = Vec::new();
+        for (number, live) in earlier.iter().enumerate() {
+            if live.has(&rest) {
+                live.bind(out, &format!("_g{number}"), &rest);
+                for value in live.numbers.iter().chain(&live.masks) {
                     rest.remove(value);
                 }
-                opened.push(number);
+                bound.push(number);
             }
         }
         let earlier: Vec<Value> = wanted
@@ -170,7 +170,7 @@ impl Bodies<'_> {
             .filter(|value| rest.contains_key(value))
             .collect();
         self.read(out, body.receiver, &earlier);
-        opened
+        bound
     }
 
     /// Writes a part as a function; the expression that calls it.
@@ -179,11 +179,11 @@ impl Bodies<'_> {
         body: Body,
         steps: &[Step],
         scan: &Scan,
-        parcels: &[Parcel],
-        given: &Parcel,
+        earlier: &[LiveOuts],
+        given: &LiveOuts,
     ) -> String {
         let mut text = String::new();
-        let at = parcels.len();
+        let at = earlier.len();
         let mut slices = scan.slices.clone();
         if at == 0 {
             slices.extend(block::cleared(self.context, body.cleared));
@@ -192,7 +192,7 @@ impl Bodies<'_> {
         if at == 0 {
             block::clear(&mut text, self.context, body.cleared);
         }
-        let opened = self.open(&mut text, body, &scan.reads, parcels);
+        let bound = self.bind_live(&mut text, body, &scan.reads, earlier);
         self.steps(&mut text, body.receiver, steps);
         let function = format!("__{}_{at}", body.name);
         let (mut declared, mut passed) = (String::new(), String::new());
@@ -200,8 +200,8 @@ impl Bodies<'_> {
             let _ = write!(declared, ", {name}: {ty}");
             let _ = write!(passed, ", {name}");
         }
-        for number in opened {
-            let _ = write!(declared, ", _g{number}: &{}", parcels[number].ty());
+        for number in bound {
+            let _ = write!(declared, ", _g{number}: &{}", earlier[number].ty());
             let _ = write!(passed, ", _g{number}");
         }
         let result = match given.is_empty() {

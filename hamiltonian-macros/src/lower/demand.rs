@@ -1,5 +1,5 @@
 //! What is asked of an expression: the scalar it is, or one component of it, for given values of
-//! the loop variables that are written out.
+//! the loop variables that are unrolled.
 //!
 //! Input: a demand on a node. Output: the demands it makes on its children. Invariant: `evaluate`
 //! asks for children in this same order.
@@ -13,7 +13,7 @@ use crate::report::Spans;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size, members};
 
-/// The longest vector whose sums over components are written out.
+/// The longest vector whose sums over components are unrolled.
 const LONGEST: i64 = 16;
 
 /// What is asked of a node.
@@ -21,7 +21,7 @@ const LONGEST: i64 = 16;
 pub struct Demand {
     /// The component: nothing of a scalar, the index in a vector, row and column in a matrix.
     pub indices: Vec<Index>,
-    /// The values of the loop variables that are written out and the node depends on, in order:
+    /// The values of the loop variables that are unrolled and the node depends on, in order:
     /// those of [`Loops::numbers`], by construction of the demands.
     ///
     /// [`Loops::numbers`]: super::loops::Loops::numbers
@@ -37,7 +37,7 @@ impl Demand {
         }
     }
 
-    /// The value of a loop variable that is written out.
+    /// The value of a loop variable that is unrolled.
     pub fn value(&self, id: LoopId) -> Option<i64> {
         self.values
             .iter()
@@ -57,7 +57,7 @@ impl Demand {
     }
 }
 
-/// Why a sum is not written out.
+/// Why a sum is not unrolled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Unwritten {
     /// A bound is no number.
@@ -109,7 +109,7 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The engine's loop of a loop that is not written out.
+    /// The engine's loop of a loop that is not unrolled.
     pub fn domain(&self, dag: &mut Dag, id: LoopId, demand: &Demand) -> Domain {
         // From the outermost in.
         let mut path = Vec::new();
@@ -339,7 +339,7 @@ impl Evaluator<'_> {
                 ),
                 Err(Unwritten::TooLong) => self.refuse(
                     this.spans,
-                    &format!("loops that choose components are written out, and here they run more than {LARGEST} times"),
+                    &format!("loops that choose components are unrolled, and here they run more than {LARGEST} times"),
                     "let a short loop choose the components, as in `sum(c in 0..3) { … }`, and others stay loops",
                 ),
             },

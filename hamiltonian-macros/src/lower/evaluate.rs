@@ -87,7 +87,7 @@ pub struct Evaluator<'a> {
     pub(super) velocities: Option<Vec<Component>>,
     /// How many nodes each node is a child of.
     pub(super) uses: Vec<u32>,
-    /// Answers to demands for the whole of a node outside loops that are written out.
+    /// Answers to demands for the whole of a node outside loops that are unrolled.
     plain: Vec<Option<Node>>,
     /// All other answers.
     answers: Map<(u32, Demand), Node>,
@@ -336,7 +336,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Refuses functions of numbers that they are not defined for. In a loop that is written out a
+    /// Refuses functions of numbers that they are not defined for. In a loop that is unrolled a
     /// condition may keep such a number away.
     fn refuse_outside(
         &mut self,
@@ -525,7 +525,7 @@ impl<'a> Evaluator<'a> {
                 sum
             })
         };
-        // What is written out stands inside the loops that stay, where these are the same.
+        // What is unrolled stands inside the loops that stay, where these are the same.
         if let Some((first, rest)) = nests.split_first()
             && rest.iter().all(|nest| nest == first)
         {

@@ -1,6 +1,6 @@
-//! Loops of sums: which expression depends on which, how they nest, and which are written out.
+//! Loops of sums: which expression depends on which, how they nest, and which are unrolled.
 //!
-//! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is written out only where its variable
+//! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is unrolled only where its variable
 //! chooses a component that exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`);
 //! the loops that stay and an expression depends on lie on one path of parents, all of which stay;
 //! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
@@ -24,9 +24,9 @@ pub struct Loops {
     parents: Vec<Option<LoopId>>,
     /// How deep each loop stands.
     depths: Vec<u32>,
-    /// Loops that are written out.
+    /// Loops that are unrolled.
     written: Set,
-    /// The loops that are written out and each loop depends on: itself, or those that its bounds
+    /// The loops that are unrolled and each loop depends on: itself, or those that its bounds
     /// and those of the loops around it mention.
     numbers: Vec<Set>,
 }
@@ -75,7 +75,7 @@ impl Loops {
             let by_number = loops.is_by_number(checked, node);
             loops.by_number.push(by_number);
         }
-        // Bounds of a loop that is written out are numbers.
+        // Bounds of a loop that is unrolled are numbers.
         loop {
             let before = loops.written;
             for (at, one) in checked.loops.iter().enumerate() {
@@ -166,7 +166,7 @@ impl Loops {
         self.free[node.0 as usize]
     }
 
-    /// The loops that are written out and a node depends on, by itself or by the range of a loop
+    /// The loops that are unrolled and a node depends on, by itself or by the range of a loop
     /// that it depends on.
     pub fn numbers(&self, node: NodeId) -> Set {
         members(self.free(node)).fold(0, |set, id| set | self.numbers[id.0 as usize])
@@ -182,7 +182,7 @@ impl Loops {
         self.parents[id.0 as usize]
     }
 
-    /// Whether a loop is written out.
+    /// Whether a loop is unrolled.
     pub fn is_written(&self, id: LoopId) -> bool {
         self.written & bit(id) != 0
     }

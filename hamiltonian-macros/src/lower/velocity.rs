@@ -52,7 +52,7 @@ pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
 /// The expression with velocities as functions of (q, p, t); `None` where one stands at an index
 /// that wraps around and is a function of its own index, which is no number there.
 pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
-    let root = opened(model, root, velocities)?;
+    let root = peeled(model, root, velocities)?;
     let dag = &mut model.dag;
     let mut whole = true;
     let image = dag.substitute(root, |dag, node| {
@@ -92,9 +92,9 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
     whole.then_some(image)
 }
 
-/// The expression written out where a loop reads velocities that the transform had to write out,
+/// The expression unrolled where a loop reads velocities that the transform had to unroll,
 /// because they are coupled.
-fn opened(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
+fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
     let dag = &model.dag;
     let is_written_out = |wanted: u16| {
         velocities.iter().any(|component| {

@@ -105,7 +105,7 @@ fn a_chain_of_functions_has_a_limit() {
     accept(&chain(128));
     assert_eq!(
         error(&chain(300)),
-        "functions call each other deeper than 128\nhelp: write out the inner ones"
+        "functions call each other deeper than 128\nhelp: inline the inner ones"
     );
 }
 

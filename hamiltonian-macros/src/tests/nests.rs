@@ -1,4 +1,4 @@
-//! Loops that choose components are written out wherever they stand among loops that stay: the sum
+//! Loops that choose components are unrolled wherever they stand among loops that stay: the sum
 //! is the one written term by term.
 
 use super::accept;
@@ -75,7 +75,7 @@ impl Nest<'_> {
     }
 }
 
-/// Both texts are the same polynomial once loops are written out.
+/// Both texts are the same polynomial once loops are unrolled.
 #[track_caller]
 fn same(sums: &str, terms: &str) {
     let source =
@@ -177,7 +177,8 @@ fn a_written_loop_has_a_range_in_numbers_that_is_not_too_long() {
         "sum(i in 0..600, j in 0..i + 600) { [p, q][(i + j) % 2] }",
     ];
     for sum in long {
-        let start = "loops that choose components are written out, and here they run more than 262144 times\n";
+        let start =
+            "loops that choose components are unrolled, and here they run more than 262144 times\n";
         assert!(refused(&format!("H(q; p) = {sum}")).starts_with(start));
     }
 }

@@ -14,7 +14,7 @@ use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
 /// cannot be solved for loop variables, or where that takes too many loops. Where all sizes are
-/// literal there are no indices left to solve once the sums are written out.
+/// literal there are no indices left to solve once the sums are unrolled.
 pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
     in_loops(model, a, b).or_else(|| {
         if !model.sizes.is_empty() || model.dag.has_too_many_loops() {

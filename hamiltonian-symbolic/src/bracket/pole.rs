@@ -358,8 +358,8 @@ impl Line<'_> {
         let [first, before, last] = differences;
         // What is continuous differs less and less, what has no limit more and more. A NaN is not
         // near anything.
-        let settles = |a: f64, b: f64, share: f64| (a - b).abs() <= share * b.abs();
-        settles(first, before, 0.5) && settles(before, last, 0.05)
+        let converges = |a: f64, b: f64, share: f64| (a - b).abs() <= share * b.abs();
+        converges(first, before, 0.5) && converges(before, last, 0.05)
     }
 }
 

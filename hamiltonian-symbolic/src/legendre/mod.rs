@@ -7,7 +7,7 @@
 //!
 //! All scalar coordinates together have one mass matrix, dense or not; array elements have one for
 //! each element k, over the columns of all arrays of that length. Arrays of literal length whose
-//! elements are coupled are written out, if they are short.
+//! elements are coupled are unrolled, if they are short.
 
 mod elements;
 mod form;
@@ -22,7 +22,7 @@ use crate::print::{self, Notation};
 use crate::rational::Rational;
 use form::{Form, Singular};
 
-/// Arrays that are written out have at most this many elements, scalars included.
+/// Arrays that are unrolled have at most this many elements, scalars included.
 const LONGEST: i64 = 16;
 
 /// The momentum or velocity of one coordinate, or of each element of a column.
@@ -45,7 +45,7 @@ pub struct Legendre {
     pub momenta: Vec<Component>,
     /// v(q, p, t): momentum elements are momenta.
     pub velocities: Vec<Component>,
-    /// L(q, v, t) as it was solved: with its loops written out where that was needed.
+    /// L(q, v, t) as it was solved: with its loops unrolled where that was needed.
     pub lagrangian: Node,
     /// The kinetic parts of H, as they are read, not computed.
     pub masses: Vec<Mass>,
@@ -101,7 +101,7 @@ pub fn transform(
     transform.check_polynomial(lagrangian).map_err(refusal)?;
     let solved = match transform.blocks(lagrangian) {
         Ok(blocks) => transform.solve(lagrangian, &blocks),
-        // Elements that are coupled are coordinates like any other, once they are written out.
+        // Elements that are coupled are coordinates like any other, once they are unrolled.
         Err(reason) => match transform.written_out(lagrangian) {
             Some((written, block)) => transform.solve(written, &[block]),
             None => {
@@ -199,7 +199,7 @@ impl Transform<'_> {
             }
         }
         let mut blocks = arrays;
-        // Short arrays whose elements differ read better when they are written out.
+        // Short arrays whose elements differ read better when they are unrolled.
         let is_long = self.extents().is_none();
         let dag = &mut self.model.dag;
         for block in &mut blocks {
@@ -253,7 +253,7 @@ impl Transform<'_> {
         Ok(())
     }
 
-    /// Rows and columns of each group, where these are few enough to be written out.
+    /// Rows and columns of each group, where these are few enough to be unrolled.
     fn extents(&self) -> Option<Vec<(i64, i64)>> {
         let mut extents = Vec::new();
         let mut count = 0i64;
@@ -272,7 +272,7 @@ impl Transform<'_> {
         Some(extents)
     }
 
-    /// The Lagrangian with its loops written out and all elements in one block; `None` if there
+    /// The Lagrangian with its loops unrolled and all elements in one block; `None` if there
     /// are too many, or their number is not literal.
     fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
         let extents = self.extents()?;

@@ -1,5 +1,5 @@
 //! Loops taken apart: a walk over an expression with its loops run at given sizes, numbers at
-//! sample points, and the same system written out term by term.
+//! sample points, and the same system unrolled.
 //!
 //! Input: a model and sizes. Output: values or another model. Invariant: what is found at sizes
 //! chosen here may refute a statement about all sizes, never prove one.

@@ -1,4 +1,4 @@
-//! A system written out term by term at given sizes.
+//! A system unrolled at given sizes.
 //!
 //! Input: a model and a value for each of its sizes. Output: a model of the same system without
 //! loops, its array elements at constant indices. Invariant: every index is inside its array; no
@@ -9,7 +9,7 @@ use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
-/// The most nodes a system written out may have.
+/// The most nodes a system unrolled may have.
 pub const LARGEST: usize = 1 << 20;
 
 /// The system at the given sizes, without loops; observables included.

@@ -107,7 +107,7 @@ pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
         if !has_loops(dag, node) {
             return Ok(false);
         }
-        let poly = symmetry::settle(&mut algebra, dag, &poly)?;
+        let poly = symmetry::canonical(&mut algebra, dag, &poly)?;
         symmetry::summands_vanish(&mut algebra, &poly)
     };
     decide() == Ok::<bool, Undecided>(true) && !dag.has_too_many_loops()

@@ -16,7 +16,7 @@ const PASSES: usize = 8;
 impl Algebra {
     /// The polynomial with relations applied; divisors stay.
     pub(crate) fn canonical(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
-        let mut poly = self.settled(poly)?;
+        let mut poly = self.resolved(poly)?;
         self.budget.charge(poly.cost())?;
         for _ in 0..PASSES {
             let mut changed = false;
@@ -26,7 +26,7 @@ impl Algebra {
             if !changed {
                 return Ok(poly);
             }
-            poly = self.settled(&poly)?;
+            poly = self.resolved(&poly)?;
         }
         Err(Undecided)
     }
@@ -52,7 +52,7 @@ impl Algebra {
             if !changed {
                 return Ok(poly);
             }
-            poly = self.settled(&poly)?;
+            poly = self.resolved(&poly)?;
         }
         Err(Undecided)
     }
@@ -73,7 +73,7 @@ impl Algebra {
                 poly.times(&Monomial::atom(atom, lowest.saturating_neg())),
             ));
         };
-        let divisor = self.settled(&divisor)?;
+        let divisor = self.resolved(&divisor)?;
         let mut power = Poly::integer(1);
         let mut reached = lowest;
         for (n, part) in groups {
@@ -129,7 +129,7 @@ impl Algebra {
         if poly.terms().iter().all(|(m, _)| stays(m.exponent(atom))) {
             return Ok(false);
         }
-        let replacement = self.settled(&replacement)?;
+        let replacement = self.resolved(&replacement)?;
         let mut sum = Sum::default();
         for (n, part) in poly.by_power(atom) {
             if stays(n) {
@@ -147,7 +147,7 @@ impl Algebra {
     /// The rules of the sign s of x: s³ = s, s² = s if x ≥ 0, and s²·x = x. The last one replaces
     /// s²·m, where m is the leading monomial of x = c·m + r: by m + (r − s²·r)/c.
     fn lower_sign(&mut self, poly: &mut Poly, atom: Atom, of: &Poly) -> Result<bool, Undecided> {
-        let of = self.settled(of)?;
+        let of = self.resolved(of)?;
         let is_idempotent = self.is_nonnegative(&of);
         let is_anything_but_zero = self.is_anything_but_zero(&of);
         let leading = of.terms().iter().max_by(|a, b| a.0.newest_first(&b.0));
@@ -212,7 +212,7 @@ impl Algebra {
     }
 
     /// The polynomial with redefined atoms replaced.
-    pub(super) fn settled(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
+    pub(super) fn resolved(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         if !self.any_redefined {
             return Ok(poly.clone());
         }

@@ -23,7 +23,11 @@ struct Nest {
 }
 
 /// The polynomial with every sum in its first form.
-pub(super) fn settle(algebra: &mut Algebra, dag: &mut Dag, poly: &Poly) -> Result<Poly, Undecided> {
+pub(super) fn canonical(
+    algebra: &mut Algebra,
+    dag: &mut Dag,
+    poly: &Poly,
+) -> Result<Poly, Undecided> {
     let mut poly = poly.clone();
     for atom in poly.atoms() {
         if matches!(algebra.entry(atom).key, Key::Sum(..)) {

@@ -12,7 +12,7 @@ mod sums;
 use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::factor::{count_uses, is_prepared};
 use crate::rational::Rational;
-use products::{Factors, Item, Made, Workshop, known_root, share_products};
+use products::{FactorPool, Factors, Item, Made, known_root, share_products};
 use sums::{
     TermPair, TermPairs, Terms, gathered, known_multiple, known_start, raw_sum, share_terms,
 };
@@ -21,17 +21,17 @@ use sums::{
 pub fn share(dag: &mut Dag, roots: &mut [Node]) {
     let order: Vec<Node> = dag.reachable(roots);
     let uses = count_uses(dag, roots, &order);
-    let mut shop = Workshop::default();
-    let mut plan = Plan::of(dag, &mut shop, &order, &uses);
-    share_products(dag, &mut shop, &mut plan.lists);
+    let mut pool = FactorPool::default();
+    let mut plan = Plan::of(dag, &mut pool, &order, &uses);
+    share_products(dag, &mut pool, &mut plan.lists);
     let (pairs, paired) = share_terms(&order, &plan.plain);
     let mut build = Build {
-        shop: &shop,
+        pool: &pool,
         plan: &plan,
         pairs: &pairs,
         paired,
         new: Map::default(),
-        made: vec![None; shop.made.len()],
+        made: vec![None; pool.made.len()],
         terms: vec![None; pairs.len()],
     };
     for &node in &order {
@@ -59,7 +59,7 @@ struct Plan {
 }
 
 impl Plan {
-    fn of(dag: &mut Dag, shop: &mut Workshop, order: &[Node], uses: &Numbers) -> Plan {
+    fn of(dag: &mut Dag, pool: &mut FactorPool, order: &[Node], uses: &Numbers) -> Plan {
         let mut plan = Plan::default();
         let mut roots: Map<Node, (Node, i32)> = Map::default();
         // What others than its parents use as it stands.
@@ -99,12 +99,12 @@ impl Plan {
                 Kind::Product(k, factors) => {
                     let list = match roots.get(&node) {
                         Some(&(root, n)) => Factors::power_of(root, n),
-                        None => shop.grouped(dag, &k, &factors),
+                        None => pool.grouped(dag, &k, &factors),
                     };
                     plan.product_at.insert(node, plan.lists.len());
                     plan.lists.push(list);
                 }
-                Kind::Sum(..) => plan.absorb(dag, shop, node, |term| {
+                Kind::Sum(..) => plan.absorb(dag, pool, node, |term| {
                     uses.get(term) == Some(1) && !whole.contains_key(&term)
                 }),
                 _ => {}
@@ -118,7 +118,7 @@ impl Plan {
     fn absorb(
         &mut self,
         dag: &mut Dag,
-        shop: &mut Workshop,
+        pool: &mut FactorPool,
         sum: Node,
         alone: impl Fn(Node) -> bool,
     ) {
@@ -136,7 +136,7 @@ impl Plan {
                 && factors.iter().any(|(n, _)| is_prepared(dag, *n))
             {
                 let at = self.product_at[term];
-                self.lists[at] = shop.grouped(dag, &c.mul(k), &factors);
+                self.lists[at] = pool.grouped(dag, &c.mul(k), &factors);
                 self.absorbed_at.insert((sum, *term), at);
             }
         }
@@ -154,7 +154,7 @@ fn sign(negative: bool) -> Rational {
 
 /// The rewritten expressions, children first.
 struct Build<'a> {
-    shop: &'a Workshop,
+    pool: &'a FactorPool,
     plan: &'a Plan,
     pairs: &'a [TermPair],
     paired: TermPairs,
@@ -245,7 +245,7 @@ impl Build<'_> {
         while let Some(&top) = pending.last() {
             let (at, made) = match top {
                 Item::Made(at) if self.made[at as usize].is_none() => {
-                    (at as usize, &self.shop.made[at as usize])
+                    (at as usize, &self.pool.made[at as usize])
                 }
                 _ => {
                     pending.pop();

@@ -74,13 +74,13 @@ impl Factors {
 
 /// Everything made, each with the depth of the loop it is computed in.
 #[derive(Default)]
-pub(super) struct Workshop {
+pub(super) struct FactorPool {
     pub(super) made: Vec<Made>,
     depths: Vec<usize>,
     known: Map<Made, Item>,
 }
 
-impl Workshop {
+impl FactorPool {
     fn make(&mut self, dag: &Dag, made: Made) -> Item {
         if let Some(&item) = self.known.get(&made) {
             return item;
@@ -162,12 +162,12 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
 }
 
 /// Makes items of what the lists have in common.
-pub(super) fn share_products(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
-    merge_roots(dag, shop, lists);
-    merge_companions(dag, shop, lists);
-    share_reciprocals(dag, shop, lists);
-    share_invariant_factors(dag, shop, lists);
-    share_pairs(dag, shop, lists);
+pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+    merge_roots(dag, pool, lists);
+    merge_companions(dag, pool, lists);
+    share_reciprocals(dag, pool, lists);
+    share_invariant_factors(dag, pool, lists);
+    share_pairs(dag, pool, lists);
 }
 
 /// Where each divisor stands, and with which power, in order of first appearance.
@@ -188,7 +188,7 @@ fn divisors(lists: &[Factors]) -> Vec<(Item, Vec<(usize, i32)>)> {
 
 /// Divisions by √x and by x ≥ 0 are divisions by powers of √x; where only (√x)⁻³ is needed the
 /// divisor is x·√x.
-fn merge_roots(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
+fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     let mut all = divisors(lists);
     let places: Map<Item, usize> = all.iter().enumerate().map(|(at, d)| (d.0, at)).collect();
     for at in 0..all.len() {
@@ -207,7 +207,7 @@ fn merge_roots(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
             }
         } else if all[at].1.iter().all(|(_, n)| *n == -3) {
             let x = Item::Node(x);
-            let cube = shop.make(dag, Made::Pair(x.min(root), x.max(root)));
+            let cube = pool.make(dag, Made::Pair(x.min(root), x.max(root)));
             for (list, _) in std::mem::take(&mut all[at].1) {
                 lists[list].replace(root, cube, -1);
             }
@@ -216,7 +216,7 @@ fn merge_roots(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
 }
 
 /// Divisors that several products have together, and only together, are one divisor.
-fn merge_companions(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
+fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     let mut first: Map<Vec<(usize, i32)>, Item> = Map::default();
     for (item, places) in divisors(lists) {
         if places.len() < 2 {
@@ -226,7 +226,7 @@ fn merge_companions(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
             first.insert(places, item);
             continue;
         };
-        let both = shop.make(dag, Made::Pair(companion, item));
+        let both = pool.make(dag, Made::Pair(companion, item));
         for &(list, n) in &places {
             lists[list].items.retain(|(i, _)| *i != item);
             lists[list].replace(companion, both, n);
@@ -237,19 +237,19 @@ fn merge_companions(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
 
 /// A divisor becomes a reciprocal where that leaves at least two products without a division, or
 /// where it lives in an outer loop.
-fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
+fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     let all = divisors(lists);
     let mut inverted: Map<Item, bool> = Map::default();
     for (item, places) in &all {
-        let depth = shop.depth(dag, *item);
+        let depth = pool.depth(dag, *item);
         let outside = places.iter().any(|(list, _)| {
             let items = &lists[*list].items;
-            items.iter().any(|(i, _)| shop.depth(dag, *i) > depth)
+            items.iter().any(|(i, _)| pool.depth(dag, *i) > depth)
         });
         inverted.insert(*item, outside || places.len() > 1);
         if outside {
             for (list, n) in places {
-                let reciprocal = shop.make(dag, Made::Reciprocal(*item));
+                let reciprocal = pool.make(dag, Made::Reciprocal(*item));
                 lists[*list].replace(*item, reciprocal, -n);
             }
         }
@@ -273,7 +273,7 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
     }
     for (item, places) in &all {
         if inverted[item] {
-            let reciprocal = shop.make(dag, Made::Reciprocal(*item));
+            let reciprocal = pool.make(dag, Made::Reciprocal(*item));
             for (list, n) in places {
                 lists[*list].replace(*item, reciprocal, -n);
             }
@@ -282,7 +282,7 @@ fn share_reciprocals(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
 }
 
 /// Factors that live in an outer loop are multiplied with each other first.
-fn share_invariant_factors(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
+fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     if dag.loop_count() == 0 {
         return;
     }
@@ -290,7 +290,7 @@ fn share_invariant_factors(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]
         let depths: Vec<usize> = list
             .items
             .iter()
-            .map(|(i, _)| shop.depth(dag, *i))
+            .map(|(i, _)| pool.depth(dag, *i))
             .collect();
         let deepest = depths.iter().copied().max().unwrap_or(0);
         let outside = |at: usize, n: i32| n > 0 && depths[at] < deepest;
@@ -311,7 +311,7 @@ fn share_invariant_factors(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]
         for (_, item, n) in outer {
             for _ in 0..n {
                 product = Some(match product {
-                    Some(p) => shop.make(dag, Made::Pair(p, item)),
+                    Some(p) => pool.make(dag, Made::Pair(p, item)),
                     None => item,
                 });
             }
@@ -395,7 +395,7 @@ impl Counts {
 }
 
 /// Greedily makes an item of the couple that most products have in common.
-fn share_pairs(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
+fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     let mut counts = Counts::default();
     let mut holders: Map<Item, Vec<usize>> = Map::default();
     for (at, list) in lists.iter().enumerate() {
@@ -423,7 +423,7 @@ fn share_pairs(dag: &Dag, shop: &mut Workshop, lists: &mut [Factors]) {
         if couple.2 && !among.iter().any(last_division) {
             continue;
         }
-        let made = shop.make(dag, couple.made());
+        let made = pool.make(dag, couple.made());
         for at in among {
             let list = &mut lists[at];
             let times = couple.times(list);

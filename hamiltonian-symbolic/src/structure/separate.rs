@@ -29,7 +29,7 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
     // What couples may cancel.
     let may_relate = !is_certainly_coupled(model, h);
     let parts = apart(model, h, may_relate);
-    match settled(model, parts, may_relate) {
+    match resolved(model, parts, may_relate) {
         Ok(parts) => Ok(parts.split()),
         Err(term) => Err(Coupling {
             term,
@@ -66,7 +66,7 @@ impl Parts {
 
 /// The parts with what couples multiplied out, and then related, or the first term that couples
 /// all the same.
-fn settled(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, Node> {
+fn resolved(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, Node> {
     let zero = model.dag.integer(0);
     let mut found = vec![parts];
     if let Some(terms) = expand(&mut model.dag, parts.coupling) {
@@ -101,9 +101,9 @@ fn settled(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, N
     })
 }
 
-/// The parts of a node by its own sums, each as it was written; with `settles`, branches of
-/// conditions are settled one by one.
-fn apart(model: &mut Model, root: Node, settles: bool) -> Parts {
+/// The parts of a node by its own sums, each as it was written; with `resolves`, branches of
+/// conditions are resolved one by one.
+fn apart(model: &mut Model, root: Node, resolves: bool) -> Parts {
     let zero = model.dag.integer(0);
     let nothing = Parts {
         kinetic: zero,
@@ -162,8 +162,8 @@ fn apart(model: &mut Model, root: Node, settles: bool) -> Parts {
             Kind::Select(condition, yes, no) if !model.dag.dependence(condition).on(BOTH) => {
                 let [yes, no] = [yes, no].map(|branch| {
                     let branch = parts[&branch];
-                    if settles && !model.dag.is_zero(branch.coupling) {
-                        settled(model, branch, true).unwrap_or(branch)
+                    if resolves && !model.dag.is_zero(branch.coupling) {
+                        resolved(model, branch, true).unwrap_or(branch)
                     } else {
                         branch
                     }

@@ -4,7 +4,7 @@
 //! functions of the new ones. Invariant: row 0 is an entry of its own, rows 1 … n−1 are one in a
 //! loop.
 
-use super::open::Below;
+use super::peel::Below;
 use crate::dag::{Array, Dag, Node, Side};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, Shape, VectorEntry};

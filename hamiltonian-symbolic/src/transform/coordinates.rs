@@ -8,8 +8,8 @@
 use super::Refusal;
 use super::bodies::Bodies;
 use super::charts::{self, Chart, Masses, Variables};
-use super::layout::{Layout, Slot, coordinate, extents, standing};
-use super::open::{Below, open};
+use super::layout::{Layout, Slot, coordinate, extents, placements};
+use super::peel::{Below, peel};
 use super::reduce::{self, Rules};
 use super::verify::check;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
@@ -34,15 +34,15 @@ pub struct Transformed {
     /// Groups that no chart replaces: their numbers in `source` and in `model`.
     pub kept: Vec<(u16, u16)>,
     /// Where the old variables stand when a state of the new shape holds them: each element of
-    /// phase space once. [`Transformed::forward_standing`] reads them there.
-    pub places: Vec<Standing>,
+    /// phase space once. [`Transformed::forward_placed`] reads them there.
+    pub places: Vec<Placement>,
     bodies: Vec<Bodies>,
     rules: Rules,
 }
 
 /// A group, or one row of it, among the old variables, and where it stands among the new ones.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Standing {
+pub struct Placement {
     /// The group of the source, and the row of a vector that becomes scalars.
     pub old: (u16, Option<u32>),
     /// The group of the model, which has as many elements.
@@ -52,7 +52,7 @@ pub struct Standing {
 /// The system in the coordinates of the charts, which replace different coordinates; `carried` are
 /// further functions of (q, p, t) to be written in the new ones.
 ///
-/// Loops that read a replaced coordinate are written out, so their lengths must be literal, but
+/// Loops that read a replaced coordinate are unrolled, so their lengths must be literal, but
 /// for heliocentric coordinates of any number of bodies.
 ///
 /// # Errors
@@ -95,12 +95,12 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
     }
     let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
     let carried = distribute(&mut new, roots);
-    let mut places: Vec<Standing> = charts
+    let mut places: Vec<Placement> = charts
         .iter()
         .zip(&layout.places)
-        .flat_map(|(chart, place)| standing(model, chart, place.first))
+        .flat_map(|(chart, place)| placements(model, chart, place.first))
         .collect();
-    places.extend(layout.kept.iter().map(|&(old, new)| Standing {
+    places.extend(layout.kept.iter().map(|&(old, new)| Placement {
         old: (old, None),
         new,
     }));
@@ -143,7 +143,7 @@ impl Transformed {
 
     /// The map to the new coordinates, in the arena of `model`: the old ones are read where
     /// `places` says they stand.
-    pub fn forward_standing(&mut self) -> Vec<VectorEntry> {
+    pub fn forward_placed(&mut self) -> Vec<VectorEntry> {
         let mut images: Map<Node, Node> = Map::default();
         let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).collect();
         for node in self.source.dag.reachable(&values) {
@@ -181,7 +181,7 @@ impl Transformed {
 
     /// The map to the old coordinates, written where `places` says they stand.
     #[must_use]
-    pub fn inverse_standing(&self) -> Vec<VectorEntry> {
+    pub fn inverse_placed(&self) -> Vec<VectorEntry> {
         let moved = |entry: &VectorEntry| {
             let (group, row) = self.place(entry.group, &entry.row);
             VectorEntry {
@@ -323,7 +323,7 @@ pub fn apart(model: &mut Model, charts: &[Chart], force: &[VectorEntry]) -> Vec<
 }
 
 /// The model whose arena the new system is built in, with all roots (H, observables, carried ones),
-/// written out where a loop reads a replaced coordinate.
+/// unrolled where a loop reads a replaced coordinate.
 fn written_out(
     model: &Model,
     layout: &Layout,
@@ -361,9 +361,9 @@ fn written_out(
         };
         return loops::unroll_nodes(model, &[], &roots).map_err(refused);
     }
-    let mut opened = model.clone();
-    let roots = open(&mut opened, &roots, &written, bodies)?;
-    Ok((opened, roots))
+    let mut peeled = model.clone();
+    let roots = peel(&mut peeled, &roots, &written, bodies)?;
+    Ok((peeled, roots))
 }
 
 /// What replaces each element of bodies that is read; `None` where an index wraps around.

@@ -4,7 +4,7 @@
 //! groups of a chart stand where its first old group stood; names are told apart.
 
 use super::charts::{Chart, Component, Variables};
-use super::coordinates::Standing;
+use super::coordinates::Placement;
 use super::{Refusal, element, is_taken};
 use crate::dag::{Dag, Side};
 use crate::model::{Group, Model, Shape};
@@ -280,12 +280,12 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
 }
 
 /// Where the old variables of a chart stand among its new ones.
-pub(super) fn standing(model: &Model, chart: &Chart, first: u16) -> Vec<Standing> {
+pub(super) fn placements(model: &Model, chart: &Chart, first: u16) -> Vec<Placement> {
     let scalars = |components: &[Component]| {
         let place = |(component, new): (&Component, u16)| {
             let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
             let row = component.row.filter(|_| !is_scalar);
-            Standing {
+            Placement {
                 old: (component.group, row),
                 new,
             }
@@ -295,7 +295,7 @@ pub(super) fn standing(model: &Model, chart: &Chart, first: u16) -> Vec<Standing
     match chart {
         Chart::Polar(components) => scalars(components),
         Chart::Spherical(components) => scalars(components),
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Standing {
+        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Placement {
             old: (bodies.group, None),
             new: first,
         }],

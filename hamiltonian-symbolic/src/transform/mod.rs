@@ -10,14 +10,14 @@ mod bodies;
 pub mod charts;
 pub mod coordinates;
 mod layout;
-mod open;
+mod peel;
 mod reduce;
 pub mod split;
 pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
-pub use coordinates::{Standing, Transformed, apart, apply};
+pub use coordinates::{Placement, Transformed, apart, apply};
 pub use split::{Difference, Force, check_forces, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;
@@ -60,7 +60,7 @@ pub enum Refusal {
         /// Their positions.
         coordinate: String,
     },
-    /// A coordinate of the chart is read in loops that cannot be written out.
+    /// A coordinate of the chart is read in loops that cannot be unrolled.
     Loops {
         /// The coordinate.
         coordinate: String,
@@ -114,7 +114,7 @@ impl fmt::Display for Refusal {
             ),
             Refusal::Loops { coordinate, reason } => write!(
                 f,
-                "`{coordinate}` is read in a loop that cannot be written out: {reason}"
+                "`{coordinate}` is read in a loop that cannot be unrolled: {reason}"
             ),
             Refusal::TooManyLoops => write!(f, "it takes more than {LOOPS} loops"),
             Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),

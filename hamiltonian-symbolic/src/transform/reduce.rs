@@ -61,7 +61,7 @@ pub(super) fn substitute(
         let image = if changed {
             let image = dag.rebuild(node, &|child| new[&child]);
             let image = positive(dag, image, rules);
-            reducer.settle(dag, image, inside.contains_key(&node))
+            reducer.reduce_node(dag, image, inside.contains_key(&node))
         } else {
             node
         };
@@ -149,7 +149,7 @@ struct Reducer<'a> {
 
 impl Reducer<'_> {
     /// A rebuilt node, simplified at its own level.
-    fn settle(&mut self, dag: &mut Dag, node: Node, inside: bool) -> Node {
+    fn reduce_node(&mut self, dag: &mut Dag, node: Node, inside: bool) -> Node {
         match dag.kind(node).clone() {
             Kind::Sum(..) => self.sum(dag, node, inside),
             Kind::Call(Op::Hypot, arguments) => {

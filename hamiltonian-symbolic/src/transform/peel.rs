@@ -12,7 +12,7 @@ use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, Shape};
 
-/// The most nodes that loops are written out to.
+/// The most nodes that loops are unrolled to.
 const LARGEST: usize = 1 << 20;
 
 /// Least values of indices.
@@ -64,11 +64,11 @@ enum Step {
     Peel,
 }
 
-/// The roots with the loops opened. `written` are the groups that are replaced row by row.
+/// The roots with the loops peeled. `written` are the groups that are replaced row by row.
 ///
 /// # Errors
 /// [`Refusal::Loops`]
-pub(super) fn open(
+pub(super) fn peel(
     model: &mut Model,
     roots: &[Node],
     written: &[u16],
@@ -81,7 +81,7 @@ pub(super) fn open(
         let Kind::Reduce(domain, body) = *dag.kind(node) else {
             break;
         };
-        let opened = match step {
+        let peeled = match step {
             Step::WriteOut(start, end) => {
                 let each: Vec<Node> = (start..end)
                     .map(|at| dag.replace(body, domain, &Affine::constant(at)))
@@ -109,7 +109,7 @@ pub(super) fn open(
             });
         }
         for root in &mut roots {
-            let replace = |_: &mut Dag, other: Node| (other == node).then_some(opened);
+            let replace = |_: &mut Dag, other: Node| (other == node).then_some(peeled);
             *root = dag.substitute(*root, replace);
         }
     }
@@ -135,7 +135,7 @@ fn read(dag: &Dag, node: Node) -> Option<(u16, &Index)> {
     }
 }
 
-/// The next loop to open, the outermost first: what is inside may then be opened too.
+/// The next loop to peel, the outermost first: what is inside may then be peeled too.
 fn candidate(
     dag: &Dag,
     roots: &[Node],

@@ -177,6 +177,8 @@ struct Facts {
     variables: u64,
     nonnegative: bool,
     height: u32,
+    /// A part of a long product, which no product it stands in takes apart.
+    sealed: bool,
 }
 
 /// A loop: its range, in the context of its parent.
@@ -316,6 +318,14 @@ impl Dag {
     #[must_use]
     pub fn height(&self, node: Node) -> u32 {
         self.facts[node.0 as usize].height
+    }
+    /// Whether a node is a product of two that no product takes apart (see [`crate::balance`]).
+    pub(crate) fn is_sealed(&self, node: Node) -> bool {
+        self.facts[node.0 as usize].sealed
+    }
+    /// Keeps a product from being taken apart.
+    pub(crate) fn close(&mut self, node: Node) {
+        self.facts[node.0 as usize].sealed = true;
     }
     /// The innermost loop a node must be computed in.
     #[must_use]
@@ -582,6 +592,7 @@ impl Dag {
             variables,
             nonnegative,
             height,
+            sealed: false,
         }
     }
 }

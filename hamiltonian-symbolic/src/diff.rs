@@ -10,7 +10,6 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Part};
 use crate::index::Domain;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::simplify::FEW;
 
 /// The adjoints of the leaves that depend on `what`: (leaf, ∂root/∂leaf) in order of first
 /// appearance. Zero adjoints are left out.
@@ -61,6 +60,15 @@ fn sweep(
                 for (k, child) in terms.into_iter().rev() {
                     let value = dag.scale(&k, adjoint);
                     give(dag, child, here, value);
+                }
+            }
+            Kind::Product(_, factors) if dag.is_sealed(node) => {
+                let (a, b) = (factors[0].0, factors[1].0);
+                for (child, other) in [(b, a), (a, b)] {
+                    if dag.dependence(child).on(what) {
+                        let value = dag.seal(adjoint, other);
+                        give(dag, child, here, value);
+                    }
                 }
             }
             Kind::Product(k, factors) => {
@@ -222,62 +230,26 @@ fn derivative_of(part: Part, i: u16) -> Part {
     }
 }
 
-/// ∂(k·Π f^n)/∂f for each factor that matters. Up to [`FEW`] factors each is a product by itself; longer
-/// products are cut into prefixes and suffixes, 3n − 6 multiplications in all (Speelpenning 1980).
+/// ∂(k·Π f^n)/∂f for each factor that matters. Long products are trees by now (see
+/// [`crate::balance`]); of one of its pairs, a derivative is the other.
 fn product_partials(
     dag: &mut Dag,
     k: &Rational,
     factors: &[(Node, i32)],
     what: Dependence,
 ) -> Vec<(Node, Node)> {
-    let lowered = |dag: &mut Dag, node: Node, n: i32| {
-        let power = dag.powi(node, n - 1);
-        dag.scale(&Rational::integer(i64::from(n)), power)
-    };
     let mut partials = Vec::with_capacity(factors.len());
-    if factors.len() <= FEW {
-        for (at, &(node, n)) in factors.iter().enumerate() {
-            if !dag.dependence(node).on(what) {
-                continue;
-            }
-            let mut rest: Vec<(Node, i32)> = factors.to_vec();
-            rest[at].1 = n - 1;
-            if n == 1 {
-                rest.remove(at);
-            }
-            let scale = k.mul(&Rational::integer(i64::from(n)));
-            partials.push((node, dag.product(&scale, &rest)));
-        }
-        return partials;
-    }
-    let powers: Vec<Node> = factors.iter().map(|&(node, n)| dag.powi(node, n)).collect();
-    let count = powers.len();
-    let mut before = vec![powers[0]; count];
-    let mut after = vec![powers[count - 1]; count];
-    for at in 1..count {
-        before[at] = dag.seal(before[at - 1], powers[at]);
-    }
-    for at in (0..count - 1).rev() {
-        after[at] = dag.seal(powers[at], after[at + 1]);
-    }
     for (at, &(node, n)) in factors.iter().enumerate() {
         if !dag.dependence(node).on(what) {
             continue;
         }
-        let rest = match at {
-            0 => after[1],
-            _ if at == count - 1 => before[at - 1],
-            _ => dag.seal(before[at - 1], after[at + 1]),
-        };
-        let own = lowered(dag, node, n);
-        let own = dag.scale(k, own);
-        let partial = if dag.as_constant(own).is_some() {
-            let value = dag.as_constant(own).cloned().unwrap_or(Rational::ONE);
-            dag.scale(&value, rest)
-        } else {
-            dag.seal(own, rest)
-        };
-        partials.push((node, partial));
+        let mut rest: Vec<(Node, i32)> = factors.to_vec();
+        rest[at].1 = n - 1;
+        if n == 1 {
+            rest.remove(at);
+        }
+        let scale = k.mul(&Rational::integer(i64::from(n)));
+        partials.push((node, dag.product(&scale, &rest)));
     }
     partials
 }

@@ -49,11 +49,16 @@ impl Term {
             factors - 1 + i64::from(self.has_coefficient(one))
         }
     }
-    fn without(&self, base: Node, sign: i32) -> Term {
+    /// The power of a base, if it has that sign.
+    fn power(&self, base: Node, sign: i32) -> Option<i32> {
+        let mut powers = self.factors.iter().filter(|(n, _)| *n == base);
+        powers.next().map(|(_, n)| *n).filter(|n| n.signum() == sign)
+    }
+    fn without(&self, base: Node, power: i32) -> Term {
         let mut rest = self.clone();
         for factor in &mut rest.factors {
             if factor.0 == base {
-                factor.1 -= sign;
+                factor.1 -= power;
             }
         }
         rest.factors.retain(|(_, n)| *n != 0);
@@ -75,6 +80,7 @@ pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
                     .collect();
                 factored_sum(dag, &c, &terms, &Rational::ONE, None)
             }
+            Kind::Product(..) if dag.is_sealed(node) => dag.rebuild(node, &|child| new[&child]),
             Kind::Product(k, factors) => match gathered(dag, &k, &factors, &uses) {
                 Some((domain, body, negative)) => {
                     // Its factors are these, so they are rewritten already.
@@ -265,16 +271,22 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
         let Some((common, _)) = best(&terms, one) else {
             break;
         };
+        let common = match common {
+            // The highest power that all of them have.
+            Common::Factor(base, sign) => {
+                let powers = terms.iter().filter_map(|term| term.power(base, sign));
+                Common::Factor(base, powers.min_by_key(|n| n.abs()).unwrap_or(sign))
+            }
+            other => other,
+        };
         let mut inner = Vec::new();
         let mut rest = Vec::new();
         let mut place = None;
         for term in terms {
             let quotient = match &common {
-                Common::Factor(base, sign) => term
-                    .factors
-                    .iter()
-                    .any(|(n, e)| n == base && e.signum() == *sign)
-                    .then(|| term.without(*base, *sign)),
+                Common::Factor(base, power) => term
+                    .power(*base, power.signum())
+                    .map(|_| term.without(*base, *power)),
                 Common::Coefficient(k, p) => {
                     (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
                         k: if term.k.is_negative() {
@@ -306,9 +318,9 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
             factors: Vec::new(),
         };
         match common {
-            Common::Factor(base, sign) => match factors.iter_mut().find(|(n, _)| *n == base) {
-                Some(entry) => entry.1 += sign,
-                None => factors.insert(0, (base, sign)),
+            Common::Factor(base, power) => match factors.iter_mut().find(|(n, _)| *n == base) {
+                Some(entry) => entry.1 += power,
+                None => factors.insert(0, (base, power)),
             },
             Common::Coefficient(k, p) => {
                 term.k = term.k.mul(&k);

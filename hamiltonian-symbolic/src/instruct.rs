@@ -10,6 +10,9 @@ use crate::program::{Instruction, Step, Value};
 use crate::rational::Rational;
 use crate::schedule::Placer;
 
+/// Powers up to this one are multiplied out.
+const RUN: u32 = 3;
+
 /// Where a sum starts: at its constant, or at a term.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Start {
@@ -248,18 +251,32 @@ impl Placer<'_> {
             let one = self.constant(steps, Rational::ONE);
             return (value, one);
         };
-        let factors = self.early_first(&factors);
-        let mut list: Vec<Value> = Vec::new();
+        let mut list: Vec<(Value, u32)> = Vec::new();
         if !k.is_unit() {
-            list.push(self.constant(steps, k.abs()));
+            list.push((self.constant(steps, k.abs()), 1));
         }
-        for (node, n) in factors {
-            let value = self.value(node);
-            list.extend((0..n.max(0)).map(|_| value));
+        for (node, n) in self.early_first(&factors) {
+            list.push((self.value(node), n.unsigned_abs()));
         }
-        let last = list.pop().unwrap_or(Value(0));
-        let first = self.chain(steps, &list);
-        (first, last)
+        match list.pop() {
+            Some((last, n @ 1..=RUN)) => {
+                list.push((last, n - 1));
+                (self.powers(steps, &list), last)
+            }
+            Some((last, n)) if !list.is_empty() => {
+                let last = self.powers(steps, &[(last, n)]);
+                (self.powers(steps, &list), last)
+            }
+            Some((base, n)) if n % 2 == 0 => {
+                let half = self.powers(steps, &[(base, n / 2)]);
+                (half, half)
+            }
+            Some((base, n)) => (self.powers(steps, &[(base, n - 1)]), base),
+            None => {
+                let one = self.constant(steps, Rational::ONE);
+                (one, one)
+            }
+        }
     }
 
     /// The factors of a product in the order of multiplication: what an outer block or few
@@ -281,43 +298,28 @@ impl Placer<'_> {
         ordered
     }
 
-    fn chain(&mut self, steps: &mut Vec<Step>, list: &[Value]) -> Value {
-        let mut values = list.iter().copied();
-        let mut product = match values.next() {
-            Some(first) => first,
-            None => self.constant(steps, Rational::ONE),
-        };
-        for value in values {
-            product = self.push(steps, Instruction::Mul(product, value));
-        }
-        product
-    }
-
     pub(crate) fn product(
         &mut self,
         steps: &mut Vec<Step>,
         k: &Rational,
         factors: &[(Node, i32)],
     ) -> Value {
-        let mut above: Vec<Value> = Vec::new();
-        let mut below: Vec<Value> = Vec::new();
+        let (mut above, mut below) = (Vec::new(), Vec::new());
         if !k.is_unit() {
-            let factor = self.constant(steps, k.abs());
-            above.push(factor);
+            above.push((self.constant(steps, k.abs()), 1));
         }
         for (node, n) in self.early_first(factors) {
-            let value = self.value(node);
             let side = if n > 0 { &mut above } else { &mut below };
-            side.extend((0..n.unsigned_abs()).map(|_| value));
+            side.push((self.value(node), n.unsigned_abs()));
         }
         let value = if below.is_empty() {
-            self.power_chain(steps, &above)
+            self.powers(steps, &above)
         } else {
-            let below = self.power_chain(steps, &below);
+            let below = self.powers(steps, &below);
             if above.is_empty() {
                 self.push(steps, Instruction::Recip(below))
             } else {
-                let above = self.power_chain(steps, &above);
+                let above = self.powers(steps, &above);
                 self.push(steps, Instruction::Div(above, below))
             }
         };
@@ -328,29 +330,20 @@ impl Placer<'_> {
         }
     }
 
-    /// The product of a list; equal neighbours by squaring.
-    fn power_chain(&mut self, steps: &mut Vec<Step>, list: &[Value]) -> Value {
+    /// The product of powers; those above [`RUN`] by squaring.
+    fn powers(&mut self, steps: &mut Vec<Step>, list: &[(Value, u32)]) -> Value {
         let mut product: Option<Value> = None;
-        let mut rest = list;
-        while let Some(&first) = rest.first() {
-            let run = rest.iter().take_while(|v| **v == first).count();
-            rest = &rest[run..];
-            if run <= 3 {
-                for _ in 0..run {
-                    product = Some(match product {
-                        Some(p) => self.push(steps, Instruction::Mul(p, first)),
-                        None => first,
-                    });
+        for &(base, n) in list {
+            if n <= RUN {
+                for _ in 0..n {
+                    product = Some(self.times(steps, product, base));
                 }
                 continue;
             }
-            let (mut square, mut left) = (first, run);
+            let (mut square, mut left) = (base, n);
             loop {
                 if left % 2 == 1 {
-                    product = Some(match product {
-                        Some(p) => self.push(steps, Instruction::Mul(p, square)),
-                        None => square,
-                    });
+                    product = Some(self.times(steps, product, square));
                 }
                 left /= 2;
                 if left == 0 {
@@ -362,6 +355,13 @@ impl Placer<'_> {
         match product {
             Some(product) => product,
             None => self.constant(steps, Rational::ONE),
+        }
+    }
+
+    fn times(&mut self, steps: &mut Vec<Step>, product: Option<Value>, value: Value) -> Value {
+        match product {
+            Some(product) => self.push(steps, Instruction::Mul(product, value)),
+            None => value,
         }
     }
 }

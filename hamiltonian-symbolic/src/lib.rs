@@ -1,6 +1,7 @@
 //! The symbolic engine of `hamiltonian`: expressions as mathematics, from H to a scheduled program.
 #![forbid(unsafe_code)]
 
+pub mod balance;
 pub mod bracket;
 pub mod count;
 pub mod dag;

@@ -139,6 +139,18 @@ impl Model {
             None,
         )
     }
+    /// Puts other expressions in the places of all of its own: `pass` is given them in a fixed order.
+    pub fn map_roots(&mut self, pass: impl FnOnce(&mut Dag, &mut [Node])) {
+        let places = (self.hamiltonian.iter_mut())
+            .chain(self.observables.iter_mut().flat_map(|o| &mut o.components))
+            .chain((self.vectors.iter_mut().flat_map(|v| &mut v.entries)).map(|e| &mut e.value));
+        let mut places: Vec<&mut Node> = places.collect();
+        let mut roots: Vec<Node> = places.iter().map(|place| **place).collect();
+        pass(&mut self.dag, &mut roots);
+        for (place, root) in places.iter_mut().zip(roots) {
+            **place = root;
+        }
+    }
     /// The number of the parameter of that name.
     #[must_use]
     pub fn parameter_named(&self, name: &str) -> Option<Parameter> {

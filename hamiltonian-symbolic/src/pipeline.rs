@@ -3,6 +3,7 @@
 //! Input: a [`Model`] and the purposes wanted. Output: a [`Program`]. Invariant: deterministic;
 //! what no function needs is not in it.
 
+use crate::balance::balance;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::factor::factor;
@@ -37,6 +38,7 @@ pub enum Refusal {
 
 /// H → requests → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
+    model.map_roots(|dag, roots| balance(dag, roots));
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
     let mut gradient = None;
     for &purpose in wanted {
@@ -258,8 +260,8 @@ fn scaled(dag: &mut Dag, entry: VectorEntry) -> VectorEntry {
     }
 }
 
-/// Makes an output column, to which the stores at `own` belong, be overwritten: by one store where
-/// that covers it all, else by clearing and adding.
+/// Makes an output column, to which the stores at `own` belong, be overwritten: by one loop that
+/// covers it all, by elements named one by one, else by clearing and adding.
 fn overwrite(
     dag: &mut Dag,
     target: Target,
@@ -301,6 +303,21 @@ fn overwrite(
                 store.add = false;
                 return;
             }
+        }
+    }
+    let element = |at: &usize| match &stores[*at] {
+        Store { row, value, .. } if row.modulo.is_none() && dag.variables(*value) == 0 => {
+            row.affine.as_constant()
+        }
+        _ => None,
+    };
+    let mut elements: Vec<i64> = own.iter().filter_map(element).collect();
+    elements.sort_unstable();
+    elements.dedup();
+    if elements.len() == own.len() {
+        own.iter().for_each(|at| stores[*at].add = false);
+        if rows.as_constant() == Some(own.len() as i64) {
+            return;
         }
     }
     request.cleared.push(target);

@@ -11,6 +11,10 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 
+/// Numbers of more bits than this are not multiplied out: their greatest common divisor alone takes
+/// a time that grows with the square.
+pub const LONGEST: u64 = 1 << 14;
+
 /// An exact rational number, ordered by value.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub struct Rational(Form);
@@ -176,7 +180,7 @@ impl Rational {
         }
     }
 
-    /// The power with an integer exponent; `None` for 0 to a negative power or beyond 2¹⁶ bits.
+    /// The power with an integer exponent; `None` for 0 to a negative power or beyond [`LONGEST`].
     #[must_use]
     pub fn pow(&self, exponent: i32) -> Option<Rational> {
         if exponent == 1 {
@@ -192,13 +196,13 @@ impl Rational {
         };
         let value = base.big();
         let bits = value.numer().bits().max(value.denom().bits());
-        if bits.saturating_mul(u64::from(exponent.unsigned_abs())) > 1 << 16 {
+        let power = exponent.unsigned_abs();
+        if bits.saturating_mul(u64::from(power)) > LONGEST {
             return None;
         }
-        Some(Rational::from_big(num_traits::pow(
-            value,
-            exponent.unsigned_abs() as usize,
-        )))
+        // In lowest terms already.
+        let (n, d) = (value.numer().pow(power), value.denom().pow(power));
+        Some(Rational::from_big(BigRational::new_raw(n, d)))
     }
 
     /// The exact square root, if it is rational.

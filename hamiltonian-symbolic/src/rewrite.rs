@@ -9,7 +9,13 @@ use crate::index::{Affine, Domain, Index, members};
 impl Dag {
     /// The same node over other children.
     pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
-        self.construct(self.kind(node).clone(), new)
+        match self.kind(node) {
+            Kind::Product(_, factors) if self.is_sealed(node) => {
+                let (a, b) = (new(factors[0].0), new(factors[1].0));
+                self.seal(a, b)
+            }
+            kind => self.construct(kind.clone(), new),
+        }
     }
 
     /// An expression of another arena, which must not have loops.

@@ -8,12 +8,13 @@
 use crate::dag::{Array, Dag, Kind, Map, Node, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
-use crate::rational::Rational;
+use crate::rational::{LONGEST, Rational};
 
-/// Past this exponent an integer power is left to `pow`.
+/// The largest exponent of a factor. Past it a power of a power stays one, so that repeated squaring
+/// grows by a node a level, and a literal exponent is left to `pow`.
 const LARGEST_POWER: i32 = 1024;
-/// Products with more factors than this are multiplied step by step (see `seal`).
-pub(crate) const FEW: usize = 4;
+/// The longest product that is taken apart where it is a factor of another.
+pub(crate) const SHORT: usize = 8;
 
 impl Dag {
     /// An exact number.
@@ -162,7 +163,7 @@ impl Dag {
                 let value = value.mul(k);
                 self.constant(value)
             }
-            Kind::Product(c, factors) => {
+            Kind::Product(c, factors) if !self.is_sealed(node) => {
                 let (c, factors) = (c.mul(k), factors.clone());
                 self.bare_product(c, factors)
             }
@@ -247,40 +248,57 @@ impl Dag {
     /// `k·Π node^n`.
     pub fn product(&mut self, k: &Rational, operands: &[(Node, i32)]) -> Node {
         let mut k = k.clone();
-        let mut factors: Vec<(Node, i32)> = Vec::with_capacity(operands.len());
-        let mut place: Map<Node, usize> = Map::default();
-        let mut push = |factors: &mut Vec<(Node, i32)>, node: Node, n: i32| match place.get(&node) {
-            Some(&at) => factors[at].1 = factors[at].1.saturating_add(n),
-            None => {
-                place.insert(node, factors.len());
-                factors.push((node, n));
-            }
-        };
+        let mut factors = Factors::default();
         for &(node, n) in operands {
-            match self.kind(node) {
-                Kind::Constant(value) => match value.pow(n) {
-                    Some(value) => k = k.mul(&value),
-                    // 0 to a negative power, or out of all bounds: left to run time.
-                    None => push(&mut factors, node, n),
+            match self.kind(node).clone() {
+                Kind::Constant(value) => match multiplied(&k, &value, n) {
+                    Some(product) => k = product,
+                    // 0 to a negative power is left to run time, a long number until the end.
+                    None => factors.multiply(self, node, n),
                 },
-                Kind::Product(c, inner) if inner.len() <= 2 * FEW || n != 1 => match c.pow(n) {
-                    Some(c) if inner.iter().all(|(_, m)| m.checked_mul(n).is_some()) => {
-                        k = k.mul(&c);
-                        for (node, m) in inner.clone() {
-                            push(&mut factors, node, m * n);
+                Kind::Product(c, inner) if self.is_taken_apart(node, &inner, n) => {
+                    match multiplied(&k, &c, n) {
+                        Some(product) => k = product,
+                        None => {
+                            let c = self.constant(c);
+                            factors.multiply(self, c, n);
                         }
                     }
-                    _ => push(&mut factors, node, n),
-                },
-                _ => push(&mut factors, node, n),
+                    for (node, m) in inner {
+                        factors.multiply(self, node, m * n);
+                    }
+                }
+                _ => factors.multiply(self, node, n),
             }
         }
         if k.is_zero() {
             return self.integer(0);
         }
+        let mut factors = factors.list;
+        factors.retain(|(node, n)| match self.as_constant(*node) {
+            Some(value) => match multiplied(&k, value, *n) {
+                Some(product) => {
+                    k = product;
+                    false
+                }
+                None => true,
+            },
+            None => true,
+        });
         self.collect_roots(&mut factors);
         factors.retain(|(_, n)| *n != 0);
         self.bare_product(k, factors)
+    }
+
+    /// Whether the n-th power of a product is the product of its factors' powers.
+    fn is_taken_apart(&self, product: Node, factors: &[(Node, i32)], n: i32) -> bool {
+        let is_small = |(_, m): &(Node, i32)| {
+            m.checked_mul(n)
+                .is_some_and(|power| n.abs() == 1 || power.abs() <= LARGEST_POWER)
+        };
+        !self.is_sealed(product)
+            && (factors.len() <= SHORT || n != 1)
+            && factors.iter().all(is_small)
     }
 
     /// Powers of √x with x ≥ 0 known: x·√x is (√x)³, and an even power of √x is a power of x;
@@ -320,13 +338,14 @@ impl Dag {
         }
     }
 
-    /// `a·b` as it stands, without taking either apart: long products are built step by step so
-    /// that their parts are shared.
+    /// `a·b` as a product that none takes apart: long products are trees of such.
     pub(crate) fn seal(&mut self, a: Node, b: Node) -> Node {
         if a == b || self.as_constant(a).is_some() || self.as_constant(b).is_some() {
             return self.mul(&[a, b]);
         }
-        self.intern(Kind::Product(Rational::ONE, vec![(a, 1), (b, 1)]))
+        let product = self.intern(Kind::Product(Rational::ONE, vec![(a, 1), (b, 1)]));
+        self.close(product);
+        product
     }
 
     /// `x^y`. Integer exponents are products, half-integer ones powers of the square root, thirds
@@ -336,7 +355,8 @@ impl Dag {
             return x;
         }
         if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small)
-            && let Some(n) = i32::try_from(n).ok().filter(|n| n.abs() <= LARGEST_POWER)
+            && let Some(n) = i32::try_from(n).ok()
+            && (n.abs() <= LARGEST_POWER || (d == 1 && self.as_constant(x).is_some()))
         {
             match d {
                 1 => return self.powi(x, n),
@@ -558,6 +578,45 @@ impl Dag {
         let parent = self.deepest(needs);
         let domain = self.domain(parent, range.start, range.end);
         self.intern(Kind::Count(domain))
+    }
+}
+
+/// `k·value^n` where it is a number of moderate length.
+fn multiplied(k: &Rational, value: &Rational, n: i32) -> Option<Rational> {
+    let power = value.pow(n)?;
+    let is_long = !k.is_unit() && !power.is_unit() && k.bits() + power.bits() > LONGEST;
+    (!is_long).then(|| k.mul(&power))
+}
+
+/// The factors of a product in the making, each once.
+#[derive(Default)]
+struct Factors {
+    list: Vec<(Node, i32)>,
+    place: Map<Node, usize>,
+}
+
+impl Factors {
+    fn multiply(&mut self, dag: &mut Dag, node: Node, n: i32) {
+        let Some(&at) = self.place.get(&node) else {
+            self.place.insert(node, self.list.len());
+            self.list.push((node, n));
+            return;
+        };
+        let m = self.list[at].1;
+        let most = match dag.kind(node) {
+            // A long number may still be divided away.
+            Kind::Constant(_) => i32::MAX,
+            _ => LARGEST_POWER,
+        };
+        match m.checked_add(n).filter(|sum| sum.abs() <= most.max(m.abs())) {
+            Some(sum) => self.list[at].1 = sum,
+            None => {
+                let (higher, lower) = if m.abs() < n.abs() { (n, m) } else { (m, n) };
+                let power = dag.intern(Kind::Product(Rational::ONE, vec![(node, higher)]));
+                self.list[at].1 = lower;
+                self.multiply(dag, power, 1);
+            }
+        }
     }
 }
 

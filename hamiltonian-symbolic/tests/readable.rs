@@ -123,8 +123,8 @@ fn the_double_pendulum() {
     assert_eq!(
         equations,
         [
-            "da/dt = (l2*p_a - l1*cos(a - b)*p_b)/(l2*l1^2*D)",
-            "db/dt = ((m1 + m2)*l1*p_b - m2*l2*cos(a - b)*p_a)/(l1*m2*l2^2*D)",
+            "da/dt = (l2*p_a - l1*p_b*cos(a - b))/(l2*l1^2*D)",
+            "db/dt = ((m1 + m2)*l1*p_b - m2*l2*p_a*cos(a - b))/(l1*m2*l2^2*D)",
             "dp_a/dt = -m2*l1*l2*va*vb*sin(a - b) - (m1 + m2)*g*l1*sin(a)",
             "dp_b/dt = m2*l1*l2*va*vb*sin(a - b) - m2*g*l2*sin(b)",
             "where va = da/dt",

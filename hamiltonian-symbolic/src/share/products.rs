@@ -385,6 +385,8 @@ impl Counts {
         self.touched.push(couple);
     }
     fn offer(&mut self, heap: &mut BinaryHeap<(i64, Reverse<Couple>)>) {
+        self.touched.sort_unstable();
+        self.touched.dedup();
         for couple in self.touched.drain(..) {
             let count = self.counts[&couple];
             if count > 1 {

@@ -53,3 +53,47 @@ fn examples_are_expanded_within_their_budget() {
     let over: Vec<_> = counts.iter().filter(|(_, count)| *count > BUDGET).collect();
     assert!(over.is_empty(), "past {BUDGET} instructions: {over:?}");
 }
+
+#[test]
+fn products_grow_nearly_linearly() {
+    if !valgrind::is_there() {
+        cargo::note("SKIPPED: valgrind is not on this machine, instructions are not counted");
+        return;
+    }
+    let show = cargo::show();
+    let count = |name: &str, text: &str| {
+        let file = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.rs"));
+        fs::write(&file, text).expect("the target directory can be written to");
+        let arguments = [file.as_os_str(), "--number".as_ref(), "0".as_ref()];
+        let count = valgrind::instructions(&show, &arguments, Some("*expanded*"));
+        let count = count.unwrap_or_else(|| panic!("{name} is not expanded"));
+        cargo::note(&format!("{count:>12} instructions: {name}"));
+        count
+    };
+    let names = |letter: char, count: usize| {
+        let names: Vec<String> = (0..count).map(|at| format!("{letter}{at}")).collect();
+        names.join(", ")
+    };
+    let sines = |count: usize| {
+        let factors: Vec<String> = (1..=count).map(|k| format!("sin({k}*q)")).collect();
+        format!("hamiltonian! {{ H(q; p) = p^2/2 + {} }}", factors.join("*"))
+    };
+    let scalars = |count: usize| {
+        let (q, p) = (names('q', count), names('p', count));
+        let (product, squares) = (q.replace(", ", "*"), p.replace(", ", "^2 + "));
+        format!("hamiltonian! {{ H({q}; {p}) = {product} + {squares}^2 }}")
+    };
+    let array = |count: usize| {
+        let factors: Vec<String> = (0..count).map(|at| format!("q[{at}]")).collect();
+        let squares: Vec<String> = (0..count).map(|at| format!("p[{at}]^2")).collect();
+        let (product, squares) = (factors.join("*"), squares.join(" + "));
+        format!("hamiltonian! {{ H(q[{count}]; p[{count}]) = {product} + {squares} }}")
+    };
+    let sines = [100, 400].map(|n| count(&format!("sines {n}"), &sines(n)));
+    let scalars = [50, 200].map(|n| count(&format!("scalars {n}"), &scalars(n)));
+    let array = [50, 200].map(|n| count(&format!("array {n}"), &array(n)));
+    for [few, many] in [sines, scalars, array] {
+        assert!(few > 10_000_000 && many <= 5 * few, "{few} becomes {many}");
+    }
+    assert!(array[1] <= scalars[1], "{array:?} past {scalars:?}");
+}

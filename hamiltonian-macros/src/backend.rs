@@ -14,7 +14,7 @@ mod verdicts;
 
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::{SHARE_LOOPS, ends, lower, velocity_names};
+use crate::lower::{Beyond, SHARE_LOOPS, ends, lower, velocity_names};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::index::LOOPS;
@@ -49,6 +49,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             report.error(definition(checked), reason.to_owned(), help);
             return None;
         }
+        let beyond = std::mem::take(&mut lowered.beyond);
         let System {
             model,
             vectors,
@@ -59,11 +60,11 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         for (name, hamiltonian) in &pieces {
             let piece = surface::Part::piece(checked, name);
             let model = surface::piece_model(&model, *hamiltonian);
-            code.extend(system(checked, root, model, piece, report)?);
+            code.extend(system(checked, root, model, piece, &beyond, report)?);
         }
         let mut whole = surface::Part::whole(checked, vectors, &pieces, declared);
         whole.readable = readable;
-        code.extend(system(checked, root, model, whole, report)?);
+        code.extend(system(checked, root, model, whole, &beyond, report)?);
         Some(code)
     };
     code().unwrap_or_default()
@@ -75,6 +76,7 @@ fn system(
     root: &TokenStream,
     mut model: Model,
     part: surface::Part,
+    beyond: &Beyond,
     report: &mut Report,
 ) -> Option<TokenStream> {
     let operations = operations(&model);
@@ -89,7 +91,7 @@ fn system(
         part.readable.as_ref(),
         is_large(checked, &model),
     );
-    let program = derive(checked, &mut model, &structure, report)?;
+    let program = derive(checked, &mut model, &structure, beyond, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     let definition = emit::Definition {
@@ -171,6 +173,7 @@ fn derive(
     checked: &Checked,
     model: &mut Model,
     structure: &Structure,
+    beyond: &Beyond,
     report: &mut Report,
 ) -> Option<Program> {
     if let Ok(split) = &structure.separable {
@@ -203,6 +206,10 @@ fn derive(
             format!("derivatives of this system need more than {LOOPS} loops"),
             SHARE_LOOPS.to_owned(),
         ),
+        Err(Refusal::OutOfRange { number }) => {
+            blame::number(checked, number.as_ref(), beyond, report);
+            return None;
+        }
         Err(Refusal::NoSecondDerivative { .. }) => {
             blame::second_derivatives(checked, model, &wanted, report);
             return None;

@@ -1,6 +1,7 @@
 //! What the front end accepts, what it refuses and in which words, and that nothing breaks it.
 
 mod accepted;
+mod builds;
 mod diagnostics;
 mod docs;
 mod lengths;

@@ -12,7 +12,8 @@ use crate::simplify::SHORT;
 /// Rewrites the expressions the roots stand for.
 pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
     let order = dag.reachable(roots);
-    let is_long = |node: &Node| matches!(dag.kind(*node), Kind::Product(_, factors) if factors.len() > SHORT);
+    let is_long =
+        |node: &Node| matches!(dag.kind(*node), Kind::Product(_, factors) if factors.len() > SHORT);
     if !order.iter().any(is_long) {
         return;
     }
@@ -37,8 +38,9 @@ pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
 
 /// `k·Π node^n`: prepared factors as they are, those above and those below the line as a tree each.
 fn balanced(dag: &mut Dag, k: &Rational, factors: Vec<(Node, i32)>) -> Node {
-    let (mut all, rest): (Vec<_>, Vec<_>) =
-        factors.into_iter().partition(|(node, _)| is_prepared(dag, *node));
+    let (mut all, rest): (Vec<_>, Vec<_>) = factors
+        .into_iter()
+        .partition(|(node, _)| is_prepared(dag, *node));
     if rest.len() <= SHORT {
         all.extend(rest);
         return dag.product(k, &all);
@@ -48,7 +50,10 @@ fn balanced(dag: &mut Dag, k: &Rational, factors: Vec<(Node, i32)>) -> Node {
         if side.len() <= SHORT / 2 {
             all.extend(side);
         } else {
-            let leaves = side.iter().map(|(node, n)| dag.powi(*node, n * sign)).collect();
+            let leaves = side
+                .iter()
+                .map(|(node, n)| dag.powi(*node, n * sign))
+                .collect();
             all.push((tree(dag, leaves), sign));
         }
     }

@@ -52,7 +52,10 @@ impl Term {
     /// The power of a base, if it has that sign.
     fn power(&self, base: Node, sign: i32) -> Option<i32> {
         let mut powers = self.factors.iter().filter(|(n, _)| *n == base);
-        powers.next().map(|(_, n)| *n).filter(|n| n.signum() == sign)
+        powers
+            .next()
+            .map(|(_, n)| *n)
+            .filter(|n| n.signum() == sign)
     }
     fn without(&self, base: Node, power: i32) -> Term {
         let mut rest = self.clone();

@@ -3,6 +3,7 @@
 
 pub mod balance;
 pub mod bracket;
+mod closed;
 pub mod count;
 pub mod dag;
 pub mod diff;

@@ -10,6 +10,7 @@ use crate::factor::factor;
 use crate::index::Index;
 use crate::model::{Model, Shape, VectorEntry, VectorFunction};
 use crate::program::{Program, Purpose, Target};
+use crate::rational::Rational;
 use crate::schedule::{Request, Store, schedule};
 use crate::share::share;
 
@@ -27,6 +28,11 @@ pub enum Refusal {
         /// How many.
         operations: usize,
     },
+    /// A number that no `f64` is near: the number, or nothing where it is no fraction.
+    OutOfRange {
+        /// The number.
+        number: Option<Rational>,
+    },
     /// More than [`crate::index::LOOPS`] different loops.
     TooManyLoops,
     /// A second derivative of a Rust function that came without one, by name.
@@ -38,7 +44,7 @@ pub enum Refusal {
 
 /// H → requests → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
-    model.map_roots(|dag, roots| balance(dag, roots));
+    model.map_roots(balance);
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
     let mut gradient = None;
     for &purpose in wanted {
@@ -46,6 +52,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         let mut roots = request.roots();
         refuse(model, &roots)?;
         factor(&mut model.dag, &mut roots);
+        in_range(&model.dag, &roots)?;
         share(&mut model.dag, &mut roots);
         request.replace_roots(&roots);
         requests.push(request);
@@ -59,6 +66,31 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         }
     }
     Ok(program)
+}
+
+/// Refuses numbers that emitted code could not hold.
+fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), Refusal> {
+    let refused = |number: Option<&Rational>| {
+        Err(Refusal::OutOfRange {
+            number: number.cloned(),
+        })
+    };
+    for node in dag.reachable(roots) {
+        match dag.kind(node) {
+            Kind::Constant(k) | Kind::Product(k, _) if k.leaves_f64() => return refused(Some(k)),
+            Kind::Sum(c, terms) => {
+                let mut numbers = std::iter::once(c).chain(terms.iter().map(|(k, _)| k));
+                if let Some(k) = numbers.find(|k| k.leaves_f64()) {
+                    return refused(Some(k));
+                }
+            }
+            _ => {}
+        }
+        if dag.leaves_f64(node) {
+            return refused(None);
+        }
+    }
+    Ok(())
 }
 
 fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {

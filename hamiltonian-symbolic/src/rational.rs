@@ -299,6 +299,13 @@ impl Rational {
         round(&self.big())
     }
 
+    /// Whether its nearest `f64` is infinite, or 0 although it is not 0.
+    #[must_use]
+    pub fn leaves_f64(&self) -> bool {
+        let nearest = self.to_f64();
+        nearest.is_infinite() || (nearest == 0.0 && !self.is_zero())
+    }
+
     /// The two words `hi + lo` nearest to the value: `hi` is [`Rational::to_f64`], `lo` the
     /// nearest `f64` to what is left.
     #[must_use]

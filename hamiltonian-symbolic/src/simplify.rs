@@ -395,6 +395,9 @@ impl Dag {
             {
                 return self.constant(value);
             }
+            if let Some(value) = self.exact_value(op, x) {
+                return value;
+            }
             let parity = op.row().parity;
             if parity != Parity::None && self.is_negated(x) {
                 let flipped = self.neg(x);
@@ -608,7 +611,10 @@ impl Factors {
             Kind::Constant(_) => i32::MAX,
             _ => LARGEST_POWER,
         };
-        match m.checked_add(n).filter(|sum| sum.abs() <= most.max(m.abs())) {
+        match m
+            .checked_add(n)
+            .filter(|sum| sum.abs() <= most.max(m.abs()))
+        {
             Some(sum) => self.list[at].1 = sum,
             None => {
                 let (higher, lower) = if m.abs() < n.abs() { (n, m) } else { (m, n) };

@@ -1,16 +1,18 @@
-//! Who needs a derivative that is not there.
+//! Where a program that could not be derived fails.
 //!
-//! Input: the functions wanted of a model that could not be derived. Output: an error at each
-//! statement that needs a second derivative of a Rust function which came without one. Invariant:
-//! the statement is the one that asks, not H, which others only read.
+//! Input: the functions wanted of a model, and the number that does not fit. Output: an error at
+//! each statement that needs a second derivative of a Rust function which came without one, or at
+//! the expression that makes the number. Invariant: the narrowest place that is known.
 
 use super::definition;
-use crate::checked::Checked;
+use crate::checked::{Checked, NodeId};
+use crate::lower::Beyond;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind, Part};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline;
 use hamiltonian_symbolic::program::Purpose;
+use hamiltonian_symbolic::rational::Rational;
 
 /// Reports who needs second derivatives that were not given.
 pub fn second_derivatives(
@@ -45,6 +47,24 @@ pub fn second_derivatives(
         );
         blamed.push(what);
     }
+}
+
+/// Reports a number past the range of `f64` at the innermost expression that makes it; a derivative
+/// may make one that is written nowhere.
+pub fn number(checked: &Checked, number: Option<&Rational>, beyond: &Beyond, report: &mut Report) {
+    let size = |k: &Rational| k.abs();
+    let same = |(k, _): &&(Rational, NodeId)| number.is_some_and(|number| size(number) == size(k));
+    let place = beyond.iter().find(same).or(beyond.first());
+    let spans = place.map_or(definition(checked), |(_, node)| checked.node(*node).spans);
+    let message = match number.filter(|number| number.to_f64() == 0.0) {
+        Some(_) => "a number here is smaller than any f64 but not 0",
+        None => "a number here is larger than any f64",
+    };
+    report.error(
+        spans,
+        message,
+        "numbers are exact until the end, and then must lie between 1e-323 and 1.7e308: choose other units",
+    );
 }
 
 /// Where a purpose comes from, and its name.

@@ -9,9 +9,6 @@ use hamiltonian_symbolic::dag::{Dag, Kind, Node};
 use hamiltonian_symbolic::rational::Rational;
 use std::cmp::Ordering;
 
-/// Numbers are followed through this many operations.
-const DEEPEST: u32 = 16;
-
 /// What the function takes, if a known number is not among it.
 pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'static str> {
     let [x, rest @ ..] = arguments else {
@@ -27,6 +24,12 @@ pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'sta
         Builtin::Ln1p => (below(-1) || at(-1), "`ln_1p` takes what is above -1"),
         Builtin::Asin => (below(-1) || above(1), "`asin` takes what is from -1 to 1"),
         Builtin::Acos => (below(-1) || above(1), "`acos` takes what is from -1 to 1"),
+        Builtin::Tan => (
+            dag.in_pi(*x)
+                .and_then(|turn| turn.to_small())
+                .is_some_and(|(_, d)| d == 2),
+            "the argument of `tan` must not be an odd multiple of `pi/2`",
+        ),
         Builtin::Acosh => (below(1), "`acosh` takes 1 and what is above"),
         Builtin::Atanh => (
             below(-1) || at(-1) || at(1) || above(1),
@@ -65,41 +68,7 @@ fn compared(dag: &Dag, node: Node, bound: i64) -> Option<Ordering> {
             (_, false) => Ordering::Greater,
         });
     }
-    let difference = number(dag, node)? - bound as f64;
+    let difference = dag.number(node)? - bound as f64;
     let is_certain = difference.abs() > 1e-9 && difference.is_finite();
     is_certain.then(|| difference.total_cmp(&0.0))
-}
-
-/// The value of an expression of numbers alone.
-fn number(dag: &Dag, node: Node) -> Option<f64> {
-    if dag.height(node) > DEEPEST {
-        return None;
-    }
-    let value = match dag.kind(node) {
-        Kind::Constant(value) => value.to_f64(),
-        Kind::Pi => core::f64::consts::PI,
-        Kind::Sum(constant, terms) => {
-            let mut sum = constant.to_f64();
-            for (k, term) in terms {
-                sum += k.to_f64() * number(dag, *term)?;
-            }
-            sum
-        }
-        Kind::Product(k, factors) => {
-            let mut product = k.to_f64();
-            for (factor, power) in factors {
-                product *= number(dag, *factor)?.powi(*power);
-            }
-            product
-        }
-        Kind::Call(op, arguments) => {
-            let mut values = Vec::with_capacity(arguments.len());
-            for argument in arguments {
-                values.push(number(dag, *argument)?);
-            }
-            op.eval(&values)
-        }
-        _ => return None,
-    };
-    Some(value)
 }

@@ -9,7 +9,7 @@ use super::domain;
 use super::loops::Loops;
 use super::scope::number;
 use super::velocity;
-use super::{LARGEST, SHARE_LOOPS};
+use super::{Beyond, LARGEST, SHARE_LOOPS};
 use crate::ast::Comparison;
 use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
 use crate::names::{Builtin, FUNCTIONS};
@@ -81,6 +81,8 @@ pub struct Evaluator<'a> {
     refused: bool,
     /// Whether a bracket was formed.
     has_brackets: bool,
+    /// What no `f64` is near.
+    pub(super) beyond: Beyond,
     /// What is written nowhere.
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
@@ -107,6 +109,7 @@ impl<'a> Evaluator<'a> {
             report,
             refused: false,
             has_brackets: false,
+            beyond: Vec::new(),
             derived: Derived::default(),
             velocities: None,
             uses: uses(checked),
@@ -172,6 +175,13 @@ impl<'a> Evaluator<'a> {
                     &self.checked.node(node).kind
                 {
                     self.derived.wrote(value);
+                }
+                if model.dag.leaves_f64(value) {
+                    let coefficient = match model.dag.kind(value) {
+                        dag::Kind::Constant(k) | dag::Kind::Product(k, _) => k.clone(),
+                        _ => Rational::ONE,
+                    };
+                    self.beyond.push((coefficient, node));
                 }
                 self.note(node, demand, value);
                 if model.dag.len() > LARGEST {

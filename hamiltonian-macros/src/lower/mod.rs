@@ -29,6 +29,7 @@ use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
     VectorFunction,
 };
+use hamiltonian_symbolic::rational::Rational;
 use scope::{shape, size_affine};
 
 /// The way out of too many loops.
@@ -37,6 +38,9 @@ pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a functio
 /// Past this many nodes an expression is given up: its program would be past the cap many times
 /// over.
 const LARGEST: usize = 1 << 18;
+
+/// Expressions with their coefficients.
+pub type Beyond = Vec<(Rational, NodeId)>;
 
 /// What a definition is as mathematics.
 #[derive(Debug)]
@@ -54,6 +58,8 @@ pub struct Lowered {
     pub factor: Option<Node>,
     /// How H was made of a Lagrangian.
     pub legendre: Option<Legendre>,
+    /// The expressions that no `f64` is near, or whose coefficient is such, innermost first.
+    pub beyond: Beyond,
     /// Which expressions are written nowhere.
     derived: Derived,
 }
@@ -121,8 +127,11 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         rest.evaluator.refuse(at, &message, SHARE_LOOPS);
         return None;
     }
-    let derived = rest.evaluator.derived;
+    let Evaluator {
+        derived, beyond, ..
+    } = rest.evaluator;
     Some(Lowered {
+        beyond,
         model,
         shells,
         split,

@@ -181,7 +181,7 @@ H(x, theta; p_x, p_theta) = (m*l^2*p_x^2 - 2*m*l*p_x*p_theta*cos(theta) + (m + M
         section(&docs, "Equations of motion"),
         "```text
 dx/dt = (l*p_x - p_theta*cos(theta))/(l*D)
-dtheta/dt = ((m + M)*p_theta - m*l*cos(theta)*p_x)/(m*l^2*D)
+dtheta/dt = ((m + M)*p_theta - m*l*p_x*cos(theta))/(m*l^2*D)
 dp_x/dt = 0
 dp_theta/dt = -(m*g*l + m*l*v*w)*sin(theta)
 where v = dx/dt

@@ -1,0 +1,185 @@
+//! Numbers are exact until the end, and no definition hangs the macro.
+
+use crate::report::Report;
+use crate::{backend, expand};
+use proc_macro2::TokenStream;
+use quote::quote;
+use std::fmt::Write;
+use std::str::FromStr;
+use std::time::{Duration, Instant};
+
+/// The emitted code, or the errors, each with the source it stands at.
+fn built(source: &str) -> Result<String, Vec<(String, String)>> {
+    let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
+    let mut report = Report::default();
+    let (_, checked) = expand::front(stream, &mut report);
+    let code = checked.map(|checked| backend::generate(&checked, &quote!(::h), &mut report));
+    match code.and_then(|code| report.barrier(code)) {
+        Some(code) => Ok(code.to_string()),
+        None => Err(report
+            .errors()
+            .iter()
+            .map(|error| {
+                let (start, end) = (error.spans.start.start(), error.spans.end.end());
+                let place = source.chars().skip(start.column);
+                let place = place.take(end.column - start.column).collect();
+                (
+                    error.text().lines().next().unwrap_or_default().to_owned(),
+                    place,
+                )
+            })
+            .collect()),
+    }
+}
+
+/// H as the emitted code prints it.
+fn hamiltonian(right: &str) -> String {
+    let code = built(&format!("H(q; p) = p^2/2 + {right}")).unwrap_or_else(|e| panic!("{e:?}"));
+    let (_, text) = code.split_once("\"H(q; p) = p^2/2").expect("H is printed");
+    text.split_once('"').expect("the text ends").0.to_owned()
+}
+
+fn only_error(right: &str) -> (String, String) {
+    match built(&format!("H(q; p) = p^2/2 + {right}")) {
+        Ok(code) => panic!("{right} is accepted: {code}"),
+        Err(errors) => {
+            assert_eq!(errors.len(), 1, "{errors:?}");
+            errors[0].clone()
+        }
+    }
+}
+
+#[test]
+fn numbers_are_exact_until_the_end() {
+    for (right, expected) in [
+        ("q*2^1025/2^1024", " + 2*q"),
+        ("q*2^100000/2^99999", " + 2*q"),
+        ("q*3^-100000*3^100001", " + 3*q"),
+        ("q*sin(pi)", ""),
+        ("q*cos(pi)", " - q"),
+        ("q*sin(-pi/2)", " - q"),
+        ("q*sin(7*pi/6)", " - q/2"),
+        ("q*cos(2*pi/3)", " - q/2"),
+        ("q*tan(3*pi/4)", " - q"),
+        ("q*sin(pi/4)^2", " + q/2"),
+        ("q*cos(pi/6)^2", " + 0.75*q"),
+        ("q*acos(-1)/pi", " + q"),
+        ("q*asin(1/2)/pi", " + q/6"),
+        ("q*atan(-1)/pi", " - q/4"),
+        ("q*acosh(1)", ""),
+        // Not exact, so left alone.
+        ("q*sin(1)", " + q*sin(1)"),
+        ("q*sin(pi/5)", " + q*sin(pi/5)"),
+    ] {
+        assert_eq!(hamiltonian(right), expected, "{right}");
+    }
+}
+
+#[test]
+fn numbers_that_leave_f64_are_an_error_where_they_are_made() {
+    let (large, small) = (
+        "a number here is larger than any f64",
+        "a number here is smaller than any f64 but not 0",
+    );
+    for (right, message, place) in [
+        ("q*2^1025", large, "2^1025"),
+        ("q*(3*2^100000) + q^2", large, "2^100000"),
+        ("1e300*q*1e200", large, "1e300*q*1e200"),
+        ("q*(1e-300*1e-200)", small, "(1e-300*1e-200)"),
+        ("q*exp(1000)", large, "exp(1000)"),
+        // Only the derivative makes it.
+        ("1e308*q^3", large, "p^2/2 + 1e308*q^3"),
+        ("q*tan(pi/2)", "`tan` of pi/2 is not a real number", "pi/2"),
+    ] {
+        let (text, at) = only_error(right);
+        assert_eq!((text.as_str(), at.as_str()), (message, place), "{right}");
+    }
+}
+
+#[test]
+fn repeated_squaring_ends() {
+    let squared = |first: &str, levels: usize| {
+        let mut source = format!("struct S {{ m = 2.0 }} let a0 = {first}; ");
+        for level in 1..=levels {
+            let _ = write!(source, "let a{level} = a{0}*a{0}; ", level - 1);
+        }
+        format!("{source} H(q; p) = p^2/2 + q*a{levels}")
+    };
+    let powers = |first: &str, levels: usize| {
+        let (open, close) = ("(".repeat(levels), "^2)".repeat(levels));
+        format!("H(q; p) = p^2/2 + q*{open}{first}{close}")
+    };
+    let mixed = |levels: usize| {
+        let mut source = String::from("let a0 = sin(q); ");
+        for level in 1..=levels {
+            let _ = write!(source, "let a{level} = a{0}*a{0}*sin(a{0}); ", level - 1);
+        }
+        format!("{source} H(q; p) = p^2/2 + a{levels}")
+    };
+    for levels in [5, 60] {
+        for (source, is_number) in [
+            (squared("q", levels), false),
+            (squared("m", levels), false),
+            (squared("(q + 1)", levels), false),
+            (squared("1.5", levels), true),
+            (squared("pi", levels), true),
+            (powers("q", levels), false),
+            (powers("3", levels), true),
+            (mixed(levels), false),
+        ] {
+            let start = Instant::now();
+            let result = built(&source);
+            assert!(start.elapsed() < Duration::from_secs(20), "{source}");
+            match result {
+                Ok(_) => assert!(!is_number || levels == 5, "{source}"),
+                Err(errors) => {
+                    assert!(is_number && levels > 5, "{errors:?}");
+                    assert_eq!(errors[0].0, "a number here is larger than any f64");
+                }
+            }
+        }
+    }
+}
+
+/// The operations of a function as the documentation counts them.
+fn operations(source: &str, function: &str) -> u32 {
+    let code = built(source).unwrap_or_else(|e| panic!("{e:?}"));
+    let (_, row) = code
+        .split_once(&format!("| `{function}` |"))
+        .expect("the operations are counted");
+    let row = row.split("\\n").next().expect("the row ends");
+    let cells = row.split('|').filter_map(|cell| cell.trim().parse().ok());
+    cells.last().expect("the row has a sum")
+}
+
+#[test]
+fn elements_named_one_by_one_cost_what_scalars_cost() {
+    for count in [3, 6, 20, 50] {
+        let list = |name: &str| {
+            let names: Vec<String> = (0..count).map(|at| format!("{name}{at}")).collect();
+            names
+        };
+        let (q, p) = (list("q"), list("p"));
+        let kinetic: Vec<String> = p.iter().map(|p| format!("{p}^2")).collect();
+        let scalars = format!(
+            "struct A {{}} H({}; {}) = {} + ({})/2",
+            q.join(", "),
+            p.join(", "),
+            q.join("*"),
+            kinetic.join(" + "),
+        );
+        let product: Vec<String> = (0..count).map(|at| format!("q[{at}]")).collect();
+        let kinetic: Vec<String> = (0..count).map(|at| format!("p[{at}]^2")).collect();
+        let array = format!(
+            "struct A {{}} H(q[{count}]; p[{count}]) = {} + ({})/2",
+            product.join("*"),
+            kinetic.join(" + "),
+        );
+        for function in ["energy", "gradient", "energy_and_gradient"] {
+            let (a, b) = (operations(&array, function), operations(&scalars, function));
+            assert_eq!(a, b, "{function} of {count}");
+            // A product and its derivatives, and the kinetic energy with its halves.
+            assert!(a <= 3 * count + 2 * count + 2, "{function} of {count}: {a}");
+        }
+    }
+}

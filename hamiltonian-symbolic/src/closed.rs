@@ -59,7 +59,8 @@ impl Dag {
         }
     }
 
-    /// The nearest `f64` to an expression of numbers alone.
+    /// The nearest `f64` to an expression of numbers alone; infinite past its range, `None` at a
+    /// pole.
     #[must_use]
     pub fn number(&self, root: Node) -> Option<f64> {
         if let Kind::Constant(value) = self.kind(root) {
@@ -85,6 +86,23 @@ impl Dag {
                 }
                 _ => return None,
             };
+            let overflows = |op: Op, x: f64| match op {
+                Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh => true,
+                Op::Pow => x != 0.0,
+                _ => false,
+            };
+            let is_pole = match self.kind(node) {
+                Kind::Product(_, factors) => {
+                    factors.iter().any(|(f, n)| *n < 0 && values[f] == 0.0)
+                }
+                Kind::Call(op, arguments) => {
+                    value.is_infinite() && !overflows(*op, values[&arguments[0]])
+                }
+                _ => false,
+            };
+            if is_pole {
+                return None;
+            }
             values.insert(node, value);
         }
         values.get(&root).copied()

@@ -16,7 +16,7 @@ use crate::tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, gr
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Side};
 use hamiltonian_symbolic::eval::{Point, run};
-use hamiltonian_symbolic::pipeline::derive;
+use hamiltonian_symbolic::pipeline::{Refusal, derive};
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 
 const FIRST: [Purpose; 10] = [
@@ -336,7 +336,7 @@ fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
     let second = wanted.contains(&Purpose::HessianVector);
     let mut random = Random(seed);
     let mut tally = Tally::default();
-    let (mut undecided, mut finite, mut edges) = (0, 0, 0);
+    let (mut undecided, mut finite, mut edges, mut too_large) = (0, 0, 0, 0);
     let mut shown = 0;
     for number in 0..count {
         let (tree, point) = grow(&mut random);
@@ -348,7 +348,13 @@ fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
         finite += usize::from(case.energy.is_finite());
         edges += usize::from(case.standing == Standing::Edge);
         let mut model = tree.model();
-        let program = derive(&mut model, wanted).unwrap();
+        let program = match derive(&mut model, wanted) {
+            Err(Refusal::OutOfRange { .. }) => {
+                too_large += 1;
+                continue;
+            }
+            result => result.unwrap(),
+        };
         let before = tally;
         judge(
             &program,
@@ -369,9 +375,10 @@ fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
         }
     }
     println!(
-        "{count} expressions: {finite} finite, {edges} on edges, {undecided} undecided by rounding"
+        "{count} expressions: {finite} finite, {edges} on edges, {undecided} undecided by rounding, {too_large} past f64"
     );
     println!("outputs: {tally:?}");
+    assert!(too_large * 1000 <= count, "{too_large} of {count} past f64");
     (tally, undecided)
 }
 

@@ -7,8 +7,8 @@
 //! of the potential, and that "uncertainty" means the deviation of the run's mean H from H₀.
 
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::{Visitor, visit_any, visit_separable};
-use hamiltonian::{Scheme, Separable, System, View, hamiltonian};
+use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_unforced};
+use hamiltonian::{Scheme, Separable, System, Unforced, View, hamiltonian};
 use plot::{Curve, Figure};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -75,7 +75,7 @@ struct Problem<'a, S: System<f64>> {
     failure: Option<Error>,
 }
 
-impl<S: System<f64>> Problem<'_, S> {
+impl<S: System<f64> + Unforced> Problem<'_, S> {
     /// Runs one scheme to the end; a run that stops being finite ends there.
     fn measure<M: Scheme<f64, S>>(&self, scheme: M) -> Result<Row, Error> {
         let entry = scheme.entry();
@@ -144,7 +144,7 @@ impl<S: System<f64>> Problem<'_, S> {
     }
 }
 
-impl<S: System<f64>> Visitor<f64, S> for Problem<'_, S> {
+impl<S: System<f64> + Unforced> Visitor<f64, S> for Problem<'_, S> {
     fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
         match self.measure(scheme) {
             Ok(row) => self.rows.push(row),
@@ -171,14 +171,16 @@ fn problem<'a, S: System<f64>>(
 }
 
 /// All schemes of the catalogue on a separable system.
-fn all_on<S: Separable<f64>>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+fn all_on<S: Separable<f64> + Unforced>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+    visit_unforced(&mut problem);
     visit_any(&mut problem);
     visit_separable(&mut problem);
     problem.rows()
 }
 
 /// The schemes that need no structure.
-fn any_on<S: System<f64>>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+fn any_on<S: System<f64> + Unforced>(mut problem: Problem<'_, S>) -> Result<Vec<Row>, Error> {
+    visit_unforced(&mut problem);
     visit_any(&mut problem);
     problem.rows()
 }

@@ -13,7 +13,7 @@ use crate::tree;
 use expressions::compiled;
 use generate::{COUNT, TESTS, file, trees};
 use hamiltonian::private::SVector;
-use hamiltonian::{Drift, Dynamics, Flow, Kick, Separable, System};
+use hamiltonian::{Dynamics, Flow, Piece, Point, Separable, System, VectorField};
 use interpret::Interpreted;
 
 /// Where everything is evaluated.
@@ -69,7 +69,7 @@ fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs
     two(&mut outputs, "gradient, q", a);
     two(&mut outputs, "gradient, p", b);
     [a, b] = at.into.map(SVector::from);
-    prepared.flow(at.c).flow(t, &q, &p, &mut a, &mut b);
+    prepared.field(at.c).add(t, &q, &p, &mut a, &mut b);
     two(&mut outputs, "flow, q", a);
     two(&mut outputs, "flow, p", b);
     outputs
@@ -82,11 +82,14 @@ where
 {
     let mut outputs = any(system, at);
     let prepared = system.prepare();
-    let [mut a, mut b] = at.into.map(SVector::from);
-    S::kick(&prepared, at.c).kick(at.t, &SVector::from(at.q), &mut b);
-    two(&mut outputs, "kick", b);
-    S::drift(&prepared, at.c).drift(at.t, &SVector::from(at.p), &mut a);
-    two(&mut outputs, "drift", a);
+    let [a, b] = at.into.map(SVector::from);
+    let (q, p) = (SVector::from(at.q), SVector::from(at.p));
+    let mut point = Point { q, p: b };
+    S::KICK.flow(&prepared, at.c).apply(at.t, &mut point);
+    two(&mut outputs, "kick", point.p);
+    let mut point = Point { q: a, p };
+    S::DRIFT.flow(&prepared, at.c).apply(at.t, &mut point);
+    two(&mut outputs, "drift", point.q);
     outputs
 }
 
@@ -208,7 +211,12 @@ hamiltonian::hamiltonian! {
 #[test]
 fn conditions_couple_without_a_derivative() {
     let prepared = System::<f64>::prepare(&Conditional::default());
-    let mut q = SVector::from([0.5]);
-    Conditional::<f64>::drift(&prepared, 2.0).drift(0.0, &SVector::from([0.25]), &mut q);
-    assert_eq!(q[0], 2.5);
+    let mut point = Point {
+        q: SVector::from([0.5]),
+        p: SVector::from([0.25]),
+    };
+    <Conditional as Separable<f64>>::DRIFT
+        .flow(&prepared, 2.0)
+        .apply(0.0, &mut point);
+    assert_eq!(point.q[0], 2.5);
 }

@@ -11,7 +11,7 @@ mod solar_system;
 mod toda;
 
 use counted::{Counted, Counts, counted};
-use hamiltonian::{Dynamics, Flow, System, Vector};
+use hamiltonian::{Dynamics, System, Vector, VectorField};
 use solar_system::Gravity;
 use toda::Toda;
 
@@ -44,8 +44,8 @@ fn work<S: System<Counted> + System<f64>>(system: &S) -> Work {
     let (_, energy_and_gradient) =
         counted(|| prepared.energy_and_gradient(zero, q, p, &mut dq, &mut dp));
     let (_, hessian) = counted(|| prepared.hessian_vector(zero, q, p, vq, vp, &mut dq, &mut dp));
-    let flow = prepared.flow(Counted(0.5));
-    let (_, flow) = counted(|| flow.flow(zero, q, p, &mut dq, &mut dp));
+    let field = prepared.field(Counted(0.5));
+    let (_, flow) = counted(|| field.add(zero, q, p, &mut dq, &mut dp));
     Work {
         prepare,
         energy,

@@ -3,10 +3,15 @@
 use crate::common::geometry::*;
 use crate::common::systems::*;
 use hamiltonian::schemes::*;
-use hamiltonian::{Dual, Separable};
+use hamiltonian::{Dual, Separable, Split, Unforced};
 
-fn separable<S: Separable<Dual<f64>>>(mut geometry: Geometry<S>) {
+fn separable<S>(mut geometry: Geometry<S>)
+where
+    S: Separable<Dual<f64>> + Split<Dual<f64>> + Unforced,
+{
     visit_any(&mut geometry);
+    visit_unforced(&mut geometry);
+    visit_split(&mut geometry);
     visit_separable(&mut geometry);
     assert_eq!(geometry.measured.len(), 3 * catalogue().count());
     for (entry, defect) in geometry.measured {
@@ -29,27 +34,16 @@ fn with_time() {
 
 #[test]
 fn on_systems_that_are_not_separable() {
-    visit_any(&mut Geometry::new(
-        Paper34::default(),
-        &[-3.0],
-        &[0.5],
-        0.05,
-    ));
-    visit_any(&mut Geometry::new(Shaken34::default(), &[1.0], &[0.5], 0.1));
+    let mut geometry = Geometry::new(Paper34::default(), &[-3.0], &[0.5], 0.05);
+    visit_any(&mut geometry);
+    visit_unforced(&mut geometry);
+    let mut geometry = Geometry::new(Shaken34::default(), &[1.0], &[0.5], 0.1);
+    visit_any(&mut geometry);
+    visit_unforced(&mut geometry);
     let (q, p) = ([0.8, -0.4], [0.3, 0.2]);
-    visit_any(&mut Geometry::new(DoublePendulum::default(), &q, &p, 0.05));
-}
-
-/// In the extended space of both copies at one time, (29) and (30) preserve dq∧dp + dq̃∧dp̃.
-#[test]
-fn of_the_synchronised_copies() {
-    let system = DoublePendulum::default();
-    let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
-    for scheme in [Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst] {
-        let columns = copies_tangent(&system, &scheme, &start, 0.05);
-        let (worst, size) = defect(&columns, uncrossed(2));
-        assert!(worst <= 1e-13 * size, "{worst:e} of {size:e}");
-    }
+    let mut geometry = Geometry::new(DoublePendulum::default(), &q, &p, 0.05);
+    visit_any(&mut geometry);
+    visit_unforced(&mut geometry);
 }
 
 /// The wrong forms are not preserved: the checks can fail.
@@ -61,6 +55,10 @@ fn negative_controls() {
     let columns = visible_tangent(&system, &Pihajoki::default(), &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));
     assert!(worst > 1e-10 * size, "(29): {worst:e} of {size:e}");
+    // Nor do the copies preserve what two points of a trajectory would.
+    let columns = carried_tangent(&system, &Pihajoki::default(), &start, 0.05, 1);
+    let (worst, size) = defect(&columns, crossed(1));
+    assert!(worst > 1e-10 * size, "(29), crossed: {worst:e} of {size:e}");
     // Two points, each with its own momentum.
     let scheme = IntersectingSubTrajectories::default();
     let columns = carried_tangent(&system, &scheme, &start, 0.05, 1);

@@ -40,7 +40,7 @@ hamiltonian! {
     H = 0.5*(q^2 + 1)*(p^2 + 1)
 }
 
-fn separable<T: hamiltonian::Real, S: Separable<T>>(_: &S) {}
+fn separable<T: Real, S: Separable<T>>(_: &S) {}
 fn quadratic<S: QuadraticKinetic>(_: &S) {}
 fn autonomous<S: Autonomous>(_: &S) {}
 
@@ -160,7 +160,7 @@ fn check<S, const N: usize>(system: &S, q: [f64; N], p: [f64; N])
 where
     S: System<f64, Vector = Scalars<f64, N>> + System<Dual<f64>, Vector = Scalars<Dual<f64>, N>>,
 {
-    use hamiltonian::Flow;
+    use hamiltonian::VectorField;
     let t = 0.3;
     let state = State::new(q, p).at(t);
     let gradient = System::<f64>::gradient(system, &state);
@@ -204,8 +204,8 @@ where
     let prepared = System::<f64>::prepare(system);
     let (mut to_q, mut to_p) = (state.q, state.p);
     prepared
-        .flow(0.125)
-        .flow(t, &state.q, &state.p, &mut to_q, &mut to_p);
+        .field(0.125)
+        .add(t, &state.q, &state.p, &mut to_q, &mut to_p);
     for k in 0..N {
         close(to_q[k], q[k] + 0.125 * gradient.p[k]);
         close(to_p[k], p[k] - 0.125 * gradient.q[k]);

@@ -2,7 +2,7 @@
 //! conditions, to each other.
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Dual, Dynamics, Flow};
+use hamiltonian::{Dual, Dynamics, VectorField};
 
 macro_rules! long {
     ($($k:tt)*) => {
@@ -80,8 +80,8 @@ fn what_is_made_from_the_gradient_agrees_with_it() {
     assert_eq!((q, p), (gradient.q, gradient.p));
     let (mut q, mut p) = (state.q, state.p);
     prepared
-        .flow(0.125)
-        .flow(0.0, &state.q, &state.p, &mut q, &mut p);
+        .field(0.125)
+        .add(0.0, &state.q, &state.p, &mut q, &mut p);
     assert_eq!(q, state.q + gradient.p * 0.125);
     assert_eq!(p, state.p - gradient.q * 0.125);
 }

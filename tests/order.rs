@@ -3,11 +3,16 @@
 
 use crate::common::order::Order;
 use crate::common::systems::*;
-use hamiltonian::schemes::{catalogue, visit_any, visit_separable};
-use hamiltonian::{DoubleDouble, Separable};
+use hamiltonian::schemes::{catalogue, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian::{DoubleDouble, Separable, Split, Unforced};
 
-fn separable<S: Separable<DoubleDouble>>(mut order: Order<S>) {
+fn separable<S>(mut order: Order<S>)
+where
+    S: Separable<DoubleDouble> + Split<DoubleDouble> + Unforced,
+{
     visit_any(&mut order);
+    visit_unforced(&mut order);
+    visit_split(&mut order);
     visit_separable(&mut order);
     assert_eq!(order.measured.len(), catalogue().count());
     for (entry, slope) in order.measured {
@@ -36,17 +41,23 @@ fn on_the_driven_oscillator() {
 #[test]
 fn on_the_papers_nonseparable_system() {
     let system = Paper34::default();
-    visit_any(&mut Order::new(system, &[-3.0], &[0.0], 1.0, 0.002));
+    let mut order = Order::new(system, &[-3.0], &[0.0], 1.0, 0.002);
+    visit_any(&mut order);
+    visit_unforced(&mut order);
 }
 
 #[test]
 fn on_a_nonseparable_system_with_time() {
     let system = Shaken34::default();
-    visit_any(&mut Order::new(system, &[1.0], &[0.5], 2.0, 0.01));
+    let mut order = Order::new(system, &[1.0], &[0.5], 2.0, 0.01);
+    visit_any(&mut order);
+    visit_unforced(&mut order);
 }
 
 #[test]
 fn on_the_double_pendulum() {
     let (system, q, p) = (DoublePendulum::default(), [0.8, -0.4], [0.3, 0.2]);
-    visit_any(&mut Order::new(system, &q, &p, 1.0, 0.005));
+    let mut order = Order::new(system, &q, &p, 1.0, 0.005);
+    visit_any(&mut order);
+    visit_unforced(&mut order);
 }

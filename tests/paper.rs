@@ -10,7 +10,7 @@ use crate::common::systems::*;
 use crate::common::{assert_digits, state};
 use hamiltonian::prelude::*;
 use hamiltonian::private::SVector;
-use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Vector};
+use hamiltonian::{DoubleDouble, Real, Scheme, Separable, Unforced, Vector};
 use std::f64::consts::FRAC_PI_4;
 
 type One = SVector<f64, 1>;
@@ -108,7 +108,7 @@ fn scheme_33_with_half_euler_start_is_29() {
 #[test]
 fn pihajoki_on_separable_systems_is_stormer_verlet() {
     readme_says("where it is Störmer–Verlet bit for bit");
-    fn same<S: Separable<f64>>(system: &S, q: &[f64], p: &[f64], h: f64) {
+    fn same<S: Separable<f64> + Unforced>(system: &S, q: &[f64], p: &[f64], h: f64) {
         let numbers = |v: &[f64]| v.to_vec();
         let start = state(system, 0.0, numbers(q), numbers(p));
         for (copies, alone) in [

@@ -3,6 +3,7 @@
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
 
+use alloc::string::String;
 use alloc::vec::Vec;
 
 /// What can go wrong in a run. Memory is allocated only when something did.
@@ -67,11 +68,19 @@ pub enum Error {
         /// Its value on the shell.
         due: f64,
     },
-    /// A step led to a NaN or an infinity. The run stays at the state before that step.
-    #[error("step {step} led to a state that is not finite: t = {time}, q = {q:?}, p = {p:?}")]
+    /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
+    /// piece left its domain. The run stays at the state before that step.
+    #[error(
+        "step {step} led to a state that is not finite{}{}: t = {time}, q = {q:?}, p = {p:?}",
+        Within(*.piece), Lane(*.lane)
+    )]
     NotFinite {
         /// The number of the step, counted from 1: the first whose end is not finite.
         step: u64,
+        /// The piece of H whose flow led there, where the scheme is a splitting.
+        piece: Option<&'static str>,
+        /// The first lane it happened in, where the scalar has several.
+        lane: Option<u32>,
         /// The time at the end of that step.
         time: f64,
         /// The coordinates there.
@@ -82,14 +91,17 @@ pub enum Error {
     /// The equations of an implicit step were not solved. The run stays at the state before that
     /// step.
     #[error(
-        "step {step} from t = {time} was not solved: residual {residual:e} after {iterations} iterations"
+        "step {step} from t = {time} was not solved{}: residual {residual:e} after {iterations} iterations",
+        Lane(*.lane)
     )]
     Solve {
         /// The number of the step, counted from 1.
         step: u64,
+        /// The first lane that was not solved, where the scalar has several.
+        lane: Option<u32>,
         /// The time at its beginning.
         time: f64,
-        /// The last change of the iterate, in the maximum norm.
+        /// The last change of the iterate, in the sum norm.
         residual: f64,
         /// The number of iterations made.
         iterations: u32,
@@ -106,6 +118,21 @@ pub enum Error {
         /// The first reachable time beyond it; the present time if it lies behind.
         after: f64,
     },
+    /// A time more than one step from the present one.
+    #[error(
+        "t = {target} is more than one step from the present: from {from} to {to} can be asked for"
+    )]
+    Far {
+        /// The time asked for.
+        target: f64,
+        /// One step back from the present time.
+        from: f64,
+        /// One step on.
+        to: f64,
+    },
+    /// A saved run that cannot be read, or does not fit.
+    #[error("{0}")]
+    Checkpoint(#[from] CheckpointError),
     /// An index of a component that there is not.
     #[error("there is no component {index}: there are {count}")]
     Component {
@@ -160,6 +187,71 @@ pub enum Error {
         /// The sum.
         sum: f64,
     },
+}
+
+/// Why a saved run cannot be read or gone on with.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CheckpointError {
+    /// The file cannot be read or written.
+    #[error("`{path}`: {message}")]
+    File {
+        /// Its path.
+        path: String,
+        /// The system's message.
+        message: String,
+    },
+    /// These bytes are no saved run.
+    #[error("this is no saved run: it does not begin as one")]
+    Foreign,
+    /// It was saved by a newer version of this library.
+    #[error("the run was saved in format {found}, this version reads up to {known}: update it")]
+    Newer {
+        /// The version of the file.
+        found: u64,
+        /// The newest version that can be read.
+        known: u64,
+    },
+    /// The bytes are not those that were written.
+    #[error("the saved run is damaged: {reason}")]
+    Damaged {
+        /// What does not fit.
+        reason: &'static str,
+    },
+    /// It is the run of something else.
+    #[error("the saved run has another {what}: saved `{saved}`, given `{given}`")]
+    Other {
+        /// `system`, `parameters`, `scheme`, `scalar`, `observer`.
+        what: &'static str,
+        /// That of the file.
+        saved: String,
+        /// That of the program.
+        given: String,
+    },
+}
+
+/// ` in the flow of …`, where there is one.
+struct Within(Option<&'static str>);
+
+impl core::fmt::Display for Within {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(piece) => write!(f, " in the flow of `{piece}`"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// ` in lane …`, where there are several.
+struct Lane(Option<u32>);
+
+impl core::fmt::Display for Lane {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(lane) => write!(f, " in lane {lane}"),
+            None => Ok(()),
+        }
+    }
 }
 
 /// The message, because that is what `fn main() -> Result<(), Error>` shows.

@@ -4,13 +4,20 @@
 //! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
 //! is not finite is never shown, but found, located and reported.
 
+use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Every, Observer, View, Watch, every, watch};
-use crate::scheme::{Clock, Copies, Entry, Scheme, Stepper, Unsolved};
-use crate::state::{Point, State};
+use crate::map::{Cause, Clock, Map, Step};
+use crate::observe::{Every, Observer, Verdict, View, Watch, every, watch};
+use crate::part::{Part, Recipe};
+use crate::scheme::{Entry, Scheme};
+use crate::schemes::Copies;
+use crate::state::{Carried, Point, State};
 use crate::system::{Dynamics, System};
 use crate::vector::Vector;
+use alloc::string::String;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
+use core::fmt;
 use hamiltonian_lanes::{Mask, Real};
 
 /// Steps between two checks that everything is finite: few enough that replaying a bad block is
@@ -42,20 +49,44 @@ const BLOCK: u64 = 1024;
 /// not finite.
 ///
 /// # Type
-/// `R` is the scheme's stepper; [`Run`] names the type by the scheme. (With the scheme itself as
+/// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme itself as
 /// the parameter a wrong pairing would be reported once for every place the type appears.)
-#[derive(Debug, Clone)]
-pub struct Integrator<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O = ()> {
-    prepared: S::Prepared,
-    entry: &'static Entry,
-    stepper: R,
+pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
+    pub(crate) prepared: S::Prepared,
+    pub(crate) recipe: Arc<dyn Recipe<T, S, R>>,
+    pub(crate) entry: Entry,
+    map: R,
+    work: R::Work,
+    pub(crate) carried: R::Carried,
     /// What was carried at the beginning of the present block.
     snapshot: R::Carried,
-    clock: Clock<T>,
-    step: T,
-    steps: u64,
-    state: State<S::Vector>,
-    observer: O,
+    /// A copy with its closing piece: what is seen.
+    shown: R::Carried,
+    pub(crate) clock: Clock<T>,
+    pub(crate) step: T,
+    /// The number of the step at which the clock began.
+    pub(crate) began: u64,
+    pub(crate) steps: u64,
+    pub(crate) state: State<S::Vector>,
+    pub(crate) ended: bool,
+    /// What the observers of a saved run remember, until they are attached.
+    pub(crate) memory: Memory,
+    /// That an attached observer is not the one that was saved.
+    pub(crate) refused: Option<Error>,
+    /// The text of H, the parameters: by them a saved run is recognised.
+    pub(crate) system: SystemText,
+    pub(crate) observer: O,
+}
+
+/// A map of a scheme for the system `S` over the scalar `T`.
+pub trait MapOf<T: Real, S: System<T>>:
+    Map<Carried: Carried<Vector = S::Vector, Scalar = T>>
+{
+}
+
+impl<T: Real, S: System<T>, R: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>> MapOf<T, S>
+    for R
+{
 }
 
 /// The type of a run of scheme `M` on system `S` with observer `O` over the scalar `T`.
@@ -74,9 +105,9 @@ pub struct Integrator<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O =
 /// simulation.run.advance(3)?;
 /// # Ok::<(), hamiltonian_core::Error>(())
 /// ```
-pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Stepper, O>;
+pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Map, O>;
 
-impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> {
+impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     /// A run of `scheme` on `system` from `start` with the step size `step`, which is negative to
     /// integrate backwards. Units are the caller's.
     ///
@@ -85,17 +116,13 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
     /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Shell`] when the system
     /// is one in another time and it is off the shell H = 0 by more than a thousandth of the energies
     /// in it.
-    pub fn new<M: Scheme<T, S, Stepper = R>>(
+    pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
         start: State<S::Vector>,
         step: T,
     ) -> Result<Self, Error> {
-        if !step.is_finite() || step.equals(T::zero()).any() {
-            return Err(Error::Step {
-                step: step.to_f64(),
-            });
-        }
+        check_step(step)?;
         system.check_shape(&start)?;
         if !finite(&start) {
             let (q, p) = (numbers(&start.q), numbers(&start.p));
@@ -109,22 +136,43 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
         if S::ON_SHELL {
             check_shell::<T, S>(&prepared, &start)?;
         }
-        let stepper = scheme.prepare(&prepared, &start, step);
-        let duration = T::constant(f64::from(scheme.entry().duration), 0.0);
-        Ok(Integrator {
-            snapshot: stepper.carried().clone(),
+        Ok(Self::begin(system, prepared, scheme, start, step))
+    }
+
+    /// The run, everything checked.
+    pub(crate) fn begin<M: Scheme<T, S, Map = R>>(
+        system: &S,
+        prepared: S::Prepared,
+        scheme: M,
+        start: State<S::Vector>,
+        step: T,
+    ) -> Self {
+        let entry = scheme.entry();
+        let carried = scheme.start(&prepared, &start, step);
+        let map = scheme.prepare(&prepared, Step::of(step));
+        Integrator {
+            work: map.work(&carried),
+            map,
+            snapshot: carried.clone(),
+            shown: carried.clone(),
+            carried,
             clock: Clock {
                 start: start.t,
-                interval: step * duration,
+                interval: step * duration(&entry),
             },
+            system: SystemText::of(system, &start.q),
             prepared,
-            entry: scheme.entry(),
-            stepper,
+            recipe: Arc::new(scheme),
+            entry,
             step,
+            began: 0,
             steps: 0,
             state: start,
+            ended: false,
+            memory: Memory::default(),
+            refused: None,
             observer: (),
-        })
+        }
     }
 
     /// The same run with an observer, which is shown the present state at once and from then on
@@ -134,15 +182,13 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>> Integrator<T, S, R> 
     ///
     /// Several observers are a tuple. An observer is given away and got back by
     /// [`observer`](Integrator::observer), or lent as `&mut`.
-    pub fn observe<O: Observer<T, S>>(self, mut observer: O) -> Integrator<T, S, R, O> {
-        observer.attach(&self.view());
+    pub fn observe<O: Observer<T, S>>(mut self, mut observer: O) -> Integrator<T, S, R, O> {
+        self.attach(&mut observer);
         self.with_observer(|()| observer)
     }
 }
 
-impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>>
-    Integrator<T, S, R, O>
-{
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// The same run with a closure besides its observer, shown the present state at once and from
     /// then on every state whose step number is a multiple of `steps` (0 counts as 1).
     ///
@@ -160,76 +206,123 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>>
     /// assert_eq!(path.len(), 11);
     /// # Ok::<(), hamiltonian_core::Error>(())
     /// ```
-    pub fn watch<F: FnMut(&View<'_, T, S>)>(
-        self,
+    pub fn watch<V: Verdict, F: FnMut(&View<'_, T, S>) -> V>(
+        mut self,
         steps: u64,
         closure: F,
     ) -> Integrator<T, S, R, (O, Every<Watch<F>>)> {
         let mut closure = every(steps, watch(closure));
-        closure.attach(&self.view());
+        self.attach(&mut closure);
         self.with_observer(|observer| (observer, closure))
     }
-    /// Makes `n` steps and returns the state after them.
+
+    /// Makes `n` steps and returns the state after them; fewer where an observer ends the run.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Solve`]. The run then stands at the last good state and
     /// can be asked for it.
     pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
+        if let Some(error) = &self.refused {
+            return Err(error.clone());
+        }
         let end = self.steps.saturating_add(n);
         let interval = self.observer.interval().max(1);
-        while self.steps < end {
+        while self.steps < end && !self.ended {
             let due = (self.steps / interval)
                 .saturating_add(1)
                 .saturating_mul(interval);
             self.run_to(due.min(end))?;
             if self.steps == due {
-                self.observer.observe(&View {
+                let part = part(
+                    &self.prepared,
+                    &*self.recipe,
+                    &self.state,
+                    self.step,
+                    self.clock,
+                );
+                let view = View {
                     step: self.steps,
                     state: &self.state,
                     prepared: &self.prepared,
-                });
+                    between: &part,
+                };
+                self.ended = self.observer.observe(&view).is_break();
             }
         }
         Ok(&self.state)
     }
 
-    /// Makes the whole number of steps that leads to the time `t`.
-    ///
-    /// The step size is never changed, and a state at another time is never passed off as one at
-    /// `t`: if no whole number of steps leads there, to within the rounding of `t`, the step and
-    /// the start, that is an error and no step is made.
-    ///
-    /// # Errors
-    /// [`Error::OffGrid`] with the reachable times on both sides; those of
-    /// [`advance`](Integrator::advance).
-    pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
-        /// Numbers of steps up to here are exact in `f64`.
-        const MOST: f64 = (1_u64 << 53) as f64;
-        let count = ((t - self.clock.start) / self.clock.interval).to_f64();
-        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
-        let reached = self.clock.at(nearest);
-        // t, the start and the interval are each off by half an ulp at most, and so are the
-        // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
-        // user, whatever the scalar.
-        let size =
-            t.magnitude() + self.clock.start.magnitude() + (reached - self.clock.start).magnitude();
-        let rounding = T::epsilon().max(f64::EPSILON) * size;
-        let meets = t.is_finite() && count < MOST && (reached - t).magnitude() <= rounding;
-        if !meets || nearest < self.steps {
-            let behind = count < self.steps as f64;
-            let before = (count.clamp(0.0, MOST) as u64).max(self.steps);
-            let after = if behind { before } else { before + 1 };
-            return Err(Error::OffGrid {
-                target: t.to_f64(),
-                before: self.clock.at(before).to_f64(),
-                after: self.clock.at(after).to_f64(),
-            });
+    /// Steps to `stop`, leaves the synchronised state there.
+    fn run_to(&mut self, stop: u64) -> Result<(), Error> {
+        while self.steps < stop {
+            let n = BLOCK.min(stop - self.steps);
+            self.snapshot.copy_from(&self.carried);
+            let made = self.steps - self.began;
+            (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
+            if !self.arrives(self.steps + n) {
+                return Err(self.replay(n));
+            }
+            self.steps += n;
         }
-        self.advance(nearest - self.steps)
+        Ok(())
     }
 
-    /// The states after `every`, 2·`every`, … further steps (0 counts as 1), without end. The
-    /// first error is the last item.
+    /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
+    #[cold]
+    fn replay(&mut self, n: u64) -> Error {
+        let last = self.steps + n - 1;
+        self.carried.copy_from(&self.snapshot);
+        loop {
+            let made = self.steps - self.began;
+            self.snapshot.copy_from(&self.carried);
+            (self.map).run(self.clock, made, 1, &mut self.carried, &mut self.work);
+            let good = self.arrives(self.steps + 1);
+            // The last step is the bad one if none before it was.
+            if good && self.steps < last {
+                self.steps += 1;
+                continue;
+            }
+            let bad = !(self.carried.finite() & self.shown.finite());
+            let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
+            let (begin, end) = (self.clock.at(made), self.clock.at(made + 1));
+            self.carried.copy_from(&self.snapshot);
+            let cause = self
+                .map
+                .explain(begin, end, made == 0, &mut self.carried, &mut self.work);
+            let step = self.steps + 1;
+            let error = match cause {
+                Cause::Unsolved {
+                    residual,
+                    iterations,
+                } => Error::Solve {
+                    step,
+                    lane,
+                    time: begin.to_f64(),
+                    residual,
+                    iterations,
+                },
+                Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
+                    step,
+                    piece: match cause {
+                        Cause::Piece(name) => Some(name),
+                        _ => None,
+                    },
+                    lane,
+                    time: self.state.t.to_f64(),
+                    q: numbers(&self.state.q),
+                    p: numbers(&self.state.p),
+                },
+            };
+            self.carried.copy_from(&self.snapshot);
+            self.arrives(self.steps);
+            return error;
+        }
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// The states after `every`, 2·`every`, … further steps (0 counts as 1), until an observer ends
+    /// the run; without one, without end. The first error is the last item.
     pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
         States {
             run: self,
@@ -238,67 +331,67 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>>
         }
     }
 
-    /// Steps to `stop`, leaves the synchronised state there.
-    fn run_to(&mut self, stop: u64) -> Result<(), Error> {
-        while self.steps < stop {
-            let n = BLOCK.min(stop - self.steps);
-            self.snapshot.copy_from(self.stepper.carried());
-            if self.stepper.run(self.steps, n).is_err() || !self.arrives(self.steps + n) {
-                return Err(self.replay(n));
-            }
-            self.steps += n;
+    /// Writes the state after `made` steps, which the map has made; whether all is finite.
+    fn arrives(&mut self, steps: u64) -> bool {
+        let made = steps - self.began;
+        let t = self.clock.at(made);
+        self.shown.copy_from(&self.carried);
+        if made > 0 {
+            self.map.close(t, &mut self.shown);
         }
+        let point = self.shown.point();
+        self.state.q.copy_from(&point.q);
+        self.state.p.copy_from(&point.p);
+        self.state.t = self.shown.time(t);
+        self.state.t.is_finite() && self.shown.is_finite() && self.carried.is_finite()
+    }
+
+    /// Goes on from here with another step: the scheme starts anew at the present state. Whatever it
+    /// carries besides is made again, and (25), (26), (33) make their second point again.
+    ///
+    /// # Errors
+    /// [`Error::Step`] for a zero, NaN or infinite step.
+    pub fn change_step(&mut self, step: T) -> Result<(), Error> {
+        check_step(step)?;
+        self.carried = self.recipe.start(&self.prepared, &self.state, step);
+        self.map = self.recipe.prepare(&self.prepared, Step::of(step));
+        self.clock = Clock {
+            start: self.state.t,
+            interval: step * duration(&self.entry),
+        };
+        self.step = step;
+        self.began = self.steps;
         Ok(())
     }
 
-    /// Writes the state after `made` steps, which the stepper has made; whether all is finite.
-    fn arrives(&mut self, made: u64) -> bool {
-        self.stepper
-            .synchronise(made, &mut self.state.q, &mut self.state.p);
-        self.state.t = self.clock.at(made);
-        finite(&self.state) && self.stepper.carried().is_finite()
+    /// Puts the saved state of a run in place of the present one.
+    pub(crate) fn restore(&mut self, clock: Clock<T>, began: u64, steps: u64) {
+        self.clock = clock;
+        self.began = began;
+        self.steps = steps;
+        self.arrives(steps);
     }
 
-    /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
-    #[cold]
-    fn replay(&mut self, n: u64) -> Error {
-        let last = self.steps + n - 1;
-        self.stepper.carried_mut().copy_from(&self.snapshot);
-        loop {
-            self.snapshot.copy_from(self.stepper.carried());
-            let outcome = self.stepper.run(self.steps, 1);
-            let good = outcome.is_ok() && self.arrives(self.steps + 1);
-            // The last step is the bad one if none before it was.
-            if good && self.steps < last {
-                self.steps += 1;
-                continue;
-            }
-            let error = match outcome {
-                Err(Unsolved {
-                    made,
-                    residual,
-                    iterations,
-                }) => Error::Solve {
-                    step: made + 1,
-                    time: self.clock.at(made).to_f64(),
-                    residual,
-                    iterations,
-                },
-                Ok(()) => Error::NotFinite {
-                    step: self.steps + 1,
-                    time: self.state.t.to_f64(),
-                    q: numbers(&self.state.q),
-                    p: numbers(&self.state.p),
-                },
-            };
-            self.stepper.carried_mut().copy_from(&self.snapshot);
-            self.arrives(self.steps);
-            return error;
+    /// Shows a new observer the present state, or gives it back what it remembers.
+    fn attach<N: Observer<T, S>>(&mut self, observer: &mut N) {
+        if self.memory.is_empty() {
+            self.ended |= observer.attach(&self.view(&self.part())).is_break();
+        } else if let Err(error) = observer.restore(&mut self.memory) {
+            self.refused = Some(error);
         }
     }
-}
 
-impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, R, O> {
+    /// Whether an observer has ended the run: it makes no further steps until it is told to
+    /// [`go_on`](Integrator::go_on).
+    pub fn has_ended(&self) -> bool {
+        self.ended
+    }
+
+    /// Lets a run that an observer has ended go on.
+    pub fn go_on(&mut self) {
+        self.ended = false;
+    }
+
     /// The present state: time, coordinates and momenta, all at the same time.
     pub fn state(&self) -> &State<S::Vector> {
         &self.state
@@ -327,7 +420,6 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, 
 
     /// H at the present state.
     pub fn energy(&self) -> T {
-        use crate::system::Dynamics;
         self.prepared
             .energy(self.state.t, &self.state.q, &self.state.p)
     }
@@ -338,16 +430,33 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, 
     }
 
     /// The scheme's entry in the catalogue.
-    pub fn entry(&self) -> &'static Entry {
+    pub fn entry(&self) -> Entry {
         self.entry
     }
 
+    /// All that the scheme carries, before the closing piece of the last step.
+    pub fn carried(&self) -> &R::Carried {
+        &self.carried
+    }
+
+    /// Parts of a step from the present state.
+    pub(crate) fn part(&self) -> Part<'_, T, S, R> {
+        part(
+            &self.prepared,
+            &*self.recipe,
+            &self.state,
+            self.step,
+            self.clock,
+        )
+    }
+
     /// The present state as observers see it.
-    fn view(&self) -> View<'_, T, S> {
+    fn view<'a>(&'a self, part: &'a Part<'a, T, S, R>) -> View<'a, T, S> {
         View {
             step: self.steps,
             state: &self.state,
             prepared: &self.prepared,
+            between: part,
         }
     }
 
@@ -355,13 +464,22 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, 
     fn with_observer<N>(self, make: impl FnOnce(O) -> N) -> Integrator<T, S, R, N> {
         Integrator {
             prepared: self.prepared,
+            recipe: self.recipe,
             entry: self.entry,
-            stepper: self.stepper,
+            map: self.map,
+            work: self.work,
+            carried: self.carried,
             snapshot: self.snapshot,
+            shown: self.shown,
             clock: self.clock,
             step: self.step,
+            began: self.began,
             steps: self.steps,
             state: self.state,
+            ended: self.ended,
+            memory: self.memory,
+            refused: self.refused,
+            system: self.system,
             observer: make(self.observer),
         }
     }
@@ -377,43 +495,130 @@ impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, 
     }
 }
 
-impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> Integrator<T, S, R, O>
+impl<T: Real, S: System<T>, R, O> Integrator<T, S, R, O>
 where
-    R: Copies,
+    R: MapOf<T, S> + Map<Carried = Copies<S::Vector>>,
 {
-    /// The second copy (q̃, p̃) at the present time; the first is [`state`](Integrator::state).
+    /// The second copy (q̃, p̃) at the present time, or the second point of a scheme that carries two;
+    /// the first is [`state`](Integrator::state).
     pub fn copy(&self) -> Point<S::Vector> {
-        self.stepper.copy()
+        self.shown.y.clone()
     }
 
     /// How far the two copies are apart: the Euclidean norm of (q − q̃, p − p̃).
     pub fn copy_distance(&self) -> f64 {
-        let Point { q, p } = self.copy();
         let mut sum = T::zero();
-        for (here, there) in [(&self.state.q, &q), (&self.state.p, &p)] {
-            for (a, b) in here.components().zip(there.components()) {
-                sum = (a - b).fma(a - b, sum);
-            }
+        for (a, b) in self.shown.x.components().zip(self.shown.y.components()) {
+            sum = (a - b).fma(a - b, sum);
         }
         Real::sqrt(sum.to_f64())
     }
 }
 
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S, R, O> {
+    fn clone(&self) -> Self {
+        let map = self.recipe.prepare(&self.prepared, Step::of(self.step));
+        Integrator {
+            prepared: self.prepared.clone(),
+            recipe: Arc::clone(&self.recipe),
+            entry: self.entry,
+            work: map.work(&self.carried),
+            map,
+            carried: self.carried.clone(),
+            snapshot: self.snapshot.clone(),
+            shown: self.shown.clone(),
+            clock: self.clock,
+            step: self.step,
+            began: self.began,
+            steps: self.steps,
+            state: self.state.clone(),
+            ended: self.ended,
+            memory: self.memory.clone(),
+            refused: self.refused.clone(),
+            system: self.system.clone(),
+            observer: self.observer.clone(),
+        }
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integrator<T, S, R, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Integrator")
+            .field("system", &S::NAME)
+            .field("scheme", &self.recipe.describe())
+            .field("step", &self.step)
+            .field("steps", &self.steps)
+            .field("state", &self.state)
+            .field("observer", &self.observer)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Parts of a step from `state`.
+fn part<'a, T: Real, S: System<T>, R: MapOf<T, S>>(
+    prepared: &'a S::Prepared,
+    recipe: &'a dyn Recipe<T, S, R>,
+    state: &'a State<S::Vector>,
+    step: T,
+    clock: Clock<T>,
+) -> Part<'a, T, S, R> {
+    Part {
+        prepared,
+        recipe,
+        state,
+        step,
+        interval: clock.interval,
+    }
+}
+
+/// What a system is, in words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SystemText {
+    /// Its name, H, the number of components.
+    pub(crate) formula: String,
+    /// Its parameters with their values.
+    pub(crate) parameters: String,
+}
+
+impl SystemText {
+    pub(crate) fn of<T: Real, S: System<T>>(system: &S, q: &S::Vector) -> Self {
+        let mut parameters = String::new();
+        // Writing to a string does not fail.
+        let _ = system.describe_parameters(&mut parameters);
+        SystemText {
+            formula: alloc::format!("{}: {} ({} coordinates)", S::NAME, S::FORMULA, q.len()),
+            parameters,
+        }
+    }
+}
+
+/// The time a step advances, in units of its size.
+fn duration<T: Real>(entry: &Entry) -> T {
+    T::constant(f64::from(entry.duration), 0.0)
+}
+
+/// An error for a step that is no step.
+fn check_step<T: Real>(step: T) -> Result<(), Error> {
+    if step.is_finite() && !step.equals(T::zero()).any() {
+        return Ok(());
+    }
+    Err(Error::Step {
+        step: step.to_f64(),
+    })
+}
+
 /// The iterator of [`Integrator::states`].
-#[derive(Debug)]
-pub struct States<'a, T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O> {
+pub struct States<'a, T: Real, S: System<T>, R: MapOf<T, S>, O> {
     run: &'a mut Integrator<T, S, R, O>,
     every: u64,
     failed: bool,
 }
 
-impl<T: Real, S: System<T>, R: Stepper<Vector = S::Vector>, O: Observer<T, S>> Iterator
-    for States<'_, T, S, R, O>
-{
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
     type Item = Result<State<S::Vector>, Error>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if self.failed {
+        if self.failed || self.run.has_ended() {
             return None;
         }
         let state = self.run.advance(self.every).cloned();
@@ -453,6 +658,6 @@ fn check_shell<T: Real, S: System<T>>(
 }
 
 /// The components as `f64`.
-fn numbers<V: Vector>(vector: &V) -> Vec<f64> {
+pub(crate) fn numbers<V: Vector>(vector: &V) -> Vec<f64> {
     vector.components().map(Real::to_f64).collect()
 }

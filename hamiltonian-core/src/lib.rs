@@ -18,8 +18,9 @@
 //! # Ok::<(), hamiltonian_core::Error>(())
 //! ```
 //!
-//! The modules follow the data: vectors and states, the system at a state, the scheme made for
-//! it, the run, what is seen of the run; starts on a surface and other coordinates of a state.
+//! The modules follow the data: vectors and states, the system at a state, what moves it (vector
+//! fields and exact flows), one-step maps and the schemes that make them, the run and parts of its
+//! steps, what is seen of it, saved runs; starts on a surface and other coordinates of a state.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
@@ -31,13 +32,23 @@ mod state;
 
 mod system;
 
+mod flow;
+
+mod map;
+
 mod scheme;
 pub mod schemes;
 
 mod integrator;
+mod part;
 
 mod observe;
 mod output;
+
+mod checkpoint;
+mod resume;
+
+mod any;
 
 pub mod start;
 
@@ -50,18 +61,22 @@ mod reach;
 #[doc(hidden)]
 pub mod private;
 
-pub use error::Error;
+pub use any::AnyRun;
+pub use checkpoint::{Checkpoint, Memory};
+pub use error::{CheckpointError, Error};
+pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Turn, VectorField};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
-pub use integrator::{Integrator, Run, States};
+pub use integrator::{Integrator, MapOf, Run, States};
+pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
 pub use observe::{
-    Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, View, Watch, every, watch,
+    Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Verdict, View, Watch, every, watch,
 };
 pub use output::Recorder;
-pub use scheme::{Clock, Copies, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
-pub use state::{Gradient, Pair, Point, State};
+pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+pub use state::{Carried, Gradient, Pair, Point, State};
 pub use system::{
-    Autonomous, Cyclic, Drift, Dynamics, Flow, Group, Kick, Observable, ObservableKind,
-    QuadraticKinetic, Separable, System,
+    Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
+    Separable, Split, System, Unforced,
 };
 pub use vector::{IntoVector, Vector, shape};
 
@@ -79,11 +94,12 @@ pub mod prelude {
     pub use crate::{Observer as _, System as _};
 
     pub use crate::schemes::{
-        ConsecutiveSubTrajectories, ImplicitMidpoint, IntersectingSubTrajectories, Pihajoki,
-        RungeKutta4, Start, StormerVerlet, SymplecticEuler, TwoStepMidpoint,
+        Adjoint, Composition, ConsecutiveSubTrajectories, ImplicitMidpoint,
+        IntersectingSubTrajectories, Pihajoki, RungeKutta4, Start, StormerVerlet, Strang,
+        SymplecticEuler, TwoStepMidpoint,
     };
     pub use crate::{
-        EnergyDrift, Error, Gradient, Integrator, Monitors, Observer, Recorder, Run, State, System,
-        every, watch,
+        AnyRun, Checkpoint, Dual, EnergyDrift, Error, Gradient, Integrator, Monitors, Observer,
+        Real, Recorder, Run, Split, State, StateOf, System, every, watch,
     };
 }

@@ -4,13 +4,16 @@
 //! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
 //! changes no bit of the run.
 
+use crate::checkpoint::Memory;
+use crate::error::Error;
 use crate::state::State;
 use crate::system::{Dynamics, ObservableKind, System};
+use crate::vector::Vector;
 use alloc::vec::Vec;
+use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
 /// A state of a run as observers see it.
-#[derive(Debug)]
 pub struct View<'a, T: Real, S: System<T>> {
     /// The number of steps made.
     pub step: u64,
@@ -18,6 +21,13 @@ pub struct View<'a, T: Real, S: System<T>> {
     pub state: &'a State<S::Vector>,
     /// The system with its parameters worked in.
     pub prepared: &'a S::Prepared,
+    /// How the state at other times is found.
+    pub(crate) between: &'a dyn Between<S::Vector>,
+}
+
+/// The state near the present one at another time, by a part of a step.
+pub(crate) trait Between<V: Vector> {
+    fn state_at(&self, t: V::Scalar) -> Result<State<V>, Error>;
 }
 
 impl<T: Real, S: System<T>> View<'_, T, S> {
@@ -27,6 +37,14 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
             .energy(self.state.t, &self.state.q, &self.state.p)
     }
 
+    /// The state at a time within one step of this one, by a part of a step of the same scheme.
+    ///
+    /// # Errors
+    /// [`Error::Far`] for another time, those of a step.
+    pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+        self.between.state_at(t)
+    }
+
     /// Observable `index` of [`System::OBSERVABLES`] here.
     pub fn observable(&self, index: usize) -> T {
         self.prepared
@@ -34,7 +52,7 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
     }
 }
 
-/// What watches a run.
+/// What watches a run, and may end it.
 ///
 /// It is shown the state at which it is attached, and from then on every state whose step number,
 /// counted from the start of the run, is a multiple of its interval. Which states it is shown
@@ -46,12 +64,50 @@ pub trait Observer<T: Real, S: System<T>> {
     fn interval(&self) -> u64 {
         1
     }
-    /// Shows it the state at which it is attached.
-    fn attach(&mut self, view: &View<'_, T, S>) {
-        self.observe(view);
+    /// Shows it the state at which it is attached; `Break` ends the run.
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        self.observe(view)
     }
-    /// Shows it a state whose step number is a multiple of its interval.
-    fn observe(&mut self, view: &View<'_, T, S>);
+    /// Shows it a state whose step number is a multiple of its interval; `Break` ends the run.
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
+    /// Writes what it remembers. An observer that remembers nothing writes its name alone.
+    fn save(&self, to: &mut Memory) {
+        to.begin("");
+    }
+    /// Reads what it wrote, instead of being attached.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Other`](crate::CheckpointError::Other) where another observer wrote it,
+    /// [`CheckpointError::Damaged`](crate::CheckpointError::Damaged).
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        from.expect("")
+    }
+}
+
+/// What a closure that watches may return: nothing, or whether the run goes on.
+pub trait Verdict {
+    /// Whether the run goes on.
+    fn control(self) -> ControlFlow<()>;
+}
+
+impl Verdict for () {
+    fn control(self) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+impl Verdict for ControlFlow<()> {
+    fn control(self) -> ControlFlow<()> {
+        self
+    }
+}
+
+/// `Break` if either is.
+fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
+    match a {
+        ControlFlow::Continue(()) => b,
+        ControlFlow::Break(()) => a,
+    }
 }
 
 /// A closure as an observer, where one is needed: in a tuple that is passed on, say. What it reads of
@@ -68,7 +124,9 @@ pub trait Observer<T: Real, S: System<T>> {
 /// run.advance(100)?;
 /// # Ok::<(), hamiltonian_core::Error>(())
 /// ```
-pub fn watch<T: Real, S: System<T>, F: FnMut(&View<'_, T, S>)>(closure: F) -> Watch<F> {
+pub fn watch<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
+    closure: F,
+) -> Watch<F> {
     Watch(closure)
 }
 
@@ -76,9 +134,11 @@ pub fn watch<T: Real, S: System<T>, F: FnMut(&View<'_, T, S>)>(closure: F) -> Wa
 #[derive(Debug, Clone)]
 pub struct Watch<F>(F);
 
-impl<T: Real, S: System<T>, F: FnMut(&View<'_, T, S>)> Observer<T, S> for Watch<F> {
-    fn observe(&mut self, view: &View<'_, T, S>) {
-        (self.0)(view);
+impl<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer<T, S>
+    for Watch<F>
+{
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        (self.0)(view).control()
     }
 }
 
@@ -115,11 +175,17 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn interval(&self) -> u64 {
         self.steps.saturating_mul(self.inner.interval().max(1))
     }
-    fn attach(&mut self, view: &View<'_, T, S>) {
-        self.inner.attach(view);
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        self.inner.attach(view)
     }
-    fn observe(&mut self, view: &View<'_, T, S>) {
-        self.inner.observe(view);
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        self.inner.observe(view)
+    }
+    fn save(&self, to: &mut Memory) {
+        self.inner.save(to);
+    }
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        self.inner.restore(from)
     }
 }
 
@@ -127,11 +193,17 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn interval(&self) -> u64 {
         (**self).interval()
     }
-    fn attach(&mut self, view: &View<'_, T, S>) {
-        (**self).attach(view);
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        (**self).attach(view)
     }
-    fn observe(&mut self, view: &View<'_, T, S>) {
-        (**self).observe(view);
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        (**self).observe(view)
+    }
+    fn save(&self, to: &mut Memory) {
+        (**self).save(to);
+    }
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        (**self).restore(from)
     }
 }
 
@@ -139,7 +211,13 @@ impl<T: Real, S: System<T>> Observer<T, S> for () {
     fn interval(&self) -> u64 {
         u64::MAX
     }
-    fn observe(&mut self, _: &View<'_, T, S>) {}
+    fn observe(&mut self, _: &View<'_, T, S>) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+    fn save(&self, _: &mut Memory) {}
+    fn restore(&mut self, _: &mut Memory) -> Result<(), Error> {
+        Ok(())
+    }
 }
 
 /// The greatest common divisor, so that every member of a tuple is reached; `u64::MAX`, the
@@ -165,13 +243,24 @@ macro_rules! tuple {
                 $(interval = common(interval, self.$index.interval());)+
                 interval
             }
-            fn attach(&mut self, view: &View<'_, T, S>) {
-                $(self.$index.attach(view);)+
+            fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+                let mut control = ControlFlow::Continue(());
+                $(control = both(control, self.$index.attach(view));)+
+                control
             }
-            fn observe(&mut self, view: &View<'_, T, S>) {
+            fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+                let mut control = ControlFlow::Continue(());
                 $(if view.step % self.$index.interval().max(1) == 0 {
-                    self.$index.observe(view);
+                    control = both(control, self.$index.observe(view));
                 })+
+                control
+            }
+            fn save(&self, to: &mut Memory) {
+                $(self.$index.save(to);)+
+            }
+            fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+                $(self.$index.restore(from)?;)+
+                Ok(())
             }
         }
     };
@@ -217,6 +306,24 @@ impl<T: Real> Deviation<T> {
         }
         self.sum_of_sizes += size;
         self.sum += change;
+    }
+
+    pub(crate) fn save(&self, to: &mut Memory) {
+        to.scalar(self.start);
+        to.count(self.count);
+        for number in [self.max, self.sum_of_sizes, self.sum] {
+            to.number(number);
+        }
+    }
+
+    pub(crate) fn restored(from: &mut Memory) -> Result<Self, Error> {
+        Ok(Deviation {
+            start: from.read_scalar()?,
+            count: from.read_count()?,
+            max: from.read_number()?,
+            sum_of_sizes: from.read_number()?,
+            sum: from.read_number()?,
+        })
     }
 
     /// The value f₀ at the start.
@@ -300,15 +407,31 @@ impl<T: Real> EnergyDrift<T> {
 }
 
 impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
-    fn attach(&mut self, view: &View<'_, T, S>) {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         self.drift = None;
-        self.observe(view);
+        <Self as Observer<T, S>>::observe(self, view)
     }
-    fn observe(&mut self, view: &View<'_, T, S>) {
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         let energy = view.energy();
         self.drift
             .get_or_insert_with(|| Deviation::new(energy))
             .record(energy);
+        ControlFlow::Continue(())
+    }
+    fn save(&self, to: &mut Memory) {
+        to.begin("EnergyDrift");
+        to.count(u64::from(self.drift.is_some()));
+        if let Some(drift) = &self.drift {
+            drift.save(to);
+        }
+    }
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        from.expect("EnergyDrift")?;
+        self.drift = match from.read_count()? {
+            0 => None,
+            _ => Some(Deviation::restored(from)?),
+        };
+        Ok(())
     }
 }
 
@@ -352,7 +475,7 @@ impl<T: Real> Monitors<T> {
 }
 
 impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
-    fn attach(&mut self, view: &View<'_, T, S>) {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         self.monitors = (0..)
             .zip(S::OBSERVABLES)
             .map(|(index, observable)| Monitor {
@@ -361,11 +484,34 @@ impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
                 drift: Deviation::new(view.observable(index)),
             })
             .collect();
-        self.observe(view);
+        <Self as Observer<T, S>>::observe(self, view)
     }
-    fn observe(&mut self, view: &View<'_, T, S>) {
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         for (index, monitor) in self.monitors.iter_mut().enumerate() {
             monitor.drift.record(view.observable(index));
         }
+        ControlFlow::Continue(())
+    }
+    fn save(&self, to: &mut Memory) {
+        to.begin("Monitors");
+        to.count(self.monitors.len() as u64);
+        for monitor in &self.monitors {
+            monitor.drift.save(to);
+        }
+    }
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        from.expect("Monitors")?;
+        let count = from.read_count()?;
+        self.monitors = (S::OBSERVABLES.iter())
+            .take(usize::try_from(count).unwrap_or(usize::MAX))
+            .map(|observable| {
+                Ok(Monitor {
+                    name: observable.name,
+                    kind: observable.kind,
+                    drift: Deviation::restored(from)?,
+                })
+            })
+            .collect::<Result<_, Error>>()?;
+        Ok(())
     }
 }

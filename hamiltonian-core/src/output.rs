@@ -4,18 +4,21 @@
 //! CSV. Invariant: a row is t, coordinates, momenta, observables, each in declaration order, a
 //! group of rank 2 body by body.
 
+use crate::checkpoint::Memory;
+use crate::error::Error;
 use crate::observe::{Observer, View};
 use crate::system::{Group, System};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
+use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
-/// Records t, coordinates, momenta and observables, rounded to `f64`.
+/// Records t, coordinates, momenta, observables and on request H, rounded to `f64`.
 ///
 /// Columns have the declared names: `t`, then `q`, `q[3]` or `q[3][1]` for each coordinate, the
-/// momenta likewise, then the observables.
+/// momenta likewise, then the observables, then `H`.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -35,6 +38,7 @@ pub struct Recorder {
     columns: Vec<String>,
     /// For each coordinate of a row, its flat index.
     order: Vec<usize>,
+    energy: bool,
     values: Vec<f64>,
 }
 
@@ -49,6 +53,15 @@ impl Recorder {
         Recorder {
             capacity: rows,
             ..Recorder::default()
+        }
+    }
+
+    /// The same recorder with a column `H`.
+    #[must_use]
+    pub fn with_energy(self) -> Self {
+        Recorder {
+            energy: true,
+            ..self
         }
     }
 
@@ -104,10 +117,10 @@ impl Recorder {
 }
 
 impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
-    fn attach(&mut self, view: &View<'_, T, S>) {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         let names = names(S::GROUPS, &view.state.q);
         self.order = names.iter().map(|name| name.index).collect();
-        self.columns = Vec::with_capacity(1 + 2 * names.len() + S::OBSERVABLES.len());
+        self.columns = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
         self.columns.push("t".to_string());
         self.columns
             .extend(names.iter().map(|name| name.of(name.group.coordinate)));
@@ -118,11 +131,14 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
                 .iter()
                 .map(|observable| observable.name.to_string()),
         );
+        if self.energy {
+            self.columns.push("H".to_string());
+        }
         self.values = Vec::with_capacity(self.capacity.saturating_mul(self.columns.len()));
-        self.observe(view);
+        <Self as Observer<T, S>>::observe(self, view)
     }
 
-    fn observe(&mut self, view: &View<'_, T, S>) {
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         self.values.push(view.state.t.to_f64());
         self.values.extend(
             self.order
@@ -136,21 +152,51 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
         );
         self.values
             .extend((0..S::OBSERVABLES.len()).map(|i| view.observable(i).to_f64()));
+        if self.energy {
+            self.values.push(view.energy().to_f64());
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn save(&self, to: &mut Memory) {
+        to.begin("Recorder");
+        to.count(u64::from(self.energy));
+        to.count(self.columns.len() as u64);
+        for column in &self.columns {
+            to.text(column);
+        }
+        to.count(self.order.len() as u64);
+        for index in &self.order {
+            to.count(*index as u64);
+        }
+        to.count(self.values.len() as u64);
+        for value in &self.values {
+            to.number(*value);
+        }
+    }
+
+    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+        from.expect("Recorder")?;
+        self.energy = from.read_count()? != 0;
+        self.columns = from.read_list(Memory::read_text)?;
+        self.order = from.read_list(|from| Ok(from.read_count()? as usize))?;
+        self.values = from.read_list(Memory::read_number)?;
+        Ok(())
     }
 }
 
 /// One component of a group.
-struct Name {
-    group: Group,
+pub(crate) struct Name {
+    pub(crate) group: Group,
     row: usize,
     column: usize,
     /// Its flat index in the [`Vector`].
-    index: usize,
+    pub(crate) index: usize,
 }
 
 impl Name {
     /// The component of the coordinate or momentum of that name.
-    fn of(&self, name: &str) -> String {
+    pub(crate) fn of(&self, name: &str) -> String {
         match self.group.rank {
             0 => name.to_string(),
             1 => format!("{name}[{}]", self.row),
@@ -160,7 +206,7 @@ impl Name {
 }
 
 /// The components of all groups in declaration order; `vector` tells run-time sizes.
-fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
+pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
     let mut names = Vec::with_capacity(vector.len());
     for group in groups {
         let before: usize = (0..group.part).map(|k| vector.part(k).len()).sum();

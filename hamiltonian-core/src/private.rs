@@ -4,6 +4,9 @@
 //! in a crate that has neither this crate nor its dependencies in scope; nothing is removed or
 //! renamed without the macro changing with it.
 
+use core::convert::Infallible;
+use core::marker::PhantomData;
+
 pub extern crate alloc;
 pub use core;
 
@@ -13,11 +16,13 @@ pub use nalgebra::{
 };
 
 pub use crate::error::Error;
+pub use crate::flow::{Flow, Piece, Pieces, VectorField};
 pub use crate::reach::Reach;
+pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
 pub use crate::system::{
-    Autonomous, Cyclic, Drift, Dynamics, Flow, Group, Kick, Observable, ObservableKind,
-    QuadraticKinetic, Separable, System,
+    Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
+    Separable, Split, System, Unforced,
 };
 pub use crate::vector::{IntoVector, Vector};
 
@@ -77,25 +82,41 @@ fn assert_shape(given: usize, rows: usize, columns: usize) {
     );
 }
 
-/// A kick, a drift or a flow that cannot exist: what a structure's associated types are on a
-/// system that does not have the structure.
-#[derive(Debug, Clone, Copy)]
-pub enum Never {}
+/// A piece, a flow or pieces that cannot exist: what a structure's associated types are on a system
+/// that does not have the structure.
+#[derive(Debug)]
+pub struct Never<X>(PhantomData<fn() -> X>, Infallible);
 
-impl<V: Vector> Kick<V> for Never {
-    fn kick(&self, _: V::Scalar, _: &V, _: &mut V) {
-        match *self {}
+impl<X> Clone for Never<X> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<X> Copy for Never<X> {}
+
+impl<X: Vector> Flow<X> for Never<X> {
+    const NAME: &'static str = "";
+    fn apply(&self, _: X::Scalar, _: &mut X) {
+        match self.1 {}
     }
 }
 
-impl<V: Vector> Drift<V> for Never {
-    fn drift(&self, _: V::Scalar, _: &V, _: &mut V) {
-        match *self {}
+impl<T: Real, P, X: Vector<Scalar = T>> Piece<T, P> for Never<X> {
+    type Point = X;
+    type Flow = Self;
+    fn flow(&self, _: &P, _: T) -> Self {
+        *self
     }
 }
 
-impl<V: Vector> Flow<V> for Never {
-    fn flow(&self, _: V::Scalar, _: &V, _: &V, _: &mut V, _: &mut V) {
-        match *self {}
+impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
+    type Point = X;
+    type Outer = Self;
+    type Inner = Self;
+    fn outer(&self, _: &P, _: T) -> Self {
+        *self
+    }
+    fn inner(&self, _: &P, _: T, _: T) -> Self {
+        *self
     }
 }

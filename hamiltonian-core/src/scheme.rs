@@ -1,13 +1,12 @@
-//! What a scheme is: a table entry that, given a system, a start and a step, becomes a stepper.
+//! What a scheme is: a table entry that, given a prepared system and a step, becomes a one-step map.
 //!
-//! Input: a prepared system. Output: [`Scheme::prepare`] → [`Stepper`]. Invariants: a stepper
-//! neither allocates nor dispatches inside a step; what it carries from step to step depends on
-//! the number of steps made and on nothing else, so that the bits of a trajectory are the same
-//! however it is cut into blocks and whoever observes it.
+//! Input: a prepared system. Output: [`Scheme::prepare`] → [`Map`], [`Scheme::start`] → what it
+//! carries. Invariant: what a scheme asks of a system is the bound of its implementation, so a wrong
+//! pairing is a compile error.
 
-use crate::state::{Point, State};
+use crate::map::{Map, Step};
+use crate::state::{Carried, State};
 use crate::system::System;
-use crate::vector::Vector;
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
@@ -16,6 +15,9 @@ use hamiltonian_lanes::Real;
 pub enum Form {
     /// dq∧dp of the state itself: the scheme is symplectic.
     OnePoint,
+    /// dq∧dp + dq̃∧dp̃ of two copies of the state that the scheme carries, and not dq∧dp of the one
+    /// that is seen.
+    TwoCopies,
     /// dq_a∧dp_b + dq_b∧dp_a of two points a and b that the scheme carries, and not dq∧dp of
     /// the one that is seen.
     TwoPoint,
@@ -26,8 +28,12 @@ pub enum Form {
 /// What a scheme asks of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Needs {
-    /// Nothing: any H(q, p, t).
+    /// Nothing: any H(q, p, t), with forces.
     Any,
+    /// No forces, [`Unforced`](crate::Unforced).
+    Unforced,
+    /// Pieces with exact flows, [`Split`](crate::Split).
+    Split,
     /// H = T(p, t) + V(q, t), [`Separable`](crate::Separable).
     Separable,
 }
@@ -53,10 +59,11 @@ pub struct Entry {
     pub source: &'static str,
 }
 
-/// A scheme with a line in the catalogue.
-pub trait Listed: Clone + Debug {
+/// A scheme with a line in the catalogue. Its `Debug` text holds all its choices: a saved run is
+/// recognised by it.
+pub trait Listed: Clone + Debug + Send + Sync + 'static {
     /// That line.
-    fn entry(&self) -> &'static Entry;
+    fn entry(&self) -> Entry;
 }
 
 /// A scheme for the system `S` over the scalar `T`.
@@ -65,67 +72,33 @@ pub trait Listed: Clone + Debug {
 /// compile error where the run is made.
 pub trait Scheme<T: Real, S: System<T>>: Listed {
     /// The scheme with the system's flows and all coefficients folded in.
-    type Stepper: Stepper<Vector = S::Vector>;
-    /// Folds the step into the flows and makes the extra starting values. This may allocate.
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper;
+    type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
+    /// Folds the step into the flows. This does not allocate.
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
+    /// What is carried at the beginning of steps of size `h` from a state.
+    fn start(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> <Self::Map as Map>::Carried;
 }
 
-/// A scheme under way.
-pub trait Stepper: Clone + Debug {
-    /// Coordinates and momenta.
-    type Vector: Vector;
-    /// All that the scheme carries from step to step; copying it is a snapshot of the run.
-    type Carried: Vector<Scalar = <Self::Vector as Vector>::Scalar>;
-
-    /// What is carried after the steps made so far.
-    fn carried(&self) -> &Self::Carried;
-    /// The same, to put a snapshot back.
-    fn carried_mut(&mut self) -> &mut Self::Carried;
-    /// Makes `n` steps after the first `made`.
-    ///
-    /// # Errors
-    /// [`Unsolved`] from implicit schemes; what is carried is then undefined.
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved>;
-    /// Writes the state after `made` steps into `q` and `p`. What is carried does not change: a
-    /// scheme that carries momenta of another time completes copies of them.
-    fn synchronise(&mut self, made: u64, q: &mut Self::Vector, p: &mut Self::Vector);
-}
-
-/// A stepper that carries two copies of the state.
-pub trait Copies: Stepper {
-    /// The copy that [`Stepper::synchronise`] does not show, as of its last call.
-    fn copy(&self) -> Point<Self::Vector>;
-}
-
-/// An implicit step that was not solved.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Unsolved {
-    /// The number of steps made before it.
-    pub made: u64,
-    /// The last change of the iterate, in the maximum norm.
-    pub residual: f64,
-    /// The number of iterations made.
-    pub iterations: u32,
-}
-
-/// Time as a function of the number of steps: `start + k·interval`, never a running sum.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Clock<T> {
-    /// The time at step 0.
-    pub start: T,
-    /// The time one step advances.
-    pub interval: T,
-}
-
-impl<T: Real> Clock<T> {
-    /// The time after `made` steps.
-    ///
-    /// Pure, so that it vanishes where a system does not look at the time; exact in the number
-    /// of steps up to 2⁵³.
-    #[inline(always)]
-    pub fn at(&self, made: u64) -> T {
-        // Signed conversion is one instruction, unsigned is not.
-        self.interval
-            .fma(T::constant(made as i64 as f64, 0.0), self.start)
-    }
+/// A scheme whose step depends on the state alone, so that steps of different sizes can follow each
+/// other.
+///
+/// The paper's (25), (26) and (33) are not: what they carry lags behind by a time that depends on the
+/// step, and a composition of them loses its order (Yoshida's of (33) has slope 0.8 instead of 4).
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no one-step scheme",
+    label = "steps of different sizes cannot be composed of it",
+    note = "the paper's (25), (26) and (33) carry a second point that lags behind by a time which \
+            depends on the step: a composition of them loses its order; compose `Strang`, \
+            `StormerVerlet`, `ImplicitMidpoint` or `Pihajoki`"
+)]
+pub trait OneStep: Listed {
+    /// The type of its adjoint.
+    type Adjoint: OneStep;
+    /// The adjoint scheme Φ*ₕ = (Φ₋ₕ)⁻¹; symmetric schemes are their own.
+    fn adjoint(&self) -> Self::Adjoint;
 }

@@ -94,6 +94,13 @@ impl<V: Vector> Vector for Point<V> {
             p: self.p.zeros_like(),
         }
     }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        Point {
+            q: self.q.take(),
+            p: self.p.take(),
+        }
+    }
 }
 
 impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
@@ -120,6 +127,56 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
             x: self.x.zeros_like(),
             y: self.y.zeros_like(),
         }
+    }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        Pair {
+            x: self.x.take(),
+            y: self.y.take(),
+        }
+    }
+}
+
+impl<V: Vector> State<V> {
+    /// The point without its time.
+    pub fn point(&self) -> Point<V> {
+        Point {
+            q: self.q.clone(),
+            p: self.p.clone(),
+        }
+    }
+}
+
+/// What a scheme carries from step to step: a [`Vector`] that shows a point of phase space.
+///
+/// Most carry the [`Point`] itself; others a [`Pair`] of it with a second point, with slopes for
+/// the next guess, or with a multiplier.
+pub trait Carried: Vector {
+    /// Coordinates and momenta.
+    type Vector: Vector<Scalar = Self::Scalar>;
+    /// The point that is seen.
+    fn point(&self) -> &Point<Self::Vector>;
+    /// The time of that point where the run's clock stands at `clock`: that time itself, unless the
+    /// time is carried.
+    #[inline(always)]
+    fn time(&self, clock: Self::Scalar) -> Self::Scalar {
+        clock
+    }
+}
+
+impl<V: Vector> Carried for Point<V> {
+    type Vector = V;
+    #[inline(always)]
+    fn point(&self) -> &Point<V> {
+        self
+    }
+}
+
+impl<V: Vector, Y: Vector<Scalar = V::Scalar>> Carried for Pair<Point<V>, Y> {
+    type Vector = V;
+    #[inline(always)]
+    fn point(&self) -> &Point<V> {
+        &self.x
     }
 }
 

@@ -1,13 +1,14 @@
 //! What a Hamiltonian system is to the schemes; the `hamiltonian!` macro implements these traits.
 //!
-//! Input: parameters. Output: [`System`] → [`System::prepare`] → [`Dynamics`] → accumulating
-//! [`Kick`], [`Drift`], [`Flow`]. Invariant: every number that depends on parameters alone is
-//! computed in `prepare`, every one that depends on parameters and a step coefficient in
-//! `flow`/`kick`/`drift`; what remains per evaluation depends on (t, q, p) or, such as 1/m\[i\], on
+//! Input: parameters. Output: [`System`] → [`System::prepare`] → [`Dynamics`] → [`VectorField`], and
+//! by [`Split`] and [`Separable`] exact flows. Invariant: every number that depends on parameters
+//! alone is computed in `prepare`, every one that depends on parameters and a step coefficient where
+//! the field or the flow is made; what remains per evaluation depends on (t, q, p) or, such as 1/m\[i\], on
 //! an element of a parameter array.
 
 use crate::error::Error;
-use crate::state::{Gradient, State};
+use crate::flow::{Piece, Pieces, VectorField};
+use crate::state::{Gradient, Point, State};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -68,6 +69,18 @@ pub trait System<T: Real> {
     /// Runs ask starts for it.
     const ON_SHELL: bool = false;
 
+    /// H in the author's notation; by it a saved run is recognised.
+    const FORMULA: &'static str = "";
+
+    /// Writes the parameters with their values, all digits of them; by them a saved run is
+    /// recognised.
+    ///
+    /// # Errors
+    /// Those of the writer.
+    fn describe_parameters(&self, _: &mut dyn core::fmt::Write) -> core::fmt::Result {
+        Ok(())
+    }
+
     /// Does all work that depends on parameters alone.
     fn prepare(&self) -> Self::Prepared;
     /// The zero vector of this system's shape.
@@ -114,8 +127,8 @@ pub trait System<T: Real> {
 pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     /// Coordinates and momenta.
     type Vector: Vector<Scalar = T>;
-    /// J∇H scaled by a step coefficient.
-    type Flow: Flow<Self::Vector>;
+    /// J∇H, with the force where there is one, scaled by a step coefficient.
+    type Field: VectorField<Self::Vector>;
 
     /// H.
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
@@ -158,39 +171,52 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     );
     /// Observable `index` of [`System::OBSERVABLES`].
     fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
-    /// J∇H with the coefficient `c` folded into the prepared constants.
-    fn flow(&self, c: T) -> Self::Flow;
+    /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared
+    /// constants.
+    fn field(&self, c: T) -> Self::Field;
 }
 
-/// `c·J∇H`, accumulating.
-pub trait Flow<V: Vector>: Clone + core::fmt::Debug {
-    /// `into_q += c·∂H/∂p(q, p, t)`, `into_p −= c·∂H/∂q(q, p, t)`.
-    fn flow(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
-}
-
-/// The flow of V(q, t) for a fixed time `c` (with t frozen).
-pub trait Kick<V: Vector>: Clone + core::fmt::Debug {
-    /// `p −= c·∂V/∂q(q, t)`.
-    fn kick(&self, t: V::Scalar, q: &V, p: &mut V);
-}
-
-/// The flow of T(p, t) for a fixed time `c` (with t frozen).
-pub trait Drift<V: Vector>: Clone + core::fmt::Debug {
-    /// `q += c·∂T/∂p(p, t)`.
-    fn drift(&self, t: V::Scalar, p: &V, q: &mut V);
+/// H as a sum of pieces with exact flows: what splittings and their compositions ask for.
+///
+/// It is implemented for every [`Separable`] system, with kick and drift as its pieces, and for those
+/// whose author declared pieces, `split { A = …; B = …; }`.
+pub trait Split<T: Real>: System<T> {
+    /// The pieces, the outermost first.
+    type Pieces: Pieces<T, Self::Prepared, Point = Point<Self::Vector>>;
+    /// The pieces.
+    const PIECES: Self::Pieces;
+    /// The pieces in the author's notation, in the same order.
+    const NAMES: &'static [&'static str];
 }
 
 /// H = T(p, t) + V(q, t), proven at compile time.
 pub trait Separable<T: Real>: System<T> {
-    /// The flow of V.
-    type Kick: Kick<Self::Vector>;
-    /// The flow of T.
-    type Drift: Drift<Self::Vector>;
-    /// The kick for the time `c`, with `c` folded into the prepared constants.
-    fn kick(prepared: &Self::Prepared, c: T) -> Self::Kick;
-    /// The drift for the time `c`.
-    fn drift(prepared: &Self::Prepared, c: T) -> Self::Drift;
+    /// V: its flow is `p −= c·∂V/∂q(q, t)`; with a force, `p += c·(f − ∂V/∂q)`.
+    type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    /// T: its flow is `q += c·∂T/∂p(p, t)`.
+    type Drift: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    /// The kick.
+    const KICK: Self::Kick;
+    /// The drift.
+    const DRIFT: Self::Drift;
 }
+
+/// No force acts besides −∂H/∂q: what schemes ask for that would not integrate one.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to be without forces",
+    label = "this scheme integrates H alone",
+    note = "for a system by hand without a force: `impl Unforced for … {{}}`"
+)]
+pub trait Unforced {}
+
+/// The flows of all pieces are exact: what compositions of order above 2 ask for. A force that is not
+/// affine in p is integrated by a symmetric sub-step of order 2 instead.
+#[diagnostic::on_unimplemented(
+    message = "the pieces of `{Self}` are not known to have exact flows",
+    label = "this scheme has an order above 2 with exact flows alone",
+    note = "for a system by hand whose flows are exact: `impl Exact for … {{}}`"
+)]
+pub trait Exact {}
 
 /// T = ½ pᵀM⁻¹p with constant M, proven at compile time.
 pub trait QuadraticKinetic {}

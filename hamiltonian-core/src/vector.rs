@@ -5,7 +5,7 @@
 //! `zeros_like`.
 
 use alloc::vec::Vec;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage};
 
 /// A vector of coordinates or of momenta over one scalar.
@@ -27,6 +27,9 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     fn part_mut(&mut self, k: usize) -> &mut [Self::Scalar];
     /// The same shape, all zero.
     fn zeros_like(&self) -> Self;
+    /// Moves the value out without allocating. The rest is a valid vector, of no certain shape or
+    /// value, to be overwritten.
+    fn take(&mut self) -> Self;
 
     /// The number of components.
     #[inline(always)]
@@ -159,6 +162,65 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
         largest
     }
 
+    /// The sum norm Σ [`size`](Real::size) of all components, lane by lane; NaN in a lane where any
+    /// component is NaN. Norms of iterations are this one: it costs half of a maximum.
+    #[inline(always)]
+    fn size(&self) -> <Self::Scalar as Real>::Size {
+        let mut sum = <<Self::Scalar as Real>::Size as Real>::zero();
+        for k in 0..Self::PARTS {
+            for component in self.part(k) {
+                sum += component.size();
+            }
+        }
+        sum
+    }
+
+    /// The sum norm of `self − other`, lane by lane.
+    #[inline(always)]
+    fn size_of_difference(&self, other: &Self) -> <Self::Scalar as Real>::Size {
+        let mut sum = <<Self::Scalar as Real>::Size as Real>::zero();
+        for k in 0..Self::PARTS {
+            for (a, b) in self.part(k).iter().zip(other.part(k)) {
+                sum += (*a - *b).size();
+            }
+        }
+        sum
+    }
+
+    /// `self = other` in the lanes where the mask is set.
+    #[inline(always)]
+    fn copy_where(&mut self, mask: <Self::Scalar as Real>::Mask, other: &Self) {
+        for k in 0..Self::PARTS {
+            for (to, from) in self.part_mut(k).iter_mut().zip(other.part(k)) {
+                *to = Self::Scalar::select(mask, *from, *to);
+            }
+        }
+    }
+
+    /// NaN into every component in the lanes where the mask is set: how an exact flow says that it
+    /// left its domain, and a solve that it did not converge.
+    #[inline(always)]
+    fn poison(&mut self, mask: <Self::Scalar as Real>::Mask) {
+        let nan = Self::Scalar::constant(f64::NAN, 0.0);
+        for k in 0..Self::PARTS {
+            for to in self.part_mut(k) {
+                *to = Self::Scalar::select(mask, nan, *to);
+            }
+        }
+    }
+
+    /// The lanes in which every component is finite.
+    #[inline(always)]
+    fn finite(&self) -> <Self::Scalar as Real>::Mask {
+        let mut finite = <<Self::Scalar as Real>::Mask as Mask>::splat(true);
+        for k in 0..Self::PARTS {
+            for component in self.part(k) {
+                finite = finite & component.finite();
+            }
+        }
+        finite
+    }
+
     /// Whether every component is finite.
     #[inline(always)]
     fn is_finite(&self) -> bool {
@@ -193,6 +255,10 @@ impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     fn zeros_like(&self) -> Self {
         SMatrix::from_element(T::zero())
     }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        *self
+    }
 }
 
 impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
@@ -209,13 +275,19 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     fn zeros_like(&self) -> Self {
         OMatrix::from_element_generic(Dyn(self.nrows()), Const, T::zero())
     }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        // A vector of no elements takes no memory.
+        let none = Matrix::from_data(VecStorage::new(Dyn(0), Const, Vec::new()));
+        core::mem::replace(self, none)
+    }
 }
 
 /// What [`State::new`](crate::State::new) takes: arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
-/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows. `M` only tells these
-/// cases apart and is always inferred.
+/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
+/// by copy. `M` only tells these cases apart and is always inferred.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no list of coordinates",
     label = "expected coordinates",
@@ -242,6 +314,12 @@ pub mod shape {
     /// `Vec<[T; C]>`
     #[derive(Debug, Clone, Copy)]
     pub struct SequenceOfRows;
+    /// `&[T]` and `&Vec<T>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct Slice;
+    /// `&[[T; C]]` and `&Vec<[T; C]>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct SliceOfRows;
     /// A [`Vector`](crate::Vector) already.
     #[derive(Debug, Clone, Copy)]
     pub struct Same;
@@ -274,6 +352,34 @@ impl<T: Real, const C: usize> IntoVector<shape::SequenceOfRows> for Vec<[T; C]> 
     type Vector = OMatrix<T, Dyn, Const<C>>;
     fn into_vector(self) -> OMatrix<T, Dyn, Const<C>> {
         OMatrix::from_fn_generic(Dyn(self.len()), Const, |row, column| self[row][column])
+    }
+}
+
+impl<T: Real> IntoVector<shape::Slice> for &[T] {
+    type Vector = DVector<T>;
+    fn into_vector(self) -> DVector<T> {
+        self.to_vec().into_vector()
+    }
+}
+
+impl<T: Real> IntoVector<shape::Slice> for &Vec<T> {
+    type Vector = DVector<T>;
+    fn into_vector(self) -> DVector<T> {
+        self.clone().into_vector()
+    }
+}
+
+impl<T: Real, const C: usize> IntoVector<shape::SliceOfRows> for &[[T; C]] {
+    type Vector = OMatrix<T, Dyn, Const<C>>;
+    fn into_vector(self) -> OMatrix<T, Dyn, Const<C>> {
+        self.to_vec().into_vector()
+    }
+}
+
+impl<T: Real, const C: usize> IntoVector<shape::SliceOfRows> for &Vec<[T; C]> {
+    type Vector = OMatrix<T, Dyn, Const<C>>;
+    fn into_vector(self) -> OMatrix<T, Dyn, Const<C>> {
+        self.clone().into_vector()
     }
 }
 

@@ -3,7 +3,7 @@
 
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian_core::{Scheme, Vector};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
@@ -83,8 +83,12 @@ fn no_step_allocates() {
     );
     let mut chain = NoAllocations(Chain { n: 17 });
     visit_any::<f64, _>(&mut chain);
+    visit_unforced::<f64, _>(&mut chain);
     visit_separable::<f64, _>(&mut chain);
+    visit_split::<f64, _>(&mut chain);
     let mut pendulum = NoAllocations(pendulum(true));
     visit_any::<f64, _>(&mut pendulum);
+    visit_unforced::<f64, _>(&mut pendulum);
     visit_separable::<f64, _>(&mut pendulum);
+    visit_split::<f64, _>(&mut pendulum);
 }

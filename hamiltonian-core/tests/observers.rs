@@ -5,6 +5,8 @@ use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::{DVector, Group, SVector};
 use hamiltonian_core::{Dynamics, Observer, Pair, Vector, View};
 
+use std::ops::ControlFlow;
+
 type One = SVector<f64, 1>;
 
 fn run() -> Run<Hand<Pendulum, 1>, StormerVerlet> {
@@ -17,8 +19,9 @@ fn run() -> Run<Hand<Pendulum, 1>, StormerVerlet> {
 struct Steps(Vec<u64>);
 
 impl<S: System<f64>> Observer<f64, S> for Steps {
-    fn observe(&mut self, view: &View<'_, f64, S>) {
+    fn observe(&mut self, view: &View<'_, f64, S>) -> ControlFlow<()> {
         self.0.push(view.step);
+        ControlFlow::Continue(())
     }
 }
 
@@ -174,9 +177,14 @@ fn names_of_mixed_shapes() {
             }
         }
     }
+    #[derive(Debug, Clone)]
+    struct NoField;
+    impl hamiltonian_core::VectorField<V> for NoField {
+        fn add(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) {}
+    }
     impl Dynamics<f64> for Mixed {
         type Vector = V;
-        type Flow = hamiltonian_core::private::Never;
+        type Field = NoField;
         fn energy(&self, _: f64, _: &V, _: &V) -> f64 {
             0.0
         }
@@ -193,8 +201,8 @@ fn names_of_mixed_shapes() {
         fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 {
             0.0
         }
-        fn flow(&self, _: f64) -> hamiltonian_core::private::Never {
-            unreachable!("nothing is stepped here")
+        fn field(&self, _: f64) -> NoField {
+            NoField
         }
     }
     let q = Pair {
@@ -202,13 +210,9 @@ fn names_of_mixed_shapes() {
         y: One::new(7.0),
     };
     let state = State::new(q.clone(), q);
-    let mut recorder = Recorder::new();
-    let view = View::<f64, Mixed> {
-        step: 0,
-        state: &state,
-        prepared: &Mixed,
-    };
-    recorder.attach(&view);
+    let run = Integrator::new(&Mixed, RungeKutta4, state, 1.0).unwrap();
+    let run = run.observe(Recorder::new());
+    let recorder = run.observer();
     let columns = recorder.columns();
     assert_eq!(
         columns[..5],

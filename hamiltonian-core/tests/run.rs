@@ -3,7 +3,7 @@
 use crate::common::systems::*;
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable};
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian_core::{Real, Scheme, Vector, private::SVector, watch};
 
 fn oscillating() -> State<SVector<f64, 2>> {
@@ -48,8 +48,11 @@ impl<S: System<f64>> Visitor<f64, S> for SameBits<S> {
 fn bits_do_not_depend_on_cuts_or_observers() {
     let mut visitor = SameBits(Hand(Pumped));
     visit_any::<f64, _>(&mut visitor);
+    visit_unforced::<f64, _>(&mut visitor);
     visit_separable::<f64, _>(&mut visitor);
+    visit_split::<f64, _>(&mut visitor);
     visit_any::<f64, _>(&mut SameBits(Hand(DoublePendulum)));
+    visit_unforced::<f64, _>(&mut SameBits(Hand(DoublePendulum)));
 }
 
 /// Time is t₀ + k·h.
@@ -190,7 +193,9 @@ fn the_first_bad_step_is_found() {
                 .expect("it escapes");
             let entry = scheme.entry();
             match &expected {
-                Error::NotFinite { step, time, q, p } => {
+                Error::NotFinite {
+                    step, time, q, p, ..
+                } => {
                     assert_eq!(*step, single.steps() + 1);
                     assert_eq!(*time, *step as f64 * single.interval());
                     assert!(q.iter().chain(p).any(|x| !x.is_finite()), "{}", entry.name);
@@ -200,6 +205,7 @@ fn the_first_bad_step_is_found() {
                     time,
                     residual,
                     iterations,
+                    ..
                 } => {
                     assert_eq!(
                         (entry.name, *step),
@@ -248,7 +254,9 @@ fn the_first_bad_step_is_found() {
         }
     }
     visit_any::<f64, _>(&mut FirstBad);
+    visit_unforced::<f64, _>(&mut FirstBad);
     visit_separable::<f64, _>(&mut FirstBad);
+    visit_split::<f64, _>(&mut FirstBad);
 }
 
 /// A step too long for the iteration is an error with its residual.
@@ -263,6 +271,7 @@ fn a_failed_solve_is_reported() {
             time: 0.0,
             residual,
             iterations: 9,
+            ..
         } => assert!(residual > f64::EPSILON),
         other => panic!("{other:?}"),
     }
@@ -283,5 +292,5 @@ fn any_scalar() {
     // 64 steps of single precision.
     assert!((run::<f32>() - double).abs() <= 64.0 * f64::from(f32::EPSILON));
     assert!((run::<hamiltonian_core::DoubleDouble>() - double).abs() <= 64.0 * f64::EPSILON);
-    assert_eq!(run::<hamiltonian_core::Dual<f64>>(), double);
+    assert_eq!(run::<Dual<f64>>(), double);
 }

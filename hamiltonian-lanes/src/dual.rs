@@ -238,6 +238,16 @@ impl<T: Real> Real for Dual<T> {
     fn finite(self) -> Self::Mask {
         self.re.finite() & self.eps.finite()
     }
+    fn write_words(self, to: &mut dyn FnMut(f64)) {
+        self.re.write_words(to);
+        self.eps.write_words(to);
+    }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self {
+            re: T::read_words(next),
+            eps: T::read_words(next),
+        }
+    }
     #[inline(always)]
     fn lane(self, k: u32) -> f64 {
         self.re.lane(k)

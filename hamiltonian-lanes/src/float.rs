@@ -83,6 +83,9 @@ macro_rules! float {
             fn epsilon() -> f64 {
                 f64::from($float::EPSILON)
             }
+            fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+                next() as $float
+            }
             #[inline(always)]
             fn abs(self) -> Self {
                 $float::abs(self)

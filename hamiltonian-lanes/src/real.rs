@@ -163,6 +163,24 @@ pub trait Real:
     }
     /// The spacing of this type's numbers at 1.
     fn epsilon() -> f64;
+    /// Hands out the value as `f64`s that make up all its bits (words, derivative parts, lanes): how
+    /// runs are saved.
+    fn write_words(self, to: &mut dyn FnMut(f64)) {
+        for k in 0..Self::LANES {
+            to(self.lane(k));
+        }
+    }
+    /// The value whose words are handed in, in the same order.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::{Dual, Real};
+    /// let mut words = Vec::new();
+    /// Dual::new(0.1, -2.0).write_words(&mut |word| words.push(word));
+    /// let mut words = words.into_iter();
+    /// let again: Dual<f64> = Real::read_words(&mut || words.next().unwrap());
+    /// assert_eq!(again, Dual::new(0.1, -2.0));
+    /// ```
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self;
 
     /// 0.
     #[inline(always)]

@@ -129,6 +129,9 @@ impl Real for Pack {
     fn constant(hi: f64, lo: f64) -> Self {
         Self([f64::constant(hi, lo); LANES])
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self([(); LANES].map(|()| next()))
+    }
     fn fma(self, b: Self, c: Self) -> Self {
         self * b + c
     }

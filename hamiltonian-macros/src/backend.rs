@@ -144,7 +144,7 @@ fn wanted(checked: &Checked, model: &Model, large: bool, separable: bool) -> Vec
             Purpose::GradientQ,
             Purpose::GradientP,
             Purpose::Gradient,
-            Purpose::Flow,
+            Purpose::VectorField,
         ]);
     }
     if separable {

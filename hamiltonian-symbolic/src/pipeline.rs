@@ -172,7 +172,7 @@ pub fn request(
                 vector(model, function.entries, function.sides, &mut request);
             }
         }
-        Purpose::Flow | Purpose::Kick | Purpose::Drift => {
+        Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
             let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
             for entry in along(model, sides) {
                 request.stores.push(added(scaled(&mut model.dag, entry)));

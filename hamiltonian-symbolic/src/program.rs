@@ -163,7 +163,7 @@ pub enum Purpose {
     /// Vector function n of the model into the outputs it has.
     Vector(u16),
     /// `into_q += c·∂H/∂p`, `into_p −= c·∂H/∂q`.
-    Flow,
+    VectorField,
     /// `into_p −= c·∂H/∂q`.
     Kick,
     /// `into_q += c·∂H/∂p`.
@@ -174,7 +174,7 @@ impl Purpose {
     /// Whether outputs are added to instead of overwritten.
     #[must_use]
     pub fn accumulates(self) -> bool {
-        matches!(self, Purpose::Flow | Purpose::Kick | Purpose::Drift)
+        matches!(self, Purpose::VectorField | Purpose::Kick | Purpose::Drift)
     }
 }
 

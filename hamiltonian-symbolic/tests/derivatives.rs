@@ -27,7 +27,7 @@ const FIRST: [Purpose; 10] = [
     Purpose::EnergyAndGradient,
     Purpose::TimeDerivative,
     Purpose::ParameterGradient,
-    Purpose::Flow,
+    Purpose::VectorField,
     Purpose::Kick,
     Purpose::Drift,
 ];
@@ -231,7 +231,7 @@ fn expected(purpose: Purpose, case: &Case) -> (Option<DoubleDouble>, Vec<(Target
                 .map(|at| (parameter(at), g[TIME + 1 + at]))
                 .collect(),
         ),
-        Purpose::Flow => (None, [added(Side::Q, 1.0), added(Side::P, -1.0)].concat()),
+        Purpose::VectorField => (None, [added(Side::Q, 1.0), added(Side::P, -1.0)].concat()),
         Purpose::Kick => (None, added(Side::P, -1.0)),
         Purpose::Drift => (None, added(Side::Q, 1.0)),
         Purpose::HessianVector => (None, [q(&case.hessian), p(&case.hessian)].concat()),

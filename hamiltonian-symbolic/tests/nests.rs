@@ -23,7 +23,7 @@ const ALL: [Purpose; 11] = [
     Purpose::TimeDerivative,
     Purpose::ParameterGradient,
     Purpose::HessianVector,
-    Purpose::Flow,
+    Purpose::VectorField,
     Purpose::Kick,
     Purpose::Drift,
 ];
@@ -34,11 +34,11 @@ fn stores(purpose: Purpose, place: Place) -> bool {
     match place {
         Place::Phase(Side::Q, ..) => matches!(
             purpose,
-            GradientQ | Gradient | EnergyAndGradient | HessianVector | Flow | Drift
+            GradientQ | Gradient | EnergyAndGradient | HessianVector | VectorField | Drift
         ),
         Place::Phase(Side::P, ..) => matches!(
             purpose,
-            GradientP | Gradient | EnergyAndGradient | HessianVector | Flow | Kick
+            GradientP | Gradient | EnergyAndGradient | HessianVector | VectorField | Kick
         ),
         Place::Parameter(..) => purpose == ParameterGradient,
         Place::Time => purpose == TimeDerivative,
@@ -95,7 +95,7 @@ impl Oracle<'_> {
         match (purpose, place) {
             (Purpose::HessianVector, _) => self.along(place),
             (
-                Purpose::Flow | Purpose::Kick | Purpose::Drift,
+                Purpose::VectorField | Purpose::Kick | Purpose::Drift,
                 Place::Phase(side, g, column, row),
             ) => {
                 if side == Side::Q {
@@ -323,7 +323,7 @@ fn one_exponential_for_each_bond() {
         for purpose in [
             Purpose::EnergyAndGradient,
             Purpose::HessianVector,
-            Purpose::Flow,
+            Purpose::VectorField,
         ] {
             let program = traced(&TODA, n, purpose);
             assert_eq!(tape::count("exp"), n, "{purpose:?}");

@@ -20,7 +20,7 @@ const ALL: [Purpose; 11] = [
     Purpose::TimeDerivative,
     Purpose::ParameterGradient,
     Purpose::HessianVector,
-    Purpose::Flow,
+    Purpose::VectorField,
     Purpose::Kick,
     Purpose::Drift,
 ];
@@ -246,7 +246,7 @@ fn work_goes_where_it_is_due() {
         "q; p; t",
         "m",
         "p^2/(2*m) + cos(q)*cos(t)",
-        &[Purpose::Flow],
+        &[Purpose::VectorField],
     );
     let function = &flow.functions[0];
     // c/m once a step size, nothing but products and additions of it at a step.

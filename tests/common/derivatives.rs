@@ -1,7 +1,7 @@
 //! Derivatives of a system against dual numbers, against its energy in plain Rust, and against
 //! another definition of it.
 
-use hamiltonian::{Dual, Dynamics, Flow, Real, State, System, Vector};
+use hamiltonian::{Dual, Dynamics, Real, State, System, Vector, VectorField};
 
 /// The lengths that systems with a length are checked at.
 pub const LENGTHS: [usize; 6] = [1, 2, 3, 7, 64, 200];
@@ -102,7 +102,7 @@ where
     let by_time = System::<Dual<f64>>::energy(system, &later).eps;
     close(by_time, prepared.time_derivative(t, q, p));
     let (mut to_q, mut to_p) = (q.clone(), p.clone());
-    prepared.flow(0.125).flow(t, q, p, &mut to_q, &mut to_p);
+    prepared.field(0.125).add(t, q, p, &mut to_q, &mut to_p);
     for k in 0..n {
         let moved = (gradient.p.component(k), -gradient.q.component(k));
         close(to_q.component(k), q.component(k) + 0.125 * moved.0);

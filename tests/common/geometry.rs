@@ -2,7 +2,7 @@
 
 use super::state;
 use hamiltonian::schemes::Visitor;
-use hamiltonian::{Copies, Dual, Entry, Form, Integrator, Scheme, State, Stepper, System, Vector};
+use hamiltonian::{Clock, Dual, Entry, Form, Integrator, Map, Scheme, State, Step, System, Vector};
 
 /// MᵀJM − J, and ‖M‖², both in the maximum norm of entries; columns of M are `columns`.
 pub fn defect(columns: &[Vec<f64>], form: impl Fn(usize, usize) -> f64) -> (f64, f64) {
@@ -49,7 +49,7 @@ pub fn crossed(n: usize) -> impl Fn(usize, usize) -> f64 {
     }
 }
 
-/// dq_x∧dp_x + dq_y∧dp_y of two points: what two-point schemes do not preserve.
+/// dq_x∧dp_x + dq_y∧dp_y of two copies: two-point schemes do not preserve it.
 pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
     move |i, j| {
         let half = 2 * n;
@@ -105,70 +105,23 @@ where
     M: Scheme<Dual<f64>, S>,
 {
     let prepared = system.prepare();
-    let mut stepper = scheme.prepare(&prepared, start, Dual::fixed(h));
-    stepper.run(0, made).expect("good steps");
-    (0..stepper.carried().len())
+    let map = scheme.prepare(&prepared, Step::of(Dual::fixed(h)));
+    let mut carried = scheme.start(&prepared, start, Dual::fixed(h));
+    let mut work = map.work(&carried);
+    let duration = f64::from(scheme.entry().duration);
+    let clock = Clock {
+        start: start.t,
+        interval: Dual::fixed(h * duration),
+    };
+    map.run(clock, 0, made, &mut carried, &mut work);
+    (0..carried.len())
         .map(|seed| {
-            let mut stepper = stepper.clone();
-            *stepper.carried_mut().component_mut(seed) =
-                Dual::variable(stepper.carried().component(seed).re);
-            stepper.run(made, 1).expect("a good step");
-            stepper.carried().components().map(|x| x.eps).collect()
+            let mut carried = carried.clone();
+            *carried.component_mut(seed) = Dual::variable(carried.component(seed).re);
+            map.run(clock, made, 1, &mut carried, &mut work);
+            carried.components().map(|x| x.eps).collect()
         })
         .collect()
-}
-
-/// The tangent of one step of both copies, started together at different points, by dual numbers,
-/// flat as q, p, q̃, p̃.
-pub fn copies_tangent<S, M>(
-    system: &S,
-    scheme: &M,
-    start: &State<<S as System<Dual<f64>>>::Vector>,
-    h: f64,
-) -> Vec<Vec<f64>>
-where
-    S: System<Dual<f64>>,
-    M: Scheme<Dual<f64>, S>,
-    M::Stepper: Copies,
-{
-    let prepared = system.prepare();
-    let n = start.q.len();
-    // Crossed or not, both halves of x and y are one copy's each; where a copy's component lies
-    // in what is carried is found by moving it.
-    let plain = scheme.prepare(&prepared, start, Dual::fixed(h));
-    let read = |stepper: &mut M::Stepper, made: u64| {
-        let (mut q, mut p) = (start.q.clone(), start.p.clone());
-        stepper.synchronise(made, &mut q, &mut p);
-        let copy = stepper.copy();
-        let all: Vec<_> = q
-            .components()
-            .chain(p.components())
-            .chain(copy.q.components())
-            .chain(copy.p.components())
-            .collect();
-        all
-    };
-    let mut columns = vec![Vec::new(); 4 * n];
-    for seed in 0..4 * n {
-        let mut stepper = plain.clone();
-        for i in 0..4 * n {
-            // The copies apart, so that the check is no special case.
-            let value = stepper.carried().component(i).re + 0.01 * i as f64;
-            *stepper.carried_mut().component_mut(i) = seeded(value, i == seed);
-        }
-        let place = read(&mut stepper, 0).iter().position(|x| x.eps == 1.0);
-        stepper.run(0, 1).expect("a good step");
-        columns[place.expect("seen")] = read(&mut stepper, 1).iter().map(|x| x.eps).collect();
-    }
-    columns
-}
-
-fn seeded(value: f64, seed: bool) -> Dual<f64> {
-    if seed {
-        Dual::variable(value)
-    } else {
-        Dual::fixed(value)
-    }
 }
 
 /// A start at t = 0.3.
@@ -183,7 +136,7 @@ pub struct Geometry<S> {
     q: Vec<f64>,
     p: Vec<f64>,
     h: f64,
-    pub measured: Vec<(&'static Entry, f64)>,
+    pub measured: Vec<(Entry, f64)>,
 }
 
 impl<S> Geometry<S> {
@@ -212,6 +165,10 @@ impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
                 Form::TwoPoint => defect(
                     &carried_tangent(&self.system, &scheme, &start, self.h, made),
                     crossed(n),
+                ),
+                Form::TwoCopies => defect(
+                    &carried_tangent(&self.system, &scheme, &start, self.h, made),
+                    uncrossed(n),
                 ),
                 Form::OnePoint | Form::Nothing => defect(
                     &visible_tangent(&self.system, &scheme, &start, self.h, made + 1),

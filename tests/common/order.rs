@@ -28,7 +28,7 @@ pub struct Order<S: System<DoubleDouble>> {
     exact: Vec<State<S::Vector>>,
     between: DoubleDouble,
     coarsest: f64,
-    pub measured: Vec<(&'static Entry, f64)>,
+    pub measured: Vec<(Entry, f64)>,
 }
 
 impl<S: System<DoubleDouble>> Order<S> {

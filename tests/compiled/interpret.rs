@@ -32,7 +32,7 @@ impl Interpreted {
             Purpose::GradientQ,
             Purpose::GradientP,
             Purpose::Gradient,
-            Purpose::Flow,
+            Purpose::VectorField,
         ];
         if let Ok(split) = &structure.separable {
             let split = model.dag.add(&[split.kinetic, split.potential]);
@@ -89,7 +89,7 @@ impl Interpreted {
         self.add(
             &mut outputs,
             at,
-            Purpose::Flow,
+            Purpose::VectorField,
             None,
             &sides(["flow, q", "flow, p"]),
         );
@@ -131,7 +131,10 @@ impl Interpreted {
 
     fn outcome(&self, at: &At, purpose: Purpose) -> Outcome<f64> {
         let function = self.program.function(purpose).expect("it was asked for");
-        let adds = matches!(purpose, Purpose::Flow | Purpose::Kick | Purpose::Drift);
+        let adds = matches!(
+            purpose,
+            Purpose::VectorField | Purpose::Kick | Purpose::Drift
+        );
         run(&self.program, function, &point(at, adds))
     }
 }

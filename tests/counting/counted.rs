@@ -121,6 +121,9 @@ impl Real for Counted {
     fn constant(hi: f64, lo: f64) -> Self {
         Self(f64::constant(hi, lo))
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self(next())
+    }
     fn fma(self, b: Self, c: Self) -> Self {
         self * b + c
     }

@@ -1,15 +1,15 @@
 //! The list of all schemes.
 //!
 //! Input: the schemes with each of their choices. Output: [`catalogue`] to print,
-//! [`visit_any`] and [`visit_separable`] to run. Invariant: what is in the list is measured by the
+//! [`visit_any`] and its like to run. Invariant: what is in the list is measured by the
 //! tests, which iterate over it; a scheme that is not in it is not in the library.
 
 use super::{
     ConsecutiveSubTrajectories, ImplicitMidpoint, IntersectingSubTrajectories, Pihajoki,
-    RungeKutta4, Start, StormerVerlet, SymplecticEuler, TwoStepMidpoint,
+    RungeKutta4, Start, StormerVerlet, Strang, SymplecticEuler, TwoStepMidpoint,
 };
 use crate::scheme::{Entry, Listed, Scheme};
-use crate::system::{Separable, System};
+use crate::system::{Separable, Split, System, Unforced};
 use hamiltonian_lanes::Real;
 
 /// What is done with each scheme of the catalogue.
@@ -19,7 +19,8 @@ pub trait Visitor<T: Real, S: System<T>> {
 }
 
 macro_rules! catalogue {
-    (any { $($any:expr,)+ } separable { $($separable:expr,)+ }) => {
+    (any { $($any:expr,)+ } unforced { $($unforced:expr,)+ } split { $($split:expr,)+ }
+     separable { $($separable:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
         ///
         /// ```
@@ -27,13 +28,24 @@ macro_rules! catalogue {
         ///     println!("{} {} ({}): order {}", entry.name, entry.variant, entry.equations, entry.order);
         /// }
         /// ```
-        pub fn catalogue() -> impl Iterator<Item = &'static Entry> {
-            [$($any.entry(),)+ $($separable.entry(),)+].into_iter()
+        pub fn catalogue() -> impl Iterator<Item = Entry> {
+            [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($separable.entry(),)+]
+                .into_iter()
         }
 
-        /// Visits the schemes that serve any H.
+        /// Visits the schemes that serve any H, with forces.
         pub fn visit_any<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visitor.visit($any);)+
+        }
+
+        /// Visits the schemes that ask for no forces.
+        pub fn visit_unforced<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($unforced);)+
+        }
+
+        /// Visits the schemes that ask for pieces with exact flows.
+        pub fn visit_split<T: Real, S: Split<T>>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($split);)+
         }
 
         /// Visits the schemes that ask for H = T(p, t) + V(q, t).
@@ -45,6 +57,10 @@ macro_rules! catalogue {
 
 catalogue! {
 any {
+    ImplicitMidpoint::default(),
+    RungeKutta4,
+}
+unforced {
     TwoStepMidpoint { start: Start::Equal },
     TwoStepMidpoint { start: Start::HalfEuler },
     TwoStepMidpoint { start: Start::SecondOrder },
@@ -56,8 +72,9 @@ any {
     IntersectingSubTrajectories { start: Start::SecondOrder },
     Pihajoki::CoordinateFirst,
     Pihajoki::MomentumFirst,
-    ImplicitMidpoint::default(),
-    RungeKutta4,
+}
+split {
+    Strang,
 }
 separable {
     SymplecticEuler::KickDrift,

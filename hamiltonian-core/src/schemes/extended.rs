@@ -1,15 +1,21 @@
 //! Splittings in the phase space of two copies, (q, q̃, p, p̃): explicit for every H.
 //!
-//! Input: any system. Output: [`Pihajoki`]. Invariant: the crossed points x and y hold one half
-//! of each copy, so that H(x) + H(y) splits into two flows; the loop is [`Splitting`]'s.
+//! Input: a system without forces. Output: [`Pihajoki`], and [`Cross`], the two pieces of
+//! H(q, p̃) + H(q̃, p) for every splitting of the doubled space. Invariant: each piece is a flow of H
+//! whose arguments are one half of each copy; the loop is [`Zigzag`]'s.
 
-use super::separable::LEAPFROG;
-use super::splitting::{Flowing, Splitting};
-use crate::scheme::{Clock, Copies, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
+use super::splittings::Strang;
+use super::zigzag::Zigzag;
+use crate::flow::{Flow, Piece, Pieces, VectorField};
+use crate::map::{Either, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, Flow, System};
+use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
+
+/// Two copies (q, p) and (q̃, p̃) of a point; the first is seen.
+pub type Copies<V> = Pair<Point<V>, Point<V>>;
 
 /// Pihajoki's leapfrog in extended phase space (the paper's PSVM): order 2, explicit for every H;
 /// equations (29) and (30).
@@ -55,20 +61,20 @@ pub enum Pihajoki {
 }
 
 impl Listed for Pihajoki {
-    fn entry(&self) -> &'static Entry {
+    fn entry(&self) -> Entry {
         const COORDINATE_FIRST: Entry = Entry {
             name: "Pihajoki",
             variant: "coordinate first",
             equations: "29",
             order: 2,
             duration: 1,
-            needs: Needs::Any,
-            preserves: Form::TwoPoint,
+            needs: Needs::Unforced,
+            preserves: Form::TwoCopies,
             source: "Pihajoki 2015, doi:10.1007/s10569-014-9597-9",
         };
         match self {
-            Pihajoki::CoordinateFirst => &COORDINATE_FIRST,
-            Pihajoki::MomentumFirst => &Entry {
+            Pihajoki::CoordinateFirst => COORDINATE_FIRST,
+            Pihajoki::MomentumFirst => Entry {
                 variant: "momentum first",
                 equations: "30",
                 ..COORDINATE_FIRST
@@ -77,86 +83,72 @@ impl Listed for Pihajoki {
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for Pihajoki {
-    type Stepper = Doubled<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        let point = Point {
-            q: start.q.clone(),
-            p: start.p.clone(),
-        };
-        let flow = |c| Flowing(prepared.flow(c));
-        Doubled {
-            first: *self,
-            splitting: Splitting::new(
-                &LEAPFROG,
-                Clock {
-                    start: start.t,
-                    interval: step,
-                },
-                0.0,
-                Pair {
-                    x: point.clone(),
-                    y: point,
-                },
-                flow,
-                flow,
-            ),
+impl OneStep for Pihajoki {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+/// H(q, p̃), which moves q̃ and p, where `FIRST`; else H(q̃, p), which moves q and p̃.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cross<const FIRST: bool>;
+
+/// The flow of a [`Cross`].
+#[derive(Debug, Clone)]
+pub struct Crossed<F, const FIRST: bool>(F);
+
+impl<V: Vector, F: VectorField<V>, const FIRST: bool> Flow<Copies<V>> for Crossed<F, FIRST> {
+    const NAME: &'static str = if FIRST { "H(q, p̃)" } else { "H(q̃, p)" };
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, z: &mut Copies<V>) {
+        let Pair { x, y } = z;
+        if FIRST {
+            self.0.add(t, &x.q, &y.p, &mut y.q, &mut x.p);
+        } else {
+            self.0.add(t, &y.q, &x.p, &mut x.q, &mut y.p);
         }
     }
 }
 
-/// The stepper of [`Pihajoki`].
-///
-/// The crossed point that is moved first is x. For (29) x = (q, p̃) and y = (q̃, p); for (30)
-/// x = (q̃, p) and y = (q, p̃).
-#[derive(Debug, Clone)]
-pub struct Doubled<V: Vector, F: Flow<V>> {
-    first: Pihajoki,
-    splitting: Splitting<Point<V>, Point<V>, Flowing<F>, Flowing<F>, 1>,
-}
-
-impl<V: Vector, F: Flow<V>> Stepper for Doubled<V, F> {
-    type Vector = V;
-    type Carried = Pair<Point<V>, Point<V>>;
-
+impl<T: Real, P: Dynamics<T>, const FIRST: bool> Piece<T, P> for Cross<FIRST> {
+    type Point = Copies<P::Vector>;
+    type Flow = Crossed<P::Field, FIRST>;
     #[inline(always)]
-    fn carried(&self) -> &Self::Carried {
-        self.splitting.carried()
-    }
-
-    #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Self::Carried {
-        self.splitting.carried_mut()
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        self.splitting.run(made, n);
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn synchronise(&mut self, made: u64, q: &mut V, p: &mut V) {
-        let (x, y) = self.splitting.synchronise(made);
-        let (with_q, with_p) = match self.first {
-            Pihajoki::CoordinateFirst => (x, y),
-            Pihajoki::MomentumFirst => (y, x),
-        };
-        q.copy_from(&with_q.q);
-        p.copy_from(&with_p.p);
+    fn flow(&self, prepared: &P, c: T) -> Self::Flow {
+        Crossed(prepared.field(c))
     }
 }
 
-impl<V: Vector, F: Flow<V>> Copies for Doubled<V, F> {
-    fn copy(&self) -> Point<V> {
-        let (x, y) = self.splitting.synchronised();
-        let (with_q, with_p) = match self.first {
-            Pihajoki::CoordinateFirst => (y, x),
-            Pihajoki::MomentumFirst => (x, y),
-        };
-        Point {
-            q: with_q.q.clone(),
-            p: with_p.p.clone(),
+/// The map of a table on H(q, p̃) + H(q̃, p), with `A` outermost.
+type Doubled<T, S, A, B, W> = Zigzag<
+    Copies<<S as System<T>>::Vector>,
+    <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Outer,
+    <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Inner,
+    W,
+>;
+
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for Pihajoki {
+    type Map = Either<
+        Doubled<T, S, Cross<false>, Cross<true>, Strang>,
+        Doubled<T, S, Cross<true>, Cross<false>, Strang>,
+    >;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let (first, second) = (Cross::<true>, Cross::<false>);
+        match self {
+            Pihajoki::CoordinateFirst => {
+                Either::First(Zigzag::new(&Strang, &(second, first), prepared, step))
+            }
+            Pihajoki::MomentumFirst => {
+                Either::Second(Zigzag::new(&Strang, &(first, second), prepared, step))
+            }
+        }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+        Pair {
+            x: state.point(),
+            y: state.point(),
         }
     }
 }

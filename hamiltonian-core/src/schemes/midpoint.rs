@@ -3,11 +3,14 @@
 //! Input: any system. Output: [`ImplicitMidpoint`]. Invariant: a step is finished only when its
 //! equations hold to rounding; otherwise it is an error.
 
-use crate::scheme::{Clock, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
+use super::iterate::{Contraction, iterate};
+use crate::flow::VectorField;
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, Flow, System};
+use crate::system::{Dynamics, System};
 use crate::vector::Vector;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Mask, Real};
 
 /// The implicit midpoint rule (Gauss collocation with one stage): order 2, symplectic for every
 /// H, time-reversible.
@@ -16,8 +19,9 @@ use hamiltonian_lanes::Real;
 /// z[n+1] = z[n] + h J∇H((z[n] + z[n+1])/2, t[n] + h/2)
 /// ```
 ///
-/// Solved by fixed-point iteration from the increment of the step before, until the change of the
-/// iterate is zero or stops shrinking. Preserves dq∧dp, and every quadratic invariant.
+/// Solved by fixed-point iteration from the slope of the step before, until the change of the
+/// iterate is zero or stops shrinking. Preserves dq∧dp, and every quadratic invariant. A force is
+/// part of the vector field.
 ///
 /// Source: Feng Kang, Proc. 1984 Beijing Symp. Diff. Geometry and Diff. Equations (1985) 42; E.
 /// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), eq. II.1.4 and th.
@@ -50,8 +54,8 @@ impl Default for ImplicitMidpoint {
 }
 
 impl Listed for ImplicitMidpoint {
-    fn entry(&self) -> &'static Entry {
-        &Entry {
+    fn entry(&self) -> Entry {
+        Entry {
             name: "ImplicitMidpoint",
             variant: "",
             equations: "",
@@ -64,107 +68,127 @@ impl Listed for ImplicitMidpoint {
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
-    type Stepper = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        let point = Point {
-            q: start.q.clone(),
-            p: start.p.clone(),
-        };
-        let zero = point.zeros_like();
-        Midpoint {
-            clock: Clock {
-                start: start.t,
-                interval: step,
-            },
-            flow: prepared.flow(step),
-            max_iterations: self.max_iterations,
-            middle: zero.clone(),
-            next: zero.clone(),
-            carried: Pair { x: point, y: zero },
-        }
+impl OneStep for ImplicitMidpoint {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
     }
 }
 
-/// The stepper of [`ImplicitMidpoint`]: x is the point, y the last increment.
+impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
+    type Map = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Midpoint {
+            field: prepared.field(T::one()),
+            h: step.h,
+            half: step.h * T::constant(0.5, 0.0),
+            limit: self.max_iterations,
+        }
+    }
+    fn start(
+        &self,
+        _: &S::Prepared,
+        state: &State<S::Vector>,
+        _: T,
+    ) -> Pair<Point<S::Vector>, Point<S::Vector>> {
+        let point = state.point();
+        let slope = point.zeros_like();
+        Pair { x: point, y: slope }
+    }
+}
+
+/// The map of [`ImplicitMidpoint`]: x is the point, y the slope J∇H of the last step, which is a guess
+/// for a step of any size.
 #[derive(Debug, Clone)]
-pub struct Midpoint<V: Vector, F: Flow<V>> {
-    clock: Clock<V::Scalar>,
-    flow: F,
-    max_iterations: u32,
+pub struct Midpoint<V: Vector, F> {
+    field: F,
+    h: V::Scalar,
+    half: V::Scalar,
+    limit: u32,
+}
+
+/// slope ↦ J∇H(z + h/2·slope).
+struct Slope<'a, V: Vector, F> {
+    map: &'a Midpoint<V, F>,
+    t: V::Scalar,
+    point: &'a Point<V>,
+    middle: &'a mut Point<V>,
+}
+
+impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for Slope<'_, V, F> {
+    #[inline(always)]
+    fn map(&mut self, slope: &Point<V>, next: &mut Point<V>) {
+        self.middle.copy_from(self.point);
+        self.middle.accumulate(self.map.half, slope);
+        next.set_zero();
+        let Point { q, p } = next;
+        (self.map.field).add(self.t, &self.middle.q, &self.middle.p, q, p);
+    }
+    #[inline(always)]
+    fn scale(&self, slope: &Point<V>) -> <V::Scalar as Real>::Size {
+        // The slope counts too: a point at the origin has no size of its own.
+        self.point.size() / self.map.h.size() + slope.size()
+    }
+}
+
+/// The scratch of [`Midpoint`].
+#[derive(Debug, Clone)]
+pub struct MidpointWork<V: Vector> {
     middle: Point<V>,
     next: Point<V>,
-    carried: Pair<Point<V>, Point<V>>,
 }
 
-/// A change that no longer shrinks is rounding if it is at most this many ε of the point:
-/// evaluations of J∇H may lose three decimal digits by cancellation.
-const ROUNDING: f64 = 1024.0;
-
-impl<V: Vector, F: Flow<V>> Midpoint<V, F> {
+impl<V: Vector, F: VectorField<V>> Midpoint<V, F> {
     #[inline(always)]
-    fn step(&mut self, made: u64) -> Result<(), Unsolved> {
-        let half = V::Scalar::constant(0.5, 0.0);
-        let t = self.clock.at(made) + self.clock.interval * half;
-        let Pair {
-            x: point,
-            y: increment,
-        } = &mut self.carried;
-        let size = point.magnitude();
-        let mut before = f64::INFINITY;
-        let mut iterations = 0;
-        loop {
-            self.middle.copy_from(point);
-            self.middle.accumulate(half, increment);
-            self.next.set_zero();
-            let Point { q, p } = &mut self.next;
-            self.flow.flow(t, &self.middle.q, &self.middle.p, q, p);
-            let change = self.next.distance(increment);
-            increment.copy_from(&self.next);
-            iterations += 1;
-            // The increment counts too: a point at the origin has no size of its own.
-            let rounding = ROUNDING * V::Scalar::epsilon() * (size + increment.magnitude());
-            if change == 0.0 || (change <= rounding && change >= before) {
-                point.accumulate(V::Scalar::one(), increment);
-                return Ok(());
-            }
-            if change.is_nan() || iterations >= self.max_iterations {
-                return Err(Unsolved {
-                    made,
-                    residual: change,
-                    iterations,
-                });
-            }
-            before = change;
+    fn solve(
+        &self,
+        t: V::Scalar,
+        z: &mut Pair<Point<V>, Point<V>>,
+        work: &mut MidpointWork<V>,
+    ) -> Cause {
+        let Pair { x: point, y: slope } = z;
+        let mut equation = Slope {
+            map: self,
+            t: t + self.half,
+            point,
+            middle: &mut work.middle,
+        };
+        let outcome = iterate(self.limit, &mut equation, slope, &mut work.next);
+        if !outcome.solved.all() {
+            slope.poison(!outcome.solved);
+            point.accumulate(self.h, slope);
+            return outcome.cause();
         }
+        point.accumulate(self.h, slope);
+        Cause::Overflow
     }
 }
 
-impl<V: Vector, F: Flow<V>> Stepper for Midpoint<V, F> {
-    type Vector = V;
+impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
     type Carried = Pair<Point<V>, Point<V>>;
+    type Work = MidpointWork<V>;
 
-    #[inline(always)]
-    fn carried(&self) -> &Self::Carried {
-        &self.carried
-    }
-
-    #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Self::Carried {
-        &mut self.carried
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        for k in made..made + n {
-            self.step(k)?;
+    fn work(&self, like: &Self::Carried) -> Self::Work {
+        MidpointWork {
+            middle: like.x.clone(),
+            next: like.x.clone(),
         }
-        Ok(())
     }
 
     #[inline(always)]
-    fn synchronise(&mut self, _: u64, q: &mut V, p: &mut V) {
-        q.copy_from(&self.carried.x.q);
-        p.copy_from(&self.carried.x.p);
+    fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.solve(t, z, work);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: V::Scalar,
+        _: V::Scalar,
+        _: bool,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) -> Cause {
+        self.solve(t, z, work)
     }
 }

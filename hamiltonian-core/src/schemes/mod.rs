@@ -18,28 +18,37 @@
 //! [`Scheme`](crate::Scheme) implementation — for a splitting into two pieces, a [`Table`] — and
 //! one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
 
-mod splitting;
+mod table;
 pub mod tables;
+mod zigzag;
 
 pub mod collocation;
 
 mod separable;
+mod splittings;
 
 mod extended;
 mod trajectories;
 
+mod iterate;
 mod midpoint;
 mod runge_kutta;
 
+mod composition;
+
 mod catalogue;
 
-pub use catalogue::{Visitor, catalogue, visit_any, visit_separable};
-pub use extended::{Doubled, Pihajoki};
-pub use midpoint::{ImplicitMidpoint, Midpoint};
-pub use runge_kutta::{Classical, RungeKutta4};
-pub use separable::{Alternation, StormerVerlet, SymplecticEuler};
-pub use splitting::{Drifting, Flowing, Kicking, Piece, Splitting, Table, Weight};
+pub use catalogue::{Visitor, catalogue, visit_any, visit_separable, visit_split, visit_unforced};
+pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};
+pub use extended::{Copies, Cross, Crossed, Pihajoki};
+pub use iterate::{Contraction, Outcome, iterate};
+pub use midpoint::{ImplicitMidpoint, Midpoint, MidpointWork};
+pub use runge_kutta::{Classical, ClassicalWork, RungeKutta4};
+pub use separable::{StormerVerlet, SymplecticEuler};
+pub use splittings::Strang;
+pub use table::{Durations, Reversed, Table, Weight};
 pub use trajectories::{
     ConsecutiveSubTrajectories, Interleaved, IntersectingSubTrajectories, Start, TwoStep,
     TwoStepMidpoint,
 };
+pub use zigzag::{Zigzag, ZigzagOf};

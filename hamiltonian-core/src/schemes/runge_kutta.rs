@@ -2,9 +2,12 @@
 //!
 //! Input: any system. Output: [`RungeKutta4`]. Invariant: none but its order.
 
-use crate::scheme::{Clock, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
+use super::composition::Adjoint;
+use crate::flow::VectorField;
+use crate::map::{Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
-use crate::system::{Dynamics, Flow, System};
+use crate::system::{Dynamics, System};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -34,8 +37,8 @@ use hamiltonian_lanes::Real;
 pub struct RungeKutta4;
 
 impl Listed for RungeKutta4 {
-    fn entry(&self) -> &'static Entry {
-        &Entry {
+    fn entry(&self) -> Entry {
+        Entry {
             name: "RungeKutta4",
             variant: "",
             equations: "",
@@ -48,105 +51,91 @@ impl Listed for RungeKutta4 {
     }
 }
 
+impl OneStep for RungeKutta4 {
+    type Adjoint = Adjoint<Self>;
+    fn adjoint(&self) -> Adjoint<Self> {
+        Adjoint(*self)
+    }
+}
+
 impl<T: Real, S: System<T>> Scheme<T, S> for RungeKutta4 {
-    type Stepper = Classical<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        let point = Point {
-            q: start.q.clone(),
-            p: start.p.clone(),
-        };
-        let zero = point.zeros_like();
+    type Map = Classical<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Classical {
-            clock: Clock {
-                start: start.t,
-                interval: step,
-            },
-            flow: prepared.flow(step),
+            field: prepared.field(step.h),
+            h: step.h,
             weights: [(1.0, 6.0), (1.0, 3.0), (1.0, 3.0), (1.0, 6.0)].map(
                 |(numerator, denominator)| {
                     T::constant(numerator, 0.0) / T::constant(denominator, 0.0)
                 },
             ),
-            increment: zero.clone(),
-            stage: zero.clone(),
-            sum: zero,
-            carried: point,
         }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        state.point()
     }
 }
 
-/// The stepper of [`RungeKutta4`].
+/// The map of [`RungeKutta4`].
 #[derive(Debug, Clone)]
-pub struct Classical<V: Vector, F: Flow<V>> {
-    clock: Clock<V::Scalar>,
-    flow: F,
+pub struct Classical<V: Vector, F> {
+    field: F,
+    h: V::Scalar,
     weights: [V::Scalar; 4],
+}
+
+/// The scratch of [`Classical`].
+#[derive(Debug, Clone)]
+pub struct ClassicalWork<V: Vector> {
     increment: Point<V>,
     stage: Point<V>,
     sum: Point<V>,
-    carried: Point<V>,
 }
 
-impl<V: Vector, F: Flow<V>> Classical<V, F> {
+impl<V: Vector, F: VectorField<V>> Classical<V, F> {
     /// `increment = h·J∇H(stage)`, added to the sum by its weight.
     #[inline(always)]
-    fn evaluate(&mut self, t: V::Scalar, index: usize) {
-        self.increment.set_zero();
-        let Point { q, p } = &mut self.increment;
-        self.flow.flow(t, &self.stage.q, &self.stage.p, q, p);
-        self.sum.accumulate(self.weights[index], &self.increment);
+    fn evaluate(&self, t: V::Scalar, weight: V::Scalar, work: &mut ClassicalWork<V>) {
+        work.increment.set_zero();
+        let Point { q, p } = &mut work.increment;
+        self.field.add(t, &work.stage.q, &work.stage.p, q, p);
+        work.sum.accumulate(weight, &work.increment);
     }
 
     /// `stage = z + c·increment`.
     #[inline(always)]
-    fn place(&mut self, c: V::Scalar) {
-        self.stage.copy_from(&self.carried);
-        self.stage.accumulate(c, &self.increment);
-    }
-
-    #[inline(always)]
-    fn step(&mut self, made: u64) {
-        let half = V::Scalar::constant(0.5, 0.0);
-        let t = self.clock.at(made);
-        let middle = t + self.clock.interval * half;
-        self.sum.copy_from(&self.carried);
-        self.stage.copy_from(&self.carried);
-        self.evaluate(t, 0);
-        self.place(half);
-        self.evaluate(middle, 1);
-        self.place(half);
-        self.evaluate(middle, 2);
-        self.place(V::Scalar::one());
-        self.evaluate(self.clock.at(made + 1), 3);
-        self.carried.copy_from(&self.sum);
+    fn place(&self, c: V::Scalar, z: &Point<V>, work: &mut ClassicalWork<V>) {
+        work.stage.copy_from(z);
+        work.stage.accumulate(c, &work.increment);
     }
 }
 
-impl<V: Vector, F: Flow<V>> Stepper for Classical<V, F> {
-    type Vector = V;
+impl<V: Vector, F: VectorField<V>> Map for Classical<V, F> {
     type Carried = Point<V>;
+    type Work = ClassicalWork<V>;
 
-    #[inline(always)]
-    fn carried(&self) -> &Point<V> {
-        &self.carried
-    }
-
-    #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Point<V> {
-        &mut self.carried
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        for k in made..made + n {
-            self.step(k);
+    fn work(&self, like: &Point<V>) -> Self::Work {
+        ClassicalWork {
+            increment: like.clone(),
+            stage: like.clone(),
+            sum: like.clone(),
         }
-        Ok(())
     }
 
     #[inline(always)]
-    fn synchronise(&mut self, _: u64, q: &mut V, p: &mut V) {
-        q.copy_from(&self.carried.q);
-        p.copy_from(&self.carried.p);
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, work: &mut Self::Work) {
+        let half = V::Scalar::constant(0.5, 0.0);
+        let middle = t + self.h * half;
+        let [first, second, third, fourth] = self.weights;
+        work.sum.copy_from(z);
+        work.stage.copy_from(z);
+        self.evaluate(t, first, work);
+        self.place(half, z, work);
+        self.evaluate(middle, second, work);
+        self.place(half, z, work);
+        self.evaluate(middle, third, work);
+        self.place(V::Scalar::one(), z, work);
+        self.evaluate(end, fourth, work);
+        z.copy_from(&work.sum);
     }
 }

@@ -1,13 +1,15 @@
 //! Splittings of H = T(p, t) + V(q, t) into drift and kick.
 //!
 //! Input: a [`Separable`] system. Output: [`StormerVerlet`], [`SymplecticEuler`]. Invariant: each
-//! is a [`Table`] and the half that is moved first; the loop is [`Splitting`]'s.
+//! is a [`Table`] and the piece that moves first; the loop is [`Zigzag`]'s.
 
-use super::splitting::{Drifting, Kicking, Splitting, Table, Weight};
-use crate::scheme::{Clock, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
-use crate::state::{Pair, State};
-use crate::system::{Drift, Kick, Separable, System};
-use crate::vector::Vector;
+use super::splittings::Strang;
+use super::table::{Durations, Table, Weight};
+use super::zigzag::{Zigzag, ZigzagOf};
+use crate::map::{Either, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Point, State};
+use crate::system::Separable;
 use hamiltonian_lanes::Real;
 
 /// Störmer–Verlet (leapfrog): order 2, symplectic, time-reversible; equations (27).
@@ -50,14 +52,8 @@ pub enum StormerVerlet {
     DriftKickDrift,
 }
 
-/// Half of the first piece, the whole of the second, half of the first.
-pub(super) const LEAPFROG: Table<1> = Table {
-    opening: Weight(0.5, 0.0),
-    stages: [(Weight(1.0, 0.0), Weight(0.5, 0.0))],
-};
-
 impl Listed for StormerVerlet {
-    fn entry(&self) -> &'static Entry {
+    fn entry(&self) -> Entry {
         const KICK_FIRST: Entry = Entry {
             name: "StormerVerlet",
             variant: "kick-drift-kick",
@@ -69,8 +65,8 @@ impl Listed for StormerVerlet {
             source: "Verlet 1967, eq. 4, doi:10.1103/PhysRev.159.98",
         };
         match self {
-            StormerVerlet::KickDriftKick => &KICK_FIRST,
-            StormerVerlet::DriftKickDrift => &Entry {
+            StormerVerlet::KickDriftKick => KICK_FIRST,
+            StormerVerlet::DriftKickDrift => Entry {
                 variant: "drift-kick-drift",
                 equations: "27a-c",
                 ..KICK_FIRST
@@ -80,16 +76,30 @@ impl Listed for StormerVerlet {
 }
 
 impl<T: Real, S: Separable<T>> Scheme<T, S> for StormerVerlet {
-    type Stepper = Alternation<S::Vector, S::Kick, S::Drift, 1>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
+    type Map = Either<
+        ZigzagOf<T, S, (S::Kick, S::Drift), Strang>,
+        ZigzagOf<T, S, (S::Drift, S::Kick), Strang>,
+    >;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         match self {
             StormerVerlet::KickDriftKick => {
-                Alternation::kick_first::<S>(&LEAPFROG, prepared, start, step)
+                Either::First(Zigzag::new(&Strang, &(S::KICK, S::DRIFT), prepared, step))
             }
             StormerVerlet::DriftKickDrift => {
-                Alternation::drift_first::<S>(&LEAPFROG, prepared, start, step)
+                Either::Second(Zigzag::new(&Strang, &(S::DRIFT, S::KICK), prepared, step))
             }
         }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        state.point()
+    }
+}
+
+impl OneStep for StormerVerlet {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
     }
 }
 
@@ -121,14 +131,8 @@ pub enum SymplecticEuler {
     DriftKick,
 }
 
-/// The whole of the first piece, the whole of the second.
-pub(super) const EULER: Table<1> = Table {
-    opening: Weight(1.0, 0.0),
-    stages: [(Weight(1.0, 0.0), Weight(0.0, 0.0))],
-};
-
 impl Listed for SymplecticEuler {
-    fn entry(&self) -> &'static Entry {
+    fn entry(&self) -> Entry {
         const KICK_FIRST: Entry = Entry {
             name: "SymplecticEuler",
             variant: "kick-drift",
@@ -140,8 +144,8 @@ impl Listed for SymplecticEuler {
             source: "Ruth 1983, doi:10.1109/TNS.1983.4332919",
         };
         match self {
-            SymplecticEuler::KickDrift => &KICK_FIRST,
-            SymplecticEuler::DriftKick => &Entry {
+            SymplecticEuler::KickDrift => KICK_FIRST,
+            SymplecticEuler::DriftKick => Entry {
                 variant: "drift-kick",
                 ..KICK_FIRST
             },
@@ -149,124 +153,42 @@ impl Listed for SymplecticEuler {
     }
 }
 
+impl OneStep for SymplecticEuler {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        match self {
+            SymplecticEuler::KickDrift => SymplecticEuler::DriftKick,
+            SymplecticEuler::DriftKick => SymplecticEuler::KickDrift,
+        }
+    }
+}
+
+/// With the drift outermost: composed with its adjoint, kick–drift ends with the piece the other
+/// begins with, and both are one flow.
+impl Table for SymplecticEuler {
+    type Of<U> = [U; 1];
+    #[inline(always)]
+    fn stages(&self) -> [Durations; 1] {
+        const NONE: Weight = Weight(0.0, 0.0);
+        const WHOLE: Weight = Weight(1.0, 0.0);
+        match self {
+            SymplecticEuler::KickDrift => [(NONE, WHOLE)],
+            SymplecticEuler::DriftKick => [(WHOLE, NONE)],
+        }
+    }
+    #[inline(always)]
+    fn map<A, U>(of: [A; 1], f: impl FnMut(A) -> U) -> [U; 1] {
+        of.map(f)
+    }
+}
+
 impl<T: Real, S: Separable<T>> Scheme<T, S> for SymplecticEuler {
-    type Stepper = Alternation<S::Vector, S::Kick, S::Drift, 1>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        match self {
-            SymplecticEuler::KickDrift => {
-                Alternation::kick_first::<S>(&EULER, prepared, start, step)
-            }
-            SymplecticEuler::DriftKick => {
-                Alternation::drift_first::<S>(&EULER, prepared, start, step)
-            }
-        }
-    }
-}
-
-/// The stepper of every splitting into kick and drift.
-#[derive(Debug, Clone)]
-pub enum Alternation<V: Vector, K: Kick<V>, D: Drift<V>, const STAGES: usize> {
-    /// p is moved first; x is p, y is q.
-    KickFirst(Splitting<V, V, Kicking<K>, Drifting<D>, STAGES>),
-    /// q is moved first; x is q, y is p.
-    DriftFirst(Splitting<V, V, Drifting<D>, Kicking<K>, STAGES>),
-}
-
-impl<V: Vector, K: Kick<V>, D: Drift<V>, const STAGES: usize> Alternation<V, K, D, STAGES> {
-    /// The table with a kick as its opening piece.
-    pub fn kick_first<S>(
-        table: &Table<STAGES>,
-        prepared: &<S as System<V::Scalar>>::Prepared,
-        start: &State<V>,
-        step: V::Scalar,
-    ) -> Self
-    where
-        S: Separable<V::Scalar, Vector = V, Kick = K, Drift = D>,
-    {
-        Alternation::KickFirst(Splitting::new(
-            table,
-            Clock {
-                start: start.t,
-                interval: step,
-            },
-            0.0,
-            Pair {
-                x: start.p.clone(),
-                y: start.q.clone(),
-            },
-            |c| Kicking(S::kick(prepared, c)),
-            |c| Drifting(S::drift(prepared, c)),
-        ))
-    }
-
-    /// The table with a drift as its opening piece.
-    pub fn drift_first<S>(
-        table: &Table<STAGES>,
-        prepared: &<S as System<V::Scalar>>::Prepared,
-        start: &State<V>,
-        step: V::Scalar,
-    ) -> Self
-    where
-        S: Separable<V::Scalar, Vector = V, Kick = K, Drift = D>,
-    {
-        Alternation::DriftFirst(Splitting::new(
-            table,
-            Clock {
-                start: start.t,
-                interval: step,
-            },
-            0.0,
-            Pair {
-                x: start.q.clone(),
-                y: start.p.clone(),
-            },
-            |c| Drifting(S::drift(prepared, c)),
-            |c| Kicking(S::kick(prepared, c)),
-        ))
-    }
-}
-
-impl<V: Vector, K: Kick<V>, D: Drift<V>, const STAGES: usize> Stepper
-    for Alternation<V, K, D, STAGES>
-{
-    type Vector = V;
-    type Carried = Pair<V, V>;
-
+    type Map = ZigzagOf<T, S, (S::Drift, S::Kick), Self>;
     #[inline(always)]
-    fn carried(&self) -> &Pair<V, V> {
-        match self {
-            Alternation::KickFirst(splitting) => splitting.carried(),
-            Alternation::DriftFirst(splitting) => splitting.carried(),
-        }
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Zigzag::new(self, &(S::DRIFT, S::KICK), prepared, step)
     }
-
-    #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Pair<V, V> {
-        match self {
-            Alternation::KickFirst(splitting) => splitting.carried_mut(),
-            Alternation::DriftFirst(splitting) => splitting.carried_mut(),
-        }
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        match self {
-            Alternation::KickFirst(splitting) => splitting.run(made, n),
-            Alternation::DriftFirst(splitting) => splitting.run(made, n),
-        }
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn synchronise(&mut self, made: u64, q: &mut V, p: &mut V) {
-        let (from_q, from_p) = match self {
-            Alternation::KickFirst(splitting) => {
-                let (x, y) = splitting.synchronise(made);
-                (y, x)
-            }
-            Alternation::DriftFirst(splitting) => splitting.synchronise(made),
-        };
-        q.copy_from(from_q);
-        p.copy_from(from_p);
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        state.point()
     }
 }

@@ -4,12 +4,13 @@
 //! [`ConsecutiveSubTrajectories`] (26), [`IntersectingSubTrajectories`] (33). Invariant: with
 //! z = (q, p) and J∇H = (∂H/∂p, −∂H/∂q), every move is `z_earlier + leap·J∇H(z_between)`.
 
-use super::separable::EULER;
-use super::splitting::{Flowing, Splitting};
-use crate::scheme::{Clock, Entry, Form, Listed, Needs, Scheme, Stepper, Unsolved};
+use crate::flow::VectorField;
+use crate::map::{Clock, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::{Dynamics, Flow, System};
+use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
+use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
 /// How the second starting point, half a leap before the first, is made.
@@ -43,6 +44,19 @@ impl Start {
         }
     }
 
+    /// The start, and the point `back` before it.
+    fn pair<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Points<V>
+    where
+        T: Real,
+        D: Dynamics<T, Vector = V>,
+        V: Vector<Scalar = T>,
+    {
+        Pair {
+            x: start.point(),
+            y: self.before(prepared, start, back),
+        }
+    }
+
     /// The point `back` before the start.
     fn before<T, D, V>(self, prepared: &D, start: &State<V>, back: T) -> Point<V>
     where
@@ -50,23 +64,20 @@ impl Start {
         D: Dynamics<T, Vector = V>,
         V: Vector<Scalar = T>,
     {
-        let mut point = Point {
-            q: start.q.clone(),
-            p: start.p.clone(),
-        };
+        let mut point = start.point();
         match self {
             Start::Equal => {}
             Start::HalfEuler => {
-                let flow = prepared.flow(-back);
-                flow.flow(start.t, &start.q, &start.p, &mut point.q, &mut point.p);
+                let field = prepared.field(-back);
+                field.add(start.t, &start.q, &start.p, &mut point.q, &mut point.p);
             }
             Start::SecondOrder => {
                 let half = back * T::constant(0.5, 0.0);
                 let mut middle = point.clone();
-                let flow = prepared.flow(-half);
-                flow.flow(start.t, &start.q, &start.p, &mut middle.q, &mut middle.p);
-                let flow = prepared.flow(-back);
-                flow.flow(
+                let field = prepared.field(-half);
+                field.add(start.t, &start.q, &start.p, &mut middle.q, &mut middle.p);
+                let field = prepared.field(-back);
+                field.add(
                     start.t - half,
                     &middle.q,
                     &middle.p,
@@ -86,23 +97,16 @@ const SOURCE: &str = "Developing an explicit Hamiltonian variational integrator;
 macro_rules! entries {
     ($scheme:ident, $equations:literal, $duration:literal) => {
         impl Listed for $scheme {
-            fn entry(&self) -> &'static Entry {
-                const fn with(start: Start) -> Entry {
-                    Entry {
-                        name: stringify!($scheme),
-                        variant: start.words(),
-                        equations: $equations,
-                        order: start.order(),
-                        duration: $duration,
-                        needs: Needs::Any,
-                        preserves: Form::TwoPoint,
-                        source: SOURCE,
-                    }
-                }
-                match self.start {
-                    Start::Equal => const { &with(Start::Equal) },
-                    Start::HalfEuler => const { &with(Start::HalfEuler) },
-                    Start::SecondOrder => const { &with(Start::SecondOrder) },
+            fn entry(&self) -> Entry {
+                Entry {
+                    name: stringify!($scheme),
+                    variant: self.start.words(),
+                    equations: $equations,
+                    order: self.start.order(),
+                    duration: $duration,
+                    needs: Needs::Unforced,
+                    preserves: Form::TwoPoint,
+                    source: SOURCE,
                 }
             }
         }
@@ -211,168 +215,117 @@ pub struct IntersectingSubTrajectories {
 
 entries!(IntersectingSubTrajectories, "33", 1);
 
-impl<T: Real, S: System<T>> Scheme<T, S> for TwoStepMidpoint {
-    type Stepper = TwoStep<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
+/// Two points: the one that is seen, and one half a leap before it.
+type Points<V> = Pair<Point<V>, Point<V>>;
+
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for TwoStepMidpoint {
+    type Map = TwoStep<<S::Prepared as Dynamics<T>>::Field, S::Vector>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         TwoStep {
-            clock: Clock {
-                start: start.t,
-                interval: step,
-            },
-            leap: prepared.flow(step + step),
-            carried: Pair {
-                x: self.start.before(prepared, start, step),
-                y: Point {
-                    q: start.q.clone(),
-                    p: start.p.clone(),
-                },
-            },
+            leap: prepared.field(step.h + step.h),
+            vector: PhantomData,
         }
+    }
+    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+        self.start.pair(prepared, state, h)
     }
 }
 
-/// The stepper of [`TwoStepMidpoint`]: y is the last point after an even number of steps, x after
-/// an odd one; the other is the last but one.
+/// The map of [`TwoStepMidpoint`]: x is `z[n]`, y is `z[n−1]`.
 #[derive(Debug, Clone)]
-pub struct TwoStep<V: Vector, F: Flow<V>> {
-    clock: Clock<V::Scalar>,
+pub struct TwoStep<F, V> {
     leap: F,
-    carried: Pair<Point<V>, Point<V>>,
+    vector: PhantomData<V>,
 }
 
-impl<V: Vector, F: Flow<V>> TwoStep<V, F> {
-    /// The step after the first `made`, an even number of them.
+impl<V: Vector, F: VectorField<V>> TwoStep<F, V> {
+    /// `to += 2h·J∇H(by)`.
     #[inline(always)]
-    fn even(&mut self, made: u64) {
-        let Pair { x, y } = &mut self.carried;
-        self.leap
-            .flow(self.clock.at(made), &y.q, &y.p, &mut x.q, &mut x.p);
-    }
-
-    /// The step after the first `made`, an odd number of them.
-    #[inline(always)]
-    fn odd(&mut self, made: u64) {
-        let Pair { x, y } = &mut self.carried;
-        self.leap
-            .flow(self.clock.at(made), &x.q, &x.p, &mut y.q, &mut y.p);
+    fn leap(&self, t: V::Scalar, by: &Point<V>, to: &mut Point<V>) {
+        self.leap.add(t, &by.q, &by.p, &mut to.q, &mut to.p);
     }
 }
 
-impl<V: Vector, F: Flow<V>> Stepper for TwoStep<V, F> {
-    type Vector = V;
-    type Carried = Pair<Point<V>, Point<V>>;
+impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
+    type Carried = Points<V>;
+    type Work = ();
+
+    fn work(&self, _: &Points<V>) {}
 
     #[inline(always)]
-    fn carried(&self) -> &Self::Carried {
-        &self.carried
+    fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {
+        let Pair { x, y } = z;
+        self.leap(t, x, y);
+        core::mem::swap(x, y);
     }
 
+    /// In pairs of steps, after which the points are back in their places.
     #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Self::Carried {
-        &mut self.carried
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        let end = made + n;
-        let mut k = made;
-        if k % 2 == 1 && k < end {
-            self.odd(k);
-            k += 1;
-        }
+    fn run(&self, clock: Clock<V::Scalar>, made: u64, n: u64, z: &mut Points<V>, _: &mut ()) {
+        let (mut k, end) = (made, made + n);
+        let Pair { mut x, mut y } = z.take();
         while k + 1 < end {
-            self.even(k);
-            self.odd(k + 1);
+            self.leap(clock.at(k), &x, &mut y);
+            self.leap(clock.at(k + 1), &y, &mut x);
             k += 2;
         }
+        *z = Pair { x, y };
         if k < end {
-            self.even(k);
+            self.body(clock.at(k), clock.at(k + 1), z, &mut ());
         }
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn synchronise(&mut self, made: u64, q: &mut V, p: &mut V) {
-        let last = if made.is_multiple_of(2) {
-            &self.carried.y
-        } else {
-            &self.carried.x
-        };
-        q.copy_from(&last.q);
-        p.copy_from(&last.p);
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for ConsecutiveSubTrajectories {
-    type Stepper = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        Interleaved::new(self.start, prepared, start, step + step)
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for ConsecutiveSubTrajectories {
+    type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Interleaved::new(prepared, step.h + step.h)
+    }
+    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+        self.start.pair(prepared, state, h)
     }
 }
 
-impl<T: Real, S: System<T>> Scheme<T, S> for IntersectingSubTrajectories {
-    type Stepper = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Flow>;
-    fn prepare(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: T) -> Self::Stepper {
-        Interleaved::new(self.start, prepared, start, step)
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for IntersectingSubTrajectories {
+    type Map = Interleaved<S::Vector, <S::Prepared as Dynamics<T>>::Field>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Interleaved::new(prepared, step.h)
+    }
+    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
+        self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
 }
 
-/// The stepper of [`ConsecutiveSubTrajectories`] and [`IntersectingSubTrajectories`]: y is `z[n]`,
-/// x is `z[n−½]`.
+/// The map of [`ConsecutiveSubTrajectories`] and [`IntersectingSubTrajectories`]: x is `z[n]`, y is
+/// `z[n−½]`.
 #[derive(Debug, Clone)]
-pub struct Interleaved<V: Vector, F: Flow<V>> {
-    splitting: Splitting<Point<V>, Point<V>, Flowing<F>, Flowing<F>, 1>,
+pub struct Interleaved<V: Vector, F> {
+    leap: F,
+    half: V::Scalar,
 }
 
-impl<V: Vector, F: Flow<V>> Interleaved<V, F> {
-    fn new<D>(start: Start, prepared: &D, state: &State<V>, leap: V::Scalar) -> Self
+impl<V: Vector, F: VectorField<V>> Interleaved<V, F> {
+    fn new<D>(prepared: &D, leap: V::Scalar) -> Self
     where
-        D: Dynamics<V::Scalar, Vector = V, Flow = F>,
+        D: Dynamics<V::Scalar, Vector = V, Field = F>,
     {
-        const LAG: f64 = 0.5;
-        let back = leap * V::Scalar::constant(LAG, 0.0);
-        let carried = Pair {
-            x: start.before(prepared, state, back),
-            y: Point {
-                q: state.q.clone(),
-                p: state.p.clone(),
-            },
-        };
-        let clock = Clock {
-            start: state.t,
-            interval: leap,
-        };
-        let flow = |c| Flowing(prepared.flow(c));
         Interleaved {
-            splitting: Splitting::new(&EULER, clock, LAG, carried, flow, flow),
+            leap: prepared.field(leap),
+            half: leap * V::Scalar::constant(0.5, 0.0),
         }
     }
 }
 
-impl<V: Vector, F: Flow<V>> Stepper for Interleaved<V, F> {
-    type Vector = V;
-    type Carried = Pair<Point<V>, Point<V>>;
+impl<V: Vector, F: VectorField<V>> Map for Interleaved<V, F> {
+    type Carried = Points<V>;
+    type Work = ();
+
+    fn work(&self, _: &Points<V>) {}
 
     #[inline(always)]
-    fn carried(&self) -> &Self::Carried {
-        self.splitting.carried()
-    }
-
-    #[inline(always)]
-    fn carried_mut(&mut self) -> &mut Self::Carried {
-        self.splitting.carried_mut()
-    }
-
-    #[inline(always)]
-    fn run(&mut self, made: u64, n: u64) -> Result<(), Unsolved> {
-        self.splitting.run(made, n);
-        Ok(())
-    }
-
-    #[inline(always)]
-    fn synchronise(&mut self, _: u64, q: &mut V, p: &mut V) {
-        let y = &self.splitting.carried().y;
-        q.copy_from(&y.q);
-        p.copy_from(&y.p);
+    fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {
+        let Pair { x, y } = z;
+        self.leap.add(t, &x.q, &x.p, &mut y.q, &mut y.p);
+        self.leap.add(t + self.half, &y.q, &y.p, &mut x.q, &mut x.p);
     }
 }

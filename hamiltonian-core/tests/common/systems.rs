@@ -2,7 +2,8 @@
 
 use hamiltonian_core::private::{DVector, SVector};
 use hamiltonian_core::{
-    Drift, Dual, Dynamics, Flow, Group, Kick, Observable, ObservableKind, Real, Separable, System,
+    Dual, Dynamics, Exact, Flow, Group, Observable, ObservableKind, Piece, Point, Real, Separable,
+    Split, System, Unforced, VectorField,
 };
 
 /// H as a formula over any scalar, with N coordinates.
@@ -32,7 +33,7 @@ pub trait Formula<const N: usize>: Clone + std::fmt::Debug + Send + Sync + 'stat
 }
 
 /// H = T(p, t) + V(q, t).
-pub trait Split<const N: usize>: Formula<N> {
+pub trait Halves<const N: usize>: Formula<N> {
     fn force<T: Real>(&self, t: T, q: &[T; N]) -> [T; N];
     fn velocity<T: Real>(&self, t: T, p: &[T; N]) -> [T; N];
 }
@@ -67,7 +68,7 @@ impl<T: Real, H: Formula<N>, const N: usize> System<T> for Hand<H, N> {
 
 impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N> {
     type Vector = SVector<T, N>;
-    type Flow = Scaled<H, T, N>;
+    type Field = Scaled<H, T, N>;
     fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.0.energy(t, array(q), array(p))
     }
@@ -126,14 +127,14 @@ impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N> {
     fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.0.observable(index, t, array(q), array(p))
     }
-    fn flow(&self, c: T) -> Scaled<H, T, N> {
+    fn field(&self, c: T) -> Scaled<H, T, N> {
         Scaled(self.0.clone(), c)
     }
 }
 
-impl<T: Real, H: Formula<N>, const N: usize> Flow<SVector<T, N>> for Scaled<H, T, N> {
+impl<T: Real, H: Formula<N>, const N: usize> VectorField<SVector<T, N>> for Scaled<H, T, N> {
     #[inline(always)]
-    fn flow(
+    fn add(
         &self,
         t: T,
         q: &SVector<T, N>,
@@ -149,36 +150,58 @@ impl<T: Real, H: Formula<N>, const N: usize> Flow<SVector<T, N>> for Scaled<H, T
     }
 }
 
-impl<T: Real, H: Split<N>, const N: usize> Separable<T> for Hand<H, N> {
-    type Kick = Scaled<H, T, N>;
-    type Drift = Scaled<H, T, N>;
-    fn kick(prepared: &Ready<H, N>, c: T) -> Scaled<H, T, N> {
-        Scaled(prepared.0.clone(), c)
-    }
-    fn drift(prepared: &Ready<H, N>, c: T) -> Scaled<H, T, N> {
-        Scaled(prepared.0.clone(), c)
+/// The flow of V where `KICK`, else of T.
+#[derive(Debug, Clone)]
+pub struct Moving<F, const KICK: bool>(F);
+
+/// V where `KICK`, else T.
+#[derive(Debug, Clone, Copy)]
+pub struct Half<const KICK: bool>;
+
+impl<T: Real, H: Halves<N>, const N: usize, const KICK: bool> Piece<T, Ready<H, N>> for Half<KICK> {
+    type Point = Point<SVector<T, N>>;
+    type Flow = Moving<Scaled<H, T, N>, KICK>;
+    fn flow(&self, prepared: &Ready<H, N>, c: T) -> Self::Flow {
+        Moving(Scaled(prepared.0.clone(), c))
     }
 }
 
-impl<T: Real, H: Split<N>, const N: usize> Kick<SVector<T, N>> for Scaled<H, T, N> {
+impl<T: Real, H: Halves<N>, const N: usize, const KICK: bool> Flow<Point<SVector<T, N>>>
+    for Moving<Scaled<H, T, N>, KICK>
+{
+    const NAME: &'static str = if KICK { "V" } else { "T" };
     #[inline(always)]
-    fn kick(&self, t: T, q: &SVector<T, N>, p: &mut SVector<T, N>) {
-        let force = self.0.force(t, array(q));
-        for i in 0..N {
-            p[i] = (-self.1).fma(force[i], p[i]);
+    fn apply(&self, t: T, x: &mut Point<SVector<T, N>>) {
+        let Scaled(system, c) = &self.0;
+        if KICK {
+            let force = system.force(t, array(&x.q));
+            for i in 0..N {
+                x.p[i] = (-*c).fma(force[i], x.p[i]);
+            }
+        } else {
+            let velocity = system.velocity(t, array(&x.p));
+            for i in 0..N {
+                x.q[i] = c.fma(velocity[i], x.q[i]);
+            }
         }
     }
 }
 
-impl<T: Real, H: Split<N>, const N: usize> Drift<SVector<T, N>> for Scaled<H, T, N> {
-    #[inline(always)]
-    fn drift(&self, t: T, p: &SVector<T, N>, q: &mut SVector<T, N>) {
-        let velocity = self.0.velocity(t, array(p));
-        for i in 0..N {
-            q[i] = self.1.fma(velocity[i], q[i]);
-        }
-    }
+impl<T: Real, H: Halves<N>, const N: usize> Separable<T> for Hand<H, N> {
+    type Kick = Half<true>;
+    type Drift = Half<false>;
+    const KICK: Half<true> = Half;
+    const DRIFT: Half<false> = Half;
 }
+
+impl<T: Real, H: Halves<N>, const N: usize> Split<T> for Hand<H, N> {
+    type Pieces = (Half<true>, Half<false>);
+    const PIECES: Self::Pieces = (Half, Half);
+    const NAMES: &'static [&'static str] = &["V", "T"];
+}
+
+impl<H, const N: usize> Unforced for Hand<H, N> {}
+impl<H, const N: usize> Exact for Hand<H, N> {}
 
 /// A scalar coordinate and its momentum.
 pub const fn scalar(coordinate: &'static str, momentum: &'static str, offset: usize) -> Group {
@@ -244,7 +267,7 @@ impl Formula<1> for Pendulum {
     }
 }
 
-impl Split<1> for Pendulum {
+impl Halves<1> for Pendulum {
     fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
         [number::<T>(self.m) * number(self.g) * number(self.l) * q[0].sin()]
     }
@@ -285,7 +308,7 @@ impl Formula<2> for HenonHeiles {
     gradient_of_halves!(2);
 }
 
-impl Split<2> for HenonHeiles {
+impl Halves<2> for HenonHeiles {
     fn force<T: Real>(&self, _: T, [x, y]: &[T; 2]) -> [T; 2] {
         let (x, y) = (*x, *y);
         [x + number::<T>(2.0) * x * y, y + x * x - y * y]
@@ -309,7 +332,7 @@ impl Formula<1> for Relativistic {
     gradient_of_halves!(1);
 }
 
-impl Split<1> for Relativistic {
+impl Halves<1> for Relativistic {
     fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
         [q[0].sin() + number::<T>(0.4) * q[0] * q[0] * q[0]]
     }
@@ -344,7 +367,7 @@ impl Formula<1> for Pumped {
     gradient_of_halves!(1);
 }
 
-impl Split<1> for Pumped {
+impl Halves<1> for Pumped {
     fn force<T: Real>(&self, t: T, q: &[T; 1]) -> [T; 1] {
         [Self::factors(t).1 * (q[0] + q[0] * q[0] * q[0])]
     }
@@ -415,7 +438,7 @@ impl Chain {
 
 impl<T: Real> Dynamics<T> for Chain {
     type Vector = DVector<T>;
-    type Flow = ScaledChain<T>;
+    type Field = ScaledChain<T>;
     fn energy(&self, _: T, q: &DVector<T>, p: &DVector<T>) -> T {
         let (half, quarter) = (number::<T>(0.5), number::<T>(0.25));
         let mut sum = half * q[self.n - 1] * q[self.n - 1];
@@ -478,48 +501,69 @@ impl<T: Real> Dynamics<T> for Chain {
     fn observable(&self, _: usize, _: T, _: &DVector<T>, _: &DVector<T>) -> T {
         T::zero()
     }
-    fn flow(&self, c: T) -> ScaledChain<T> {
+    fn field(&self, c: T) -> ScaledChain<T> {
         ScaledChain(c)
     }
 }
 
-impl<T: Real> Flow<DVector<T>> for ScaledChain<T> {
-    fn flow(
-        &self,
-        t: T,
-        q: &DVector<T>,
-        p: &DVector<T>,
-        into_q: &mut DVector<T>,
-        into_p: &mut DVector<T>,
-    ) {
-        self.drift(t, p, into_q);
-        self.kick(t, q, into_p);
-    }
-}
-
-impl<T: Real> Kick<DVector<T>> for ScaledChain<T> {
-    fn kick(&self, _: T, q: &DVector<T>, p: &mut DVector<T>) {
+impl<T: Real> ScaledChain<T> {
+    fn kick(&self, q: &DVector<T>, p: &mut DVector<T>) {
         for i in 0..q.len() {
             p[i] -= self.0 * Chain::force(q, i);
         }
     }
-}
-
-impl<T: Real> Drift<DVector<T>> for ScaledChain<T> {
-    fn drift(&self, _: T, p: &DVector<T>, q: &mut DVector<T>) {
+    fn drift(&self, p: &DVector<T>, q: &mut DVector<T>) {
         for i in 0..p.len() {
             q[i] = self.0.fma(p[i], q[i]);
         }
     }
 }
 
-impl<T: Real> Separable<T> for Chain {
-    type Kick = ScaledChain<T>;
-    type Drift = ScaledChain<T>;
-    fn kick(_: &Chain, c: T) -> ScaledChain<T> {
-        ScaledChain(c)
-    }
-    fn drift(_: &Chain, c: T) -> ScaledChain<T> {
-        ScaledChain(c)
+impl<T: Real> VectorField<DVector<T>> for ScaledChain<T> {
+    fn add(
+        &self,
+        _: T,
+        q: &DVector<T>,
+        p: &DVector<T>,
+        into_q: &mut DVector<T>,
+        into_p: &mut DVector<T>,
+    ) {
+        self.drift(p, into_q);
+        self.kick(q, into_p);
     }
 }
+
+impl<T: Real, const KICK: bool> Piece<T, Chain> for Half<KICK> {
+    type Point = Point<DVector<T>>;
+    type Flow = Moving<ScaledChain<T>, KICK>;
+    fn flow(&self, _: &Chain, c: T) -> Self::Flow {
+        Moving(ScaledChain(c))
+    }
+}
+
+impl<T: Real, const KICK: bool> Flow<Point<DVector<T>>> for Moving<ScaledChain<T>, KICK> {
+    const NAME: &'static str = if KICK { "V" } else { "T" };
+    fn apply(&self, _: T, x: &mut Point<DVector<T>>) {
+        if KICK {
+            self.0.kick(&x.q, &mut x.p);
+        } else {
+            self.0.drift(&x.p, &mut x.q);
+        }
+    }
+}
+
+impl<T: Real> Separable<T> for Chain {
+    type Kick = Half<true>;
+    type Drift = Half<false>;
+    const KICK: Half<true> = Half;
+    const DRIFT: Half<false> = Half;
+}
+
+impl<T: Real> Split<T> for Chain {
+    type Pieces = (Half<true>, Half<false>);
+    const PIECES: Self::Pieces = (Half, Half);
+    const NAMES: &'static [&'static str] = &["V", "T"];
+}
+
+impl Unforced for Chain {}
+impl Exact for Chain {}

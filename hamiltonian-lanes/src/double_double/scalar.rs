@@ -51,6 +51,16 @@ impl Real for DoubleDouble {
     fn finite(self) -> bool {
         self.hi.is_finite()
     }
+    fn write_words(self, to: &mut dyn FnMut(f64)) {
+        to(self.hi);
+        to(self.lo);
+    }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self {
+            hi: next(),
+            lo: next(),
+        }
+    }
     #[inline(always)]
     fn lane(self, k: u32) -> f64 {
         if k == 0 { self.hi } else { f64::NAN }

@@ -83,6 +83,15 @@ use assigning;
 /// The elementary functions of [`Real`] for a [`Word`]: the kernels over its lanes.
 macro_rules! elementary {
     () => {
+        fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+            // No pack has as many lanes.
+            let mut lanes = [0.0; 256];
+            let lanes = &mut lanes[..Self::LANES as usize];
+            for lane in &mut *lanes {
+                *lane = next();
+            }
+            crate::pack::Pack::load(lanes, 0.0)
+        }
         crate::pack::elementary! { @unary cbrt sin cos tan asin acos atan sinh cosh tanh
             asinh acosh atanh exp exp_m1 ln ln_1p }
         crate::pack::elementary! { @binary atan2 hypot pow }

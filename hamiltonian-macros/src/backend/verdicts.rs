@@ -7,6 +7,7 @@ use crate::emit;
 use crate::emit::Reason;
 use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
 use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure};
 
 /// The verdicts.
@@ -16,6 +17,10 @@ pub fn verdicts(model: &Model, structure: &Structure) -> emit::Structure {
         separable: match &structure.separable {
             Ok(_) => Ok(()),
             Err(coupling) => Err(not_separable(model, &name, coupling)),
+        },
+        halves: match &structure.separable {
+            Ok(split) => [split.potential, split.kinetic].map(|half| print::text(model, half)),
+            Err(_) => Default::default(),
         },
         quadratic_kinetic: structure
             .quadratic_kinetic

@@ -31,18 +31,18 @@ fn refusal(message: &str) -> String {
     format!("const {{ __h::core::panic!({message:?}) }}")
 }
 
-/// The expression that makes the flow for coefficient `_c`.
-pub const FLOW: &str = "__Flow { prepared: __h::core::clone::Clone::clone(_self), c: _c }";
+/// The expression that makes the field for coefficient `_c`.
+pub const FLOW: &str = "__Field { prepared: __h::core::clone::Clone::clone(_self), c: _c }";
 
-/// The flow: a gradient, then two accumulations.
+/// The field: a gradient, then two accumulations.
 pub fn flow(generics: &Generics, vector: &str) -> String {
     let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
     let visibility = &generics.visibility;
     format!(
         "#[doc(hidden)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
-         {visibility} struct __Flow{declaration} {{ prepared: __Prepared{arguments}, c: T }}\n\
-         #[automatically_derived]\nimpl{declaration} __h::Flow<{vector}> for __Flow{arguments} {{\n\
-         #[inline(always)]\nfn flow(&self, _t: T, _q: &{vector}, _p: &{vector}, _oq: &mut {vector}, _op: &mut {vector}) {{\n\
+         {visibility} struct __Field{declaration} {{ prepared: __Prepared{arguments}, c: T }}\n\
+         #[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for __Field{arguments} {{\n\
+         #[inline(always)]\nfn add(&self, _t: T, _q: &{vector}, _p: &{vector}, _oq: &mut {vector}, _op: &mut {vector}) {{\n\
          let (mut _x, mut _y) = (*_oq, *_op);\n\
          let _ = __h::Dynamics::energy_and_gradient(&self.prepared, _t, _q, _p, &mut _x, &mut _y);\n\
          __h::Vector::accumulate(_oq, self.c, &_y);\n\

@@ -1,4 +1,5 @@
-//! The implementations of `System`, `Dynamics` and `Flow`, and of `Separable` where it was proven.
+//! The implementations of `System`, `Dynamics` and `VectorField`, and of `Separable` and `Split` where
+//! they were proven.
 //!
 //! Input: a definition. Output: the text of the implementations and of the structs that hold
 //! prepared values. Invariant: every method a trait asks for is there; one whose program is
@@ -87,7 +88,7 @@ pub fn implementations(
         .prepared
         .declare(&mut emission.out, context, generics);
     emission.dynamics();
-    emission.flow(Purpose::Flow);
+    emission.flow(Purpose::VectorField);
     if definition.structure.separable.is_ok() {
         emission.flow(Purpose::Kick);
         emission.flow(Purpose::Drift);
@@ -152,7 +153,8 @@ impl<'a> Emission<'a> {
              type Vector = {};\ntype Prepared = __Prepared{};\n\
              const NAME: &'static __h::core::primitive::str = {:?};\n\
              const GROUPS: &'static [__h::Group] = &[{}];\n\
-             const OBSERVABLES: &'static [__h::Observable] = &[{}];{}",
+             const OBSERVABLES: &'static [__h::Observable] = &[{}];{}\n\
+             const FORMULA: &'static __h::core::primitive::str = {:?};\n{}",
             generics.declaration_with_scalar(),
             generics.system_type(),
             self.vector,
@@ -164,6 +166,8 @@ impl<'a> Emission<'a> {
                 true => "\nconst ON_SHELL: __h::core::primitive::bool = true;",
                 false => "",
             },
+            self.definition.text.hamiltonian,
+            self.parameters(),
         );
         line!(
             self,
@@ -200,7 +204,7 @@ impl<'a> Emission<'a> {
         line!(
             self,
             "#[automatically_derived]\nimpl{} __h::Dynamics<T> for __Prepared{} {{\n\
-             type Vector = {};\ntype Flow = __Flow{};",
+             type Vector = {};\ntype Field = __Field{};",
             self.generics.holder_declaration(),
             self.generics.holder_arguments(),
             self.vector,
@@ -231,9 +235,9 @@ impl<'a> Emission<'a> {
         );
         line!(
             self,
-            "#[inline(always)]\nfn flow(&self, _c: T) -> Self::Flow {{\nlet _self = self;"
+            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nlet _self = self;"
         );
-        self.coefficients(Purpose::Flow, "__Flow");
+        self.coefficients(Purpose::VectorField, "__Field");
         line!(self, "}}\n}}");
     }
 
@@ -323,12 +327,12 @@ impl<'a> Emission<'a> {
         line!(self, "{text}{fill}");
     }
 
-    /// The holder of a flow, kick or drift with its evaluation.
+    /// The holder of a field, a kick or a drift with its evaluation.
     fn flow(&mut self, purpose: Purpose) {
-        let (name, method, inputs, outputs): (_, _, &[&str], &[&str]) = match purpose {
-            Purpose::Kick => ("__Kick", "kick", &["_q"], &["_op"]),
-            Purpose::Drift => ("__Drift", "drift", &["_p"], &["_oq"]),
-            _ => ("__Flow", "flow", &["_q", "_p"], &["_oq", "_op"]),
+        let (name, inputs, outputs): (_, &[&str], &[&str]) = match purpose {
+            Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
+            Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
+            _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
         };
         let generics = self.generics;
         let Some((function, holder)) = self
@@ -350,45 +354,108 @@ impl<'a> Emission<'a> {
             .iter()
             .map(|(name, ty)| format!("{name}: {ty}"))
             .collect();
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{} __h::{}<{}> for {name}{} {{\n\
-             #[inline(always)]\nfn {method}(&self, {}) {{",
-            generics.holder_declaration(),
-            name.trim_start_matches('_'),
-            self.vector,
-            generics.holder_arguments(),
-            list.join(", "),
-        );
+        let (declaration, holders) = (generics.holder_declaration(), generics.holder_arguments());
+        let vector = &self.vector;
+        let piece = match purpose {
+            Purpose::Kick => Some((0, "let (_q, _op) = (&_x.q, &mut _x.p);")),
+            Purpose::Drift => Some((1, "let (_p, _oq) = (&_x.p, &mut _x.q);")),
+            _ => None,
+        };
+        let parts = match piece {
+            None => {
+                line!(
+                    self,
+                    "#[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for \
+                     {name}{holders} {{\n#[inline(always)]\nfn add(&self, {}) {{",
+                    list.join(", "),
+                );
+                ""
+            }
+            Some((number, parts)) => {
+                line!(
+                    self,
+                    "#[automatically_derived]\nimpl{declaration} __h::Flow<__h::Point<{vector}>> for \
+                     {name}{holders} {{\n\
+                     const NAME: &'static __h::core::primitive::str = {:?};\n\
+                     #[inline(always)]\nfn apply(&self, _t: T, _x: &mut __h::Point<{vector}>) {{",
+                    self.definition.structure.halves[number],
+                );
+                parts
+            }
+        };
         let receiver = Receiver::Holder(&holder);
-        let text = evaluation(&mut self.bodies, method, receiver, &arguments, function);
-        line!(self, "let _self = self;\n{text}");
+        let text = evaluation(&mut self.bodies, name, receiver, &arguments, function);
+        line!(self, "let _self = self;\n{parts}\n{text}");
         line!(self, "}}\n}}");
     }
 
+    /// The method that writes the values of the parameters.
+    fn parameters(&self) -> String {
+        let generics = self.generics;
+        let mut lines = String::new();
+        for (size, run_time) in self.context.is_run_time.iter().enumerate() {
+            if *run_time {
+                let name = &generics.sizes[size];
+                let _ = writeln!(
+                    lines,
+                    "__h::core::write!(_out, \"{name} = {{:?}}, \", self.{name})?;"
+                );
+            }
+        }
+        for (at, parameter) in self.context.model.parameters.iter().enumerate() {
+            let value = match parameter.shape {
+                Shape::Scalar => generics.lifted(at as u16),
+                _ => generics.lifted_array(at as u16),
+            };
+            let name = &parameter.name;
+            let _ = writeln!(
+                lines,
+                "__h::core::write!(_out, \"{name} = {{:?}}, \", {value})?;"
+            );
+        }
+        if lines.is_empty() {
+            return lines;
+        }
+        format!(
+            "fn describe_parameters(&self, _out: &mut dyn __h::core::fmt::Write) -> __h::core::fmt::Result {{\n\
+             let _self = self;\n{lines}__h::core::result::Result::Ok(())\n}}\n"
+        )
+    }
+
+    /// The pieces V and T, and the splitting into them.
     fn separable(&mut self) {
         let generics = self.generics;
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{} __h::Separable<T> for {} {{\n\
-             type Kick = __Kick{arguments};\ntype Drift = __Drift{arguments};",
-            generics.declaration_with_scalar(),
-            generics.system_type(),
-            arguments = generics.holder_arguments(),
-        );
-        for (purpose, name, method) in [
-            (Purpose::Kick, "__Kick", "kick"),
-            (Purpose::Drift, "__Drift", "drift"),
-        ] {
+        let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
+        for (purpose, flow) in [(Purpose::Kick, "__Kick"), (Purpose::Drift, "__Drift")] {
             line!(
                 self,
-                "#[inline(always)]\nfn {method}(_self: &Self::Prepared, _c: T) -> Self::{} {{",
-                name.trim_start_matches('_')
+                "#[doc(hidden)]\n\
+                 #[derive(__h::core::clone::Clone, __h::core::marker::Copy, __h::core::fmt::Debug)]\n\
+                 {visibility} struct {flow}Piece;\n\
+                 #[automatically_derived]\n\
+                 impl{declaration} __h::Piece<T, __Prepared{arguments}> for {flow}Piece {{\n\
+                 type Point = __h::Point<{vector}>;\ntype Flow = {flow}{arguments};\n\
+                 #[inline(always)]\n\
+                 fn flow(&self, _self: &__Prepared{arguments}, _c: T) -> {flow}{arguments} {{",
+                visibility = generics.visibility,
+                vector = self.vector,
             );
-            self.coefficients(purpose, name);
-            line!(self, "}}");
+            self.coefficients(purpose, flow);
+            line!(self, "}}\n}}");
         }
-        line!(self, "}}");
+        let [kick, drift] = &self.definition.structure.halves;
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{declaration} __h::Separable<T> for {system} {{\n\
+             type Kick = __KickPiece;\ntype Drift = __DriftPiece;\n\
+             const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}\n\
+             #[automatically_derived]\nimpl{declaration} __h::Split<T> for {system} {{\n\
+             type Pieces = (__KickPiece, __DriftPiece);\n\
+             const PIECES: Self::Pieces = (__KickPiece, __DriftPiece);\n\
+             const NAMES: &'static [&'static __h::core::primitive::str] = &[{kick:?}, {drift:?}];\n}}",
+            declaration = generics.declaration_with_scalar(),
+            system = generics.system_type(),
+        );
     }
 
     /// Inherent methods of prepared systems: observables, and derivatives by parameters.

@@ -13,20 +13,22 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
     let mut out = String::new();
     let system = generics.system_type();
     if let Err(reason) = &structure.separable {
-        reason_trait(
-            &mut out,
-            "__NotSeparable",
-            reason,
-            "fn never() -> __h::Never;",
-        );
+        reason_trait(&mut out, "__NotSeparable", reason);
         let _ = write!(
             out,
             "#[automatically_derived]\n\
              impl{generics} __h::Separable<T> for {system} where for<'a> &'a {system}: __NotSeparable {{\n\
-             type Kick = __h::Never;\ntype Drift = __h::Never;\n\
-             fn kick(_: &Self::Prepared, _: T) -> __h::Never {{ <&Self as __NotSeparable>::never() }}\n\
-             fn drift(_: &Self::Prepared, _: T) -> __h::Never {{ <&Self as __NotSeparable>::never() }}\n}}\n",
+             type Kick = {never};\ntype Drift = {never};\n\
+             const KICK: Self::Kick = __h::core::panic!({message:?});\n\
+             const DRIFT: Self::Drift = __h::core::panic!({message:?});\n}}\n\
+             #[automatically_derived]\n\
+             impl{generics} __h::Split<T> for {system} where for<'a> &'a {system}: __NotSeparable {{\n\
+             type Pieces = {never};\n\
+             const PIECES: Self::Pieces = __h::core::panic!({message:?});\n\
+             const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n}}\n",
             generics = generics.declaration_with_scalar(),
+            never = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>",
+            message = reason.message.replace('{', "{{").replace('}', "}}"),
         );
     }
     marker(
@@ -43,6 +45,9 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
         &structure.autonomous,
         generics,
     );
+    for name in ["Unforced", "Exact"] {
+        marker(&mut out, name, "", &Ok(()), generics);
+    }
     let _ = write!(
         out,
         "#[automatically_derived]\nimpl{} __h::Cyclic for {system} {{\n\
@@ -65,7 +70,7 @@ fn marker(
     let condition = match verdict {
         Ok(()) => String::new(),
         Err(reason) => {
-            reason_trait(out, bound, reason, "");
+            reason_trait(out, bound, reason);
             format!(" where for<'a> &'a {system}: {bound}")
         }
     };
@@ -78,13 +83,13 @@ fn marker(
 
 /// A trait nothing implements. It is asked of references of all lifetimes: that keeps rustc from
 /// deciding the bound where it is written, and from speaking of the marker instead of the reason.
-fn reason_trait(out: &mut String, name: &str, reason: &super::Reason, items: &str) {
+fn reason_trait(out: &mut String, name: &str, reason: &super::Reason) {
     // Braces are placeholders in these texts.
     let escape = |text: &str| text.replace('{', "{{").replace('}', "}}");
     let _ = write!(
         out,
         "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?})]\n\
-         #[doc(hidden)]\npub trait {name} {{ {items} }}\n",
+         #[doc(hidden)]\npub trait {name} {{}}\n",
         escape(&reason.message),
         escape(&reason.label),
         escape(&reason.note),

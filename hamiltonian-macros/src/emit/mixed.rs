@@ -138,7 +138,8 @@ pub fn implementations(context: Context, generics: &Generics) -> String {
         arguments,
         fields,
     } = arguments(context);
-    let (mut parts, mut parts_mut, mut zeros) = (String::new(), String::new(), String::new());
+    let (mut parts, mut parts_mut) = (String::new(), String::new());
+    let (mut zeros, mut takes) = (String::new(), String::new());
     for (at, group) in groups.iter().enumerate() {
         let field = &group.coordinate;
         // The last part serves every further number: there is none.
@@ -157,10 +158,12 @@ pub fn implementations(context: Context, generics: &Generics) -> String {
                 "{pattern} => __h::core::slice::from_mut(&mut self.{field}),"
             );
             let _ = write!(zeros, "{field}: T::constant(0.0, 0.0), ");
+            let _ = write!(takes, "{field}: self.{field}, ");
         } else {
             let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");
             let _ = writeln!(parts_mut, "{pattern} => self.{field}.as_mut_slice(),");
             let _ = write!(zeros, "{field}: __h::Vector::zeros_like(&self.{field}), ");
+            let _ = write!(takes, "{field}: __h::Vector::take(&mut self.{field}), ");
         }
     }
     format!(
@@ -168,7 +171,8 @@ pub fn implementations(context: Context, generics: &Generics) -> String {
          type Scalar = T;\nconst PARTS: __h::core::primitive::usize = {};\n\
          #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
          #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
-         fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n}}\n\
+         fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
+         #[inline(always)]\nfn take(&mut self) -> Self {{ Self {{ {takes} }} }}\n}}\n\
          impl{declaration} {ty} {{\n\
          /// The groups in declaration order, arrays in any form `IntoVector` takes.\n\
          #[must_use]\n{visibility} fn new<{kinds}>({arguments}) -> Self {{ Self {{ {fields} }} }}\n}}\n",

@@ -159,6 +159,8 @@ pub struct External {
 pub struct Structure {
     /// H = T(p, t) + V(q, t)
     pub separable: Result<(), Reason>,
+    /// V and T in the author's notation, where H is separable.
+    pub halves: [String; 2],
     /// T = ½ pᵀM⁻¹p with constant M
     pub quadratic_kinetic: Result<(), Reason>,
     /// H does not depend on t

@@ -47,7 +47,7 @@ fn program(model: &mut Model, separable: bool) -> Program {
         Purpose::EnergyAndGradient,
         Purpose::TimeDerivative,
         Purpose::HessianVector,
-        Purpose::Flow,
+        Purpose::VectorField,
     ];
     if !model.parameters.is_empty() {
         wanted.push(Purpose::ParameterGradient);
@@ -108,6 +108,7 @@ fn structure(separable: bool) -> Structure {
     };
     let verdict = if separable { Ok(()) } else { Err(reason) };
     Structure {
+        halves: ["V".into(), "T".into()],
         separable: verdict.clone(),
         quadratic_kinetic: verdict,
         autonomous: Ok(()),

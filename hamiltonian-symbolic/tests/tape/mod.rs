@@ -190,6 +190,9 @@ impl Real for Traced {
             record("constant", hi, [None, None])
         }
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Traced {
+        Traced::input(next())
+    }
     fn fma(self, b: Traced, c: Traced) -> Traced {
         self * b + c
     }

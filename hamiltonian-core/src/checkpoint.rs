@@ -1,0 +1,339 @@
+//! Saved runs.
+//!
+//! Input: a run. Output: a [`Checkpoint`], and a file. Invariants: a run that goes on from one is the
+//! same run bit for bit; a file holds who wrote it and a checksum, and appears whole or not at all.
+//!
+//! # The file
+//! `HAMILTON`, the version of the format, then words of eight bytes, little-endian: texts (their length
+//! in bytes, then the bytes, padded with zeros), counts, and floating-point numbers by their bits. The
+//! last word is a checksum of all before it.
+
+use crate::error::{CheckpointError, Error};
+use alloc::borrow::ToOwned;
+use alloc::string::String;
+use alloc::vec::Vec;
+use hamiltonian_lanes::Real;
+
+/// The state of a run and of its observers at one step.
+///
+/// [`Integrator::checkpoint`](crate::Integrator::checkpoint) makes one,
+/// [`Integrator::resume`](crate::Integrator::resume) goes on from it.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{Checkpoint, EnergyDrift, Integrator, State, schemes::StormerVerlet};
+///
+/// let scheme = StormerVerlet::default();
+/// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?
+///     .observe(EnergyDrift::new());
+/// run.advance(50)?;
+/// let saved = run.checkpoint().to_bytes();
+/// run.advance(50)?;
+///
+/// let mut again = Integrator::resume(&Oscillator, scheme, Checkpoint::from_bytes(&saved)?)?
+///     .observe(EnergyDrift::new());
+/// again.advance(50)?;
+/// assert_eq!(again.state(), run.state());
+/// assert_eq!(again.observer(), run.observer());
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Checkpoint {
+    /// The text of H and the shape of its coordinates.
+    pub(crate) system: String,
+    /// Names and values of the parameters.
+    pub(crate) parameters: String,
+    /// The scheme with its choices.
+    pub(crate) scheme: String,
+    /// The type of the numbers.
+    pub(crate) scalar: String,
+    /// Steps, the step at which the clock began, whether an observer ended the run.
+    pub(crate) counts: [u64; 3],
+    /// The time at which the clock began, the step, then all that is carried.
+    pub(crate) numbers: Memory,
+    /// What observers remember, in their order.
+    pub(crate) observers: Memory,
+}
+
+const MAGIC: &[u8; 8] = b"HAMILTON";
+const VERSION: u64 = 1;
+
+impl Checkpoint {
+    /// The number of steps made.
+    pub fn steps(&self) -> u64 {
+        self.counts[0]
+    }
+
+    /// The bytes of its file.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut memory = Memory::default();
+        for text in [&self.system, &self.parameters, &self.scheme, &self.scalar] {
+            memory.text(text);
+        }
+        for count in self.counts {
+            memory.count(count);
+        }
+        for part in [&self.numbers, &self.observers] {
+            memory.count(part.words.len() as u64);
+            memory.words.extend(&part.words);
+        }
+        let mut bytes = Vec::with_capacity(8 * (memory.words.len() + 3));
+        bytes.extend(MAGIC);
+        bytes.extend(VERSION.to_le_bytes());
+        for word in &memory.words {
+            bytes.extend(word.to_le_bytes());
+        }
+        let checksum = checksum(&bytes);
+        bytes.extend(checksum.to_le_bytes());
+        bytes
+    }
+
+    /// From the bytes of its file.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Foreign`], [`CheckpointError::Newer`], [`CheckpointError::Damaged`].
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
+        let damaged = |reason| Error::from(CheckpointError::Damaged { reason });
+        let Some(rest) = bytes.strip_prefix(MAGIC) else {
+            return Err(CheckpointError::Foreign.into());
+        };
+        let words = |bytes: &[u8]| -> Vec<u64> {
+            let words = bytes.as_chunks::<8>().0;
+            words.iter().map(|word| u64::from_le_bytes(*word)).collect()
+        };
+        let words = words(rest);
+        let (Some(version), true) = (words.first(), bytes.len().is_multiple_of(8)) else {
+            return Err(damaged("it is cut off"));
+        };
+        if *version > VERSION {
+            return Err(CheckpointError::Newer {
+                found: *version,
+                known: VERSION,
+            }
+            .into());
+        }
+        let Some((last, content)) = words[1..].split_last() else {
+            return Err(damaged("it is cut off"));
+        };
+        if checksum(&bytes[..bytes.len() - 8]) != *last {
+            return Err(damaged("its checksum is wrong"));
+        }
+        let mut memory = Memory {
+            words: content.to_vec(),
+            read: 0,
+        };
+        let from = &mut memory;
+        let checkpoint = Checkpoint {
+            system: from.read_text()?,
+            parameters: from.read_text()?,
+            scheme: from.read_text()?,
+            scalar: from.read_text()?,
+            counts: [from.read_count()?, from.read_count()?, from.read_count()?],
+            numbers: from.read_memory()?,
+            observers: from.read_memory()?,
+        };
+        match memory.is_empty() {
+            true => Ok(checkpoint),
+            false => Err(damaged("it is too long")),
+        }
+    }
+
+    /// Writes its file: beside the place first, then renamed, so that whatever happens meanwhile the
+    /// old file or the new one is there, whole.
+    ///
+    /// # Errors
+    /// [`CheckpointError::File`].
+    #[cfg(feature = "std")]
+    pub fn save(&self, path: impl AsRef<std::path::Path>) -> Result<(), Error> {
+        use std::io::Write;
+        let path = path.as_ref();
+        let mut beside = path.as_os_str().to_owned();
+        beside.push(alloc::format!(".{}.part", std::process::id()));
+        let write = || -> std::io::Result<()> {
+            let mut file = std::fs::File::create(&beside)?;
+            file.write_all(&self.to_bytes())?;
+            file.sync_all()?;
+            drop(file);
+            std::fs::rename(&beside, path)
+        };
+        write().map_err(|error| {
+            // What was written beside is of no use; that it cannot be removed says nothing new.
+            let _ = std::fs::remove_file(&beside);
+            file_error(path, &error)
+        })
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`CheckpointError::File`], those of [`from_bytes`](Checkpoint::from_bytes).
+    #[cfg(feature = "std")]
+    pub fn load(path: impl AsRef<std::path::Path>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let bytes = std::fs::read(path).map_err(|error| file_error(path, &error))?;
+        Checkpoint::from_bytes(&bytes)
+    }
+
+    /// An error where a part is another one than in the program that goes on.
+    pub(crate) fn same(what: &'static str, saved: &str, given: &str) -> Result<(), Error> {
+        if saved == given {
+            return Ok(());
+        }
+        Err(CheckpointError::Other {
+            what,
+            saved: saved.to_owned(),
+            given: given.to_owned(),
+        }
+        .into())
+    }
+}
+
+#[cfg(feature = "std")]
+fn file_error(path: &std::path::Path, error: &std::io::Error) -> Error {
+    use alloc::string::ToString;
+    CheckpointError::File {
+        path: path.display().to_string(),
+        message: error.to_string(),
+    }
+    .into()
+}
+
+/// FNV-1a of 64 bits (G. Fowler, L. C. Noll, K.-P. Vo, 1991).
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| {
+        (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+    })
+}
+
+/// Numbers and texts one after the other: what observers remember is written to it and read from it
+/// in the same order.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Memory {
+    words: Vec<u64>,
+    read: usize,
+}
+
+impl Memory {
+    /// Begins the part of one observer, with the name of its type.
+    pub fn begin(&mut self, name: &str) {
+        self.text(name);
+    }
+
+    /// Reads that name.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Other`] if it is another one.
+    pub fn expect(&mut self, name: &str) -> Result<(), Error> {
+        let saved = self.read_text()?;
+        Checkpoint::same("observer", &saved, name)
+    }
+
+    /// Whether all was read.
+    pub fn is_empty(&self) -> bool {
+        self.read == self.words.len()
+    }
+
+    /// Writes a count.
+    pub fn count(&mut self, count: u64) {
+        self.words.push(count);
+    }
+
+    /// Writes a number, by its bits.
+    pub fn number(&mut self, number: f64) {
+        self.words.push(number.to_bits());
+    }
+
+    /// Writes a scalar, word by word.
+    pub fn scalar<T: Real>(&mut self, scalar: T) {
+        scalar.write_words(&mut |word| self.number(word));
+    }
+
+    /// Writes a text.
+    pub fn text(&mut self, text: &str) {
+        self.count(text.len() as u64);
+        for chunk in text.as_bytes().chunks(8) {
+            let mut word = [0; 8];
+            word[..chunk.len()].copy_from_slice(chunk);
+            self.words.push(u64::from_le_bytes(word));
+        }
+    }
+
+    /// Reads a count.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where nothing is left.
+    pub fn read_count(&mut self) -> Result<u64, Error> {
+        let word = self.words.get(self.read).copied();
+        self.read += usize::from(word.is_some());
+        word.ok_or(
+            CheckpointError::Damaged {
+                reason: "it is too short",
+            }
+            .into(),
+        )
+    }
+
+    /// Reads a number.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where nothing is left.
+    pub fn read_number(&mut self) -> Result<f64, Error> {
+        Ok(f64::from_bits(self.read_count()?))
+    }
+
+    /// Reads a scalar.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where nothing is left.
+    pub fn read_scalar<T: Real>(&mut self) -> Result<T, Error> {
+        let mut outcome = Ok(());
+        let scalar = T::read_words(&mut || match self.read_number() {
+            Ok(word) => word,
+            Err(error) => {
+                outcome = Err(error);
+                0.0
+            }
+        });
+        outcome.map(|()| scalar)
+    }
+
+    /// Reads a text.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where there is none.
+    pub fn read_text(&mut self) -> Result<String, Error> {
+        let damaged = CheckpointError::Damaged {
+            reason: "a text is not one",
+        };
+        let length = self.read_count()?;
+        let left = 8 * (self.words.len() - self.read) as u64;
+        if length > left {
+            return Err(damaged.into());
+        }
+        let mut bytes = Vec::with_capacity(length as usize);
+        while (bytes.len() as u64) < length {
+            bytes.extend(self.read_count()?.to_le_bytes());
+        }
+        bytes.truncate(length as usize);
+        String::from_utf8(bytes).map_err(|_| damaged.into())
+    }
+
+    /// Reads a count and as many elements.
+    ///
+    /// # Errors
+    /// Those of reading an element.
+    pub fn read_list<U>(
+        &mut self,
+        mut element: impl FnMut(&mut Self) -> Result<U, Error>,
+    ) -> Result<Vec<U>, Error> {
+        let count = self.read_count()?;
+        (0..count).map(|_| element(self)).collect()
+    }
+
+    fn read_memory(&mut self) -> Result<Memory, Error> {
+        Ok(Memory {
+            words: self.read_list(Memory::read_count)?,
+            read: 0,
+        })
+    }
+}

@@ -1,0 +1,218 @@
+//! What moves a point: the vector field, exact flows of pieces of H, and splittings into pieces.
+//!
+//! Input: a prepared system and a step coefficient. Output: [`VectorField`], which accumulates
+//! c·J∇H, and [`Flow`], the exact map of a piece of H over a fixed duration, which a [`Piece`] makes;
+//! [`Pieces`] puts k of them together. Invariant: nothing here allocates.
+
+use crate::vector::Vector;
+use core::fmt::Debug;
+use hamiltonian_lanes::Real;
+
+/// `c·J∇H`, and `c` times the force where the system has one, accumulating.
+pub trait VectorField<V: Vector>: Clone + Debug {
+    /// `into_q += c·∂H/∂p(q, p, t)`, `into_p += c·(f(q, p, t) − ∂H/∂q(q, p, t))`.
+    fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
+}
+
+/// The exact map of a piece of H over a fixed duration, with t frozen.
+///
+/// `X` is the space it acts on: a [`Point`](crate::Point) of phase space, or whatever a scheme
+/// carries. Outside its domain a flow writes NaN into every component it moves; the check of the
+/// block finds that.
+pub trait Flow<X: Vector>: Clone + Debug {
+    /// The piece in the author's notation.
+    const NAME: &'static str;
+    /// Whether the map for c₁ followed by the map for c₂ is the map for c₁ + c₂. It is not where the
+    /// piece is a loop over terms that do not commute: the map is then the exact flows of the terms
+    /// one after the other.
+    const MERGES: bool = true;
+
+    /// Moves the point; the first term of a loop first.
+    fn apply(&self, t: X::Scalar, x: &mut X);
+    /// The same with the terms of a loop in the opposite order.
+    #[inline(always)]
+    fn apply_reversed(&self, t: X::Scalar, x: &mut X) {
+        self.apply(t, x);
+    }
+    /// Moves the point, and says which piece made it leave the numbers, if one did.
+    #[cold]
+    fn blame(&self, t: X::Scalar, x: &mut X) -> Option<&'static str> {
+        self.apply(t, x);
+        (!x.is_finite()).then_some(Self::NAME)
+    }
+}
+
+/// A piece of H, as a value: a unit struct, or one with a choice in it.
+pub trait Piece<T: Real, P>: Copy + Debug + Send + Sync + 'static {
+    /// The space its flow acts on.
+    type Point: Vector<Scalar = T>;
+    /// Its flow.
+    type Flow: Flow<Self::Point>;
+    /// The flow for the duration `c`, with `c` folded into the prepared constants.
+    fn flow(&self, prepared: &P, c: T) -> Self::Flow;
+}
+
+/// Pieces of H in an order: a tuple of [`Piece`]s, the outermost first.
+///
+/// A stage of a splitting goes down through the pieces 1…k, each for a duration `down`, and up
+/// again, each for a duration `up`. Equal neighbours are one flow: the innermost for `down + up`,
+/// the outermost for `up` of a stage and `down` of the next.
+pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
+    /// The space the flows act on.
+    type Point: Vector<Scalar = T>;
+    /// The flow of the first piece.
+    type Outer: Flow<Self::Point>;
+    /// The flows of all others, down and up.
+    type Inner: Flow<Self::Point>;
+    /// The flow of the first piece.
+    fn outer(&self, prepared: &P, c: T) -> Self::Outer;
+    /// The flows of the pieces 2…k for `down` and k…2 for `up`.
+    fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner;
+}
+
+/// The flow of no piece: what is inside a splitting into one.
+#[derive(Debug, Clone, Copy)]
+pub struct Nothing;
+
+impl<X: Vector> Flow<X> for Nothing {
+    const NAME: &'static str = "";
+    #[inline(always)]
+    fn apply(&self, _: X::Scalar, _: &mut X) {}
+}
+
+/// The innermost piece, down and up: one flow where it merges, two where it is a loop.
+#[derive(Debug, Clone)]
+pub struct Turn<F> {
+    down: F,
+    up: Option<F>,
+}
+
+impl<F> Turn<F> {
+    /// From the flow for a duration.
+    #[inline(always)]
+    fn new<X: Vector>(flow: impl Fn(X::Scalar) -> F, down: X::Scalar, up: X::Scalar) -> Self
+    where
+        F: Flow<X>,
+    {
+        if F::MERGES {
+            Turn {
+                down: flow(down + up),
+                up: None,
+            }
+        } else {
+            Turn {
+                down: flow(down),
+                up: Some(flow(up)),
+            }
+        }
+    }
+}
+
+impl<X: Vector, F: Flow<X>> Flow<X> for Turn<F> {
+    const NAME: &'static str = F::NAME;
+    #[inline(always)]
+    fn apply(&self, t: X::Scalar, x: &mut X) {
+        self.down.apply(t, x);
+        if !F::MERGES
+            && let Some(up) = &self.up
+        {
+            up.apply_reversed(t, x);
+        }
+    }
+}
+
+/// A piece around those further in: down, the inside, up.
+#[derive(Debug, Clone)]
+pub struct Sandwich<F, I> {
+    down: F,
+    inside: I,
+    up: F,
+}
+
+impl<X: Vector, F: Flow<X>, I: Flow<X>> Flow<X> for Sandwich<F, I> {
+    const NAME: &'static str = F::NAME;
+    #[inline(always)]
+    fn apply(&self, t: X::Scalar, x: &mut X) {
+        self.down.apply(t, x);
+        self.inside.apply(t, x);
+        self.up.apply_reversed(t, x);
+    }
+    #[cold]
+    fn blame(&self, t: X::Scalar, x: &mut X) -> Option<&'static str> {
+        (self.down.blame(t, x))
+            .or_else(|| self.inside.blame(t, x))
+            .or_else(|| self.up.blame(t, x))
+    }
+}
+
+impl<T: Real, P, A: Piece<T, P>> Pieces<T, P> for (A,) {
+    type Point = A::Point;
+    type Outer = A::Flow;
+    type Inner = Nothing;
+    #[inline(always)]
+    fn outer(&self, prepared: &P, c: T) -> A::Flow {
+        self.0.flow(prepared, c)
+    }
+    #[inline(always)]
+    fn inner(&self, _: &P, _: T, _: T) -> Nothing {
+        Nothing
+    }
+}
+
+/// The tuple of pieces `$first, $second, …`; `(second, …)` is made of `$rest`.
+macro_rules! pieces {
+    ($first:ident $second:ident) => {
+        impl<T, P, $first, $second> Pieces<T, P> for ($first, $second)
+        where
+            T: Real,
+            $first: Piece<T, P>,
+            $second: Piece<T, P, Point = $first::Point>,
+        {
+            type Point = $first::Point;
+            type Outer = $first::Flow;
+            type Inner = Turn<$second::Flow>;
+            #[inline(always)]
+            fn outer(&self, prepared: &P, c: T) -> Self::Outer {
+                self.0.flow(prepared, c)
+            }
+            #[inline(always)]
+            fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
+                Turn::new::<Self::Point>(|c| self.1.flow(prepared, c), down, up)
+            }
+        }
+    };
+    ($first:ident $second:ident $($rest:ident $index:tt)+) => {
+        impl<T, P, $first, $second, $($rest),+> Pieces<T, P> for ($first, $second, $($rest),+)
+        where
+            T: Real,
+            $first: Piece<T, P>,
+            $second: Piece<T, P, Point = $first::Point>,
+            $($rest: Piece<T, P, Point = $first::Point>,)+
+        {
+            type Point = $first::Point;
+            type Outer = $first::Flow;
+            type Inner =
+                Sandwich<$second::Flow, <($second, $($rest),+) as Pieces<T, P>>::Inner>;
+            #[inline(always)]
+            fn outer(&self, prepared: &P, c: T) -> Self::Outer {
+                self.0.flow(prepared, c)
+            }
+            #[inline(always)]
+            fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner {
+                Sandwich {
+                    down: self.1.flow(prepared, down),
+                    inside: (self.1, $(self.$index),+).inner(prepared, down, up),
+                    up: self.1.flow(prepared, up),
+                }
+            }
+        }
+    };
+}
+
+pieces!(A B);
+pieces!(A B C 2);
+pieces!(A B C 2 D 3);
+pieces!(A B C 2 D 3 E 4);
+pieces!(A B C 2 D 3 E 4 F 5);
+pieces!(A B C 2 D 3 E 4 F 5 G 6);
+pieces!(A B C 2 D 3 E 4 F 5 G 6 H 7);

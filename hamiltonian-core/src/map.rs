@@ -1,0 +1,227 @@
+//! One-step maps: what a scheme becomes for a given step.
+//!
+//! Input: what is carried, and the time. Output: what is carried a step later. Invariants: a map owns
+//! constants and no state, so threads share one, stages of a composition share its scratch, and a
+//! part of a step is another map; nothing allocates or dispatches inside a step; what is carried
+//! depends on the number of steps made and on nothing else, so that the bits of a trajectory are the
+//! same however it is cut into blocks and whoever observes it.
+
+use crate::state::Carried;
+use crate::vector::Vector;
+use hamiltonian_lanes::Real;
+
+/// The scalar of what a map carries.
+pub type ScalarOf<M> = <<M as Map>::Carried as Vector>::Scalar;
+
+/// A one-step map Φ = close ∘ body ∘ open.
+///
+/// The closing piece of a step and the opening piece of the next are one,
+/// [`join`](Map::join). What is carried after a step stands before its closing piece; whoever wants
+/// to see the state closes a copy.
+pub trait Map {
+    /// All that is carried from step to step.
+    type Carried: Carried;
+    /// Scratch, whose contents never matter.
+    type Work;
+
+    /// Scratch of the right shape. This may allocate.
+    fn work(&self, like: &Self::Carried) -> Self::Work;
+    /// The piece before the body of the first step, at its beginning.
+    #[inline(always)]
+    fn open(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried) {}
+    /// The step from `t` to `end`, but for its opening and closing pieces.
+    fn body(
+        &self,
+        t: ScalarOf<Self>,
+        end: ScalarOf<Self>,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    );
+    /// The piece after the body, at the end of the step.
+    #[inline(always)]
+    fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried) {}
+    /// `close` of the step before, then `open`.
+    #[inline(always)]
+    fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried) {
+        self.close(t, z);
+        self.open(t, z);
+    }
+    /// Makes the step again that led to a value that is not finite, and says why it did. `first` is
+    /// whether it began with `open` instead of `join`.
+    #[cold]
+    fn explain(
+        &self,
+        _t: ScalarOf<Self>,
+        _end: ScalarOf<Self>,
+        _first: bool,
+        _z: &mut Self::Carried,
+        _work: &mut Self::Work,
+    ) -> Cause {
+        Cause::Overflow
+    }
+
+    /// Makes `n` steps after the first `made`.
+    #[inline(always)]
+    fn run(
+        &self,
+        clock: Clock<ScalarOf<Self>>,
+        made: u64,
+        n: u64,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        let end = made + n;
+        // Moved out, what is carried is a variable of this loop alone and stays in registers.
+        let mut carried = z.take();
+        // Counted down to zero, which costs one instruction less; the number of the step is only
+        // computed where a system looks at the time.
+        let mut left = n;
+        if made == 0 && n > 0 {
+            self.open(clock.at(0), &mut carried);
+            self.body(clock.at(0), clock.at(1), &mut carried, work);
+            left -= 1;
+        }
+        while left != 0 {
+            let k = end - left;
+            self.join(clock.at(k), &mut carried);
+            self.body(clock.at(k), clock.at(k + 1), &mut carried, work);
+            left -= 1;
+        }
+        *z = carried;
+    }
+
+    /// One whole step from `t` to `end`.
+    #[inline(always)]
+    fn step(
+        &self,
+        t: ScalarOf<Self>,
+        end: ScalarOf<Self>,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        self.open(t, z);
+        self.body(t, end, z, work);
+        self.close(end, z);
+    }
+}
+
+/// Why a step led to a value that is not finite.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Cause {
+    /// A number grew beyond all bounds, or J∇H is not defined where it was asked for.
+    Overflow,
+    /// The exact flow of this piece left its domain, or J∇H of it is not defined there.
+    Piece(&'static str),
+    /// The equations of an implicit step were not solved.
+    Unsolved {
+        /// The last change of the iterate, in the sum norm.
+        residual: f64,
+        /// The number of iterations made.
+        iterations: u32,
+    },
+}
+
+/// The step a map is made for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step<T> {
+    /// Its size.
+    pub h: T,
+    /// The size of the step whose closing piece [`Map::join`] absorbs: `h` in a run, the stage before
+    /// in a composition.
+    pub before: T,
+}
+
+impl<T: Copy> Step<T> {
+    /// Steps of one size.
+    pub fn of(h: T) -> Self {
+        Step { h, before: h }
+    }
+}
+
+/// Time as a function of the number of steps: `start + k·interval`, never a running sum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Clock<T> {
+    /// The time at step 0.
+    pub start: T,
+    /// The time one step advances.
+    pub interval: T,
+}
+
+impl<T: Real> Clock<T> {
+    /// The time after `made` steps.
+    ///
+    /// Pure, so that it vanishes where a system does not look at the time; exact in the number
+    /// of steps up to 2⁵³.
+    #[inline(always)]
+    pub fn at(&self, made: u64) -> T {
+        // Signed conversion is one instruction, unsigned is not.
+        self.interval
+            .fma(T::constant(made as i64 as f64, 0.0), self.start)
+    }
+}
+
+/// One of two maps: a choice of the scheme that is made at run time, once a block of steps.
+#[derive(Debug, Clone)]
+pub enum Either<A, B> {
+    /// The first.
+    First(A),
+    /// The second.
+    Second(B),
+}
+
+/// Calls the same method of whichever map is there.
+macro_rules! either {
+    ($self:ident.$method:ident($($argument:expr),*)) => {
+        match $self {
+            Either::First(map) => map.$method($($argument),*),
+            Either::Second(map) => map.$method($($argument),*),
+        }
+    };
+}
+
+impl<A: Map, B: Map<Carried = A::Carried, Work = A::Work>> Map for Either<A, B> {
+    type Carried = A::Carried;
+    type Work = A::Work;
+
+    fn work(&self, like: &A::Carried) -> A::Work {
+        either!(self.work(like))
+    }
+    #[inline(always)]
+    fn open(&self, t: ScalarOf<A>, z: &mut A::Carried) {
+        either!(self.open(t, z));
+    }
+    #[inline(always)]
+    fn body(&self, t: ScalarOf<A>, end: ScalarOf<A>, z: &mut A::Carried, work: &mut A::Work) {
+        either!(self.body(t, end, z, work));
+    }
+    #[inline(always)]
+    fn close(&self, t: ScalarOf<A>, z: &mut A::Carried) {
+        either!(self.close(t, z));
+    }
+    #[inline(always)]
+    fn join(&self, t: ScalarOf<A>, z: &mut A::Carried) {
+        either!(self.join(t, z));
+    }
+    #[cold]
+    fn explain(
+        &self,
+        t: ScalarOf<A>,
+        end: ScalarOf<A>,
+        first: bool,
+        z: &mut A::Carried,
+        work: &mut A::Work,
+    ) -> Cause {
+        either!(self.explain(t, end, first, z, work))
+    }
+    #[inline(always)]
+    fn run(
+        &self,
+        clock: Clock<ScalarOf<A>>,
+        made: u64,
+        n: u64,
+        z: &mut A::Carried,
+        work: &mut A::Work,
+    ) {
+        either!(self.run(clock, made, n, z, work));
+    }
+}

@@ -1,0 +1,254 @@
+//! Parts of a step: the state of a run between its steps.
+//!
+//! Input: the present state of a run and a time. Output: the state at that time, by one step of
+//! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
+
+use crate::error::Error;
+use crate::integrator::{Integrator, MapOf, numbers};
+use crate::map::{Cause, Map, Step};
+use crate::observe::{Between, Observer};
+use crate::scheme::Scheme;
+use crate::state::{Carried, State};
+use crate::system::System;
+use crate::vector::Vector;
+use alloc::format;
+use alloc::string::String;
+use hamiltonian_lanes::{Mask, Real};
+
+/// The scheme of a run, its type forgotten: how maps are made. (A run names its scheme's map alone:
+/// with the scheme in its type a wrong pairing would be reported at every call.)
+pub(crate) trait Recipe<T: Real, S: System<T>, R: Map>: Send + Sync {
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> R;
+    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
+    /// The scheme with all its choices.
+    fn describe(&self) -> String;
+}
+
+impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> M::Map {
+        Scheme::prepare(self, prepared, step)
+    }
+    fn start(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> <M::Map as Map>::Carried {
+        Scheme::start(self, prepared, state, h)
+    }
+    fn describe(&self) -> String {
+        format!("{self:?}")
+    }
+}
+
+/// What parts of a step are made of.
+pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
+    pub(crate) prepared: &'a S::Prepared,
+    pub(crate) recipe: &'a dyn Recipe<T, S, R>,
+    pub(crate) state: &'a State<S::Vector>,
+    pub(crate) step: T,
+    pub(crate) interval: T,
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
+    fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+        let now = self.state.t;
+        let part = (t - now) / self.interval;
+        // Times are sums and products that were rounded.
+        let rounding =
+            4.0 * T::epsilon() * (now.magnitude() + t.magnitude()) / self.interval.magnitude();
+        if !(part.magnitude() <= 1.0 + rounding) {
+            return Err(Error::Far {
+                target: t.to_f64(),
+                from: (now - self.interval).to_f64(),
+                to: (now + self.interval).to_f64(),
+            });
+        }
+        if part.equals(T::zero()).all() {
+            return Ok(self.state.clone());
+        }
+        let h = part * self.step;
+        let mut carried = self.recipe.start(self.prepared, self.state, h);
+        let map = self.recipe.prepare(self.prepared, Step::of(h));
+        let mut work = map.work(&carried);
+        map.step(now, t, &mut carried, &mut work);
+        if !carried.is_finite() {
+            return Err(self.explain(&map, h, t));
+        }
+        let point = carried.point();
+        Ok(State {
+            t: carried.time(t),
+            q: point.q.clone(),
+            p: point.p.clone(),
+        })
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
+    #[cold]
+    fn explain(&self, map: &R, h: T, t: T) -> Error {
+        let mut carried = self.recipe.start(self.prepared, self.state, h);
+        let mut work = map.work(&carried);
+        let cause = map.explain(self.state.t, t, true, &mut carried, &mut work);
+        let bad = !carried.finite();
+        let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
+        let point = carried.point();
+        match cause {
+            Cause::Unsolved {
+                residual,
+                iterations,
+            } => Error::Solve {
+                step: 1,
+                lane,
+                time: self.state.t.to_f64(),
+                residual,
+                iterations,
+            },
+            Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
+                step: 1,
+                piece: match cause {
+                    Cause::Piece(name) => Some(name),
+                    _ => None,
+                },
+                lane,
+                time: t.to_f64(),
+                q: numbers(&point.q),
+                p: numbers(&point.p),
+            },
+        }
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// The state at a time within one step of the present one, before or after it, by a part of a
+    /// step of a copy: of the scheme's own order, and without a changed bit in the run.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+    /// let state = run.state_at(0.004)?;
+    /// assert!((state.q[0] - 0.004_f64.cos()).abs() < 1e-8);
+    /// assert!(run.state_at(0.02).is_err());
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Far`] for a time further away; [`Error::NotFinite`] and [`Error::Solve`], in which
+    /// the step is number 1 of a part of its own.
+    pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
+        self.part().state_at(t)
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
+    /// Makes whole steps as long as they do not pass `t`, and returns the state at `t`, any time
+    /// ahead: the last part of a step is made on a copy.
+    ///
+    /// Where an observer ends the run before, the state at which it did is returned; see
+    /// [`has_ended`](Integrator::has_ended).
+    ///
+    /// # Errors
+    /// [`Error::OffGrid`] for a time behind the present one or none at all; those of
+    /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
+    pub fn advance_until(&mut self, t: T) -> Result<State<S::Vector>, Error> {
+        let (before, after) = self.whole_steps(t)?;
+        self.advance(before.unwrap_or(after))?;
+        match before {
+            // An end is a step of the grid, or the state where an observer ended the run.
+            _ if self.ended => Ok(self.state.clone()),
+            None => Ok(self.state.clone()),
+            Some(_) => self.state_at(t),
+        }
+    }
+
+    /// Makes the whole number of steps that leads to the time `t`.
+    ///
+    /// The step size is never changed, and a state at another time is never passed off as one at
+    /// `t`: if no whole number of steps leads there, to within the rounding of `t`, the step and
+    /// the start, that is an error and no step is made. [`advance_until`](Integrator::advance_until)
+    /// goes to any time.
+    ///
+    /// # Errors
+    /// [`Error::OffGrid`] with the reachable times on both sides; those of
+    /// [`advance`](Integrator::advance).
+    pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
+        match self.whole_steps(t)? {
+            (None, steps) => self.advance(steps),
+            (Some(before), after) => {
+                let made = self.steps - self.began;
+                Err(Error::OffGrid {
+                    target: t.to_f64(),
+                    before: self.clock.at(made + before).to_f64(),
+                    after: self.clock.at(made + after).to_f64(),
+                })
+            }
+        }
+    }
+
+    /// How many steps lead to `t`: (none, that number), or where none does the numbers before and
+    /// after it.
+    fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
+        /// Numbers of steps up to here are exact in `f64`.
+        const MOST: f64 = (1_u64 << 53) as f64;
+        let made = self.steps - self.began;
+        let count = ((t - self.clock.start) / self.clock.interval).to_f64();
+        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
+        let reached = self.clock.at(nearest);
+        // t, the start and the interval are each off by half an ulp at most, and so are the
+        // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
+        // user, whatever the scalar.
+        let size =
+            t.magnitude() + self.clock.start.magnitude() + (reached - self.clock.start).magnitude();
+        let rounding = T::epsilon().max(f64::EPSILON) * size;
+        let counted = t.is_finite() && count < MOST;
+        let meets = counted && (reached - t).magnitude() <= rounding;
+        if meets && nearest >= made {
+            return Ok((None, nearest - made));
+        }
+        let behind = count < made as f64;
+        let before = (count.clamp(0.0, MOST) as u64).max(made);
+        if counted && !behind {
+            return Ok((Some(before - made), before + 1 - made));
+        }
+        let after = if behind { before } else { before + 1 };
+        Err(Error::OffGrid {
+            target: t.to_f64(),
+            before: self.clock.at(before).to_f64(),
+            after: self.clock.at(after).to_f64(),
+        })
+    }
+
+    /// The states at the given times, in the order of the run, independent of the step; until an
+    /// observer ends the run. The first error is the last item.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
+    ///
+    /// let start = State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.03)?;
+    /// for state in run.states_at([0.1, 0.2, 1.0]) {
+    ///     let state = state?;
+    ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-4);
+    /// }
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    pub fn states_at<I: IntoIterator<Item = T>>(
+        &mut self,
+        times: I,
+    ) -> impl Iterator<Item = Result<State<S::Vector>, Error>> {
+        let mut times = times.into_iter();
+        let mut failed = false;
+        core::iter::from_fn(move || {
+            if failed || self.ended {
+                return None;
+            }
+            let state = self.advance_until(times.next()?);
+            failed = state.is_err();
+            Some(state)
+        })
+    }
+}

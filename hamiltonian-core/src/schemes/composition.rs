@@ -1,0 +1,377 @@
+//! Compositions of one-step schemes, and adjoints.
+//!
+//! Input: any one-step scheme, weights. Output: [`Composition`], [`Adjoint`]. Invariant: the closing
+//! piece of a stage and the opening piece of the next are one, across steps too.
+
+use super::iterate::{Contraction, iterate};
+use super::table::Weight;
+use super::tables::general as tables;
+use crate::map::{Cause, Map, ScalarOf, Step};
+use crate::scheme::{Entry, Listed, OneStep, Scheme};
+use crate::state::{Point, State};
+use crate::system::System;
+use crate::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+
+/// A scheme made of steps of another: Φ(γₛh) ∘ … ∘ Φ(γ₂h) ∘ Φ(γ₁h).
+///
+/// Of a symmetric scheme of order 2, Yoshida's weights γ = (1/(2 − ∛2), −∛2/(2 − ∛2), 1/(2 − ∛2))
+/// make one of order 4. What the scheme preserves its compositions preserve. Schemes whose step
+/// depends on what came before cannot be composed: [`OneStep`].
+///
+/// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, eq. 4.4, doi:10.1016/0375-9601(90)90092-3; E.
+/// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), sec. II.4,
+/// doi:10.1007/3-540-30666-8.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::schemes::{Composition, ImplicitMidpoint};
+/// use hamiltonian_core::{Integrator, State};
+///
+/// let fourth = Composition::yoshida(ImplicitMidpoint::default());
+/// let mut run = Integrator::new(&Oscillator, fourth, State::new([1.0], [0.0]), 0.1)?;
+/// assert!((run.advance(10)?.q[0] - 1.0_f64.cos()).abs() < 1e-5);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Composition<M, const S: usize> {
+    stages: [(M, Weight); S],
+    order: u32,
+    name: &'static str,
+}
+
+impl<M: OneStep, const S: usize> Composition<M, S> {
+    /// Steps of `scheme` of the sizes `weights` in units of the step, first to last; their sum is 1.
+    /// `order` is the order of the whole, `name` its name in tables. Without any stage it does not
+    /// compile.
+    pub fn new(scheme: M, weights: [Weight; S], order: u32, name: &'static str) -> Self {
+        Self::of(weights.map(|weight| (scheme.clone(), weight)), order, name)
+    }
+
+    /// The same of schemes of one type that may differ in their choices: of a scheme and its adjoint,
+    /// say.
+    pub fn of(stages: [(M, Weight); S], order: u32, name: &'static str) -> Self {
+        const { assert!(S > 0, "a composition has at least one stage") };
+        Composition {
+            stages,
+            order,
+            name,
+        }
+    }
+}
+
+impl<M: OneStep<Adjoint = M>> Composition<M, 2> {
+    /// Half a step of the scheme, then half a step of its adjoint: symmetric, of order 2.
+    pub fn with_adjoint(scheme: M) -> Self {
+        let adjoint = scheme.adjoint();
+        let half = Weight(0.5, 0.0);
+        Composition::of(
+            [(scheme, half), (adjoint, half)],
+            2,
+            "Composition with adjoint",
+        )
+    }
+}
+
+impl<M: OneStep> Composition<M, 3> {
+    /// Yoshida's three steps, which make a symmetric scheme of order 2 one of order 4.
+    pub fn yoshida(scheme: M) -> Self {
+        let table = tables::YOSHIDA_4;
+        // Both halves of a stage are γ/2.
+        let weights = table
+            .stages
+            .map(|(down, _)| Weight(2.0 * down.0, 2.0 * down.1));
+        Composition::new(scheme, weights, table.order, table.name)
+    }
+}
+
+impl<M: OneStep, const S: usize> Listed for Composition<M, S> {
+    fn entry(&self) -> Entry {
+        let of = self.stages[0].0.entry();
+        Entry {
+            name: self.name,
+            variant: of.name,
+            equations: "",
+            order: self.order,
+            ..of
+        }
+    }
+}
+
+impl<M: OneStep, const S: usize> OneStep for Composition<M, S> {
+    type Adjoint = Composition<M::Adjoint, S>;
+    fn adjoint(&self) -> Self::Adjoint {
+        let mut stages = self
+            .stages
+            .clone()
+            .map(|(scheme, weight)| (scheme.adjoint(), weight));
+        stages.reverse();
+        Composition::of(stages, self.order, self.name)
+    }
+}
+
+impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Scheme<T, S>
+    for Composition<M, STAGES>
+{
+    type Map = Composed<M::Map, STAGES>;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let (last, weight) = &self.stages[STAGES - 1];
+        let mut before = weight.to::<T>() * step.before;
+        let mut at = T::zero();
+        let duration = T::constant(f64::from(last.entry().duration), 0.0);
+        let stages = core::array::from_fn(|i| {
+            let (scheme, weight) = &self.stages[i];
+            let weight = weight.to::<T>();
+            let h = weight * step.h;
+            let stage = Stage {
+                map: scheme.prepare(prepared, Step { h, before }),
+                at: at * duration * step.h,
+            };
+            before = h;
+            at += weight;
+            stage
+        });
+        Composed { stages }
+    }
+    fn start(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> <Self::Map as Map>::Carried {
+        let (first, weight) = &self.stages[0];
+        first.start(prepared, state, weight.to::<T>() * h)
+    }
+}
+
+struct Stage<M: Map> {
+    map: M,
+    /// When it begins, after the beginning of the step.
+    at: ScalarOf<M>,
+}
+
+/// The map of a [`Composition`].
+pub struct Composed<M: Map, const S: usize> {
+    stages: [Stage<M>; S],
+}
+
+impl<M: Map, const S: usize> Composed<M, S> {
+    /// When stage `i` of the step from `t` to `end` is over.
+    #[inline(always)]
+    fn end_of(&self, i: usize, t: ScalarOf<M>, end: ScalarOf<M>) -> ScalarOf<M> {
+        match self.stages.get(i + 1) {
+            Some(next) => t + next.at,
+            None => end,
+        }
+    }
+}
+
+impl<M: Map, const S: usize> Map for Composed<M, S> {
+    type Carried = M::Carried;
+    type Work = M::Work;
+
+    fn work(&self, like: &M::Carried) -> Self::Work {
+        self.stages[0].map.work(like)
+    }
+
+    #[inline(always)]
+    fn open(&self, t: ScalarOf<M>, z: &mut M::Carried) {
+        self.stages[0].map.open(t, z);
+    }
+
+    #[inline(always)]
+    fn body(&self, t: ScalarOf<M>, end: ScalarOf<M>, z: &mut M::Carried, work: &mut Self::Work) {
+        for (i, stage) in self.stages.iter().enumerate() {
+            let begin = t + stage.at;
+            if i > 0 {
+                stage.map.join(begin, z);
+            }
+            stage.map.body(begin, self.end_of(i, t, end), z, work);
+        }
+    }
+
+    #[inline(always)]
+    fn close(&self, t: ScalarOf<M>, z: &mut M::Carried) {
+        self.stages[S - 1].map.close(t, z);
+    }
+
+    #[inline(always)]
+    fn join(&self, t: ScalarOf<M>, z: &mut M::Carried) {
+        self.stages[0].map.join(t, z);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: ScalarOf<M>,
+        end: ScalarOf<M>,
+        first: bool,
+        z: &mut M::Carried,
+        work: &mut Self::Work,
+    ) -> Cause {
+        for (i, stage) in self.stages.iter().enumerate() {
+            let (begin, end) = (t + stage.at, self.end_of(i, t, end));
+            let opens = first && i == 0;
+            let mut after = z.clone();
+            if opens {
+                stage.map.open(begin, &mut after);
+            } else {
+                stage.map.join(begin, &mut after);
+            }
+            stage.map.body(begin, end, &mut after, work);
+            let last = i + 1 == S;
+            let mut closed = after.clone();
+            if last {
+                stage.map.close(end, &mut closed);
+            }
+            if !closed.is_finite() {
+                return stage.map.explain(begin, end, opens, z, work);
+            }
+            *z = after;
+        }
+        Cause::Overflow
+    }
+}
+
+/// The adjoint Φ*ₕ = (Φ₋ₕ)⁻¹ of any scheme that carries the point alone, its equations solved by
+/// fixed-point iteration.
+///
+/// [`OneStep::adjoint`] gives the adjoint in closed form where there is one.
+///
+/// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), def. II.3.1,
+/// doi:10.1007/3-540-30666-8.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Adjoint<M>(pub M);
+
+/// A step that is not solved after so many iterations is an error.
+const LIMIT: u32 = 100;
+
+impl<M: OneStep> Listed for Adjoint<M> {
+    fn entry(&self) -> Entry {
+        Entry {
+            variant: "adjoint",
+            ..self.0.entry()
+        }
+    }
+}
+
+impl<M: OneStep> OneStep for Adjoint<M> {
+    type Adjoint = M;
+    fn adjoint(&self) -> M {
+        self.0.clone()
+    }
+}
+
+impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>> Scheme<T, S> for Adjoint<M>
+where
+    M::Map: Map<Carried = Point<S::Vector>>,
+{
+    type Map = Inverted<M::Map>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Inverted {
+            back: self.0.prepare(prepared, Step::of(-step.h)),
+        }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        state.point()
+    }
+}
+
+/// The map of an [`Adjoint`].
+pub struct Inverted<M: Map> {
+    /// Φ₋ₕ.
+    back: M,
+}
+
+/// x ↦ x + (z − Φ₋ₕ(x)).
+struct Inversion<'a, M: Map> {
+    map: &'a Inverted<M>,
+    /// The beginning of the step.
+    t: ScalarOf<M>,
+    end: ScalarOf<M>,
+    target: &'a M::Carried,
+    image: &'a mut M::Carried,
+    work: &'a mut M::Work,
+}
+
+impl<M: Map> Contraction<M::Carried> for Inversion<'_, M> {
+    #[inline(always)]
+    fn map(&mut self, x: &M::Carried, next: &mut M::Carried) {
+        self.image.copy_from(x);
+        self.map.back.step(self.end, self.t, self.image, self.work);
+        next.copy_from(x);
+        next.accumulate(ScalarOf::<M>::one(), self.target);
+        next.accumulate(-ScalarOf::<M>::one(), self.image);
+    }
+    #[inline(always)]
+    fn scale(&self, x: &M::Carried) -> <ScalarOf<M> as Real>::Size {
+        x.size()
+    }
+}
+
+impl<M: Map> Inverted<M> {
+    #[inline(always)]
+    fn solve(
+        &self,
+        t: ScalarOf<M>,
+        end: ScalarOf<M>,
+        z: &mut M::Carried,
+        work: &mut InvertedWork<M>,
+    ) -> Cause {
+        work.target.copy_from(z);
+        let mut inversion = Inversion {
+            map: self,
+            t,
+            end,
+            target: &work.target,
+            image: &mut work.image,
+            work: &mut work.inner,
+        };
+        let outcome = iterate(LIMIT, &mut inversion, z, &mut work.next);
+        z.poison(!outcome.solved);
+        match outcome.solved.all() {
+            true => Cause::Overflow,
+            false => outcome.cause(),
+        }
+    }
+}
+
+/// The scratch of [`Inverted`].
+pub struct InvertedWork<M: Map> {
+    target: M::Carried,
+    image: M::Carried,
+    next: M::Carried,
+    inner: M::Work,
+}
+
+impl<M: Map> Map for Inverted<M> {
+    type Carried = M::Carried;
+    type Work = InvertedWork<M>;
+
+    fn work(&self, like: &M::Carried) -> Self::Work {
+        InvertedWork {
+            target: like.clone(),
+            image: like.clone(),
+            next: like.clone(),
+            inner: self.back.work(like),
+        }
+    }
+
+    #[inline(always)]
+    fn body(&self, t: ScalarOf<M>, end: ScalarOf<M>, z: &mut M::Carried, work: &mut Self::Work) {
+        self.solve(t, end, z, work);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: ScalarOf<M>,
+        end: ScalarOf<M>,
+        _: bool,
+        z: &mut M::Carried,
+        work: &mut Self::Work,
+    ) -> Cause {
+        self.solve(t, end, z, work)
+    }
+}

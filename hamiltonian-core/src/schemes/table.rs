@@ -1,0 +1,80 @@
+//! Tables of weights: the coefficients of splittings.
+//!
+//! Input: published numbers. Output: [`Table`]: for each stage the durations `(down, up)` in units of
+//! the step. Invariant: the durations of a table sum to one, down and up together.
+
+use crate::scheme::{Listed, OneStep};
+use hamiltonian_lanes::Real;
+
+/// A coefficient in two words, `.0 + .1`, exact to 106 bits.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Weight(pub f64, pub f64);
+
+impl Weight {
+    /// As a number of any scalar.
+    #[inline(always)]
+    pub fn to<T: Real>(self) -> T {
+        T::constant(self.0, self.1)
+    }
+
+    /// Half of it, exactly.
+    #[must_use]
+    pub const fn half(self) -> Weight {
+        Weight(0.5 * self.0, 0.5 * self.1)
+    }
+}
+
+/// The durations of a stage: the pieces 1…k for `down`, then k…1 for `up`.
+///
+/// Every splitting into two pieces a₁ b₁ a₂ b₂ … is such a table (d₁ = a₁, d₁ + u₁ = b₁,
+/// u₁ + d₂ = a₂, …), every composition of a first-order map and its adjoint (down the first, up the
+/// second), and every symmetric composition of Strang's splitting (down = up = γ/2).
+pub type Durations = (Weight, Weight);
+
+/// The weights of a splitting, as a type: its number of stages is known at compile time.
+pub trait Table: Listed + Copy {
+    /// An array with one element a stage.
+    type Of<U>: AsRef<[U]>;
+    /// The durations of the stages.
+    fn stages(&self) -> Self::Of<Durations>;
+    /// The array with what `f` makes of each element, in order.
+    fn map<A, U>(of: Self::Of<A>, f: impl FnMut(A) -> U) -> Self::Of<U>;
+}
+
+/// The table of the adjoint scheme: backwards, with the durations of each stage exchanged.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Reversed<W>(pub W);
+
+impl<W: Table> Listed for Reversed<W> {
+    fn entry(&self) -> crate::Entry {
+        crate::Entry {
+            variant: "adjoint",
+            ..self.0.entry()
+        }
+    }
+}
+
+impl<W: Table> Table for Reversed<W> {
+    type Of<U> = W::Of<U>;
+    fn stages(&self) -> W::Of<Durations> {
+        let stages = self.0.stages();
+        let mut from_the_end = stages.as_ref().iter().rev();
+        W::map(self.0.stages(), |same| {
+            let (down, up) = *from_the_end.next().unwrap_or(&same);
+            (up, down)
+        })
+    }
+    fn map<A, U>(of: W::Of<A>, f: impl FnMut(A) -> U) -> W::Of<U> {
+        W::map(of, f)
+    }
+}
+
+impl<W: Table> OneStep for Reversed<W>
+where
+    W: OneStep,
+{
+    type Adjoint = W;
+    fn adjoint(&self) -> W {
+        self.0
+    }
+}

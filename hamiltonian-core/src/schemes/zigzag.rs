@@ -1,0 +1,217 @@
+//! The loop of every splitting: down through the pieces and up again, stage by stage.
+//!
+//! Input: a [`Table`], [`Pieces`] of H on any space, a step. Output: [`Zigzag`], a one-step map.
+//! Invariant: equal neighbours are one flow, within a step and across steps.
+//!
+//! # Time
+//! Where H depends on t, the outermost piece has a clock and all others together have another; each
+//! clock advances when its flows move the point, and a flow sees the clock of the others. (This is the
+//! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
+//! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
+
+use super::table::Table;
+use crate::flow::{Flow, Pieces};
+use crate::map::{Cause, Map, Step};
+use crate::state::{Carried, Point};
+use crate::system::System;
+use crate::vector::Vector;
+use core::fmt;
+use hamiltonian_lanes::Real;
+
+/// The map of the table `W` on the pieces `K` of a system.
+pub type ZigzagOf<T, S, K, W> = Zigzag<
+    Point<<S as System<T>>::Vector>,
+    <K as Pieces<T, <S as System<T>>::Prepared>>::Outer,
+    <K as Pieces<T, <S as System<T>>::Prepared>>::Inner,
+    W,
+>;
+
+/// The outermost flow between two stages: one flow where it merges, two where it is a loop.
+#[derive(Debug, Clone)]
+struct Link<F> {
+    /// For the stage before, with the one after where both are one.
+    up: F,
+    down: Option<F>,
+}
+
+impl<F> Link<F> {
+    #[inline(always)]
+    fn new<X: Vector>(flow: impl Fn(X::Scalar) -> F, up: X::Scalar, down: X::Scalar) -> Self
+    where
+        F: Flow<X>,
+    {
+        if F::MERGES {
+            Link {
+                up: flow(up + down),
+                down: None,
+            }
+        } else {
+            Link {
+                up: flow(up),
+                down: Some(flow(down)),
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn apply<X: Vector>(&self, t: X::Scalar, x: &mut X)
+    where
+        F: Flow<X>,
+    {
+        self.up.apply_reversed(t, x);
+        if !F::MERGES
+            && let Some(down) = &self.down
+        {
+            down.apply(t, x);
+        }
+    }
+}
+
+/// One stage with its weights folded into the flows.
+#[derive(Debug, Clone)]
+struct Stage<T, O, I> {
+    inner: I,
+    /// The time of the outermost clock after the beginning of the step.
+    inner_at: T,
+    /// Between this stage and the next; in the last stage the closing flow.
+    outer: Link<O>,
+    /// The time of the other clock.
+    outer_at: T,
+}
+
+/// A splitting for a given step.
+pub struct Zigzag<X: Vector, O, I, W: Table> {
+    /// None where its duration is 0.
+    opening: Option<O>,
+    joining: Link<O>,
+    closes: bool,
+    stages: W::Of<Stage<X::Scalar, O, I>>,
+}
+
+impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
+    /// Folds the table into the flows of the pieces.
+    #[inline(always)]
+    pub fn new<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
+    where
+        K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
+    {
+        let h = step.h;
+        let zero = X::Scalar::zero();
+        let outer = |c| pieces.outer(prepared, c);
+        let weights = table.stages();
+        let weights = weights.as_ref();
+        let opening = weights
+            .first()
+            .map_or(zero, |(down, _)| down.to::<X::Scalar>());
+        let closing = weights.last().map_or(zero, |(_, up)| up.to::<X::Scalar>());
+        let mut outer_time = opening;
+        let mut inner_time = zero;
+        let mut following = weights.iter().skip(1);
+        let stages = W::map(table.stages(), |(down, up)| {
+            let (down, up) = (down.to::<X::Scalar>(), up.to::<X::Scalar>());
+            let next = following
+                .next()
+                .map_or(zero, |(down, _)| down.to::<X::Scalar>());
+            let inner_at = outer_time * h;
+            inner_time += down + up;
+            outer_time += up + next;
+            Stage {
+                inner: pieces.inner(prepared, down * h, up * h),
+                inner_at,
+                outer: Link::new::<X>(outer, up * h, next * h),
+                outer_at: inner_time * h,
+            }
+        });
+        Zigzag {
+            opening: (opening != zero).then(|| outer(opening * h)),
+            joining: Link::new::<X>(outer, closing * step.before, opening * h),
+            closes: closing != zero,
+            stages,
+        }
+    }
+
+    /// The flow with which the step ends.
+    #[inline(always)]
+    fn closing(&self) -> Option<&Link<O>> {
+        match self.stages.as_ref().last() {
+            Some(stage) if self.closes => Some(&stage.outer),
+            _ => None,
+        }
+    }
+}
+
+impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Table> Map for Zigzag<X, O, I, W> {
+    type Carried = X;
+    type Work = ();
+
+    fn work(&self, _: &X) {}
+
+    #[inline(always)]
+    fn open(&self, t: X::Scalar, z: &mut X) {
+        if let Some(opening) = &self.opening {
+            opening.apply(t, z);
+        }
+    }
+
+    #[inline(always)]
+    fn body(&self, t: X::Scalar, _: X::Scalar, z: &mut X, _: &mut ()) {
+        let stages = self.stages.as_ref();
+        for (i, stage) in stages.iter().enumerate() {
+            stage.inner.apply(t + stage.inner_at, z);
+            if i + 1 < stages.len() {
+                stage.outer.apply(t + stage.outer_at, z);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn close(&self, t: X::Scalar, z: &mut X) {
+        if let Some(closing) = self.closing() {
+            closing.apply(t, z);
+        }
+    }
+
+    #[inline(always)]
+    fn join(&self, t: X::Scalar, z: &mut X) {
+        self.joining.apply(t, z);
+    }
+
+    #[cold]
+    fn explain(&self, t: X::Scalar, end: X::Scalar, first: bool, z: &mut X, _: &mut ()) -> Cause {
+        let stages = self.stages.as_ref();
+        let Some(last) = stages.last() else {
+            return Cause::Overflow;
+        };
+        if first {
+            self.open(t, z);
+        } else {
+            self.join(t, z);
+        }
+        let mut blamed = (!z.is_finite()).then_some(O::NAME);
+        for stage in stages {
+            blamed = blamed.or_else(|| stage.inner.blame(t + stage.inner_at, z));
+            if blamed.is_none() && !core::ptr::eq(stage, last) {
+                stage.outer.apply(t + stage.outer_at, z);
+                blamed = (!z.is_finite()).then_some(O::NAME);
+            }
+        }
+        let at_the_end = || {
+            self.close(end, z);
+            (!z.is_finite()).then_some(O::NAME)
+        };
+        match blamed.or_else(at_the_end) {
+            Some(piece) => Cause::Piece(piece),
+            None => Cause::Overflow,
+        }
+    }
+}
+
+impl<X: Vector, O: fmt::Debug, I: fmt::Debug, W: Table> fmt::Debug for Zigzag<X, O, I, W> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Zigzag")
+            .field("opening", &self.opening)
+            .field("joining", &self.joining)
+            .field("stages", &self.stages.as_ref())
+            .finish()
+    }
+}

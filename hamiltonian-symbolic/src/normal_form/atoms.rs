@@ -87,11 +87,16 @@ pub(crate) struct Algebra {
     pub(super) converted: Map<Node, Rc<Poly>>,
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
+    /// Powers of signs so far: the sign and the exponent.
+    pub(super) powers: Vec<(Poly, Poly)>,
     pub(super) any_redefined: bool,
     /// Whether a condition stands before a fraction: what is not defined there may then be.
     pub(super) any_guarded: bool,
+    /// Whether something is read that need not have a value for the statement to have one, or, in
+    /// statements about all points, that tells single points apart.
+    pub(super) has_conditions: bool,
     /// Where statements are to hold.
-    scope: Scope,
+    pub(super) scope: Scope,
     /// What may still be spent.
     pub(crate) budget: Budget,
 }
@@ -106,8 +111,10 @@ impl Algebra {
             exponents: Map::default(),
             converted: Map::default(),
             arguments: Vec::new(),
+            powers: Vec::new(),
             any_redefined: false,
             any_guarded: false,
+            has_conditions: false,
             scope,
             budget,
         }

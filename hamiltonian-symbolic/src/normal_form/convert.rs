@@ -3,7 +3,7 @@
 //! Input: nodes of one arena. Output: polynomials over the atoms of an [`Algebra`], and nodes made
 //! from them. Invariant: bottom-up over the arena, each node once.
 
-use super::atoms::{Algebra, Key};
+use super::atoms::{Algebra, Key, Scope};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
 use crate::op::Op;
@@ -13,7 +13,13 @@ use std::rc::Rc;
 impl Algebra {
     /// The polynomial of a node.
     pub(crate) fn convert(&mut self, dag: &Dag, root: Node) -> Result<Poly, Undecided> {
-        for node in dag.reachable(&[root]) {
+        let nodes = dag.reachable(&[root]);
+        self.has_conditions |= nodes.iter().any(|node| match dag.kind(*node) {
+            Kind::Select(..) => true,
+            Kind::Call(Op::Sign, _) => self.scope == Scope::Everywhere,
+            _ => false,
+        });
+        for node in nodes {
             if !self.converted.contains_key(&node) {
                 let poly = self.convert_one(dag, node)?;
                 self.converted.insert(node, Rc::new(poly));

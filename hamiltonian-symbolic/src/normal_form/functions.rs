@@ -16,6 +16,8 @@ const LONGEST_ANGLE: usize = 6;
 const MOST_ARGUMENTS: usize = 64;
 /// Multiples of a base past this are bases of their own.
 const LARGEST_MULTIPLE: i64 = 64;
+/// The largest ratio of exponents that is looked for.
+const LARGEST_RATIO: i64 = 8;
 
 impl Algebra {
     /// An elementary function.
@@ -33,10 +35,7 @@ impl Algebra {
                 let atom = self.function(Key::Root(3, first.clone()), Some((3, first)));
                 Poly::term(sign, Monomial::atom(atom, 1))
             }
-            Op::Abs => {
-                let sign = self.sign(&first)?;
-                self.mul(&sign, &first)?
-            }
+            Op::Abs => self.size(&first)?,
             Op::Sign => self.sign(&first)?,
             Op::Sin => self.angle(&first)?.1,
             Op::Cos => self.angle(&first)?.0,
@@ -60,17 +59,19 @@ impl Algebra {
                     }
                 }
             }
-            Op::Ln => self.logarithm(&first)?,
-            Op::Ln1p => self.logarithm(&first.add(&one))?,
+            Op::Ln => self.positive_logarithm(&first)?,
+            Op::Ln1p => self.positive_logarithm(&first.add(&one))?,
             Op::Asinh => {
                 let square = self.mul(&first, &first)?.add(&one);
                 let root = self.root(&square)?;
-                self.logarithm(&first.add(&root))?
+                let sum = first.add(&root);
+                self.set_positive(&sum)?;
+                self.logarithm(&sum)?
             }
             Op::Atanh => {
                 let (above, below) = (
-                    self.logarithm(&one.add(&first))?,
-                    self.logarithm(&one.sub(&first))?,
+                    self.positive_logarithm(&one.add(&first))?,
+                    self.positive_logarithm(&one.sub(&first))?,
                 );
                 above.sub(&below).scale(&half)
             }
@@ -95,9 +96,7 @@ impl Algebra {
             }
             Op::Pow => {
                 let y = self.argument(&x[1])?;
-                let ln = self.logarithm(&first)?;
-                let exponent = self.mul(&y, &ln)?;
-                self.exponential(&exponent)?
+                self.power(&first, &y)?
             }
             Op::Asin | Op::Acos | Op::Atan | Op::Acosh | Op::Atan2 => {
                 let mut arguments = vec![first];
@@ -314,7 +313,7 @@ impl Algebra {
                         _ => {
                             let denominator = known.map_or(d, |base| lcm(base.denominator, d));
                             let base = Poly::term(Rational::new(1, denominator), monomial.clone());
-                            let relation = self.power_relation(&monomial, denominator);
+                            let relation = self.power_relation(&monomial, denominator)?;
                             let first = self.function(Key::Exp(base), relation);
                             let base = Base {
                                 denominator,
@@ -341,7 +340,127 @@ impl Algebra {
         Ok(product)
     }
 
-    /// e^(n/d·ln x) where the exponent is just that, d ≤ 3.
+    /// x^y, which has a value at x < 0 too where y is an integer: |x|^y·s^y, where s is the sign of
+    /// x. s^(y + n) is s^n·s^y for whole n, s^(−y) is s^y, and its square is 1.
+    fn power(&mut self, x: &Poly, y: &Poly) -> Result<Poly, Undecided> {
+        if let Some(y) = y.as_constant() {
+            let (n, d) = y.to_small().ok_or(Undecided)?;
+            if d == 1 {
+                return self.pow(x, i32::try_from(n).map_err(|_| Undecided)?);
+            }
+            // NaN at x < 0.
+            self.assume_positive(x)?;
+            let ln = self.logarithm(x)?;
+            return self.exponential(&ln.scale(&Rational::new(n, d)));
+        }
+        let ln = self.logarithm(x)?;
+        let exponent = self.mul(y, &ln)?;
+        let size = self.exponential(&exponent)?;
+        // What is to an even power, or ≥ 0, has no sign.
+        let (k, monomial, rest) = self.content(x)?;
+        let mut signed = rest;
+        if self.is_nonnegative(&signed) {
+            signed = Poly::integer(1);
+        }
+        if k.is_negative() {
+            signed = signed.scale(&Rational::MINUS_ONE);
+        }
+        for &(atom, n) in &monomial.0 {
+            let entry = self.entry(atom);
+            if n % 2 != 0 && !entry.nonnegative {
+                let factor = match &entry.key {
+                    Key::Divisor(divisor) => divisor.clone(),
+                    _ => Poly::atom(atom, 1),
+                };
+                signed = self.mul(&signed, &factor)?;
+            }
+        }
+        let sign = self.sign(&signed)?;
+        if sign.as_constant().is_some_and(|c| c.is_one()) {
+            return Ok(size);
+        }
+        let whole = y.terms().iter().find(|(monomial, _)| monomial.is_one());
+        let (n, d) = whole
+            .map_or(Some((0, 1)), |(_, k)| k.to_small())
+            .ok_or(Undecided)?;
+        let whole = n.div_euclid(d);
+        let (_, exponent) = self.oriented(y.sub(&Poly::integer(whole)))?;
+        let size = if whole % 2 == 0 {
+            size
+        } else {
+            self.mul(&size, &sign)?
+        };
+        let power = self.power_of_sign(&sign, exponent);
+        self.mul(&size, &power)
+    }
+
+    /// s^y. Where s^y and s^(my) both have values, s^(my) is (s^y)^m.
+    fn power_of_sign(&mut self, sign: &Poly, exponent: Poly) -> Poly {
+        let one = Some((2, Poly::integer(1)));
+        let atom = |algebra: &mut Algebra, exponent: &Poly| {
+            let arguments = vec![sign.clone(), exponent.clone()];
+            algebra.function(Key::Function(Op::Pow, arguments), one.clone())
+        };
+        if self.has_conditions {
+            return Poly::atom(atom(self, &exponent), 1);
+        }
+        let multiple = |of: &Poly, other: &Poly| {
+            (2..=LARGEST_RATIO).find(|m| of.scale(&Rational::integer(*m)) == *other)
+        };
+        for at in 0..self.powers.len() {
+            let (other, known) = self.powers[at].clone();
+            if other != *sign {
+                continue;
+            }
+            let base = Poly::atom(atom(self, &known), 1);
+            if let Some(m) = multiple(&known, &exponent) {
+                return if m % 2 == 0 { Poly::integer(1) } else { base };
+            }
+            if let Some(m) = multiple(&exponent, &known) {
+                let finer = Poly::atom(atom(self, &exponent), 1);
+                let old = atom(self, &known);
+                self.redefine(old, if m % 2 == 0 { Poly::integer(1) } else { finer });
+            }
+        }
+        let power = Poly::atom(atom(self, &exponent), 1);
+        self.powers.push((sign.clone(), exponent));
+        power
+    }
+
+    /// ln x, which is about points at which x > 0.
+    fn positive_logarithm(&mut self, x: &Poly) -> Result<Poly, Undecided> {
+        self.assume_positive(x)?;
+        self.logarithm(x)
+    }
+
+    /// A statement is about points at which x > 0, or near such points, unless a condition may
+    /// stand before the x.
+    fn assume_positive(&mut self, x: &Poly) -> Result<(), Undecided> {
+        if self.has_conditions {
+            return Ok(());
+        }
+        self.set_positive(x)
+    }
+
+    /// x > 0.
+    fn set_positive(&mut self, x: &Poly) -> Result<(), Undecided> {
+        let sign = self.sign(x)?;
+        if let Some((monomial, k)) = sign.as_term()
+            && let [(atom, 1)] = monomial.0.as_slice()
+            && matches!(self.entry(*atom).key, Key::Sign(_))
+        {
+            self.redefine(*atom, Poly::constant(k.clone()));
+        }
+        Ok(())
+    }
+
+    /// |x|
+    fn size(&mut self, x: &Poly) -> Result<Poly, Undecided> {
+        let sign = self.sign(x)?;
+        self.mul(&sign, x)
+    }
+
+    /// e^(n/d·ln|x|) where the exponent is just that, d ≤ 3.
     fn power_of_logarithm(
         &mut self,
         monomial: &Monomial,
@@ -357,6 +476,11 @@ impl Algebra {
         let Ok(n) = i32::try_from(n) else {
             return Ok(None);
         };
+        let x = if d == 1 && n % 2 == 0 {
+            x
+        } else {
+            self.size(&x)?
+        };
         Ok(match d {
             1 => Some(self.pow(&x, n)?),
             2 => {
@@ -371,15 +495,19 @@ impl Algebra {
         })
     }
 
-    /// (e^(ln x/d))^d = x
-    fn power_relation(&self, monomial: &Monomial, d: i64) -> Option<(u32, Poly)> {
+    /// (e^(ln|x|/d))^d = |x|
+    fn power_relation(
+        &mut self,
+        monomial: &Monomial,
+        d: i64,
+    ) -> Result<Option<(u32, Poly)>, Undecided> {
         let [(atom, 1)] = monomial.0.as_slice() else {
-            return None;
+            return Ok(None);
         };
-        match &self.entry(*atom).key {
-            Key::Ln(x) => Some((u32::try_from(d).ok()?, x.clone())),
-            _ => None,
-        }
+        let (Key::Ln(x), Ok(d)) = (self.entry(*atom).key.clone(), u32::try_from(d)) else {
+            return Ok(None);
+        };
+        Ok(Some((d, self.size(&x)?)))
     }
 
     /// √poly: squares come out, as absolute values.
@@ -454,7 +582,7 @@ impl Algebra {
                     Key::Root(degree, x) => {
                         left.push((x, scale.mul(&Rational::new(1, i64::from(degree)))))
                     }
-                    Key::Sign(_) => {}
+                    Key::Sign(_) | Key::Function(Op::Pow, _) => {}
                     Key::Divisor(x) => left.push((x, scale)),
                     _ => {
                         let atom = self.function(Key::Ln(Poly::atom(atom, 1)), None);
@@ -490,7 +618,8 @@ impl Algebra {
                     continue;
                 }
                 let factor = match entry.key.clone() {
-                    Key::Sign(_) => Poly::atom(atom, power),
+                    // Of a sign, and of its powers.
+                    Key::Sign(_) | Key::Function(Op::Pow, _) => Poly::atom(atom, power),
                     Key::Divisor(x) => self.sign_atom(&x, power),
                     Key::Root(_, x) => {
                         left.push((x, power));

@@ -58,7 +58,8 @@ impl Regular {
     };
 
     /// What holds of both holds of all that is one or the other.
-    fn and(self, other: Regular) -> Regular {
+    #[must_use]
+    pub fn and(self, other: Regular) -> Regular {
         Regular {
             is_analytic: self.is_analytic && other.is_analytic,
             is_continuous: self.is_continuous && other.is_continuous,
@@ -110,6 +111,8 @@ pub struct Known {
     pub meeting: Map<Node, ()>,
     /// Nodes that are not identically 0 on `locus`.
     pub nonzero: Map<Node, ()>,
+    /// Pairs whose difference is not identically 0 there.
+    pub distinct: Map<(Node, Node), ()>,
     /// A leaf: only points near where it is 0 are asked for, all of them but sets that have one
     /// dimension less.
     pub locus: Option<Node>,
@@ -164,7 +167,7 @@ impl Facts {
             Kind::Element(..) | Kind::Time => Regular::PLAIN,
             Kind::Sum(..) => self.sum(dag, node),
             Kind::Product(_, factors) => self.product(dag, factors),
-            Kind::Call(op, x) => self.call(dag, *op, x),
+            Kind::Call(op, x) => self.call(dag, *op, x, known),
             Kind::External(_, _, x) => {
                 // Functions in Rust are taken for analytic.
                 let all = x
@@ -191,7 +194,9 @@ impl Facts {
             }
             Kind::Select(condition, yes, no) => {
                 let both = self.get(*yes).and(self.get(*no));
-                if !dag.dependence(*condition).on(Dependence::MOVING) {
+                if !dag.dependence(*condition).on(Dependence::MOVING)
+                    || is_settled(dag, *condition, known)
+                {
                     return both;
                 }
                 if !(known.meeting.contains_key(&node) && both.is_continuous) {
@@ -315,7 +320,7 @@ impl Facts {
         }
     }
 
-    fn call(&mut self, dag: &Dag, op: Op, x: &[Node]) -> Regular {
+    fn call(&mut self, dag: &Dag, op: Op, x: &[Node], known: &Known) -> Regular {
         let regularity = op.row().regularity;
         let all = x
             .iter()
@@ -325,7 +330,8 @@ impl Facts {
             At::Zero => first.is_nonzero,
             At::MinusOne => dag.is_nonnegative(x[0]),
             At::Origin => self.are_nonzero_together(dag, x),
-            At::One | At::Units | At::Cosine | At::Equal | At::Cut => false,
+            At::Equal => known.distinct.contains_key(&(x[0], y)),
+            At::One | At::Units | At::Cosine | At::Cut => false,
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),
@@ -397,6 +403,14 @@ impl Facts {
     }
 }
 
+/// Whether a condition switches elsewhere than where it is asked for.
+fn is_settled(dag: &Dag, condition: Node, known: &Known) -> bool {
+    known.locus.is_some()
+        && dag.reachable(&[condition]).iter().all(|node| {
+            !matches!(dag.kind(*node), Kind::Compare(_, a, b) if !known.distinct.contains_key(&(*a, *b)))
+        })
+}
+
 /// The leaves of which a node is the difference, up to a number, an absolute value and a root.
 fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
     while let Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) = dag.kind(node) {
@@ -433,20 +447,31 @@ fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
     one == other && (is_below(i, j) || is_below(j, i))
 }
 
-/// Whether a node varies with what moves, whatever the parameters: its zeros are not everything.
+/// Whether a node varies with what moves, whatever the parameters: its zeros are not everything,
+/// but in iterations of loops in which two leaves are the same one and it is 0.
 fn varies(dag: &Dag, node: Node) -> bool {
+    let is_leaf = |n: Node| {
+        matches!(
+            dag.kind(n),
+            Kind::Element(Array::Phase { .. }, ..) | Kind::Time
+        )
+    };
     match dag.kind(node) {
-        Kind::Element(Array::Phase { .. }, ..) | Kind::Time => true,
-        Kind::Product(_, factors) => factors.iter().all(|(factor, _)| varies(dag, *factor)),
+        Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
+            varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
+        }),
         Kind::Call(op, x) => op.row().arity == 1 && varies(dag, x[0]),
         // A leaf that one term reads alone.
         Kind::Sum(_, terms) => terms.iter().enumerate().any(|(at, (_, term))| {
-            varies(dag, *term) && {
-                let mut others = terms.iter().enumerate().filter(|(other, _)| *other != at);
-                others.all(|(_, (_, other))| have_nothing_in_common(dag, *term, *other))
-            }
+            let leaves = || dag.reachable(&[*term]).into_iter().filter(|n| is_leaf(*n));
+            let mut others = terms.iter().enumerate().filter(|(other, _)| *other != at);
+            varies(dag, *term)
+                && others.all(|(_, (_, other))| {
+                    let nodes = dag.reachable(&[*other]);
+                    leaves().all(|leaf| nodes.binary_search(&leaf).is_err())
+                })
         }),
-        _ => false,
+        _ => is_leaf(node),
     }
 }
 

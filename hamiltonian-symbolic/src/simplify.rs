@@ -349,7 +349,8 @@ impl Dag {
     }
 
     /// `x^y`. Integer exponents are products, half-integer ones powers of the square root, thirds
-    /// powers of the cube root where x ≥ 0 is known; otherwise the function `pow`, NaN for x < 0.
+    /// powers of the cube root where x ≥ 0 is known; otherwise the function `pow`, which at x < 0 has
+    /// a value where y is an integer.
     pub fn pow(&mut self, x: Node, y: Node) -> Node {
         if self.is_one(x) {
             return x;

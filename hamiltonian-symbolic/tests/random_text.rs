@@ -256,7 +256,7 @@ fn functions_of_h_are_conserved() {
         match is_invariant(&m, square, None) {
             Verdict::Proven => proven += 1,
             Verdict::Undecided { .. } => {}
-            Verdict::Jumps { part } => {
+            Verdict::Jumps { part, .. } => {
                 let may_jump = ["if", "sign", "atan2"].iter().any(|word| h.contains(word));
                 assert!(may_jump, "{h}: {part}");
             }

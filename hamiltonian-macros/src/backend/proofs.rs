@@ -51,11 +51,11 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     );
                     break;
                 }
-                Verdict::Undecided { residual } if !observable.assumed => {
+                Verdict::Undecided { residual, why } if !observable.assumed => {
                     report.error(
                         name.span(),
                         format!(
-                            "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`",
+                            "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`; {why}",
                             shortened(&residual)
                         ),
                         format!(
@@ -64,11 +64,11 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     );
                     break;
                 }
-                Verdict::Jumps { part } if !observable.assumed => {
+                Verdict::Jumps { part, why } if !observable.assumed => {
                     report.error(
                         name.span(),
                         format!(
-                            "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows",
+                            "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows; {why}",
                             shortened(&part)
                         ),
                         format!(
@@ -122,7 +122,8 @@ fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
             None => report.error(
                 first.span(),
                 format!(
-                    "it is neither proven nor disproven that the pieces add up to H: H minus their sum is `{text}`"
+                    "it is neither proven nor disproven that the pieces add up to H: H minus their sum is `{text}`; {}",
+                    difference.why
                 ),
                 "if you know that they do, write `#[assume] split { … }`; else write them with the sums of H",
             ),

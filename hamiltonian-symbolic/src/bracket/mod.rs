@@ -1,13 +1,12 @@
 //! Poisson brackets and the proof or refutation of invariants.
 //!
 //! Input: a model and an expression. Output: [`bracket`] as an expression, [`Verdict`]. Invariant:
-//! proven means for all sizes, at all points (on the shell, if one is given), with nothing that may
-//! jump, nor was seen to jump through a pole; disproven comes with sizes and a point where the time
-//! derivative along the flow is not zero.
+//! proven means for all sizes and parameters, at all points where the statement and H are defined (on
+//! the shell, if one is given), and across what may jump or has a pole, by rules alone; disproven
+//! comes with sizes and a point where the time derivative along the flow is not zero.
 
-mod jump;
+mod cross;
 mod pair;
-mod pole;
 mod shell;
 
 pub use pair::bracket;
@@ -16,7 +15,9 @@ use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
 use crate::loops::{Point, unroll_nodes};
 use crate::model::Model;
-use crate::normal_form::{self, Algebra, BUDGET, Effort, Scope, named, trials, witness};
+use crate::normal_form::{
+    self, Algebra, Answer, BUDGET, Effort, Scope, Undecided, named, trials, witness,
+};
 use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand;
@@ -39,11 +40,15 @@ pub enum Verdict {
     Undecided {
         /// Its time derivative along the flow as text.
         residual: String,
+        /// The rule or the limit that stopped the proof: a clause.
+        why: String,
     },
     /// It is conserved as long as nothing jumps.
     Jumps {
         /// What may jump, in the statement or in H, as text.
         part: String,
+        /// Where, and what does not decide it: a clause.
+        why: String,
     },
 }
 
@@ -59,15 +64,19 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
         .any(|n| matches!(model.dag.kind(*n), Kind::External(..)));
     match judge(model, expression, shell) {
         // A point refutes for the function that was tried, which is not the one in Rust.
-        Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided { residual },
-        Verdict::Proven => {
-            let mut dag = model.dag.clone();
-            let part = jump::find(&mut dag, &roots).map(|part| print::text(model, part));
-            match part.or_else(|| pole::find(model, &roots)) {
-                Some(part) => Verdict::Jumps { part },
-                None => Verdict::Proven,
+        Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided {
+            residual,
+            why: "nothing is known of the functions in Rust in it".to_owned(),
+        },
+        Verdict::Proven => match model.hamiltonian {
+            Some(h) => {
+                cross::find(model, expression, h).map_or(Verdict::Proven, |found| Verdict::Jumps {
+                    part: found.part,
+                    why: found.why,
+                })
             }
-        }
+            None => Verdict::Proven,
+        },
         verdict => verdict,
     }
 }
@@ -81,12 +90,10 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     };
     let difference = shell.map(|e| model.dag.sub(h, e));
     let general = derivative(&mut model, expression, h);
-    // A proof for all points, and all sizes, is the common case and the cheapest; a glance at two
-    // points guards it against branches of roots that formal rules cannot see.
+    // A proof for all points, and all sizes, is the common case and the cheapest.
     if let Some(residual) = general
         && (model.dag.is_zero(residual)
-            || (normal_form::vanishes(&mut model.dag, residual, Scope::Densely)
-                && witness(&model, residual, Effort::Glance, &[h, expression]).is_none()))
+            || normal_form::vanishes(&mut model.dag, residual, Scope::Densely))
     {
         return Verdict::Proven;
     }
@@ -102,9 +109,16 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     if !has_loops && model.sizes.is_empty() {
         return match general {
             Some(residual) => decide(&mut model, residual, difference, &[h, expression], text),
-            None => Verdict::Undecided { residual: text },
+            None => Verdict::Undecided {
+                residual: text,
+                why: indices(),
+            },
         };
     }
+    let mut why = match general {
+        Some(residual) => normal_form::answer(&mut model.dag, residual, Scope::Densely).why(),
+        None => indices(),
+    };
     // Small sizes may refute; literal ones may also prove.
     let mut roots = vec![h, expression];
     roots.extend(difference);
@@ -133,10 +147,18 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
                 };
             }
             Verdict::Proven if model.sizes.is_empty() => return Verdict::Proven,
+            Verdict::Undecided { why: last, .. } if model.sizes.is_empty() => why = last,
             _ => {}
         }
     }
-    Verdict::Undecided { residual: text }
+    Verdict::Undecided {
+        residual: text,
+        why,
+    }
+}
+
+fn indices() -> String {
+    "the indices of an array cannot be solved for the variables of loops".to_owned()
 }
 
 /// {I, H} + ∂I/∂t
@@ -172,17 +194,23 @@ fn decide(
             value,
         };
     }
-    let vanishes = match difference {
-        None => normal_form::vanishes(&mut model.dag, residual, Scope::Densely),
+    let answer = match difference {
+        None => normal_form::answer(&mut model.dag, residual, Scope::Densely),
         Some(difference) => {
             let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
-            shell::vanishes(&mut algebra, &model.dag, residual, difference) == Ok(true)
+            match shell::vanishes(&mut algebra, &model.dag, residual, difference) {
+                Ok(true) => Answer::Zero,
+                Ok(false) => Answer::Other,
+                Err(Undecided) => Answer::Limit,
+            }
         }
     };
-    if vanishes {
-        Verdict::Proven
-    } else {
-        Verdict::Undecided { residual: text }
+    match answer {
+        Answer::Zero => Verdict::Proven,
+        _ => Verdict::Undecided {
+            residual: text,
+            why: answer.why(),
+        },
     }
 }
 

@@ -95,6 +95,8 @@ pub(crate) struct Algebra {
     /// Whether something is read that need not have a value for the statement to have one, or, in
     /// statements about all points, that tells single points apart.
     pub(super) has_conditions: bool,
+    /// A leaf that is > 0.
+    positive: Option<Node>,
     /// Where statements are to hold.
     pub(super) scope: Scope,
     /// What may still be spent.
@@ -115,8 +117,17 @@ impl Algebra {
             any_redefined: false,
             any_guarded: false,
             has_conditions: false,
+            positive: None,
             scope,
             budget,
+        }
+    }
+
+    /// An empty algebra in which a leaf is > 0.
+    pub(crate) fn beside(budget: Budget, scope: Scope, positive: Node) -> Algebra {
+        Algebra {
+            positive: Some(positive),
+            ..Algebra::new(budget, scope)
         }
     }
 
@@ -142,8 +153,8 @@ impl Algebra {
             redefined: None,
             dependence: dag.dependence(node),
             variables: dag.variables(node),
-            nonnegative: dag.is_nonnegative(node),
-            positive: matches!(dag.kind(node), Kind::Pi),
+            nonnegative: dag.is_nonnegative(node) || self.positive == Some(node),
+            positive: matches!(dag.kind(node), Kind::Pi) || self.positive == Some(node),
         };
         self.push(key, entry)
     }
@@ -256,7 +267,7 @@ impl Algebra {
     }
 
     /// Whether a polynomial is ≥ 0 term by term, and one term is never 0.
-    pub(super) fn is_positive(&self, poly: &Poly) -> bool {
+    pub(crate) fn is_positive(&self, poly: &Poly) -> bool {
         self.is_nonnegative(poly)
             && poly
                 .terms()
@@ -266,7 +277,7 @@ impl Algebra {
 
     /// Whether zeros of a polynomial do not count. It has few, whatever the parameters, if it is a
     /// polynomial in something that moves with a number for its leading coefficient.
-    pub(super) fn is_anything_but_zero(&self, poly: &Poly) -> bool {
+    pub(crate) fn is_anything_but_zero(&self, poly: &Poly) -> bool {
         let moves = |atom: &Atom| {
             let entry = self.entry(*atom);
             matches!(entry.key, Key::Leaf(_)) && entry.dependence.on(Dependence::MOVING)

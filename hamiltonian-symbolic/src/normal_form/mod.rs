@@ -33,7 +33,7 @@ pub(crate) const BUDGET: Budget = Budget {
 };
 
 /// What an expansion may cost that every definition makes.
-const SMALL_BUDGET: Budget = Budget {
+pub(crate) const SMALL_BUDGET: Budget = Budget {
     terms: 4_000,
     products: 40_000,
 };
@@ -95,9 +95,40 @@ fn has_loops(dag: &Dag, node: Node) -> bool {
         .any(|n| matches!(dag.kind(*n), Kind::Reduce(..)))
 }
 
-/// Whether the normal form says that a node is identically zero, loops re-indexed where that
-/// helps.
+/// What the normal form says of a node.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) enum Answer {
+    /// It is identically zero.
+    Zero,
+    /// No rule makes it zero.
+    Other,
+    /// A limit stopped the rules.
+    Limit,
+}
+
+impl Answer {
+    /// Why there is no other answer: a clause.
+    pub(crate) fn why(self) -> String {
+        match self {
+            Answer::Zero | Answer::Other => {
+                "no rule of the normal form makes it 0, and no point was found where it is not"
+                    .to_owned()
+            }
+            Answer::Limit => format!(
+                "the normal form has more than {} terms or takes more than {} products",
+                BUDGET.terms, BUDGET.products
+            ),
+        }
+    }
+}
+
+/// Whether the normal form says that a node is identically zero.
 pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
+    answer(dag, node, scope) == Answer::Zero
+}
+
+/// What the normal form says of a node, loops re-indexed where that helps.
+pub(crate) fn answer(dag: &mut Dag, node: Node, scope: Scope) -> Answer {
     let mut algebra = Algebra::new(BUDGET, scope);
     let mut decide = || {
         let poly = algebra.convert(dag, node)?;
@@ -110,7 +141,12 @@ pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
         let poly = symmetry::canonical(&mut algebra, dag, &poly)?;
         symmetry::summands_vanish(&mut algebra, &poly)
     };
-    decide() == Ok::<bool, Undecided>(true) && !dag.has_too_many_loops()
+    match decide() {
+        Err(Undecided) => Answer::Limit,
+        Ok(_) if dag.has_too_many_loops() => Answer::Limit,
+        Ok(true) => Answer::Zero,
+        Ok(false) => Answer::Other,
+    }
 }
 
 /// The sizes at which a statement about all sizes is tried: small ones, one past every index that

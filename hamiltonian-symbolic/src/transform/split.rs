@@ -8,7 +8,7 @@ use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::Index;
 use crate::loops::Point;
 use crate::model::{Model, Shape};
-use crate::normal_form::{self, Proof};
+use crate::normal_form::{self, Proof, Scope};
 use crate::op::Op;
 use crate::print;
 use crate::rational::Rational;
@@ -24,6 +24,8 @@ pub struct Difference {
     /// A point where it is not 0, and its value there; `None` where no point was found, so that
     /// the question is undecided.
     pub point: Option<(Point, f64)>,
+    /// Where there is no point, the rule or the limit that stopped the proof: a clause.
+    pub why: String,
 }
 
 /// Checks that the pieces add up to H: Σ A = H as functions of (q, p, t), additive constants
@@ -54,6 +56,10 @@ pub fn check_split(model: &mut Model, pieces: &[(String, Node)]) -> Result<(), B
     Err(Box::new(Difference {
         node,
         text: print::text(model, node),
+        why: match point {
+            Some(_) => String::new(),
+            None => normal_form::answer(&mut model.dag, node, Scope::Everywhere).why(),
+        },
         point,
     }))
 }

@@ -1,0 +1,580 @@
+//! Whether what is constant on both sides of a pole or a jump is so across it.
+//!
+//! Input: a model, an expression whose derivative along the flow of H vanishes wherever both are
+//! smooth. Output: the part of either that stands in the way, and why. What passes:
+//!
+//! - what is continuous, into the line closed by one infinity: its limits on a trajectory are those
+//!   of the constants on both sides, and where H tends to infinity no trajectory comes;
+//! - what is a quotient of analytic functions, or otherwise of one value in complex numbers, with an
+//!   H of the same kind: it is continued around the place through complex times;
+//! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|, and arctan w at a pole of
+//!   w is ±π/2 − arctan(1/w)): what is the same function on both sides, or comes to the same value;
+//!   what tends to infinity on both sides; what H keeps away from, as it tends to infinity on both
+//!   sides there; and a place along which the flow runs.
+//!
+//! Invariant: no rule here looks at points.
+
+use super::pair::bracket;
+use crate::dag::{self, Array, Dag, Dependence, Kind, Map, Node};
+use crate::diff;
+use crate::facts::{Facts, Known, Locus, Regular};
+use crate::index::Index;
+use crate::loops::write_out;
+use crate::model::Model;
+use crate::normal_form::{self, Algebra, Poly, SMALL_BUDGET, Scope, Undecided};
+use crate::op::{At, Break, Op, Range};
+use crate::print;
+use crate::rational::Rational;
+
+/// The most places that are looked at one by one.
+const MOST_PLACES: usize = 64;
+
+/// What is in the way of a proof.
+pub(super) struct Obstacle {
+    /// The part that may jump, as text.
+    pub(super) part: String,
+    /// What no rule, or which limit, decides.
+    pub(super) why: String,
+}
+
+/// The first obstacle for an expression whose derivative along the flow of `h` vanishes.
+pub(super) fn find(model: &Model, expression: Node, h: Node) -> Option<Obstacle> {
+    let mut model = model.clone();
+    let facts = facts(&mut model, &[expression, h]);
+    let first = Claim::new(&model.dag, &facts, expression, h);
+    if first.passes(first.expression.into(), first.h.into()) {
+        return None;
+    }
+    let part = culprit(&model.dag, &facts, &[expression, h]);
+    let part = part.map_or_else(|| "H".to_owned(), |part| print::text(&model, part));
+    first
+        .place_by_place(&mut model)
+        .err()
+        .map(|why| Obstacle { part, why })
+}
+
+/// An expression and H, with what is known of them everywhere.
+struct Claim {
+    roots: [Node; 2],
+    expression: Regular,
+    h: Regular,
+    /// Whether H does not depend on time.
+    is_still: bool,
+}
+
+impl Claim {
+    fn new(dag: &Dag, facts: &Facts, expression: Node, h: Node) -> Claim {
+        Claim {
+            roots: [expression, h],
+            expression: facts.get(expression),
+            h: facts.get(h),
+            is_still: !dag.dependence(h).on(Dependence::TIME),
+        }
+    }
+
+    /// Whether nothing is lost on the way through places of which so much is known.
+    fn passes(&self, expression: Ends, h: Ends) -> bool {
+        let is_kept = h.is_continuous || h.is_same || h.is_projective && self.is_still;
+        is_kept && expression.is_projective
+            || expression.is_same && h.is_same
+            || expression.is_quotient && h.is_continuous
+    }
+
+    fn place_by_place(mut self, model: &mut Model) -> Result<(), String> {
+        let known = [Ends::from(self.expression), Ends::from(self.h)];
+        // Of what is not looked into nothing is replaced.
+        let is_whole = [
+            self.passes(known[0], Ends::ALL),
+            self.passes(Ends::ALL, known[1]),
+        ];
+        for (at, root) in self.roots.iter_mut().enumerate() {
+            if has_loops(&model.dag, *root) && !is_whole[at] {
+                if !model.sizes.is_empty() {
+                    return Err("sums of a length known at run time are not compared".to_owned());
+                }
+                *root = write_out(model, *root)
+                    .map_err(|_| "its sums are too long to be written out".to_owned())?;
+            }
+        }
+        let facts = facts(model, &self.roots);
+        (self.expression, self.h) = (facts.get(self.roots[0]), facts.get(self.roots[1]));
+        let mut places: Vec<Place> = Vec::new();
+        for locus in &facts.loci {
+            let found = Place::of(&mut model.dag, *locus).ok_or(
+                "the angle of a point jumps where the point crosses the negative half of an axis",
+            )?;
+            places.extend(found);
+        }
+        if places.len() > MOST_PLACES {
+            return Err(format!("more than {MOST_PLACES} poles and jumps"));
+        }
+        let whole = model.clone();
+        for place in places {
+            // What one place takes is not kept for the next.
+            model.clone_from(&whole);
+            self.crosses(model, &place)
+                .map_err(|why| format!("{why} where `{}` is 0", print::text(model, place.zero)))?;
+        }
+        Ok(())
+    }
+
+    /// Whether nothing is lost through a place, or no trajectory goes there.
+    fn crosses(&self, model: &mut Model, place: &Place) -> Result<(), String> {
+        let [expression, h] = self.roots;
+        let (of_expression, of_h) = (Ends::from(self.expression), Ends::from(self.h));
+        if self.passes(of_expression, of_h) {
+            return Ok(());
+        }
+        let u = distance(&mut model.dag);
+        let limit =
+            |Undecided| "the limit of expansions stops the comparison of both sides".to_owned();
+        let of_h = if has_loops(&model.dag, h) {
+            Ok(of_h)
+        } else {
+            place.ends(&mut model.dag, h, u)
+        };
+        if self.is_still && of_h.is_ok_and(|ends| ends.is_infinite) {
+            return Ok(());
+        }
+        let of_expression = if self.passes(of_expression, Ends::ALL) {
+            Ok(of_expression)
+        } else {
+            place.ends(&mut model.dag, expression, u)
+        };
+        if let (Ok(expression), Ok(h)) = (of_expression, of_h)
+            && self.passes(expression, h)
+        {
+            return Ok(());
+        }
+        if !has_loops(&model.dag, h) && place.is_followed(model, h, u) {
+            return Ok(());
+        }
+        of_expression.and(of_h).map_err(limit)?;
+        Err("no rule says that both sides agree".to_owned())
+    }
+}
+
+fn has_loops(dag: &Dag, root: Node) -> bool {
+    let mut nodes = dag.reachable(&[root]).into_iter();
+    nodes.any(|node| matches!(dag.kind(node), Kind::Reduce(..)))
+}
+
+/// Whether a node stands in another one.
+fn reads(dag: &Dag, root: Node, node: Node) -> bool {
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut left = vec![root];
+    while let Some(at) = left.pop() {
+        if at == node {
+            return true;
+        }
+        // Children have smaller numbers.
+        if at > node && seen.insert(at, ()).is_none() {
+            dag.for_children(at, |child| left.push(child));
+        }
+    }
+    false
+}
+
+/// What the two sides of an expression have in common at a place, or at all places.
+#[derive(Clone, Copy)]
+struct Ends {
+    /// They come to the same finite value.
+    is_continuous: bool,
+    /// They come to the same value, or both to infinity.
+    is_projective: bool,
+    /// Both come to infinity.
+    is_infinite: bool,
+    /// They are one function of one value in complex numbers,
+    is_same: bool,
+    /// and a quotient of analytic functions.
+    is_quotient: bool,
+}
+
+impl Ends {
+    const ALL: Ends = Ends {
+        is_continuous: true,
+        is_projective: true,
+        is_infinite: true,
+        is_same: true,
+        is_quotient: true,
+    };
+}
+
+impl From<Regular> for Ends {
+    fn from(regular: Regular) -> Ends {
+        Ends {
+            is_continuous: regular.is_continuous,
+            is_projective: regular.is_projective,
+            is_infinite: false,
+            is_same: regular.is_single_valued,
+            is_quotient: regular.is_meromorphic,
+        }
+    }
+}
+
+/// The pass over the arena, told of conditions whose branches agree.
+fn facts(model: &mut Model, roots: &[Node]) -> Facts {
+    let mut known = Known::default();
+    let dag = &mut model.dag;
+    for node in dag.reachable(roots) {
+        if let Kind::Select(condition, yes, no) = *dag.kind(node)
+            && dag.dependence(condition).on(Dependence::MOVING)
+            && meets(dag, condition, yes, no)
+        {
+            known.meeting.insert(node, ());
+        }
+    }
+    Facts::of(dag, roots, &known)
+}
+
+/// The first node that is neither continuous nor of one value while all below it are.
+fn culprit(dag: &Dag, facts: &Facts, roots: &[Node]) -> Option<Node> {
+    roots.iter().find_map(|root| {
+        let nodes = dag.reachable(&[*root]);
+        nodes.into_iter().find(|node| {
+            let regular = facts.get(*node);
+            let is_condition = matches!(
+                dag.kind(*node),
+                Kind::Compare(..) | Kind::And(..) | Kind::Or(..) | Kind::Not(_)
+            );
+            !is_condition && !regular.is_projective && !regular.is_single_valued
+        })
+    })
+}
+
+/// Whether two branches are known to agree where a comparison of a coordinate, a momentum or the
+/// time with something else switches.
+fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
+    let Kind::Compare(_, a, b) = *dag.kind(condition) else {
+        return false;
+    };
+    [(a, b), (b, a)].into_iter().any(|(leaf, value)| {
+        let is_leaf = matches!(dag.kind(leaf), Kind::Element(..) | Kind::Time);
+        if !is_leaf || reads(dag, value, leaf) {
+            return false;
+        }
+        let difference = dag.sub(yes, no);
+        // What a sum binds is not the leaf, though it may be called like it.
+        let difference = dag.nested(difference, dag.home(leaf));
+        let difference = replaced(dag, difference, leaf, value);
+        dag.is_zero(difference) || normal_form::vanishes(dag, difference, Scope::Everywhere)
+    })
+}
+
+fn replaced(dag: &mut Dag, root: Node, node: Node, by: Node) -> Node {
+    dag.substitute(root, |_, at| (at == node).then_some(by))
+}
+
+/// A place where something has a pole or jumps: the zeros of an expression.
+#[derive(Clone, Copy)]
+struct Place {
+    zero: Node,
+    /// What is replaced near the place: a leaf of which the expression is a multiple plus a rest, or
+    /// the expression itself.
+    what: Node,
+    /// ∂zero/∂what
+    slope: Node,
+}
+
+impl Place {
+    /// The places of a locus; `None` for those that no expression is 0 at.
+    fn of(dag: &mut Dag, locus: Locus) -> Option<Vec<Place>> {
+        let one = dag.integer(1);
+        let zeros = match locus.at {
+            At::Zero => vec![locus.x],
+            At::One => vec![dag.sub(locus.x, one)],
+            At::MinusOne => vec![dag.add(&[locus.x, one])],
+            At::Units => vec![dag.sub(locus.x, one), dag.add(&[locus.x, one])],
+            At::Equal => vec![dag.sub(locus.x, locus.y)],
+            At::Cosine => vec![dag.call(Op::Cos, &[locus.x])],
+            At::Origin | At::Cut => return None,
+        };
+        let mut places = Vec::new();
+        for zero in zeros {
+            places.extend(
+                Place::factors(dag, zero)
+                    .into_iter()
+                    .map(|zero| Place::at(dag, zero)),
+            );
+        }
+        Some(places)
+    }
+
+    /// The factors whose zeros those of an expression are.
+    fn factors(dag: &Dag, zero: Node) -> Vec<Node> {
+        let mut found = Vec::new();
+        let mut left = vec![zero];
+        while let Some(node) = left.pop() {
+            if !dag.dependence(node).on(Dependence::MOVING) {
+                continue;
+            }
+            match dag.kind(node) {
+                // Roots are 0 where what is below them is.
+                Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) => left.push(x[0]),
+                Kind::Call(op, _) if op.row().regularity.range == Range::Positive => {}
+                Kind::Product(_, factors) => {
+                    left.extend(factors.iter().filter(|(_, n)| *n > 0).map(|(f, _)| *f));
+                }
+                _ => found.push(node),
+            }
+        }
+        found
+    }
+
+    fn at(dag: &mut Dag, zero: Node) -> Place {
+        let gradient = diff::gradient(dag, zero, Dependence::MOVING);
+        let is_still = |dag: &Dag, node: Node| !dag.dependence(node).on(Dependence::MOVING);
+        let linear = gradient.into_iter().find(|(leaf, slope)| {
+            is_still(dag, *slope) && !dag.is_zero(*slope) && dag.variables(*leaf) == 0
+        });
+        match linear {
+            Some((what, slope)) => Place { zero, what, slope },
+            None => Place {
+                zero,
+                what: zero,
+                slope: dag.integer(1),
+            },
+        }
+    }
+
+    /// The expression near the place, on the side where its zero is `by`.
+    fn near(&self, dag: &mut Dag, root: Node, by: Node) -> Node {
+        let image = if self.what == self.zero {
+            by
+        } else {
+            let nothing = dag.integer(0);
+            let rest = replaced(dag, self.zero, self.what, nothing);
+            let distance = dag.sub(by, rest);
+            dag.div(distance, self.slope)
+        };
+        replaced(dag, root, self.what, image)
+    }
+
+    /// Whether the expression of the place is a free coordinate beside what is left.
+    fn is_free(&self) -> bool {
+        self.what != self.zero
+    }
+
+    /// What is known of a node near the place.
+    fn regular(&self, dag: &mut Dag, root: Node, u: Node) -> Regular {
+        let known = self.known(dag, root, u);
+        Facts::of(dag, &[root], &known).get(root)
+    }
+
+    /// A sum without its terms that are analytic near the place.
+    fn rough_part(&self, dag: &mut Dag, root: Node, u: Node) -> Node {
+        let Kind::Sum(_, terms) = dag.kind(root).clone() else {
+            return root;
+        };
+        let mut rough = Vec::new();
+        for (k, term) in terms {
+            if self.is_free() && !reads(dag, term, self.what) {
+                continue;
+            }
+            let near = self.near(dag, term, u);
+            if !self.regular(dag, near, u).is_analytic {
+                rough.push((k, term));
+            }
+        }
+        dag.linear(&Rational::ZERO, &rough)
+    }
+
+    /// What the two sides of an expression do, each in its normal form over u > 0.
+    fn ends(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Ends, Undecided> {
+        let minus = dag.neg(u);
+        let root = self.rough_part(dag, root, u);
+        let above = self.near(dag, root, u);
+        let above = Side::of(dag, self, above, u)?;
+        let below = self.near(dag, root, minus);
+        let below = Side::of(dag, self, below, u)?;
+        let both = above.regular.and(below.regular);
+        // One function, read at u < 0.
+        let mirrored = replaced(dag, below.node, u, minus);
+        let difference = dag.sub(above.node, mirrored);
+        let vanishes = |dag: &mut Dag, node: Node| {
+            dag.is_zero(node) || normal_form::vanishes(dag, node, Scope::Densely)
+        };
+        let is_same = both.is_single_valued && vanishes(dag, difference);
+        let is_continuous = both.is_continuous && {
+            let nothing = dag.integer(0);
+            let there = replaced(dag, difference, u, nothing);
+            vanishes(dag, there)
+        };
+        let is_infinite = above.is_infinite && below.is_infinite;
+        Ok(Ends {
+            is_continuous,
+            is_projective: is_continuous || is_infinite || is_same && both.is_meromorphic,
+            is_infinite,
+            is_same,
+            is_quotient: is_same && both.is_meromorphic,
+        })
+    }
+
+    /// Whether the flow of an H that is analytic there runs along the place.
+    fn is_followed(&self, model: &mut Model, h: Node, u: Node) -> bool {
+        let side = self.near(&mut model.dag, h, u);
+        if !self.regular(&mut model.dag, side, u).is_analytic {
+            return false;
+        }
+        let Some(flow) = bracket(model, self.zero, h) else {
+            return false;
+        };
+        let dag = &mut model.dag;
+        let explicit = diff::gradient(dag, self.zero, Dependence::TIME);
+        let parts: Vec<Node> = std::iter::once(flow)
+            .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
+            .collect();
+        let rate = dag.add(&parts);
+        let nothing = dag.integer(0);
+        let rate = self.near(dag, rate, nothing);
+        dag.is_zero(rate) || normal_form::vanishes(dag, rate, Scope::Densely)
+    }
+}
+
+/// A leaf that nothing else reads.
+fn distance(arena: &mut Dag) -> Node {
+    let array = Array::Phase {
+        side: dag::Side::Q,
+        group: u16::MAX,
+        column: 0,
+    };
+    arena.element(array, Index::constant(0), None)
+}
+
+/// One side of an expression.
+struct Side {
+    node: Node,
+    regular: Regular,
+    is_infinite: bool,
+}
+
+impl Side {
+    fn of(dag: &mut Dag, place: &Place, root: Node, u: Node) -> Result<Side, Undecided> {
+        let root = place.bounded(dag, root, u)?;
+        let mut algebra = Algebra::beside(SMALL_BUDGET, Scope::Densely, u);
+        let poly = algebra.convert(dag, root)?;
+        let poly = algebra.canonical(&poly)?;
+        let node = algebra.node(dag, &poly);
+        let leading = place.leading(dag, &mut algebra, &poly, u)?;
+        Ok(Side {
+            node,
+            regular: place.regular(dag, node, u),
+            is_infinite: leading
+                .is_some_and(|(power, c)| power < 0 && place.is_never_nothing(&algebra, &c)),
+        })
+    }
+}
+
+impl Place {
+    /// The lowest power of u, and its factor at u = 0; `None` where the factor has no value there.
+    fn leading(
+        &self,
+        dag: &mut Dag,
+        algebra: &mut Algebra,
+        poly: &Poly,
+        u: Node,
+    ) -> Result<Option<(i32, Poly)>, Undecided> {
+        let atom = algebra.leaf(dag, u);
+        let Some((power, factor)) = poly.by_power(atom).into_iter().next() else {
+            return Ok(None);
+        };
+        let (factor, nothing) = (algebra.node(dag, &factor), dag.integer(0));
+        if !self.regular(dag, factor, u).is_continuous {
+            return Ok(None);
+        }
+        let factor = replaced(dag, factor, u, nothing);
+        let factor = algebra.convert(dag, factor)?;
+        let factor = algebra.canonical(&factor)?;
+        Ok((!factor.is_zero()).then_some((power, factor)))
+    }
+
+    /// Whether a polynomial is a number, never 0, or not 0 on a whole place, whatever the parameters.
+    fn is_never_nothing(&self, algebra: &Algebra, poly: &Poly) -> bool {
+        poly.as_constant().is_some_and(|c| !c.is_zero())
+            || algebra.is_positive(poly)
+            || algebra.is_positive(&poly.scale(&Rational::MINUS_ONE))
+            || self.is_free() && algebra.is_anything_but_zero(poly)
+    }
+
+    /// The expression with arctan w and its like, where w tends to infinity with u, as their limit and
+    /// the rest: ±π/2 − arctan(1/w).
+    fn bounded(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Node, Undecided> {
+        let is_bounded = |dag: &Dag, node: Node| match dag.kind(node) {
+            Kind::Call(Op::Atan, x) => Some(x[0]),
+            _ => None,
+        };
+        let mut new: Map<Node, Node> = Map::default();
+        for node in dag.reachable(&[root]) {
+            let image = dag.rebuild(node, &|child| new[&child]);
+            let mut result = image;
+            if let Some(w) = is_bounded(dag, image)
+                && reads(dag, w, u)
+            {
+                let mut algebra = Algebra::beside(SMALL_BUDGET, Scope::Densely, u);
+                let poly = algebra.convert(dag, w)?;
+                let poly = algebra.canonical(&poly)?;
+                if let Some((power, c)) = self.leading(dag, &mut algebra, &poly, u)?
+                    && power < 0
+                    && self.is_never_nothing(&algebra, &c)
+                {
+                    let c = algebra.node(dag, &c);
+                    let (sign, pi) = (dag.call(Op::Sign, &[c]), dag.pi());
+                    let limit = dag.product(&Rational::new(1, 2), &[(sign, 1), (pi, 1)]);
+                    let w = algebra.node(dag, &poly);
+                    let inverse = dag.powi(w, -1);
+                    let rest = dag.call(Op::Atan, &[inverse]);
+                    result = dag.sub(limit, rest);
+                }
+            }
+            new.insert(node, result);
+        }
+        Ok(new[&root])
+    }
+
+    /// What is not 0 on the whole of u = 0, whatever the parameters.
+    fn known(&self, dag: &mut Dag, root: Node, u: Node) -> Known {
+        let mut known = Known {
+            locus: self.is_free().then_some(u),
+            ..Known::default()
+        };
+        let (mut asked, mut pairs): (Vec<Node>, Vec<(Node, Node)>) = Default::default();
+        for node in dag.reachable(&[root]) {
+            match dag.kind(node) {
+                Kind::Product(_, factors) => asked.extend(factors.iter().map(|(f, _)| *f)),
+                Kind::Compare(_, a, b) => pairs.push((*a, *b)),
+                Kind::Call(op, x) => match op.row().regularity.breaks {
+                    Break::Kink(At::Equal) => pairs.push((x[0], x[1])),
+                    _ => asked.push(x[0]),
+                },
+                _ => {}
+            }
+        }
+        asked.sort_unstable();
+        asked.dedup();
+        asked.retain(|node| *node != u && reads(dag, *node, u));
+        for node in asked {
+            if self.is_nonzero(dag, node, u) {
+                known.nonzero.insert(node, ());
+            }
+        }
+        for (a, b) in pairs {
+            let difference = dag.sub(a, b);
+            if !reads(dag, difference, u) && self.is_free() || self.is_nonzero(dag, difference, u) {
+                known.distinct.insert((a, b), ());
+            }
+        }
+        known
+    }
+
+    fn is_nonzero(&self, dag: &mut Dag, node: Node, u: Node) -> bool {
+        let nothing = dag.integer(0);
+        let there = replaced(dag, node, u, nothing);
+        let mut algebra = Algebra::new(SMALL_BUDGET, Scope::Densely);
+        let mut decide = || {
+            let poly = algebra.convert(dag, there)?;
+            let poly = algebra.numerator(&poly)?;
+            Ok::<bool, Undecided>(self.is_never_nothing(&algebra, &poly))
+        };
+        decide() == Ok(true)
+    }
+}

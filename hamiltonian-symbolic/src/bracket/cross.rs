@@ -9,8 +9,8 @@
 //!   H of the same kind: it is continued around the place through complex times;
 //! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|, and arctan w at a pole of
 //!   w is ±π/2 − arctan(1/w)): what is the same function on both sides, or comes to the same value;
-//!   what tends to infinity on both sides; what H keeps away from, as it tends to infinity on both
-//!   sides there; and a place along which the flow runs.
+//!   what it, or H, keeps orbits away from, as it tends to infinity on one side at least; and a
+//!   place along which the flow runs.
 //!
 //! Invariant: no rule here looks at points.
 
@@ -180,9 +180,9 @@ fn reads(dag: &Dag, root: Node, node: Node) -> bool {
 struct Ends {
     /// They come to the same finite value.
     is_continuous: bool,
-    /// They come to the same value, or both to infinity.
+    /// They come to the same value, or one to infinity.
     is_projective: bool,
-    /// Both come to infinity.
+    /// One of them comes to infinity.
     is_infinite: bool,
     /// They are one function of one value in complex numbers,
     is_same: bool,
@@ -400,7 +400,8 @@ impl Place {
             let there = replaced(dag, difference, u, nothing);
             vanishes(dag, there)
         };
-        let is_infinite = above.is_infinite && below.is_infinite;
+        // On that side no trajectory comes near.
+        let is_infinite = above.is_infinite || below.is_infinite;
         Ok(Ends {
             is_continuous,
             is_projective: is_continuous || is_infinite || is_same && both.is_meromorphic,

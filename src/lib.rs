@@ -31,6 +31,11 @@
 
 pub use hamiltonian_core::*;
 
+/// The linear algebra that vectors are stored in.
+// Not in the root of the core, since the glob would put its pages among ours.
+#[doc(no_inline)]
+pub use hamiltonian_core::private::nalgebra;
+
 /// The only paths that code emitted by [`hamiltonian!`] names.
 #[doc(hidden)]
 pub use hamiltonian_core::private;

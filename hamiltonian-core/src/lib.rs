@@ -80,9 +80,6 @@ pub use system::{
 };
 pub use vector::{IntoVector, Vector, shape};
 
-/// The linear algebra that vectors are stored in.
-pub use nalgebra;
-
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
 pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 

@@ -80,6 +80,14 @@ macro_rules! hamiltonian {
     };
 }
 
+/// The value of an expression form. Its name is read where the form stands in the place of an item:
+/// rustc then says that "the usage of" this macro "is likely invalid in item context".
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __an_item_needs_pub_struct_Name_first {
+    ($($value:tt)*) => { $($value)* };
+}
+
 /// The language, construct by construct.
 #[doc = include_str!("../LANGUAGE.md")]
 pub mod language {}

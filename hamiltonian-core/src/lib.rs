@@ -54,6 +54,8 @@ pub mod start;
 
 pub mod coordinates;
 
+mod derivatives;
+
 mod error;
 
 mod reach;
@@ -61,6 +63,7 @@ mod reach;
 #[doc(hidden)]
 pub mod private;
 
+pub use derivatives::{WrongDerivative, check_derivatives};
 pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
 pub use error::{CheckpointError, Error};

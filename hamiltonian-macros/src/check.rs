@@ -309,7 +309,7 @@ impl<'a> Checker<'a> {
         let word = if what == "momentum" { "H" } else { "L" };
         let help = match self.out.captures.first() {
             Some(capture) if what == "momentum" => format!(
-                "`{capture}` is taken from the scope around; name the momenta in the signature: \
+                "`{capture}` is captured from the surrounding scope; name the momenta in the signature: \
                  `H(x; p_x) = …`"
             ),
             _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),

@@ -21,7 +21,10 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let (ast, checked) = front(definition, &mut report);
     let code = checked.map(|checked| backend::generate(&checked, &root, &mut report));
     match code.and_then(|code| report.barrier(code)) {
-        Some(code) => code,
+        Some(code) if ast.item.is_some() => code,
+        // In the place of an item rustc refuses the block and names the macro it comes from, which is
+        // all that can be said there: a macro does not know where it stands.
+        Some(value) => quote!(#root::__an_item_needs_pub_struct_Name_first! { #value }),
         None => fallback::stub(&ast, &report),
     }
 }

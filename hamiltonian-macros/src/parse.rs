@@ -353,7 +353,7 @@ impl<'a> Parser<'a> {
         for id in std::mem::take(&mut self.remainders) {
             self.report.error(
                 self.ast.nodes[id.0 as usize].at,
-                "`%` stands only in an index",
+                "`%` is allowed only in an index",
                 "write `q[(i + 1) % N]` to go round; elsewhere there is no remainder",
             );
         }

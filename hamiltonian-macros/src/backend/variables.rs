@@ -296,7 +296,7 @@ impl Settling {
 /// What to write instead.
 fn remedy(reason: &Refusal) -> &'static str {
     match reason {
-        Refusal::NameTaken { .. } => "give what has that name another one",
+        Refusal::NameTaken { .. } => "rename the parameter or coordinate of that name",
         Refusal::Shape { .. } => {
             "declare the coordinates as scalars, or the bodies as `q[4][3]` with masses `m: [4]`"
         }

@@ -10,6 +10,9 @@ use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::{self, Builtin, Domain, Entry};
 
+/// How products over a range are called elsewhere.
+const PRODUCTS: &[&str] = &["prod", "product", "Π"];
+
 impl Checker<'_> {
     pub(super) fn call(
         &mut self,
@@ -82,9 +85,20 @@ impl Checker<'_> {
         } else if names::meaning(name).is_some() {
             let message = format!("`{name}` is a word of the language, not a function");
             self.error(raw, at, &message, "choose another name");
+        } else if PRODUCTS.contains(&name) {
+            let message =
+                format!("`{name}` is not a function: the language has no product over a range");
+            let help =
+                "write the factors with `*`; of positive ones, `exp(sum(i in 0..N) { ln(…) })`";
+            self.error(raw, at, &message, help);
         } else if self.defining == Some(symbol) {
-            let message = format!("`{name}` is defined by itself");
-            self.error(raw, at, &message, "a `let` uses only what stands above it");
+            let message = format!("`{name}` is defined in terms of itself");
+            self.error(
+                raw,
+                at,
+                &message,
+                "a `let` uses only names defined above it",
+            );
         } else if self.later[symbol.0 as usize] {
             let message = format!("`{name}` is used above its definition");
             let help = format!("move the definition of `{name}` above this statement");
@@ -102,7 +116,7 @@ impl Checker<'_> {
                 match names::nearest(name, known.iter().map(String::as_str)) {
                     Some(nearest) => format!("the nearest known function is `{nearest}`"),
                     None => format!(
-                        "define it, `let {name}(x) = …;`, or write `{name}*(…)` for a product"
+                        "define it, `let {name}(x) = …;`, take it from Rust, `fn {name}(x) = path, (derivative);`, or write `{name}*(…)` for a product"
                     ),
                 }
             };
@@ -191,7 +205,7 @@ impl Checker<'_> {
                             self.error(
                                 raw,
                                 self.ast.nodes[raw.0 as usize].at,
-                                "`bracket` does not stand inside a `sum`",
+                                "`bracket` cannot be used inside a `sum`",
                                 "take the bracket of the whole sums: `bracket(sum(…) { … }, b)`",
                             );
                             return None;

@@ -29,7 +29,7 @@ impl Checker<'_> {
         if self.out.charts.iter().any(|chart| chart.name == *name) {
             self.report.error(
                 name.span(),
-                format!("`coordinates {word}` stands twice"),
+                format!("`coordinates {word}` is given twice"),
                 "keep one",
             );
             return;
@@ -173,7 +173,7 @@ impl Checker<'_> {
         };
         for (index, argument) in arguments.iter().enumerate() {
             if groups[..index].contains(&groups[index]) {
-                let message = format!("the coordinate `{argument}` stands twice");
+                let message = format!("the coordinate `{argument}` is given twice");
                 self.report
                     .error(argument.span(), message, format!("write `{form}`"));
                 return None;

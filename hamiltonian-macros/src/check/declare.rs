@@ -324,7 +324,7 @@ impl Checker<'_> {
                 format!("coordinates come first, {partners} after the `;`")
             };
             let message = format!(
-                "`{name}` stands among the coordinates, but has the name of the {partner} of `{}`",
+                "`{name}` is listed among the coordinates, but has the name of the {partner} of `{}`",
                 of.name
             );
             self.report.error(coordinate.name.span(), message, help);
@@ -409,7 +409,7 @@ impl Checker<'_> {
             let span = fourth
                 .first()
                 .map_or(signature.spans.end, |variable| variable.name.span());
-            let message = "nothing follows time in a signature";
+            let message = "time is the last entry of a signature";
             self.report.error(span, message, form);
         }
     }

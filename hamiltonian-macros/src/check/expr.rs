@@ -361,10 +361,13 @@ impl Checker<'_> {
         let node = &self.ast.nodes[raw.0 as usize];
         let (message, op) = match node.kind {
             ExprKind::Binary(op, ..) => (
-                format!("`{0}` makes a condition where a number is due", op.symbol()),
+                format!(
+                    "expected a number, found a condition made by `{0}`",
+                    op.symbol()
+                ),
                 op.symbol(),
             ),
-            _ => ("a condition stands where a number is due".into(), "<"),
+            _ => ("expected a number, found a condition".into(), "<"),
         };
         self.error(
             raw,
@@ -380,7 +383,7 @@ impl Checker<'_> {
         if ty == Type::Bool {
             return Some(value);
         }
-        let message = format!("{} stands where a condition is due", self.type_shown(ty));
+        let message = format!("expected a condition, found {}", self.type_shown(ty));
         self.error(
             raw,
             self.ast.nodes[raw.0 as usize].at,

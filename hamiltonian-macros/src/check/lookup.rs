@@ -94,7 +94,7 @@ impl Checker<'_> {
             Binding::LetFunction(_) | Binding::Function(_) => {
                 let name = self.ast.symbols.name(symbol);
                 let arguments = self.function_shown(binding);
-                let message = format!("`{name}` is a function and no value by itself");
+                let message = format!("`{name}` is a function, not a value");
                 let at = self.ast.nodes[raw.0 as usize].at;
                 self.error(raw, at, &message, &format!("write `{arguments}`"));
                 None
@@ -128,7 +128,7 @@ impl Checker<'_> {
             return self.hamiltonian(raw);
         }
         if let Some(function) = names::function(name) {
-            let message = format!("`{name}` is a function and no value by itself");
+            let message = format!("`{name}` is a function, not a value");
             self.error(
                 raw,
                 at,
@@ -139,7 +139,7 @@ impl Checker<'_> {
         }
         if names::meaning(name).is_some() {
             let help = match name {
-                "ds" | "dt" => "it stands in a statement of its own: `dt = (…)*ds`",
+                "ds" | "dt" => "it belongs to a statement of its own: `dt = (…)*ds`",
                 _ => "choose another name",
             };
             self.error(
@@ -151,8 +151,13 @@ impl Checker<'_> {
             return None;
         }
         if self.defining == Some(symbol) {
-            let message = format!("`{name}` is defined by itself");
-            self.error(raw, at, &message, "a `let` uses only what stands above it");
+            let message = format!("`{name}` is defined in terms of itself");
+            self.error(
+                raw,
+                at,
+                &message,
+                "a `let` uses only names defined above it",
+            );
             return None;
         }
         if self.later[symbol.0 as usize] {
@@ -211,7 +216,7 @@ impl Checker<'_> {
         });
         if let Some((kind, _)) = observables.into_iter().find(|(_, given)| *given == name) {
             return format!(
-                "what `{} {name}` declares no other statement reads; write its formula as a `let` above both",
+                "`{} {name}` is not read by other statements; write its formula as a `let` above both",
                 kind.word()
             );
         }
@@ -320,7 +325,7 @@ impl Checker<'_> {
                 self.error(
                     raw,
                     at,
-                    "`H` is defined by itself",
+                    "`H` is defined in terms of itself",
                     "H depends on coordinates, momenta, time and parameters",
                 );
                 None

@@ -105,7 +105,7 @@ impl Checker<'_> {
                 let note = if self.takes_place(&affine, end, &self.active) {
                     ""
                 } else {
-                    "; it counts wherever its own loops run, even where a loop inside is empty"
+                    "; the index is checked in every iteration of its loops, even where an inner loop is empty"
                 };
                 let at = self.ast.nodes[raw.0.0 as usize].spans;
                 self.error(raw.0, at, &message, &format!("{help}{note}"));

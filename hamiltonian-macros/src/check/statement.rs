@@ -194,7 +194,7 @@ impl<'a> Checker<'a> {
     }
 
     fn once(&mut self, statement: &Statement, word: &str) {
-        let message = format!("`{word}` stands twice");
+        let message = format!("`{word}` is given twice");
         self.report.error(statement.keyword, message, "keep one");
     }
 
@@ -289,6 +289,16 @@ impl<'a> Checker<'a> {
         self.out.split_assumed = assumed;
         for (name, value) in pieces {
             let what = format!("the piece `{name}`");
+            if let Some(item) = &self.ast.item
+                && ["Vector", "Declared"].iter().any(|made| name == made)
+            {
+                let made = format!(
+                    "`{}{name}` names the vectors of such a definition",
+                    item.name
+                );
+                self.report
+                    .error(name.span(), made, "give the piece another name");
+            }
             if let Some(value) = self.scalar_expression(value, &what) {
                 self.out.split.push((name.clone(), value));
             }

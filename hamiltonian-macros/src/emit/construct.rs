@@ -135,7 +135,8 @@ pub fn new(
     };
     let method = if context.is_run_time.contains(&true) {
         quote! {
-            /// The system of these sizes with these parameters; those with a default get it.
+            /// The system of these sizes and parameters: sizes, then the parameters without a default,
+            /// in the order of their declaration. Those with a default get it.
             ///
             /// # Errors
             /// `Error::Shape` if an array does not have the number of components that its sizes say.
@@ -149,7 +150,8 @@ pub fn new(
         }
     } else {
         quote! {
-            /// The system with these parameters; those with a default get it.
+            /// The system with these parameters: those without a default, in the order of their
+            /// declaration. Those with a default get it.
             #allow
             #[must_use]
             #visibility fn new #kinds (#arguments) -> Self {

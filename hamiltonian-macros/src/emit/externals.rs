@@ -26,14 +26,14 @@ pub fn wrappers(definition: &Definition) -> TokenStream {
                 (0..arity).map(|at| lex(&format!("_x{at}"))).collect();
             let at = path.clone().into_iter().last();
             let at = at.map_or_else(Span::call_site, |token| token.span());
-            let scalar = located(quote!(T), at, 0);
+            let scalar = located(quote!(AnyReal), at, 0);
             let call = located(quote!(#(#arguments),*), at, 0);
             let mut call = Group::new(Delimiter::Parenthesis, call);
             call.set_span(at);
             out.extend(quote! {
                 #[inline(always)]
                 #[allow(dead_code)]
-                fn #name<#scalar: __h::Real>(#(#arguments: T),*) -> #scalar { #path #call }
+                fn #name<#scalar: __h::Real>(#(#arguments: #scalar),*) -> #scalar { #path #call }
             });
         };
         wrap(Part::Value, &external.value);

@@ -13,16 +13,16 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
     let mut out = String::new();
     let system = generics.system_type();
     if let Err(reason) = &structure.separable {
-        reason_trait(&mut out, "__NotSeparable", reason);
+        reason_trait(&mut out, "__HIsSeparable", reason);
         let _ = write!(
             out,
             "#[automatically_derived]\n\
-             impl{generics} __h::Separable<T> for {system} where for<'a> &'a {system}: __NotSeparable {{\n\
+             impl{generics} __h::Separable<T> for {system} where for<'a> &'a {system}: __HIsSeparable {{\n\
              type Kick = {never};\ntype Drift = {never};\n\
              const KICK: Self::Kick = __h::core::panic!({message:?});\n\
              const DRIFT: Self::Drift = __h::core::panic!({message:?});\n}}\n\
              #[automatically_derived]\n\
-             impl{generics} __h::Split<T> for {system} where for<'a> &'a {system}: __NotSeparable {{\n\
+             impl{generics} __h::Split<T> for {system} where for<'a> &'a {system}: __HIsSeparable {{\n\
              type Pieces = {never};\n\
              const PIECES: Self::Pieces = __h::core::panic!({message:?});\n\
              const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n}}\n",
@@ -34,14 +34,14 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
     marker(
         &mut out,
         "QuadraticKinetic",
-        "__NotQuadratic",
+        "__KineticIsQuadratic",
         &structure.quadratic_kinetic,
         generics,
     );
     marker(
         &mut out,
         "Autonomous",
-        "__NotAutonomous",
+        "__HIsAutonomous",
         &structure.autonomous,
         generics,
     );
@@ -80,6 +80,9 @@ fn marker(
         generics.declaration_without_bounds(),
     );
 }
+
+/// Why rustc goes on to speak of a trait that nobody wrote.
+const CARRIER: &str = "the trait that rustc names only carries this message: implement nothing, change H or the scheme";
 
 /// A trait nothing implements. It is asked of references of all lifetimes: that keeps rustc from
 /// deciding the bound where it is written, and from speaking of the marker instead of the reason.

@@ -19,31 +19,31 @@ pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'sta
     let above = |bound| against(bound) == Some(Ordering::Greater);
     let at = |bound| against(bound) == Some(Ordering::Equal);
     let (is_outside, takes) = match function {
-        Builtin::Sqrt => (below(0), "`sqrt` takes 0 and what is above"),
-        Builtin::Ln => (below(0) || at(0), "`ln` takes what is above 0"),
-        Builtin::Ln1p => (below(-1) || at(-1), "`ln_1p` takes what is above -1"),
-        Builtin::Asin => (below(-1) || above(1), "`asin` takes what is from -1 to 1"),
-        Builtin::Acos => (below(-1) || above(1), "`acos` takes what is from -1 to 1"),
-        Builtin::Tan => (
-            dag.in_pi(*x)
-                .and_then(|turn| turn.to_small())
-                .is_some_and(|(_, d)| d == 2),
-            "the argument of `tan` must not be an odd multiple of `pi/2`",
+        Builtin::Sqrt => (below(0), "the argument of `sqrt` must be ≥ 0"),
+        Builtin::Ln => (below(0) || at(0), "the argument of `ln` must be > 0"),
+        Builtin::Ln1p => (below(-1) || at(-1), "the argument of `ln_1p` must be > -1"),
+        Builtin::Asin => (
+            below(-1) || above(1),
+            "the argument of `asin` must be in [-1, 1]",
         ),
-        Builtin::Acosh => (below(1), "`acosh` takes 1 and what is above"),
+        Builtin::Acos => (
+            below(-1) || above(1),
+            "the argument of `acos` must be in [-1, 1]",
+        ),
+        Builtin::Acosh => (below(1), "the argument of `acosh` must be ≥ 1"),
         Builtin::Atanh => (
             below(-1) || at(-1) || at(1) || above(1),
-            "`atanh` takes what is between -1 and 1",
+            "the argument of `atanh` must be in (-1, 1)",
         ),
         Builtin::Pow => {
             let exponent = rest.first().and_then(|y| rational(dag, *y))?;
             let is_whole = exponent.to_small().is_none_or(|(_, d)| d == 1);
             if at(0) && exponent.is_negative() {
-                return Some("negative powers take what is not 0");
+                return Some("the base of a negative power must not be 0");
             }
             (
                 below(0) && !is_whole,
-                "negative numbers have whole powers only",
+                "a negative base needs a whole exponent",
             )
         }
         _ => return None,

@@ -27,7 +27,7 @@ use hamiltonian_symbolic::rational::Rational;
 /// What is said, and advised, of a bracket whose indices are too involved.
 const UNSOLVED: (&str, &str) = (
     "this bracket cannot be formed: its sums meet at indices that cannot be solved for each other",
-    "write what it is as an expression of its own",
+    "write the result of the bracket as an expression",
 );
 
 /// The nodes that were derived (brackets, momenta, velocities) from those that somebody wrote.
@@ -306,11 +306,7 @@ impl<'a> Evaluator<'a> {
             (Kind::Div(_, divisor), [a, b]) => {
                 if is_zero(dag, *b) {
                     let spans = checked.node(*divisor).spans;
-                    self.refuse(
-                        spans,
-                        "nothing can be divided by 0",
-                        "write another divisor",
-                    );
+                    self.refuse(spans, "division by 0", "write a divisor other than 0");
                 }
                 dag.div(*a, *b)
             }

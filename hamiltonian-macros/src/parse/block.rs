@@ -77,10 +77,10 @@ impl Parser<'_> {
             ),
             TokenKind::Punct(';', _) => (
                 "a `;` inside an expression".into(),
-                "statements stand at the top, outside of brackets",
+                "write statements at the top level, outside of brackets",
             ),
             TokenKind::Punct('!', _) => (
-                "`!` stands before a condition".into(),
+                "`!` is allowed only before a condition".into(),
                 "there is no factorial; write the number",
             ),
             TokenKind::Punct('?', _) => (
@@ -88,13 +88,12 @@ impl Parser<'_> {
                 "write `if c { a } else { b }`",
             ),
             TokenKind::Ident if token.text == "in" => (
-                "a loop variable does not stand here".into(),
+                "unexpected loop variable".into(),
                 "write `sum(i in 0..N) { … }`",
             ),
-            TokenKind::Punct('.', true) => (
-                "a range does not stand here".into(),
-                "write `sum(i in 0..N) { … }`",
-            ),
+            TokenKind::Punct('.', true) => {
+                ("unexpected range".into(), "write `sum(i in 0..N) { … }`")
+            }
             TokenKind::Open(Delimiter::Brace) => (
                 "braces do not stand here".into(),
                 "write `( … )`, or `sum(i in 0..N) { … }`",
@@ -133,7 +132,7 @@ impl Parser<'_> {
             let then = self.group("one value", |parser| parser.expression())?;
             branches.push((at, condition, then));
             if !self.at_word("else") {
-                return self.abort(at, "`if` without `else`: a value is due either way", FORM);
+                return self.abort(at, "`if` without `else`: both branches need a value", FORM);
             }
             self.position += 1;
             if self.at_word("if") {
@@ -190,7 +189,7 @@ impl Parser<'_> {
             );
         }
         if !self.at_open(Delimiter::Brace) {
-            let message = "the body of a `sum` stands in braces";
+            let message = "the body of a `sum` needs braces";
             return self.abort(Spans::from(at).to(parentheses), message, FORM);
         }
         let body = self.group("one value", |parser| parser.expression())?;

@@ -186,7 +186,7 @@ impl Parser<'_> {
                 self.abort(
                     before.span,
                     message,
-                    "write one, or remove what waits for it",
+                    "write a value, or remove the operator",
                 )
             }
             (_, None) => self.abort(self.here(), "an expression is missing", "write one"),
@@ -205,13 +205,20 @@ impl Parser<'_> {
         match name {
             "if" => return self.conditional(),
             "sum" => return self.sum(),
+            "prod" | "product" | "Π" if self.peek_at(3).is_some_and(|next| next.text == "in") => {
+                return self.abort(
+                    span,
+                    format!("`{name}`: the language has no product over a range"),
+                    "write the factors with `*`; of positive ones, `exp(sum(i in 0..N) { ln(…) })`",
+                );
+            }
             "else" => {
                 return self.abort(span, "`else` without `if`", "write `if c { a } else { b }`");
             }
             "let" => {
                 return self.abort(
                     span,
-                    "`let` does not stand inside an expression",
+                    "`let` cannot be used inside an expression",
                     "write it as a statement of its own: `let name = …;`",
                 );
             }
@@ -293,7 +300,7 @@ impl Parser<'_> {
         };
         self.report.error(
             spans,
-            format!("`{name}^{power}` is not a function: the power stands after the argument"),
+            format!("`{name}^{power}` is not a function: write the power after the argument"),
             format!("write `{name}(x)^{power}`"),
         );
         if self.at_open(Delimiter::Parenthesis) {
@@ -384,7 +391,7 @@ impl Parser<'_> {
                 }
                 _ => self.report.error(
                     node.at,
-                    "`%` binds like `*`: here it is not the last thing done",
+                    "`%` binds like `*`, but must be the outermost operation of an index",
                     format!("write `{array}[(i + 1) % N]`"),
                 ),
             }
@@ -468,7 +475,7 @@ impl Parser<'_> {
             self.skip();
             self.report.error(
                 Spans { start, end },
-                format!("`{receiver}.{word}(…)`: a function stands before its argument"),
+                format!("`{receiver}.{word}(…)`: write a function before its argument"),
                 help,
             );
         } else {

@@ -43,8 +43,8 @@ impl Parser<'_> {
             if inner {
                 self.report.error(
                     spans,
-                    "inner docs and attributes have nothing to stand in",
-                    "write `///` or `#[…]` before what they describe",
+                    "inner docs and attributes have no place here",
+                    "write `///` or `#[…]` before the item or parameter they describe",
                 );
             }
             let close = self.tokens[self.position].close;
@@ -143,7 +143,7 @@ impl Parser<'_> {
         let twice = self.ast.item.as_ref()?.max_ops.is_some();
         if twice || number.is_none() {
             let (message, help) = if twice {
-                ("`max_ops` stands twice", "keep one")
+                ("`max_ops` is given twice", "keep one")
             } else {
                 (
                     "`max_ops` takes a number of operations",
@@ -157,7 +157,7 @@ impl Parser<'_> {
 
     /// `const N: usize, …>`, the cursor after `<`.
     fn generics(&mut self) -> Result<()> {
-        const FORM: &str = "only sizes stand between `<` and `>`: write `<const N: usize>`";
+        const FORM: &str = "only sizes are allowed between `<` and `>`: write `<const N: usize>`";
         loop {
             if self.at_punct('>') {
                 self.position += 1;
@@ -383,7 +383,7 @@ impl Parser<'_> {
                     _ => self.abort(
                         token.span,
                         format!("`{}` is not a size", token.text),
-                        "write a whole number from 1",
+                        "write a whole number ≥ 1",
                     ),
                 }
             }

@@ -95,7 +95,7 @@ impl Parser<'_> {
                 "assume" if matches!(word, "invariant" | "split") => assumed = true,
                 "assume" => self.report.error(
                     attribute.spans,
-                    format!("`#[assume]` says nothing of `{word}`"),
+                    format!("`#[assume]` does not apply to `{word}`"),
                     "write it before an `invariant` or a `split`",
                 ),
                 "max_ops" => self.report.error(
@@ -105,7 +105,7 @@ impl Parser<'_> {
                 ),
                 other => self.report.error(
                     attribute.spans,
-                    format!("`#[{other}]` means nothing on a statement"),
+                    format!("`#[{other}]` has no meaning on a statement"),
                     "remove it; docs and, on invariants and splits, `#[assume]` are possible",
                 ),
             }
@@ -199,7 +199,7 @@ impl Parser<'_> {
             arguments = "(…)";
         }
         if self.at_equals(0) && names::meaning(name).is_none() {
-            let message = format!("`{name}` is not declared by anything");
+            let message = format!("`{name}` has no declaration");
             let help = format!("write `let {name}{arguments} = …`");
             return self.abort(span, message, help);
         }
@@ -226,7 +226,7 @@ impl Parser<'_> {
             let span = self.here();
             return self.abort(
                 span,
-                "nothing changes here",
+                "values do not change",
                 "write `let name = …` without `mut`",
             );
         }
@@ -271,7 +271,7 @@ impl Parser<'_> {
             return Ok(());
         }
         let word = &self.tokens[self.position - 1];
-        let message = format!("`H` stands without `{}`", word.shown());
+        let message = format!("`H` is defined without `{}`", word.shown());
         self.abort(word.span, message, format!("write `{form}`"))
     }
 
@@ -291,7 +291,7 @@ impl Parser<'_> {
             if arguments[..index].contains(argument) {
                 self.report.error(
                     argument.span(),
-                    format!("the argument `{argument}` stands twice"),
+                    format!("the argument `{argument}` is given twice"),
                     "give each argument a name of its own",
                 );
             }
@@ -421,7 +421,7 @@ impl Parser<'_> {
             if pieces.iter().any(|(other, _)| *other == name) {
                 self.report.error(
                     name.span(),
-                    format!("the piece `{name}` stands twice"),
+                    format!("the piece `{name}` is given twice"),
                     "give each piece a name of its own",
                 );
             }

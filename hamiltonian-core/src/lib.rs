@@ -63,9 +63,9 @@ mod reach;
 #[doc(hidden)]
 pub mod private;
 
-pub use derivatives::{WrongDerivative, check_derivatives};
 pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
+pub use derivatives::{WrongDerivative, check_derivatives};
 pub use error::{CheckpointError, Error};
 pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Turn, VectorField};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};

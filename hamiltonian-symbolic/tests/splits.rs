@@ -1,10 +1,8 @@
 //! Exact flows of pieces: that they are flows, of the right vector field, symplectic, and end
 //! where the orbit does.
 
-mod common;
-mod flows;
-
-use flows::{Case, check};
+use crate::common;
+use crate::flows::{Case, check};
 use hamiltonian_symbolic::split::{Refusal, find};
 use hamiltonian_symbolic::transform::check_split;
 

@@ -91,7 +91,7 @@ fn reason_trait(out: &mut String, name: &str, reason: &super::Reason) {
     let escape = |text: &str| text.replace('{', "{{").replace('}', "}}");
     let _ = write!(
         out,
-        "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?})]\n\
+        "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?}, note = {CARRIER:?})]\n\
          #[doc(hidden)]\npub trait {name} {{}}\n",
         escape(&reason.message),
         escape(&reason.label),

@@ -206,6 +206,10 @@ fn derive(
             format!("derivatives of this system need more than {LOOPS} loops"),
             SHARE_LOOPS.to_owned(),
         ),
+        Err(Refusal::Internal { fault }) => {
+            report.internal(definition(checked), &fault);
+            return None;
+        }
         Err(Refusal::OutOfRange { number }) => {
             blame::number(checked, number.as_ref(), beyond, report);
             return None;

@@ -8,8 +8,9 @@ use crate::checked::Checked;
 use crate::report::Report;
 use crate::tokens::Tokens;
 use crate::{backend, check, fallback, parse};
-use proc_macro2::{Delimiter, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::quote;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Expands one call of the macro.
 pub fn expand(input: TokenStream) -> TokenStream {
@@ -17,9 +18,17 @@ pub fn expand(input: TokenStream) -> TokenStream {
     if let Some((conditions, definition)) = conditional(&definition) {
         return quote!(#(#conditions)* #root::hamiltonian! { #definition });
     }
+    let mut ast = Ast::default();
     let mut report = Report::default();
-    let (ast, checked) = front(definition, &mut report);
-    let code = checked.map(|checked| backend::generate(&checked, &root, &mut report));
+    let stages = || {
+        let checked;
+        (ast, checked) = front(definition, &mut report);
+        checked.map(|checked| backend::generate(&checked, &root, &mut report))
+    };
+    let code = caught(stages).unwrap_or_else(|fault| {
+        report.internal(Span::call_site(), &fault);
+        None
+    });
     match code.and_then(|code| report.barrier(code)) {
         Some(code) if ast.item.is_some() => code,
         // In the place of an item rustc refuses the block and names the macro it comes from, which is
@@ -27,6 +36,16 @@ pub fn expand(input: TokenStream) -> TokenStream {
         Some(value) => quote!(#root::__an_item_needs_pub_struct_Name_first! { #value }),
         None => fallback::stub(&ast, &report),
     }
+}
+
+/// The result of stages that do not panic, or the words of the panic. What they were in the midst of
+/// is read no more, but for the tree and the report, which are whole after each statement.
+fn caught<T>(stages: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(stages)).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().cloned();
+        let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
+        text.unwrap_or_else(|| "a panic without words".to_owned())
+    })
 }
 
 /// Tokens → tree → checked tree. The tree is there, as far as it was read, whatever was wrong.
@@ -86,5 +105,27 @@ fn forwarded(input: TokenStream) -> (TokenStream, TokenStream) {
             quote!(::hamiltonian),
             first.into_iter().chain(trees).collect(),
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_becomes_an_error_that_asks_for_a_report() {
+        let list: Vec<u8> = Vec::new();
+        let fault = caught(|| list[1]).unwrap_err();
+        assert_eq!(
+            fault,
+            "index out of bounds: the len is 0 but the index is 1"
+        );
+        let mut report = Report::default();
+        report.internal(Span::call_site(), &fault);
+        assert!(report.barrier(()).is_none());
+        assert_eq!(
+            report.errors()[0].text(),
+            "internal error of `hamiltonian!`: index out of bounds: the len is 0 but the index is 1\nhelp: the definition is not to blame: please report it together with this message"
+        );
     }
 }

@@ -101,6 +101,15 @@ impl Report {
         });
     }
 
+    /// Adds a fault of ours, with what to report.
+    pub fn internal(&mut self, spans: impl Into<Spans>, fault: &str) {
+        self.error(
+            spans,
+            format!("internal error of `hamiltonian!`: {fault}"),
+            "the definition is not to blame: please report it together with this message",
+        );
+    }
+
     /// No error so far.
     pub fn is_empty(&self) -> bool {
         self.errors.is_empty()

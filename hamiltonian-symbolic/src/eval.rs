@@ -105,12 +105,12 @@ impl<T: Real> Machine<'_, T> {
         self.numbers[value.0 as usize]
     }
     fn affine(&self, affine: &Affine) -> i64 {
-        affine.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| {
+        affine.value(&|d| self.variables[&d], &|s| {
             self.point.sizes[s.0 as usize] as i64
         })
     }
     fn index(&self, index: &Index) -> usize {
-        let value = index.value(&|d| self.variables.get(&d).copied().unwrap_or(0), &|s| {
+        let value = index.value(&|d| self.variables[&d], &|s| {
             self.point.sizes[s.0 as usize] as i64
         });
         usize::try_from(value).unwrap_or(usize::MAX)
@@ -174,7 +174,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Scalar(parameter) => self.point.scalars[parameter.0 as usize],
             Instruction::Time => self.point.t,
             Instruction::Coefficient => self.point.c,
-            Instruction::Variable(domain) => real(self.variables.get(domain).copied().unwrap_or(0)),
+            Instruction::Variable(domain) => real(self.variables[domain]),
             Instruction::Extent(size) => real(self.point.sizes[size.0 as usize] as i64),
             Instruction::Count(start, end) => real((self.affine(end) - self.affine(start)).max(0)),
             Instruction::Load(array, row, column) => {

@@ -22,7 +22,12 @@ pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Numbers {
 /// Whether a node is computed before any evaluation, outside loops: its multiplication into a
 /// coefficient is free.
 pub(crate) fn is_prepared(dag: &Dag, node: Node) -> bool {
-    dag.stage(node) < Stage::Evaluation && dag.variables(node) == 0
+    is_known(dag, node, Stage::Evaluation)
+}
+
+/// Whether a node is computed before a stage, outside loops.
+pub(crate) fn is_known(dag: &Dag, node: Node, now: Stage) -> bool {
+    dag.stage(node) < now && dag.variables(node) == 0
 }
 
 /// The longest sum into whose terms a coefficient is multiplied: it spares one multiplication and

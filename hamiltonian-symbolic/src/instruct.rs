@@ -81,7 +81,7 @@ impl Placer<'_> {
             Kind::Call(op, x) => match x.as_slice() {
                 [x] => Instruction::Call(*op, self.value(*x)),
                 [x, y, ..] => Instruction::Call2(*op, self.value(*x), self.value(*y)),
-                [] => Instruction::Pi,
+                [] => Instruction::Call(*op, Value::NONE),
             },
             Kind::External(function, part, x) => {
                 Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).collect())

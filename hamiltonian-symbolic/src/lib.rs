@@ -13,10 +13,12 @@ pub mod facts;
 pub mod index;
 mod instruct;
 pub mod legendre;
+mod listing;
 pub mod loops;
 pub mod model;
 pub mod normal_form;
 pub mod op;
+mod order;
 pub mod pipeline;
 pub mod print;
 pub mod program;
@@ -28,6 +30,7 @@ pub mod simplify;
 pub mod split;
 pub mod structure;
 pub mod transform;
+mod validate;
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

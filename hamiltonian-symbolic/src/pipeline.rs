@@ -4,14 +4,14 @@
 //! what no function needs is not in it.
 
 use crate::balance::balance;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
 use crate::index::Index;
 use crate::model::{Model, Shape, VectorEntry, VectorFunction};
-use crate::program::{Program, Purpose, Target};
+use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
-use crate::schedule::{Request, Store, schedule};
+use crate::schedule::{Images, Request, Store, prepared, schedule};
 use crate::share::share;
 
 /// The most operations a function may need after simplification.
@@ -35,6 +35,11 @@ pub enum Refusal {
     },
     /// More than [`crate::index::LOOPS`] different loops.
     TooManyLoops,
+    /// A fault of the engine.
+    Internal {
+        /// What is wrong with the program.
+        fault: String,
+    },
     /// A second derivative of a Rust function that came without one, by name.
     NoSecondDerivative {
         /// The function's name.
@@ -48,24 +53,75 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
     let mut gradient = None;
     for &purpose in wanted {
-        let mut request = request(model, purpose, &mut gradient);
+        let mut request = request(model, purpose, &mut gradient)?;
         let mut roots = request.roots();
         refuse(model, &roots)?;
         factor(&mut model.dag, &mut roots);
         in_range(&model.dag, &roots)?;
-        share(&mut model.dag, &mut roots);
+        share(&mut model.dag, &mut roots, Stage::Evaluation);
         request.replace_roots(&roots);
         requests.push(request);
     }
     refuse(model, &[])?;
-    let program = schedule(&model.dag, &requests);
-    for function in &program.functions {
+    let images = shared_preparation(&mut model.dag, &requests);
+    let program = schedule(&model.dag, &requests, &images);
+    program.validate().map_err(internal)?;
+    for (function, request) in program.functions.iter().zip(&requests) {
+        if stores(&function.evaluation) != request.stores.len() {
+            return Err(internal(format!("{:?} loses a store", request.purpose)));
+        }
         let operations = program.operations(function).total();
         if operations > CAP {
             return Err(Refusal::TooLarge { operations });
         }
     }
     Ok(program)
+}
+
+/// What is prepared, with shared parts, where that is less work.
+fn shared_preparation(dag: &mut Dag, requests: &[Request]) -> Images {
+    let wanted = prepared(dag, requests);
+    let mut images = wanted.clone();
+    share(dag, &mut images, Stage::Parameters);
+    if work(dag, &images) < work(dag, &wanted) {
+        wanted.into_iter().zip(images).collect()
+    } else {
+        Images::default()
+    }
+}
+
+/// The operations of expressions, a power by squaring.
+fn work(dag: &Dag, roots: &[Node]) -> u32 {
+    let power = |n: i32| n.unsigned_abs().ilog2() + n.unsigned_abs().count_ones();
+    let of = |node: &Node| match dag.kind(*node) {
+        Kind::Sum(c, terms) => {
+            let scaled = terms.iter().filter(|(k, _)| !k.is_unit()).count();
+            (scaled + terms.len() - usize::from(c.is_zero())) as u32
+        }
+        Kind::Product(k, factors) => {
+            let powers: u32 = factors.iter().map(|(_, n)| power(*n)).sum();
+            let is_divided = factors.iter().any(|(_, n)| *n < 0);
+            powers + u32::from(!k.is_unit()) + u32::from(is_divided) - 1
+        }
+        Kind::Call(..) | Kind::External(..) => 16,
+        Kind::Reduce(..) | Kind::Select(..) | Kind::Compare(..) => 1,
+        _ => 0,
+    };
+    dag.reachable(roots).iter().map(of).sum()
+}
+
+fn internal(fault: String) -> Refusal {
+    Refusal::Internal { fault }
+}
+
+/// How many updates of outputs there are.
+fn stores(steps: &[Step]) -> usize {
+    let count = |step: &Step| match step {
+        Step::Store(..) => 1,
+        Step::Loop(nest) => stores(&nest.body),
+        Step::Let(_) | Step::Accumulate(..) => 0,
+    };
+    steps.iter().map(count).sum()
 }
 
 /// Refuses numbers that emitted code could not hold.
@@ -116,8 +172,10 @@ pub fn request(
     model: &mut Model,
     purpose: Purpose,
     gradient: &mut Option<Vec<VectorEntry>>,
-) -> Request {
-    let h = model.hamiltonian.unwrap_or(Node(0));
+) -> Result<Request, Refusal> {
+    let Some(h) = model.hamiltonian else {
+        return Err(internal("there is no H".to_owned()));
+    };
     let mut request = Request {
         purpose,
         results: Vec::new(),
@@ -162,15 +220,15 @@ pub fn request(
             vector(model, entries, (true, true), &mut request);
         }
         Purpose::Observable(number) => {
-            request.results = model
-                .observables
-                .get(number as usize)
-                .map_or_else(Vec::new, |o| o.components.clone());
+            let observable = model.observables.get(usize::from(number));
+            let missing = || internal(format!("there is no observable {number}"));
+            request.results = observable.ok_or_else(missing)?.components.clone();
         }
         Purpose::Vector(number) => {
-            if let Some(function) = model.vectors.get(usize::from(number)).cloned() {
-                vector(model, function.entries, function.sides, &mut request);
-            }
+            let function = model.vectors.get(usize::from(number)).cloned();
+            let missing = || internal(format!("there is no vector function {number}"));
+            let function = function.ok_or_else(missing)?;
+            vector(model, function.entries, function.sides, &mut request);
         }
         Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
             let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
@@ -179,7 +237,7 @@ pub fn request(
             }
         }
     }
-    request
+    Ok(request)
 }
 
 /// The columns of all groups on one side, with the shape of each.

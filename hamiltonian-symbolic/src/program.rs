@@ -15,6 +15,11 @@ use crate::rational::Rational;
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Value(pub u32);
 
+impl Value {
+    /// No value: what stands where one is missing, which validation finds.
+    pub(crate) const NONE: Value = Value(u32::MAX);
+}
+
 /// How a value is computed.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Instruction {
@@ -79,6 +84,56 @@ pub enum Instruction {
     Select(Value, Value, Value),
 }
 
+impl Instruction {
+    /// Calls `visit` with each operand.
+    pub fn for_operands(&self, mut visit: impl FnMut(Value)) {
+        match self {
+            Instruction::Constant(_)
+            | Instruction::Pi
+            | Instruction::Scalar(_)
+            | Instruction::Time
+            | Instruction::Coefficient
+            | Instruction::Variable(_)
+            | Instruction::Extent(_)
+            | Instruction::Count(..)
+            | Instruction::Load(..)
+            | Instruction::Accumulator => {}
+            Instruction::Neg(a)
+            | Instruction::Recip(a)
+            | Instruction::Call(_, a)
+            | Instruction::PairedSin(a)
+            | Instruction::PairedCos(a)
+            | Instruction::Not(a) => visit(*a),
+            Instruction::Add(a, b)
+            | Instruction::Sub(a, b)
+            | Instruction::Mul(a, b)
+            | Instruction::Div(a, b)
+            | Instruction::Call2(_, a, b)
+            | Instruction::Compare(_, a, b)
+            | Instruction::And(a, b)
+            | Instruction::Or(a, b) => [*a, *b].into_iter().for_each(visit),
+            Instruction::MulAdd(a, b, c)
+            | Instruction::MulSub(a, b, c)
+            | Instruction::NegMulAdd(a, b, c)
+            | Instruction::Select(a, b, c) => [*a, *b, *c].into_iter().for_each(visit),
+            Instruction::External(_, _, arguments) => arguments.iter().copied().for_each(visit),
+        }
+    }
+
+    /// Whether this is a number, which stands where it is used.
+    #[must_use]
+    pub fn is_number(&self) -> bool {
+        matches!(self, Instruction::Constant(_) | Instruction::Pi)
+    }
+
+    /// Whether this makes a mask.
+    #[must_use]
+    pub fn is_mask(&self) -> bool {
+        use Instruction::{And, Compare, Not, Or};
+        matches!(self, Compare(..) | Not(_) | And(..) | Or(..))
+    }
+}
+
 /// What a function writes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Target {
@@ -109,6 +164,18 @@ pub enum Update {
     AddProduct(Value, Value),
     /// `−= a·b`, fused
     SubProduct(Value, Value),
+}
+
+impl Update {
+    /// Calls `visit` with each value it reads.
+    pub fn for_operands(&self, visit: impl FnMut(Value)) {
+        match self {
+            Update::Set(a) | Update::Add(a) | Update::Sub(a) => [*a].into_iter().for_each(visit),
+            Update::AddProduct(a, b) | Update::SubProduct(a, b) => {
+                [*a, *b].into_iter().for_each(visit);
+            }
+        }
+    }
 }
 
 /// A step of a block.

@@ -59,11 +59,12 @@ impl Request {
     }
 }
 
-/// Schedules the functions: first what is prepared for all of them, then each one's coefficient
-/// stage, then its evaluation.
+/// Prepared expressions and as what they are computed.
+pub type Images = Map<Node, Node>;
+
+/// The expressions of parameters alone that the requests read.
 #[must_use]
-pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
-    let mut program = Program::default();
+pub fn prepared(dag: &Dag, requests: &[Request]) -> Vec<Node> {
     let mut wanted = Vec::new();
     for request in requests {
         let (coefficients, mut direct) = frontier(dag, &request.roots(), Stage::Evaluation);
@@ -72,12 +73,23 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
     }
     wanted.sort_unstable();
     wanted.dedup();
+    wanted
+}
+
+/// Schedules the functions: first what is prepared for all of them, then each one's coefficient
+/// stage, then its evaluation.
+#[must_use]
+pub fn schedule(dag: &Dag, requests: &[Request], images: &Images) -> Program {
+    let mut program = Program::default();
+    let wanted = prepared(dag, requests);
+    let image = |node: &Node| images.get(node).copied().unwrap_or(*node);
+    let computed: Vec<Node> = wanted.iter().map(image).collect();
     let nothing = Numbers::new(dag);
     let (prepare, computed) = stage(
         dag,
         &mut program,
         Stage::Parameters,
-        &wanted,
+        &computed,
         &[],
         nothing.clone(),
     );
@@ -85,9 +97,11 @@ pub fn schedule(dag: &Dag, requests: &[Request]) -> Program {
     // Only what is wanted is handed on, not what it was computed from.
     let mut prepared = nothing;
     for &node in &wanted {
-        let value = value_of(&computed, node);
+        let value = value_of(&computed, image(&node));
         prepared.set(node, value.0);
-        program.prepared.push(value);
+        if !program.prepared.contains(&value) {
+            program.prepared.push(value);
+        }
     }
     for request in requests {
         let (coefficients, _) = frontier(dag, &request.roots(), Stage::Evaluation);
@@ -180,8 +194,7 @@ fn stage(
 /// The value of a node that is computed.
 fn value_of(known: &Numbers, node: Node) -> Value {
     let found = known.get(node);
-    debug_assert!(found.is_some(), "{node:?} is used before it is computed");
-    Value(found.unwrap_or(0))
+    found.map_or(Value::NONE, Value)
 }
 
 pub(crate) struct Placer<'a> {

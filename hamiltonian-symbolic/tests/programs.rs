@@ -280,3 +280,68 @@ fn nested_conditions_are_differentiated_once() {
     model.hamiltonian = Some(node);
     soundness::check(&derive(&mut model, &[Purpose::EnergyAndGradient]).unwrap());
 }
+
+#[test]
+fn a_program_prints_as_text() {
+    let mut pendulum = common::system("theta; p", "", "m l g", "p^2/(2*m*l^2) - m*g*l*cos(theta)");
+    let program = derive(&mut pendulum, &[Purpose::EnergyAndGradient, Purpose::Kick]).unwrap();
+    assert_eq!(
+        program.to_string().lines().collect::<Vec<_>>(),
+        [
+            "prepare",
+            "  _0 = a0",
+            "  _1 = a1",
+            "  _2 = a2",
+            "  _3 = 0.5",
+            "  _4 = _0*_1",
+            "  _5 = _4*_2",
+            "  _6 = _1*_4",
+            "  _7 = 1/_6",
+            "  _8 = _3/_6",
+            "EnergyAndGradient",
+            "  _9 = p0_0[0]",
+            "  _10 = q0_0[0]",
+            "  _11 = sin(_10)",
+            "  _12 = cos beside _11",
+            "  _13 = _8*_9",
+            "  _14 = _13*_9",
+            "  _15 = _14 - _5*_12",
+            "  _16 = _7*_9",
+            "  _17 = _5*_11",
+            "  dp0_0[0] = _16",
+            "  dq0_0[0] = _17",
+            "  return _15",
+            "Kick",
+            "  with a coefficient",
+            "    _18 = c",
+            "    _19 = _18*_0",
+            "    _20 = _19*_2",
+            "    _21 = _20*_1",
+            "  _22 = q0_0[0]",
+            "  _23 = sin(_22)",
+            "  dp0_0[0] -= _21*_23",
+        ]
+    );
+    let mut toda = common::system(
+        "q[n]; p[n]",
+        "n",
+        "",
+        "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }",
+    );
+    let program = derive(&mut toda, &[Purpose::GradientQ]).unwrap();
+    assert_eq!(
+        program.to_string().lines().collect::<Vec<_>>(),
+        [
+            "prepare",
+            "GradientQ",
+            "  dq0_0 = 0",
+            "  for i0 in 0..n0",
+            "    _0 = q0_0[i0]",
+            "    _1 = q0_0[(i0 + 1) % (n0)]",
+            "    _2 = _0 - _1",
+            "    _3 = exp(_2)",
+            "    dq0_0[i0] += _3",
+            "    dq0_0[(i0 + 1) % (n0)] -= _3",
+        ]
+    );
+}

@@ -24,7 +24,10 @@ pub fn second_derivatives(
     let mut blamed: Vec<String> = Vec::new();
     let mut gradient = None;
     for purpose in wanted {
-        let roots = pipeline::request(model, *purpose, &mut gradient).roots();
+        let Ok(request) = pipeline::request(model, *purpose, &mut gradient) else {
+            continue;
+        };
+        let roots = request.roots();
         let missing = model.dag.reachable(&roots).into_iter().find_map(|node| {
             let Kind::External(function, Part::Second(..), _) = model.dag.kind(node) else {
                 return None;

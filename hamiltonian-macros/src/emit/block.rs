@@ -7,7 +7,6 @@
 use super::index::{Indices, variable};
 use super::layout::{Layout, Slice};
 use super::number::{self, Numbers};
-use super::scan::is_number;
 use hamiltonian_symbolic::dag::{Array, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -110,7 +109,7 @@ impl<'a> Writer<'a> {
     fn compute(&mut self, value: Value) {
         let program = self.context.program;
         let instruction = program.instruction(value);
-        if is_number(instruction) {
+        if instruction.is_number() {
             return;
         }
         if let Instruction::PairedSin(angle) = instruction {

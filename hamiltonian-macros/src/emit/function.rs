@@ -8,8 +8,8 @@ use super::block::{self, Context, operand};
 use super::generics::Generics;
 use super::holder::Receiver;
 use super::layout::{self, Slice};
+use super::parts;
 use super::scan::scan;
-use super::{order, parts};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Step, Target, Value};
 use std::fmt::Write;
@@ -49,7 +49,7 @@ impl Bodies<'_> {
     pub fn write(&mut self, out: &mut String, body: Body) {
         let context = self.context;
         if parts::cut(context.program, body.steps).len() > 1 {
-            let steps = order::compact(context.program, body.steps);
+            let steps = context.program.compact(body.steps);
             return self.write_parts(out, body, &steps);
         }
         let scan = scan(context.program, context.layout, body.steps, body.results);

@@ -9,7 +9,6 @@ use super::block::{Context, name};
 use super::generics::Generics;
 use super::layout;
 use super::parts::{self, Wanted};
-use super::scan::is_mask;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
 
@@ -27,7 +26,7 @@ pub struct Holder {
 impl Holder {
     /// A holder of these values.
     pub fn new(context: Context, name: &'static str, values: &[Value], arrays: Vec<u16>) -> Holder {
-        let is_mask = |value: &Value| is_mask(context.program.instruction(*value));
+        let is_mask = |value: &Value| context.program.instruction(*value).is_mask();
         let (masks, values) = values.iter().copied().partition(is_mask);
         Holder {
             name,
@@ -154,7 +153,9 @@ impl Receiver<'_> {
         match self {
             Receiver::System => generics.lifted(parameter),
             // Scalars are leaves of preparation; nothing later reads them.
-            Receiver::Holder(_) => "T::constant(0.0, 0.0)".into(),
+            Receiver::Holder(_) => format!(
+                "__h::core::compile_error!(\"internal error of `hamiltonian!`: parameter {parameter} is read after preparation; please report it with this definition\")"
+            ),
         }
     }
 

@@ -28,7 +28,6 @@ mod markers;
 mod mixed;
 mod number;
 mod observables;
-mod order;
 mod parts;
 mod reach;
 mod scan;

@@ -8,7 +8,7 @@
 use super::block::{self, name};
 use super::function::{Bodies, Body};
 use super::layout::Slice;
-use super::scan::{Scan, is_mask, is_number, scan};
+use super::scan::{Scan, scan};
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 use std::fmt::Write;
@@ -41,7 +41,7 @@ pub fn cut(program: &Program, steps: &[Step]) -> Vec<Range<usize>> {
 fn weight(program: &Program, step: &Step) -> usize {
     match step {
         Step::Loop(inner) => inner.body.iter().map(|step| weight(program, step)).sum(),
-        Step::Let(value) if is_number(program.instruction(*value)) => 0,
+        Step::Let(value) if program.instruction(*value).is_number() => 0,
         _ => 1,
     }
 }
@@ -58,7 +58,7 @@ struct LiveOuts {
 
 impl LiveOuts {
     fn of(program: &Program, values: impl Iterator<Item = Value>) -> LiveOuts {
-        let (masks, numbers) = values.partition(|value| is_mask(program.instruction(*value)));
+        let (masks, numbers) = values.partition(|value| program.instruction(*value).is_mask());
         LiveOuts { numbers, masks }
     }
     fn is_empty(&self) -> bool {

@@ -4,7 +4,7 @@
 //! it says so), without repetition.
 
 use super::layout::{Layout, Slice};
-use hamiltonian_symbolic::program::{Instruction, Program, Step, Update, Value};
+use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 
 /// What a block does.
 #[derive(Debug, Default)]
@@ -33,72 +33,6 @@ impl Marks {
     }
 }
 
-/// Calls `visit` with each operand of an instruction.
-pub fn for_operands(instruction: &Instruction, mut visit: impl FnMut(Value)) {
-    match instruction {
-        Instruction::Constant(_)
-        | Instruction::Pi
-        | Instruction::Scalar(_)
-        | Instruction::Time
-        | Instruction::Coefficient
-        | Instruction::Variable(_)
-        | Instruction::Extent(_)
-        | Instruction::Count(..)
-        | Instruction::Load(..)
-        | Instruction::Accumulator => {}
-        Instruction::Neg(a)
-        | Instruction::Recip(a)
-        | Instruction::Call(_, a)
-        | Instruction::PairedSin(a)
-        | Instruction::PairedCos(a)
-        | Instruction::Not(a) => visit(*a),
-        Instruction::Add(a, b)
-        | Instruction::Sub(a, b)
-        | Instruction::Mul(a, b)
-        | Instruction::Div(a, b)
-        | Instruction::Call2(_, a, b)
-        | Instruction::Compare(_, a, b)
-        | Instruction::And(a, b)
-        | Instruction::Or(a, b) => {
-            visit(*a);
-            visit(*b);
-        }
-        Instruction::MulAdd(a, b, c)
-        | Instruction::MulSub(a, b, c)
-        | Instruction::NegMulAdd(a, b, c)
-        | Instruction::Select(a, b, c) => {
-            visit(*a);
-            visit(*b);
-            visit(*c);
-        }
-        Instruction::External(_, _, arguments) => arguments.iter().copied().for_each(visit),
-    }
-}
-
-/// Calls `visit` with each value an update reads.
-pub fn for_update(update: &Update, mut visit: impl FnMut(Value)) {
-    match update {
-        Update::Set(a) | Update::Add(a) | Update::Sub(a) => visit(*a),
-        Update::AddProduct(a, b) | Update::SubProduct(a, b) => {
-            visit(*a);
-            visit(*b);
-        }
-    }
-}
-
-/// Whether an instruction is a number that stands where it is used.
-pub fn is_number(instruction: &Instruction) -> bool {
-    matches!(instruction, Instruction::Constant(_) | Instruction::Pi)
-}
-
-/// Whether an instruction makes a mask.
-pub fn is_mask(instruction: &Instruction) -> bool {
-    matches!(
-        instruction,
-        Instruction::Compare(..) | Instruction::Not(_) | Instruction::And(..) | Instruction::Or(..)
-    )
-}
-
 /// What a block with these results does.
 pub fn scan(program: &Program, layout: Layout, steps: &[Step], results: &[Value]) -> Scan {
     let mut walker = Walker {
@@ -125,7 +59,7 @@ struct Walker<'a> {
 
 impl Walker<'_> {
     fn read(&mut self, value: Value) {
-        if !is_number(self.program.instruction(value)) && self.known.insert(value) {
+        if !self.program.instruction(value).is_number() && self.known.insert(value) {
             self.scan.reads.push(value);
         }
     }
@@ -135,7 +69,7 @@ impl Walker<'_> {
             match step {
                 Step::Let(value) => {
                     let instruction = self.program.instruction(*value);
-                    for_operands(instruction, |operand| self.read(operand));
+                    instruction.for_operands(|operand| self.read(operand));
                     if let Instruction::Load(array, ..) = instruction {
                         self.scan.slices.push(Slice::read(self.layout, *array));
                     }
@@ -146,7 +80,7 @@ impl Walker<'_> {
                     self.read(*value);
                 }
                 Step::Store(target, _, _, update) => {
-                    for_update(update, |operand| self.read(operand));
+                    update.for_operands(|operand| self.read(operand));
                     self.scan.slices.push(Slice::write(self.layout, *target));
                 }
                 Step::Loop(inner) => {
@@ -160,7 +94,7 @@ impl Walker<'_> {
     }
 
     fn compute(&mut self, value: Value, outer: bool) {
-        if !is_number(self.program.instruction(value)) && self.known.insert(value) && outer {
+        if !self.program.instruction(value).is_number() && self.known.insert(value) && outer {
             self.scan.computes.push(value);
         }
     }

@@ -133,9 +133,8 @@ impl Evaluator<'_> {
                                 None => domains
                                     .iter()
                                     .find(|(known, _)| *known == outer)
-                                    .map_or_else(Affine::default, |(_, domain)| {
-                                        Affine::variable(*domain)
-                                    }),
+                                    .map(|(_, domain)| Affine::variable(*domain))
+                                    .expect("a bound reads loops around it only"),
                             },
                         };
                         sum.plus(factor, &term)
@@ -147,7 +146,7 @@ impl Evaluator<'_> {
             domains.push((one, domain));
             parent = Some(domain);
         }
-        parent.unwrap_or(Domain(0))
+        parent.expect("a loop is in its own path")
     }
 
     /// How the components of the vectors `operands` of `node` are run through; the sum over them

@@ -132,6 +132,13 @@ impl<'a> Evaluator<'a> {
         self.report.error(spans, message, help);
     }
 
+    /// Reports a fault of ours; there will be no model, so the node is none that is read.
+    fn fault(&mut self, node: NodeId, fault: &str) -> Node {
+        self.refused = true;
+        self.report.internal(self.checked.node(node).spans, fault);
+        Node(u32::MAX)
+    }
+
     /// The nodes of the roots.
     pub fn evaluate(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
         if self.refused {
@@ -163,10 +170,14 @@ impl<'a> Evaluator<'a> {
             let node = NodeId(at as u32);
             for demand in own {
                 let children = self.children(&mut model.dag, node, &demand);
-                let values: Vec<Node> = children
+                let values: Option<Vec<Node>> = children
                     .iter()
-                    .map(|(child, wanted)| self.answer(*child, wanted).unwrap_or(Node(0)))
+                    .map(|(child, wanted)| self.answer(*child, wanted))
                     .collect();
+                let Some(values) = values else {
+                    self.fault(node, "an operand was not asked for");
+                    return None;
+                };
                 let value = self.combine(model, node, &demand, &values);
                 if self.refused {
                     return None;
@@ -190,10 +201,12 @@ impl<'a> Evaluator<'a> {
                 }
             }
         }
-        let zero = model.dag.integer(0);
         let mut values = Vec::with_capacity(roots.len());
         for (root, demand) in roots {
-            let value = self.answer(*root, demand).unwrap_or(zero);
+            let Some(value) = self.answer(*root, demand) else {
+                self.fault(*root, "it has no value");
+                return None;
+            };
             values.push(self.guarded(model, *root, value)?);
         }
         Some(values)
@@ -288,7 +301,7 @@ impl<'a> Evaluator<'a> {
             },
             (Kind::Hamiltonian, _) => match model.hamiltonian {
                 Some(h) => h,
-                None => dag.integer(0),
+                None => self.fault(node, "H is read before it is known"),
             },
             (Kind::Neg(_), [a]) => dag.neg(*a),
             (Kind::Not(_), [a]) => dag.not(*a),
@@ -337,8 +350,7 @@ impl<'a> Evaluator<'a> {
             (Kind::If { .. }, [condition, then, otherwise]) => {
                 dag.select(*condition, *then, *otherwise)
             }
-            // What was refused is not answered.
-            _ => dag.integer(0),
+            _ => self.fault(node, "its operands are not of its form"),
         }
     }
 
@@ -432,11 +444,14 @@ impl<'a> Evaluator<'a> {
         let spans = self.checked.node(node).spans;
         let column = match &model.groups[group].shape {
             Shape::Matrix(_, columns) => {
-                let length = columns
-                    .as_constant()
-                    .and_then(|n| usize::try_from(n).ok())
-                    .unwrap_or(0);
-                self.number(spans, demand, 1, length).unwrap_or(0)
+                let length = columns.as_constant().and_then(|n| usize::try_from(n).ok());
+                let column = length.and_then(|length| self.number(spans, demand, 1, length));
+                match column {
+                    Some(column) => column,
+                    // Refused already.
+                    None if self.refused => 0,
+                    None => return self.fault(node, "its columns are not a literal"),
+                }
             }
             Shape::Scalar | Shape::Vector(_) => 0,
         };
@@ -465,7 +480,7 @@ impl<'a> Evaluator<'a> {
         match function {
             Builtin::Dot | Builtin::Norm | Builtin::NormSquared => {
                 let Type::Vector(extent) = self.checked.node(items[0]).ty else {
-                    return dag.integer(0);
+                    return self.fault(node, "its argument is no vector");
                 };
                 let run = self.run(dag, node, items, extent, demand);
                 if function == Builtin::Dot {
@@ -489,7 +504,7 @@ impl<'a> Evaluator<'a> {
                     let (first, second) = (dag.mul(&[*a, *b]), dag.mul(&[*c, *d]));
                     dag.sub(first, second)
                 }
-                _ => dag.integer(0),
+                _ => self.fault(node, "a cross product has two vectors"),
             },
             _ => {
                 let name = FUNCTIONS
@@ -498,7 +513,7 @@ impl<'a> Evaluator<'a> {
                     .map(|entry| entry.name);
                 match name.and_then(Op::named) {
                     Some(op) => dag.call(op, values),
-                    None => dag.integer(0),
+                    None => self.fault(node, "its function is not in the table"),
                 }
             }
         }

@@ -9,19 +9,20 @@
 mod products;
 mod sums;
 
-use crate::dag::{Dag, Kind, Map, Node, Numbers};
-use crate::factor::{count_uses, is_prepared};
+use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::factor::{count_uses, is_known};
 use crate::rational::Rational;
 use products::{FactorPool, Factors, Item, Made, known_root, share_products};
 use sums::{
     TermPair, TermPairs, Terms, gathered, known_multiple, known_start, raw_sum, share_terms,
 };
 
-/// Rewrites the expressions the roots stand for.
-pub fn share(dag: &mut Dag, roots: &mut [Node]) {
+/// Rewrites the expressions the roots stand for as stage `now` computes them: what is known before it
+/// stays as it is.
+pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
     let order: Vec<Node> = dag.reachable(roots);
     let uses = count_uses(dag, roots, &order);
-    let mut pool = FactorPool::default();
+    let mut pool = FactorPool::new(now);
     let mut plan = Plan::of(dag, &mut pool, &order, &uses);
     share_products(dag, &mut pool, &mut plan.lists);
     let (pairs, paired) = share_terms(&order, &plan.plain);
@@ -67,7 +68,7 @@ impl Plan {
         let order: Vec<Node> = order
             .iter()
             .copied()
-            .filter(|node| !is_prepared(dag, *node))
+            .filter(|node| !is_known(dag, *node, pool.now))
             .collect();
         for &node in &order {
             match dag.kind(node) {
@@ -124,7 +125,7 @@ impl Plan {
     ) {
         let mut plain = Vec::new();
         for (k, term) in &self.sums[&sum].1 {
-            if is_prepared(dag, *term) {
+            if is_known(dag, *term, pool.now) {
                 continue;
             }
             if k.is_unit() {
@@ -133,7 +134,7 @@ impl Plan {
             }
             if let Kind::Product(c, factors) = dag.kind(*term).clone()
                 && alone(*term)
-                && factors.iter().any(|(n, _)| is_prepared(dag, *n))
+                && factors.iter().any(|(n, _)| is_known(dag, *n, pool.now))
             {
                 let at = self.product_at[term];
                 self.lists[at] = pool.grouped(dag, &c.mul(k), &factors);
@@ -165,7 +166,7 @@ struct Build<'a> {
 
 impl Build<'_> {
     fn image(&mut self, dag: &mut Dag, node: Node) -> Node {
-        if is_prepared(dag, node) {
+        if is_known(dag, node, self.pool.now) {
             return node;
         }
         match dag.kind(node).clone() {
@@ -184,7 +185,7 @@ impl Build<'_> {
     }
 
     fn sum(&mut self, dag: &mut Dag, node: Node) -> Node {
-        let (c, terms) = gathered(dag, self.plan.sums[&node].clone());
+        let (c, terms) = gathered(dag, self.pool.now, self.plan.sums[&node].clone());
         let mut list: Vec<(Rational, Node)> = Vec::with_capacity(terms.len());
         let mut paired = self.paired.remove(&node).unwrap_or_default();
         for (k, term) in terms {
@@ -218,7 +219,7 @@ impl Build<'_> {
         }
         let (prepared, others): (Vec<_>, Vec<_>) = factors
             .iter()
-            .partition(|(node, _)| is_prepared(dag, *node));
+            .partition(|(node, _)| is_known(dag, *node, self.pool.now));
         if prepared.iter().map(|(_, n)| n.abs()).sum::<i32>() > 1 {
             // What remains of a power of a coefficient is a coefficient.
             let coefficient = dag.product(&Rational::ONE, &prepared);
@@ -242,17 +243,19 @@ impl Build<'_> {
     fn item(&mut self, dag: &mut Dag, item: Item) -> Node {
         // Made items name earlier ones only, so a stack of pending ones ends.
         let mut pending = vec![item];
-        while let Some(&top) = pending.last() {
-            let (at, made) = match top {
-                Item::Made(at) if self.made[at as usize].is_none() => {
-                    (at as usize, &self.pool.made[at as usize])
-                }
+        loop {
+            if let Some(node) = self.ready(item) {
+                return node;
+            }
+            let top = pending.last().copied().unwrap_or(item);
+            let at = match top {
+                Item::Made(at) if self.made[at as usize].is_none() => at as usize,
                 _ => {
                     pending.pop();
                     continue;
                 }
             };
-            let factors = match made {
+            let factors = match &self.pool.made[at] {
                 Made::Number(k) => {
                     self.made[at] = Some(dag.constant(k.clone()));
                     continue;
@@ -262,17 +265,17 @@ impl Build<'_> {
                 Made::Pair(a, b) => vec![(*a, 1), (*b, 1)],
                 Made::Quotient(a, b) => vec![(*a, 1), (*b, -1)],
             };
-            if let Some((missing, _)) = factors.iter().find(|(i, _)| self.ready(*i).is_none()) {
-                pending.push(*missing);
-                continue;
+            let mut nodes = Vec::with_capacity(factors.len());
+            for (item, n) in factors {
+                match self.ready(item) {
+                    Some(node) => nodes.push((node, n)),
+                    None => pending.push(item),
+                }
             }
-            let nodes = factors
-                .iter()
-                .filter_map(|(i, n)| Some((self.ready(*i)?, *n)))
-                .collect();
-            self.made[at] = Some(dag.intern(Kind::Product(Rational::ONE, nodes)));
+            if pending.last() == Some(&top) {
+                self.made[at] = Some(dag.intern(Kind::Product(Rational::ONE, nodes)));
+            }
         }
-        self.ready(item).unwrap_or(Node(0))
     }
 
     fn pair(&mut self, dag: &mut Dag, at: usize) -> Node {

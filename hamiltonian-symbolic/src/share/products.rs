@@ -4,8 +4,8 @@
 //! quotients and reciprocals are items of their own. Invariant: every list stands for the product
 //! it was made from; what is made names earlier items only.
 
-use crate::dag::{Dag, Kind, Map, Node, Numbers};
-use crate::factor::is_prepared;
+use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::factor::is_known;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::cmp::Reverse;
@@ -73,14 +73,23 @@ impl Factors {
 }
 
 /// Everything made, each with the depth of the loop it is computed in.
-#[derive(Default)]
 pub(super) struct FactorPool {
+    /// The stage in which products are computed: what is known before it is a coefficient.
+    pub(super) now: Stage,
     pub(super) made: Vec<Made>,
     depths: Vec<usize>,
     known: Map<Made, Item>,
 }
 
 impl FactorPool {
+    pub(super) fn new(now: Stage) -> FactorPool {
+        FactorPool {
+            now,
+            made: Vec::new(),
+            depths: Vec::new(),
+            known: Map::default(),
+        }
+    }
     fn make(&mut self, dag: &Dag, made: Made) -> Item {
         if let Some(&item) = self.known.get(&made) {
             return item;
@@ -113,7 +122,8 @@ impl FactorPool {
     ) -> Factors {
         let common = if k.is_one() { common_power(factors) } else { 1 };
         let roots = factors.iter().map(|(node, n)| (*node, n / common));
-        let (prepared, rest): (Vec<_>, Vec<_>) = roots.partition(|(n, _)| is_prepared(dag, *n));
+        let (prepared, rest): (Vec<_>, Vec<_>) =
+            roots.partition(|(n, _)| is_known(dag, *n, self.now));
         let mut list = Factors {
             negative: k.is_negative(),
             items: Vec::with_capacity(rest.len() + 1),
@@ -165,7 +175,10 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
 pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     merge_roots(dag, pool, lists);
     merge_companions(dag, pool, lists);
-    share_reciprocals(dag, pool, lists);
+    // A reciprocal rounds once more; it pays where divisions are done again and again.
+    if pool.now > Stage::Parameters {
+        share_reciprocals(dag, pool, lists);
+    }
     share_invariant_factors(dag, pool, lists);
     share_pairs(dag, pool, lists);
 }

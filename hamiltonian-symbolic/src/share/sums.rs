@@ -4,8 +4,8 @@
 //! their order; nothing cancels that did not.
 
 use super::products::LONGEST;
-use crate::dag::{Dag, Kind, Map, Node, Numbers};
-use crate::factor::is_prepared;
+use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::factor::is_known;
 use crate::rational::Rational;
 
 /// `constant + Σ k·node`.
@@ -93,13 +93,13 @@ pub(super) fn raw_sum(dag: &mut Dag, c: Rational, list: Vec<(Rational, Node)>) -
 
 /// The prepared terms of a sum, its constant among them, as one prepared term where they first
 /// stand.
-pub(super) fn gathered(dag: &mut Dag, (c, terms): Terms) -> Terms {
+pub(super) fn gathered(dag: &mut Dag, now: Stage, (c, terms): Terms) -> Terms {
     let prepared: Vec<_> = terms
         .iter()
-        .filter(|(_, n)| is_prepared(dag, *n))
+        .filter(|(_, n)| is_known(dag, *n, now))
         .cloned()
         .collect();
-    let Some(place) = terms.iter().position(|(_, n)| is_prepared(dag, *n)) else {
+    let Some(place) = terms.iter().position(|(_, n)| is_known(dag, *n, now)) else {
         return (c, terms);
     };
     if prepared.len() == 1 && c.is_zero() && prepared[0].0.is_unit() {
@@ -108,7 +108,7 @@ pub(super) fn gathered(dag: &mut Dag, (c, terms): Terms) -> Terms {
     let sum = dag.linear(&c, &prepared);
     let mut rest: Vec<_> = terms
         .iter()
-        .filter(|(_, n)| !is_prepared(dag, *n))
+        .filter(|(_, n)| !is_known(dag, *n, now))
         .cloned()
         .collect();
     rest.insert(place.min(rest.len()), (Rational::ONE, sum));

@@ -7,7 +7,7 @@ use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
-use hamiltonian_symbolic::schedule::{Request, schedule};
+use hamiltonian_symbolic::schedule::{Images, Request, schedule};
 use hamiltonian_symbolic::split::exact_flow;
 
 /// A piece, and the row that takes it.
@@ -29,7 +29,7 @@ impl Values {
             stores: Vec::new(),
             cleared: Vec::new(),
         };
-        Values(schedule(&model.dag, &[request]))
+        Values(schedule(&model.dag, &[request], &Images::default()))
     }
     /// At coordinates and momenta (interleaved), parameters and a step coefficient.
     pub fn at<T: Real>(&self, model: &Model, z: &[T], parameters: &[f64], c: T) -> Vec<T> {

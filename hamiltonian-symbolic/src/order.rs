@@ -5,21 +5,23 @@
 //! loops keep their places, updates of one output keep their order, a cosine follows its sine;
 //! since every operation has the operands it had, no bit of a result changes.
 
-use super::scan::{for_operands, for_update, is_number};
-use hamiltonian_symbolic::dag::Map;
-use hamiltonian_symbolic::program::{Instruction, Program, Step, Target, Value};
+use crate::dag::Map;
+use crate::program::{Instruction, Program, Step, Target, Value};
 use std::cmp::Reverse;
 
-/// Orders the steps between loops.
-pub fn compact(program: &Program, steps: &[Step]) -> Vec<Step> {
-    let mut ordered = Vec::with_capacity(steps.len());
-    for run in steps.chunk_by(|a, b| !is_loop(a) && !is_loop(b)) {
-        match run {
-            [single] => ordered.push(single.clone()),
-            _ => Run::of(program, run).write(&mut ordered),
+impl Program {
+    /// Orders the steps between loops.
+    #[must_use]
+    pub fn compact(&self, steps: &[Step]) -> Vec<Step> {
+        let mut ordered = Vec::with_capacity(steps.len());
+        for run in steps.chunk_by(|a, b| !is_loop(a) && !is_loop(b)) {
+            match run {
+                [single] => ordered.push(single.clone()),
+                _ => Run::of(self, run).write(&mut ordered),
+            }
         }
+        ordered
     }
-    ordered
 }
 
 fn is_loop(step: &Step) -> bool {
@@ -93,7 +95,7 @@ impl<'a> Run<'a> {
             };
             let unit = run.add(at, reads, after);
             if let Step::Let(value) = step
-                && !is_number(program.instruction(*value))
+                && !program.instruction(*value).is_number()
             {
                 known.insert(*value, run.make(unit));
             }
@@ -224,8 +226,8 @@ impl<'a> Run<'a> {
 /// Calls `visit` with each value a step reads.
 fn for_reads(program: &Program, step: &Step, visit: impl FnMut(Value)) {
     match step {
-        Step::Let(value) => for_operands(program.instruction(*value), visit),
-        Step::Store(_, _, _, update) => for_update(update, visit),
+        Step::Let(value) => program.instruction(*value).for_operands(visit),
+        Step::Store(_, _, _, update) => update.for_operands(visit),
         Step::Accumulate(..) | Step::Loop(_) => {}
     }
 }
@@ -233,13 +235,13 @@ fn for_reads(program: &Program, step: &Step, visit: impl FnMut(Value)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hamiltonian_symbolic::dag::{Array, Side};
-    use hamiltonian_symbolic::index::Index;
-    use hamiltonian_symbolic::model::{Group, Model, Shape};
-    use hamiltonian_symbolic::op::Op;
-    use hamiltonian_symbolic::pipeline;
-    use hamiltonian_symbolic::program::Purpose;
-    use hamiltonian_symbolic::rational::Rational;
+    use crate::dag::{Array, Side};
+    use crate::index::Index;
+    use crate::model::{Group, Model, Shape};
+    use crate::op::Op;
+    use crate::pipeline;
+    use crate::program::Purpose;
+    use crate::rational::Rational;
     use std::collections::HashSet;
 
     /// Value and gradient of Σ sin(k·q).
@@ -275,7 +277,7 @@ mod tests {
         let reads = |step: &Step| {
             let mut reads = Vec::new();
             for_reads(program, step, |value| reads.push(value));
-            reads.retain(|value| !is_number(program.instruction(*value)));
+            reads.retain(|value| !program.instruction(*value).is_number());
             reads
         };
         let mut computed = HashSet::new();
@@ -283,7 +285,7 @@ mod tests {
         for (at, step) in steps.iter().enumerate() {
             assert!(reads(step).iter().all(|value| computed.contains(value)));
             if let Step::Let(value) = step
-                && !is_number(program.instruction(*value))
+                && !program.instruction(*value).is_number()
             {
                 assert!(computed.insert(*value), "{value:?} is computed twice");
             }
@@ -299,7 +301,7 @@ mod tests {
         let program = waves(100);
         let function = &program.functions[0];
         let before = most_alive(&program, &function.evaluation, &function.results);
-        let steps = compact(&program, &function.evaluation);
+        let steps = program.compact(&function.evaluation);
         assert_eq!(steps.len(), function.evaluation.len());
         let after = most_alive(&program, &steps, &function.results);
         // q, the two sums, a sine and its cosine.

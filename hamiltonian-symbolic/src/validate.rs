@@ -1,0 +1,189 @@
+//! Whether a program is one that can be emitted.
+//!
+//! Input: a program. Output: nothing, or what is wrong with it, which is a fault of the engine.
+//! Invariant: knows the form of programs only, nothing of how they are made.
+
+use crate::dag::Map;
+use crate::index::Index;
+use crate::program::{Function, Instruction, Program, Step, Target, Update, Value};
+
+/// The values that are known at a place.
+type Scope = Map<Value, ()>;
+/// The elements a function sets, each of which may be set once.
+type Stored = Map<(Target, Index, Option<Index>), ()>;
+
+impl Program {
+    /// Every value is computed once and before its uses, and an element that is overwritten is stored
+    /// once.
+    ///
+    /// # Errors
+    /// The first thing that is not so.
+    pub fn validate(&self) -> Result<(), String> {
+        let mut computed = Scope::default();
+        let mut scope = Scope::default();
+        let mut nothing = Stored::default();
+        self.block(&self.prepare, &mut scope, &mut computed, &mut nothing)?;
+        let mut prepared = Scope::default();
+        for value in &self.prepared {
+            read(*value, &scope, || "what is handed on".to_owned())?;
+            prepared.insert(*value, ());
+        }
+        for function in &self.functions {
+            let Function { purpose, .. } = function;
+            let mut scope = prepared.clone();
+            let mut stored = Stored::default();
+            for steps in [&function.coefficient, &function.evaluation] {
+                self.block(steps, &mut scope, &mut computed, &mut stored)
+                    .map_err(|fault| format!("{fault} in {purpose:?}"))?;
+            }
+            for value in &function.results {
+                read(*value, &scope, || format!("a result of {purpose:?}"))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn block(
+        &self,
+        steps: &[Step],
+        scope: &mut Scope,
+        computed: &mut Scope,
+        stored: &mut Stored,
+    ) -> Result<(), String> {
+        for step in steps {
+            match step {
+                Step::Let(value) => {
+                    let Some(instruction) = self.instructions.get(value.0 as usize) else {
+                        return Err(format!("{value} has no instruction"));
+                    };
+                    let mut missing = None;
+                    instruction.for_operands(|operand| {
+                        if !scope.contains_key(&operand) {
+                            missing = Some(operand);
+                        }
+                    });
+                    if let Some(operand) = missing {
+                        return Err(format!("{value} reads {operand} before it is computed"));
+                    }
+                    if let Instruction::PairedCos(sine) = instruction
+                        && !matches!(self.instruction(*sine), Instruction::PairedSin(_))
+                    {
+                        return Err(format!("{value} is the cosine of no sine"));
+                    }
+                    define(*value, scope, computed)?;
+                }
+                Step::Accumulate(sum, value) => {
+                    read(*value, scope, || format!("a term of {sum}"))?;
+                    read(*sum, scope, || "a sum".to_owned())?;
+                }
+                Step::Store(target, row, column, update) => {
+                    let mut values = Vec::new();
+                    update.for_operands(|value| values.push(value));
+                    for value in values {
+                        read(value, scope, || format!("{target}[{row}]"))?;
+                    }
+                    let element = (*target, row.clone(), column.clone());
+                    let again = stored.insert(element, ()).is_some();
+                    if again && matches!(update, Update::Set(_)) {
+                        return Err(format!("{target}[{row}] is stored twice"));
+                    }
+                }
+                Step::Loop(nest) => {
+                    for sum in &nest.accumulators {
+                        define(*sum, scope, computed)?;
+                    }
+                    let mut inside = scope.clone();
+                    self.block(&nest.body, &mut inside, computed, stored)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+fn read(value: Value, scope: &Scope, what: impl Fn() -> String) -> Result<(), String> {
+    match scope.contains_key(&value) {
+        true => Ok(()),
+        false => Err(format!("{} reads {value} before it is computed", what())),
+    }
+}
+
+fn define(value: Value, scope: &mut Scope, computed: &mut Scope) -> Result<(), String> {
+    scope.insert(value, ());
+    match computed.insert(value, ()) {
+        None => Ok(()),
+        Some(()) => Err(format!("{value} is computed twice")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::dag::Side;
+    use crate::program::Purpose;
+    use crate::rational::Rational;
+
+    /// 2 + 2 into an output.
+    fn program() -> Program {
+        let target = Target::Phase {
+            side: Side::Q,
+            group: 0,
+            column: 0,
+        };
+        Program {
+            instructions: vec![
+                Instruction::Constant(Rational::integer(2)),
+                Instruction::Add(Value(0), Value(0)),
+            ],
+            functions: vec![Function {
+                purpose: Purpose::GradientQ,
+                coefficient: Vec::new(),
+                evaluation: vec![
+                    Step::Let(Value(0)),
+                    Step::Let(Value(1)),
+                    Step::Store(target, Index::constant(0), None, Update::Set(Value(1))),
+                ],
+                cleared: Vec::new(),
+                results: vec![Value(1)],
+            }],
+            ..Program::default()
+        }
+    }
+
+    #[test]
+    fn faults_are_found() {
+        assert_eq!(program().validate(), Ok(()));
+        let faulty = |change: fn(&mut Program), fault: &str| {
+            let mut program = program();
+            change(&mut program);
+            assert_eq!(program.validate(), Err(fault.to_owned()));
+        };
+        faulty(
+            |p| p.functions[0].evaluation.swap(0, 1),
+            "_1 reads _0 before it is computed in GradientQ",
+        );
+        faulty(
+            |p| p.functions[0].evaluation.insert(0, Step::Let(Value(0))),
+            "_0 is computed twice in GradientQ",
+        );
+        faulty(
+            |p| {
+                let store = p.functions[0].evaluation[2].clone();
+                p.functions[0].evaluation.push(store);
+            },
+            "dq0_0[0] is stored twice in GradientQ",
+        );
+        faulty(
+            |p| p.functions[0].results = vec![Value::NONE],
+            "a result of GradientQ reads no value before it is computed",
+        );
+        faulty(
+            |p| p.prepared = vec![Value(1)],
+            "what is handed on reads _1 before it is computed",
+        );
+        faulty(
+            |p| p.instructions[1] = Instruction::PairedCos(Value(0)),
+            "_1 is the cosine of no sine in GradientQ",
+        );
+    }
+}

@@ -361,6 +361,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         };
         self.step = step;
         self.began = self.steps;
+        // What is seen besides the state, a second copy, is what was started.
+        self.arrives(self.steps);
         Ok(())
     }
 

@@ -20,6 +20,7 @@ use hamiltonian_lanes::{Mask, Real};
 pub(crate) trait Recipe<T: Real, S: System<T>, R: Map>: Send + Sync {
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> R;
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
+    fn start_alone(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
     /// The scheme with all its choices.
     fn describe(&self) -> String;
 }
@@ -35,6 +36,14 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
         h: T,
     ) -> <M::Map as Map>::Carried {
         Scheme::start(self, prepared, state, h)
+    }
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> <M::Map as Map>::Carried {
+        Scheme::start_alone(self, prepared, state, h)
     }
     fn describe(&self) -> String {
         format!("{self:?}")
@@ -57,7 +66,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
         // Times are sums and products that were rounded.
         let rounding =
             4.0 * T::epsilon() * (now.magnitude() + t.magnitude()) / self.interval.magnitude();
-        if !(part.magnitude() <= 1.0 + rounding) {
+        // False for NaN.
+        let is_near = part.magnitude() <= 1.0 + rounding;
+        if !is_near {
             return Err(Error::Far {
                 target: t.to_f64(),
                 from: (now - self.interval).to_f64(),
@@ -68,7 +79,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
             return Ok(self.state.clone());
         }
         let h = part * self.step;
-        let mut carried = self.recipe.start(self.prepared, self.state, h);
+        let mut carried = self.recipe.start_alone(self.prepared, self.state, h);
         let map = self.recipe.prepare(self.prepared, Step::of(h));
         let mut work = map.work(&carried);
         map.step(now, t, &mut carried, &mut work);
@@ -87,7 +98,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
     #[cold]
     fn explain(&self, map: &R, h: T, t: T) -> Error {
-        let mut carried = self.recipe.start(self.prepared, self.state, h);
+        let mut carried = self.recipe.start_alone(self.prepared, self.state, h);
         let mut work = map.work(&carried);
         let cause = map.explain(self.state.t, t, true, &mut carried, &mut work);
         let bad = !carried.finite();

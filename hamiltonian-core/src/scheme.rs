@@ -75,6 +75,20 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
     /// Folds the step into the flows. This does not allocate.
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
+    /// The same after a step of `before`, which may have made other choices: the closing piece that
+    /// [`Map::join`] absorbs is that of `before`. None where the two cannot be joined.
+    #[inline(always)]
+    fn prepare_after(
+        &self,
+        before: &Self,
+        prepared: &S::Prepared,
+        step: Step<T>,
+    ) -> Option<Self::Map>
+    where
+        Self: OneStep,
+    {
+        (self == before).then(|| self.prepare(prepared, step))
+    }
     /// What is carried at the beginning of steps of size `h` from a state.
     fn start(
         &self,
@@ -82,6 +96,16 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
         state: &State<S::Vector>,
         h: T,
     ) -> <Self::Map as Map>::Carried;
+    /// The same for one step alone, a part of a step of a run: a second point that the scheme's own
+    /// start makes to first order is made to second order here.
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> <Self::Map as Map>::Carried {
+        self.start(prepared, state, h)
+    }
 }
 
 /// A scheme whose step depends on the state alone, so that steps of different sizes can follow each
@@ -96,7 +120,7 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
             depends on the step: a composition of them loses its order; compose `Strang`, \
             `StormerVerlet`, `ImplicitMidpoint` or `Pihajoki`"
 )]
-pub trait OneStep: Listed {
+pub trait OneStep: Listed + PartialEq {
     /// The type of its adjoint.
     type Adjoint: OneStep;
     /// The adjoint scheme Φ*ₕ = (Φ₋ₕ)⁻¹; symmetric schemes are their own.

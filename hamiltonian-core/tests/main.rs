@@ -1,7 +1,11 @@
 //! Runs, schemes and observers, on systems written by hand.
 
 mod allocation;
+mod between;
+mod checkpoint;
 mod common;
+mod composition;
+mod lanes;
 mod observers;
 mod reach;
 mod run;

@@ -117,6 +117,7 @@ impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Sche
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let (last, weight) = &self.stages[STAGES - 1];
+        let mut previous = last;
         let mut before = weight.to::<T>() * step.before;
         let mut at = T::zero();
         let duration = T::constant(f64::from(last.entry().duration), 0.0);
@@ -124,10 +125,14 @@ impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Sche
             let (scheme, weight) = &self.stages[i];
             let weight = weight.to::<T>();
             let h = weight * step.h;
+            let step_of_stage = Step { h, before };
+            let joined = scheme.prepare_after(previous, prepared, step_of_stage);
             let stage = Stage {
-                map: scheme.prepare(prepared, Step { h, before }),
+                joins: joined.is_some(),
+                map: joined.unwrap_or_else(|| scheme.prepare(prepared, step_of_stage)),
                 at: at * duration * step.h,
             };
+            previous = scheme;
             before = h;
             at += weight;
             stage
@@ -147,6 +152,8 @@ impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Sche
 
 struct Stage<M: Map> {
     map: M,
+    /// Whether its `join` closes the stage before; else that closes and this one opens.
+    joins: bool,
     /// When it begins, after the beginning of the step.
     at: ScalarOf<M>,
 }
@@ -163,6 +170,19 @@ impl<M: Map, const S: usize> Composed<M, S> {
         match self.stages.get(i + 1) {
             Some(next) => t + next.at,
             None => end,
+        }
+    }
+
+    /// The closing piece of the stage before, then the opening one of stage `i`.
+    #[inline(always)]
+    fn join_stage(&self, i: usize, t: ScalarOf<M>, z: &mut M::Carried) {
+        let stage = &self.stages[i];
+        if stage.joins {
+            stage.map.join(t, z);
+        } else {
+            let before = if i == 0 { S - 1 } else { i - 1 };
+            self.stages[before].map.close(t, z);
+            stage.map.open(t, z);
         }
     }
 }
@@ -185,7 +205,7 @@ impl<M: Map, const S: usize> Map for Composed<M, S> {
         for (i, stage) in self.stages.iter().enumerate() {
             let begin = t + stage.at;
             if i > 0 {
-                stage.map.join(begin, z);
+                self.join_stage(i, begin, z);
             }
             stage.map.body(begin, self.end_of(i, t, end), z, work);
         }
@@ -198,7 +218,7 @@ impl<M: Map, const S: usize> Map for Composed<M, S> {
 
     #[inline(always)]
     fn join(&self, t: ScalarOf<M>, z: &mut M::Carried) {
-        self.stages[0].map.join(t, z);
+        self.join_stage(0, t, z);
     }
 
     #[cold]
@@ -210,9 +230,12 @@ impl<M: Map, const S: usize> Map for Composed<M, S> {
         z: &mut M::Carried,
         work: &mut Self::Work,
     ) -> Cause {
+        if !first && !self.stages[0].joins {
+            self.stages[S - 1].map.close(t, z);
+        }
         for (i, stage) in self.stages.iter().enumerate() {
             let (begin, end) = (t + stage.at, self.end_of(i, t, end));
-            let opens = first && i == 0;
+            let opens = !stage.joins || (first && i == 0);
             let mut after = z.clone();
             if opens {
                 stage.map.open(begin, &mut after);
@@ -220,15 +243,15 @@ impl<M: Map, const S: usize> Map for Composed<M, S> {
                 stage.map.join(begin, &mut after);
             }
             stage.map.body(begin, end, &mut after, work);
-            let last = i + 1 == S;
+            let next = self.stages.get(i + 1);
             let mut closed = after.clone();
-            if last {
+            if next.is_none_or(|next| !next.joins) {
                 stage.map.close(end, &mut closed);
             }
             if !closed.is_finite() {
                 return stage.map.explain(begin, end, opens, z, work);
             }
-            *z = after;
+            *z = if next.is_some() { closed } else { after };
         }
         Cause::Overflow
     }

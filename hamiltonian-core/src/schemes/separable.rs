@@ -188,6 +188,16 @@ impl<T: Real, S: Separable<T>> Scheme<T, S> for SymplecticEuler {
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Zigzag::new(self, &(S::DRIFT, S::KICK), prepared, step)
     }
+    #[inline(always)]
+    fn prepare_after(
+        &self,
+        before: &Self,
+        prepared: &S::Prepared,
+        step: Step<T>,
+    ) -> Option<Self::Map> {
+        let pieces = (S::DRIFT, S::KICK);
+        Some(Zigzag::after(before, self, &pieces, prepared, step))
+    }
     fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
         state.point()
     }

@@ -229,6 +229,14 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for TwoStepMidpoint {
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h)
     }
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> Points<S::Vector> {
+        Start::SecondOrder.pair(prepared, state, h)
+    }
 }
 
 /// The map of [`TwoStepMidpoint`]: x is `z[n]`, y is `z[n−1]`.
@@ -284,6 +292,14 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for ConsecutiveSubTrajectori
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h)
     }
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> Points<S::Vector> {
+        Start::SecondOrder.pair(prepared, state, h)
+    }
 }
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for IntersectingSubTrajectories {
@@ -293,6 +309,14 @@ impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for IntersectingSubTrajector
     }
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> Points<S::Vector> {
         self.start.pair(prepared, state, h * T::constant(0.5, 0.0))
+    }
+    fn start_alone(
+        &self,
+        prepared: &S::Prepared,
+        state: &State<S::Vector>,
+        h: T,
+    ) -> Points<S::Vector> {
+        Start::SecondOrder.pair(prepared, state, h * T::constant(0.5, 0.0))
     }
 }
 

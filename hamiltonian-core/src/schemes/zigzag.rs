@@ -95,7 +95,24 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
     {
+        Self::after(table, table, pieces, prepared, step)
+    }
+
+    /// The same after a step of the table `before` on the same pieces.
+    #[inline(always)]
+    pub fn after<P, K>(
+        before: &W,
+        table: &W,
+        pieces: &K,
+        prepared: &P,
+        step: Step<X::Scalar>,
+    ) -> Self
+    where
+        K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
+    {
         let h = step.h;
+        let before = before.stages();
+        let closing_before = (before.as_ref().last()).map_or(X::Scalar::zero(), |(_, up)| up.to());
         let zero = X::Scalar::zero();
         let outer = |c| pieces.outer(prepared, c);
         let weights = table.stages();
@@ -124,7 +141,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
         });
         Zigzag {
             opening: (opening != zero).then(|| outer(opening * h)),
-            joining: Link::new::<X>(outer, closing * step.before, opening * h),
+            joining: Link::new::<X>(outer, closing_before * step.before, opening * h),
             closes: closing != zero,
             stages,
         }

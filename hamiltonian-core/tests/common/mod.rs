@@ -2,6 +2,8 @@
 //! its own (order, forms, check values) is tested at the workspace root, on systems the macro
 //! makes.
 
+pub mod four;
+pub mod pieces;
 pub mod systems;
 
 use hamiltonian_core::{Real, State, System, Vector};

@@ -175,13 +175,13 @@ impl<T: Real, H: Halves<N>, const N: usize, const KICK: bool> Flow<Point<SVector
         let Scaled(system, c) = &self.0;
         if KICK {
             let force = system.force(t, array(&x.q));
-            for i in 0..N {
-                x.p[i] = (-*c).fma(force[i], x.p[i]);
+            for (p, force) in x.p.iter_mut().zip(force) {
+                *p = (-*c).fma(force, *p);
             }
         } else {
             let velocity = system.velocity(t, array(&x.p));
-            for i in 0..N {
-                x.q[i] = c.fma(velocity[i], x.q[i]);
+            for (q, velocity) in x.q.iter_mut().zip(velocity) {
+                *q = c.fma(velocity, *q);
             }
         }
     }
@@ -567,3 +567,48 @@ impl<T: Real> Split<T> for Chain {
 
 impl Unforced for Chain {}
 impl Exact for Chain {}
+
+/// H = p²/2 + q²/2, which counts how often each half moves a point.
+pub mod counting {
+    use super::*;
+    use std::cell::Cell;
+
+    thread_local! {
+        static CALLS: Cell<(u64, u64)> = const { Cell::new((0, 0)) };
+    }
+
+    /// Forgets what was counted on this thread.
+    pub fn reset() {
+        CALLS.set((0, 0));
+    }
+
+    /// Kicks and drifts since then.
+    pub fn calls() -> (u64, u64) {
+        CALLS.get()
+    }
+
+    #[derive(Debug, Clone)]
+    pub struct Counted;
+
+    impl Formula<1> for Counted {
+        const NAME: &'static str = "Counted";
+        const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+        fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+            number::<T>(0.5) * (q[0] * q[0] + p[0] * p[0])
+        }
+        gradient_of_halves!(1);
+    }
+
+    impl Halves<1> for Counted {
+        fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
+            let (kicks, drifts) = CALLS.get();
+            CALLS.set((kicks + 1, drifts));
+            *q
+        }
+        fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
+            let (kicks, drifts) = CALLS.get();
+            CALLS.set((kicks, drifts + 1));
+            *p
+        }
+    }
+}

@@ -1,0 +1,343 @@
+//! Saved runs: the same run bit for bit, or a typed error.
+
+use crate::common::start;
+use crate::common::systems::*;
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::{CheckpointError, Deviation, DoubleDouble, Every, Listed, Scheme, Vector};
+use std::path::PathBuf;
+
+type Watchers<T> = (EnergyDrift<T>, (Monitors<T>, Every<Recorder>));
+
+fn watchers<T: Real>() -> Watchers<T> {
+    let recorder = every(3, Recorder::new().with_energy());
+    (EnergyDrift::new(), (Monitors::new(), recorder))
+}
+
+/// Saves at odd and even steps, within a block and beyond, and goes on from the bytes.
+struct Resumes<S>(S);
+
+impl<T: Real, S: System<T>> Visitor<T, S> for Resumes<S> {
+    fn visit<M: Scheme<T, S>>(&mut self, scheme: M) {
+        let system = &self.0;
+        let n = System::<T>::zeros(system).len();
+        let begin = start::<T, S>(system, &[0.9, -0.25][..n], &[0.42, 0.1][..n]);
+        let step = T::constant(0.01, 0.0);
+        let name = scheme.entry().name;
+        for steps in [0, 1, 7, 8, 1031] {
+            let mut run = Integrator::new(system, scheme.clone(), begin.clone(), step)
+                .unwrap()
+                .observe(watchers());
+            run.advance(steps).unwrap();
+            let bytes = run.checkpoint().to_bytes();
+            let saved = Checkpoint::from_bytes(&bytes).unwrap();
+            assert_eq!((saved.steps(), saved.to_bytes() == bytes), (steps, true));
+            let mut again = Integrator::resume(system, scheme.clone(), saved)
+                .unwrap()
+                .observe(watchers());
+            assert_eq!(again.state(), run.state(), "{name} at {steps}");
+            assert_eq!(again.observer().0, run.observer().0, "{name} at {steps}");
+            assert_eq!(again.checkpoint().to_bytes(), bytes, "{name} at {steps}");
+            run.advance(1030).unwrap();
+            again.advance(1).unwrap();
+            again.advance(1029).unwrap();
+            // All that is carried, not only what is seen.
+            assert_eq!(again.carried(), run.carried(), "{name} at {steps}");
+            assert_eq!((again.steps(), again.time()), (run.steps(), run.time()));
+            let ((drift, (monitors, recorder)), ours) = (again.observer(), run.observer());
+            assert_eq!((drift, monitors), (&ours.0, &ours.1.0), "{name} at {steps}");
+            assert_eq!(recorder.inner, ours.1.1.inner, "{name} at {steps}");
+            let count = drift.drift().map(Deviation::count);
+            assert_eq!(count, Some(steps + 1031), "{name} at {steps}");
+        }
+    }
+}
+
+#[test]
+fn every_scheme_goes_on_with_the_same_bits() {
+    let mut pumped = Resumes(Hand(Pumped));
+    visit_any::<f64, _>(&mut pumped);
+    visit_unforced::<f64, _>(&mut pumped);
+    visit_separable::<f64, _>(&mut pumped);
+    visit_split::<f64, _>(&mut pumped);
+    let mut pendulum = Resumes(pendulum(true));
+    visit_any::<f64, _>(&mut pendulum);
+    visit_unforced::<f64, _>(&mut pendulum);
+    let mut chain = Resumes(Chain { n: 2 });
+    visit_any::<f64, _>(&mut chain);
+    visit_unforced::<f64, _>(&mut chain);
+    visit_split::<f64, _>(&mut chain);
+    let implicit = Composition::yoshida(ImplicitMidpoint::default());
+    Visitor::<f64, _>::visit(&mut pumped, implicit);
+    Visitor::<f64, _>::visit(&mut pumped, Composition::yoshida(Strang));
+    Visitor::<f64, _>::visit(&mut pumped, Adjoint(RungeKutta4));
+    Visitor::<DoubleDouble, _>::visit(&mut pumped, implicit);
+    Visitor::<DoubleDouble, _>::visit(&mut pumped, IntersectingSubTrajectories::default());
+    Visitor::<Dual<f64>, _>::visit(&mut pumped, Strang);
+    Visitor::<f32, _>::visit(&mut pumped, TwoStepMidpoint::default());
+}
+
+/// A changed step, an end and a start of the clock are part of a run.
+#[test]
+fn a_changed_step_is_saved() {
+    let system = Hand(HenonHeiles);
+    let begin = start::<f64, _>(&system, &[0.1, -0.25], &[0.42, 0.1]);
+    let mut run = Integrator::new(&system, Strang, begin, 0.01).unwrap();
+    run.advance(5).unwrap();
+    run.change_step(0.03).unwrap();
+    run.advance(4).unwrap();
+    let mut again = Integrator::resume(&system, Strang, run.checkpoint()).unwrap();
+    assert_eq!((again.step(), again.steps()), (0.03, 9));
+    assert_eq!(again.advance(100).unwrap(), run.advance(100).unwrap());
+    assert_eq!(
+        again.state_at(again.time() - 0.01),
+        run.state_at(run.time() - 0.01)
+    );
+
+    let mut ended = run.watch(1, |_| core::ops::ControlFlow::Break(()));
+    ended.advance(3).unwrap();
+    let mut again = Integrator::<f64, _, _>::resume(&system, Strang, ended.checkpoint()).unwrap();
+    let steps = again.steps();
+    again.advance(3).unwrap();
+    assert!(again.has_ended() && again.steps() == steps);
+}
+
+fn small() -> Vec<u8> {
+    let start = State::new([0.3], [0.1]);
+    let mut run = Integrator::new(&pendulum(true), Strang, start, 0.01)
+        .unwrap()
+        .observe(EnergyDrift::new());
+    run.advance(3).unwrap();
+    run.checkpoint().to_bytes()
+}
+
+fn refused(bytes: &[u8]) -> CheckpointError {
+    match Checkpoint::from_bytes(bytes).unwrap_err() {
+        Error::Checkpoint(error) => error,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn damage_is_found_wherever_it_is() {
+    let bytes = small();
+    assert!(Checkpoint::from_bytes(&bytes).is_ok());
+    for place in 0..bytes.len() {
+        for flip in [1, 0x80, 0xff] {
+            let mut bad = bytes.clone();
+            bad[place] ^= flip;
+            let error = refused(&bad);
+            let right = match place {
+                0..8 => matches!(error, CheckpointError::Foreign),
+                8..16 => matches!(
+                    error,
+                    CheckpointError::Newer { .. } | CheckpointError::Damaged { .. }
+                ),
+                _ => matches!(error, CheckpointError::Damaged { .. }),
+            };
+            assert!(right, "byte {place} ^ {flip}: {error:?}");
+        }
+    }
+    for length in 0..bytes.len() {
+        let error = refused(&bytes[..length]);
+        let right = match length {
+            0..8 => matches!(error, CheckpointError::Foreign),
+            _ => matches!(error, CheckpointError::Damaged { .. }),
+        };
+        assert!(right, "{length} bytes: {error:?}");
+    }
+    let longer = [&bytes[..], &[0; 8]].concat();
+    assert!(matches!(refused(&longer), CheckpointError::Damaged { .. }));
+    assert_eq!(refused(b"no saved run at all"), CheckpointError::Foreign);
+    let mut newer = bytes.clone();
+    newer[8] = 2;
+    let error = refused(&newer);
+    assert_eq!(error, CheckpointError::Newer { found: 2, known: 1 });
+    assert!(error.to_string().contains("update"), "{error}");
+}
+
+/// The part of the run that is another one, or None.
+fn other(outcome: Result<impl Sized, Error>) -> Option<&'static str> {
+    match outcome {
+        Ok(_) => None,
+        Err(Error::Checkpoint(CheckpointError::Other { what, .. })) => Some(what),
+        Err(error) => panic!("{error:?}"),
+    }
+}
+
+#[test]
+fn another_run_is_refused() {
+    let saved = || Checkpoint::from_bytes(&small()).unwrap();
+    let system = pendulum(true);
+    assert_eq!(
+        other(Integrator::<f64, _, _>::resume(&system, Strang, saved())),
+        None
+    );
+    let found = Integrator::<f64, _, _>::resume(&Hand(Paper34), RungeKutta4, saved());
+    assert_eq!(other(found), Some("system"));
+    let scheme = StormerVerlet::KickDriftKick;
+    let found = Integrator::<f64, _, _>::resume(&system, scheme, saved());
+    assert_eq!(other(found), Some("scheme"));
+    let found = Integrator::<f32, _, _>::resume(&system, Strang, saved());
+    assert_eq!(other(found), Some("scalar"));
+    // Choices of a scheme are part of it.
+    let [few, many] = [20, 30].map(|max_iterations| ImplicitMidpoint { max_iterations });
+    let run = Integrator::new(&system, few, State::new([0.3], [0.1]), 0.01).unwrap();
+    let found = Integrator::<f64, _, _>::resume(&system, many, run.checkpoint());
+    assert_eq!(other(found), Some("scheme"));
+    assert_eq!(few.entry(), many.entry());
+    // Sizes are part of a system.
+    let chain = State::new(vec![0.1, 0.2], vec![0.0, 0.0]);
+    let run = Integrator::new(&Chain { n: 2 }, Strang, chain, 0.01).unwrap();
+    let found = Integrator::<f64, _, _>::resume(&Chain { n: 3 }, Strang, run.checkpoint());
+    assert_eq!(other(found), Some("system"));
+    // Another observer in the place: the run does not start.
+    let mut run = Integrator::<f64, _, _>::resume(&system, Strang, saved())
+        .unwrap()
+        .observe(Recorder::new());
+    assert_eq!(other(run.advance(1)), Some("observer"));
+    assert_eq!(run.steps(), 3);
+    // A system whose parameters are written tells them apart.
+    let [one, two] = [1.0, 2.0].map(Spring);
+    let run = Integrator::new(&one, RungeKutta4, State::new([0.3], [0.1]), 0.01).unwrap();
+    let found = Integrator::<f64, _, _>::resume(&two, RungeKutta4, run.checkpoint());
+    assert_eq!(other(found), Some("parameters"));
+    let found = Integrator::<f64, _, _>::resume(&one, RungeKutta4, run.checkpoint());
+    assert_eq!(other(found), None);
+}
+
+/// The pendulum under a name with a parameter.
+struct Spring(f64);
+
+impl System<f64> for Spring {
+    type Vector = hamiltonian_core::private::SVector<f64, 1>;
+    type Prepared = Ready<Pendulum, 1>;
+    const NAME: &'static str = "Spring";
+    const GROUPS: &'static [hamiltonian_core::Group] = &[scalar("q", "p", 0)];
+    const OBSERVABLES: &'static [hamiltonian_core::Observable] = &[];
+    fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
+        write!(to, "k = {:?}", self.0)
+    }
+    fn prepare(&self) -> Self::Prepared {
+        System::<f64>::prepare(&pendulum(true))
+    }
+    fn zeros(&self) -> Self::Vector {
+        System::<f64>::zeros(&pendulum(true))
+    }
+}
+
+fn place(name: &str) -> PathBuf {
+    std::env::temp_dir().join(format!("hamiltonian-{name}-{}", std::process::id()))
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let file = |outcome: Result<Checkpoint, Error>| match outcome.unwrap_err() {
+        Error::Checkpoint(CheckpointError::File { path, .. }) => path,
+        other => panic!("{other:?}"),
+    };
+    let missing = place("missing");
+    assert_eq!(
+        file(Checkpoint::load(&missing)),
+        missing.display().to_string()
+    );
+    let saved = Checkpoint::from_bytes(&small()).unwrap();
+    let nowhere = missing.join("in a directory that is not there");
+    let outcome = saved.save(&nowhere).map(|()| saved.clone());
+    assert_eq!(file(outcome), nowhere.display().to_string());
+    let there = place("there");
+    saved.save(&there).unwrap();
+    saved.save(&there).unwrap();
+    let again = Checkpoint::load(&there);
+    std::fs::remove_file(&there).unwrap();
+    assert_eq!(again.unwrap(), saved);
+}
+
+#[cfg(unix)]
+mod kills {
+    use super::*;
+    use hamiltonian_core::Run;
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+
+    /// Where the process that is killed saves its run.
+    const PLACE: &str = "HAMILTONIAN_SAVED_RUN";
+    /// Steps between two times it saves.
+    const CHUNK: u64 = 1009;
+
+    type Observed =
+        Run<Hand<Pendulum, 1>, IntersectingSubTrajectories, (EnergyDrift, Every<Recorder>)>;
+
+    fn observed() -> (EnergyDrift, Every<Recorder>) {
+        (EnergyDrift::new(), every(4001, Recorder::new()))
+    }
+
+    fn fresh() -> Observed {
+        let start = State::new([2.0], [0.1]);
+        let scheme = IntersectingSubTrajectories::default();
+        let run = Integrator::new(&pendulum(true), scheme, start, 1e-3).unwrap();
+        run.observe(observed())
+    }
+
+    fn resumed(path: &str) -> Observed {
+        let saved = Checkpoint::load(path).unwrap();
+        let scheme = IntersectingSubTrajectories::default();
+        let run = Integrator::resume(&pendulum(true), scheme, saved).unwrap();
+        run.observe(observed())
+    }
+
+    /// The process that is killed: it goes on with the saved run, or begins one, and saves it.
+    #[test]
+    #[ignore = "runs until it is killed, by the test below"]
+    fn victim() {
+        let path = std::env::var(PLACE).unwrap();
+        let mut run = match std::fs::exists(&path).unwrap() {
+            true => resumed(&path),
+            false => fresh(),
+        };
+        loop {
+            run.advance(CHUNK).unwrap();
+            run.checkpoint().save(&path).unwrap();
+        }
+    }
+
+    #[test]
+    fn a_killed_run_goes_on_with_the_same_bits() {
+        let directory = place("killed");
+        std::fs::create_dir_all(&directory).unwrap();
+        let path = directory.join("run").display().to_string();
+        let mut random = 0x9e37_79b9_7f4a_7c15_u64;
+        let (mut steps, mut went_on) = (0, 0);
+        for _ in 0..100 {
+            let mut victim = Command::new(std::env::current_exe().unwrap())
+                .args(["--ignored", "--exact", "checkpoint::kills::victim"])
+                .env(PLACE, &path)
+                .stdout(Stdio::null())
+                .spawn()
+                .unwrap();
+            random = random
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            std::thread::sleep(Duration::from_micros(4_000 + (random >> 33) % 36_000));
+            assert_eq!(victim.try_wait().unwrap(), None, "it ended by itself");
+            victim.kill().unwrap();
+            victim.wait().unwrap();
+            if steps > 0 || std::fs::exists(&path).unwrap() {
+                // The file is whole, and never an older one.
+                let saved = Checkpoint::load(&path).unwrap().steps();
+                assert!(saved >= steps && saved.is_multiple_of(CHUNK));
+                went_on += u32::from(saved > steps);
+                steps = saved;
+            }
+        }
+        let again = resumed(&path);
+        std::fs::remove_dir_all(&directory).unwrap();
+        assert!(went_on > 1, "{went_on} of 100 got as far as saving");
+        let mut whole = fresh();
+        whole.advance(steps).unwrap();
+        assert_eq!(again.state(), whole.state());
+        assert_eq!(again.carried(), whole.carried());
+        assert_eq!(again.observer().0, whole.observer().0);
+        assert_eq!(again.observer().1.inner, whole.observer().1.inner);
+    }
+}

@@ -1,0 +1,174 @@
+//! Lanes: four runs in one scalar are four lone runs, whatever becomes of each.
+
+use crate::common::four::Four;
+use crate::common::systems::*;
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::{Clock, Map, Scheme, Step, Vector};
+
+/// (34) from these, and the Hénon–Heiles system.
+const STARTS: [[f64; 4]; 2] = [[0.4, -1.1, 0.05, 0.8], [0.3, 0.1, -0.02, -0.5]];
+
+fn lanes<const N: usize>(q: [[f64; 4]; N], p: [[f64; 4]; N]) -> State<SVector<Four, N>> {
+    State {
+        t: Four([0.0; 4]),
+        q: SVector::from(q.map(Four)),
+        p: SVector::from(p.map(Four)),
+    }
+}
+
+/// Lane `k` alone.
+fn lone<const N: usize>(state: &State<SVector<Four, N>>, k: usize) -> State<SVector<f64, N>> {
+    State {
+        t: state.t.0[k],
+        q: state.q.map(|x| x.0[k]),
+        p: state.p.map(|x| x.0[k]),
+    }
+}
+
+/// Lane by lane the bits of four lone runs; with one lane dead, those of the other three.
+fn check<H, M, const N: usize>(
+    system: &Hand<H, N>,
+    scheme: &M,
+    start: &State<SVector<Four, N>>,
+    h: f64,
+) where
+    H: Formula<N>,
+    M: Scheme<Four, Hand<H, N>> + Scheme<f64, Hand<H, N>>,
+{
+    let name = scheme.entry().name;
+    let mut run = Integrator::new(system, scheme.clone(), start.clone(), Four([h; 4])).unwrap();
+    let end = run.advance(700).unwrap();
+    let alone = |k: usize| {
+        let mut run = Integrator::new(system, scheme.clone(), lone(start, k), h).unwrap();
+        run.advance(700).unwrap().clone()
+    };
+    for k in 0..4 {
+        assert_eq!(lone(end, k), alone(k), "{name}, lane {k}");
+    }
+    // A run refuses a start that is not finite; a map does not look.
+    let prepared = System::<Four>::prepare(system);
+    let mut dead = start.clone();
+    dead.q[0].0[2] = f64::NAN;
+    let mut carried = Scheme::start(scheme, &prepared, &dead, Four([h; 4]));
+    let map = Scheme::prepare(scheme, &prepared, Step::of(Four([h; 4])));
+    let mut work = map.work(&carried);
+    let clock = Clock {
+        start: Four([0.0; 4]),
+        interval: run.interval(),
+    };
+    map.run(clock, 0, 700, &mut carried, &mut work);
+    map.close(clock.at(700), &mut carried);
+    let point = hamiltonian_core::Carried::point(&carried);
+    let end = State {
+        t: clock.at(700),
+        q: point.q,
+        p: point.p,
+    };
+    for k in [0, 1, 3] {
+        assert_eq!(
+            lone(&end, k),
+            alone(k),
+            "{name}, lane {k} beside a dead one"
+        );
+    }
+    assert!(!lone(&end, 2).q.is_finite(), "{name}: the dead lane lives");
+}
+
+/// What serves both scalars.
+macro_rules! both_scalars {
+    ($system:expr, $start:expr, $($scheme:expr),+ $(,)?) => {$(
+        check($system, &$scheme, $start, 0.01);
+    )+};
+}
+
+#[test]
+fn lanes_are_lone_runs() {
+    let start = lanes([STARTS[0]], [STARTS[1]]);
+    both_scalars!(
+        &Hand(Paper34),
+        &start,
+        ImplicitMidpoint::default(),
+        Adjoint(RungeKutta4),
+        RungeKutta4,
+        Composition::yoshida(ImplicitMidpoint::default()),
+        Pihajoki::MomentumFirst,
+        TwoStepMidpoint::default(),
+        ConsecutiveSubTrajectories::default(),
+        IntersectingSubTrajectories::default(),
+    );
+    let start = lanes(
+        [STARTS[0].map(|x| 0.2 * x), STARTS[1]],
+        [STARTS[1], [0.1; 4]],
+    );
+    both_scalars!(
+        &Hand(HenonHeiles),
+        &start,
+        Strang,
+        SymplecticEuler::KickDrift,
+        Composition::yoshida(StormerVerlet::DriftKickDrift),
+        Adjoint(SymplecticEuler::KickDrift),
+        ImplicitMidpoint::default(),
+    );
+}
+
+/// Errors name the lane and the step, which are those of the lone run.
+#[test]
+fn failures_name_their_lane() {
+    struct Escapes;
+    impl Visitor<Four, Hand<HenonHeiles, 2>> for Escapes {
+        fn visit<M: Scheme<Four, Hand<HenonHeiles, 2>>>(&mut self, scheme: M) {
+            let start = lanes(
+                [[0.1, -0.2, 0.3, 0.0], [0.1, 0.0, 1.2, 0.2]],
+                [[0.1, 0.2, 0.4, 0.0], [0.0, 0.1, 0.6, 0.1]],
+            );
+            let name = scheme.entry().name;
+            let mut run =
+                Integrator::new(&Hand(HenonHeiles), scheme, start, Four([0.01; 4])).unwrap();
+            let error = run.advance(100_000).unwrap_err();
+            match &error {
+                Error::NotFinite { lane, step, .. } | Error::Solve { lane, step, .. } => {
+                    assert_eq!((*lane, *step), (Some(2), run.steps() + 1), "{name}");
+                }
+                other => panic!("{name}: {other:?}"),
+            }
+            assert!(error.to_string().contains("lane 2"), "{error}");
+            assert!(run.state().q.is_finite() && run.state().p.is_finite());
+        }
+    }
+    visit_any(&mut Escapes);
+    visit_unforced(&mut Escapes);
+    visit_separable(&mut Escapes);
+    visit_split(&mut Escapes);
+}
+
+/// A solve that fails in one lane says so of that one, and leaves the others' bits as they are.
+#[test]
+fn a_solve_fails_in_its_lane_alone() {
+    let scheme = ImplicitMidpoint { max_iterations: 40 };
+    let start = lanes([[0.4, 9.0, 0.05, 0.8]], [[0.3, 5.0, -0.02, -0.5]]);
+    let step = Four([0.05; 4]);
+    let mut run = Integrator::new(&Hand(Paper34), scheme, start.clone(), step).unwrap();
+    match run.advance(5).unwrap_err() {
+        Error::Solve {
+            step: 1,
+            lane: Some(1),
+            ..
+        } => {}
+        other => panic!("{other:?}"),
+    }
+    let prepared = System::<Four>::prepare(&Hand(Paper34));
+    let map = Scheme::<Four, Hand<Paper34, 1>>::prepare(&scheme, &prepared, Step::of(step));
+    let mut carried = Scheme::<Four, Hand<Paper34, 1>>::start(&scheme, &prepared, &start, step);
+    let mut work = map.work(&carried);
+    map.step(start.t, step, &mut carried, &mut work);
+    for k in 0..4 {
+        let mut alone = Integrator::new(&Hand(Paper34), scheme, lone(&start, k), 0.05).unwrap();
+        let found = carried.x.q[0].0[k];
+        match alone.advance(1) {
+            Ok(end) => assert_eq!(end.q[0].to_bits(), found.to_bits(), "lane {k}"),
+            Err(_) => assert!(k == 1 && found.is_nan(), "lane {k}: {found}"),
+        }
+    }
+}

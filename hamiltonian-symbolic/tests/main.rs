@@ -5,6 +5,7 @@ mod common;
 mod derivatives;
 mod equations;
 mod expressions;
+mod false_proofs;
 mod flows;
 mod jumps;
 mod legendre;

@@ -274,6 +274,8 @@ struct Place {
     what: Node,
     /// ∂zero/∂what
     slope: Node,
+    /// Whether something has a value of its own there.
+    jumps: bool,
 }
 
 impl Place {
@@ -294,7 +296,7 @@ impl Place {
             places.extend(
                 Place::factors(dag, zero)
                     .into_iter()
-                    .map(|zero| Place::at(dag, zero)),
+                    .map(|zero| Place::at(dag, zero, locus.jumps)),
             );
         }
         Some(places)
@@ -321,18 +323,24 @@ impl Place {
         found
     }
 
-    fn at(dag: &mut Dag, zero: Node) -> Place {
+    fn at(dag: &mut Dag, zero: Node, jumps: bool) -> Place {
         let gradient = diff::gradient(dag, zero, Dependence::MOVING);
         let is_still = |dag: &Dag, node: Node| !dag.dependence(node).on(Dependence::MOVING);
         let linear = gradient.into_iter().find(|(leaf, slope)| {
             is_still(dag, *slope) && !dag.is_zero(*slope) && dag.variables(*leaf) == 0
         });
         match linear {
-            Some((what, slope)) => Place { zero, what, slope },
+            Some((what, slope)) => Place {
+                zero,
+                what,
+                slope,
+                jumps,
+            },
             None => Place {
                 zero,
                 what: zero,
                 slope: dag.integer(1),
+                jumps,
             },
         }
     }
@@ -394,9 +402,16 @@ impl Place {
         let vanishes = |dag: &mut Dag, node: Node| {
             dag.is_zero(node) || normal_form::vanishes(dag, node, Scope::Densely)
         };
-        let is_same = both.is_single_valued && vanishes(dag, difference);
-        let is_continuous = both.is_continuous && {
-            let nothing = dag.integer(0);
+        // The value of its own that a jump may have, where the limits are finite.
+        let nothing = dag.integer(0);
+        let is_joined = !self.jumps || !both.is_continuous || {
+            let limit = replaced(dag, above.node, u, nothing);
+            let own = self.near(dag, root, nothing);
+            let apart = dag.sub(own, limit);
+            vanishes(dag, apart)
+        };
+        let is_same = is_joined && both.is_single_valued && vanishes(dag, difference);
+        let is_continuous = is_joined && both.is_continuous && {
             let there = replaced(dag, difference, u, nothing);
             vanishes(dag, there)
         };

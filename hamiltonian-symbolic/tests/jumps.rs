@@ -161,3 +161,22 @@ fn one_jump_among_many_poles() {
     let found = why(&mut free(24), &harmless(24));
     assert_eq!(found, "more than 64 poles and jumps");
 }
+
+/// sign(0) = 0 is a value too.
+#[test]
+fn a_value_of_its_own_at_a_jump_counts() {
+    let mut free = system("q; p", "", "a", "p^2/2");
+    for invariant in [
+        "sign(q)^2",
+        "2*sign((q - a)^2)^2 + p",
+        "if q == 1 { 1 } else { p }",
+    ] {
+        let found = verdict(&mut free, invariant);
+        assert!(
+            matches!(found, Verdict::Jumps { .. }),
+            "{invariant}: {found:?}"
+        );
+    }
+    accepted(&mut free, "if q == 1 { 1 } else { 1 + p - p }");
+    accepted(&mut free, "p + if q == 1 { q - 1 } else { 0 }");
+}

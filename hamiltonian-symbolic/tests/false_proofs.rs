@@ -126,7 +126,8 @@ fn with_parameters(source: &str) -> String {
     let is_word = |c: char| c.is_alphanumeric();
     let chars: Vec<char> = source.chars().collect();
     let alone = |at: usize| {
-        !(at > 0 && is_word(chars[at - 1])) && !chars.get(at + 1).is_some_and(|c| is_word(*c))
+        let mut around = chars[at.saturating_sub(1)..chars.len().min(at + 2)].iter();
+        around.by_ref().filter(|c| is_word(**c)).count() == 1
     };
     let each = chars.iter().enumerate().map(|(at, c)| match c {
         'a' if alone(at) => "k[0]".to_owned(),

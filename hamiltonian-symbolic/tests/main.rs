@@ -28,3 +28,4 @@ mod tape;
 mod time;
 mod transform;
 mod tree;
+mod velocities;

@@ -7,7 +7,7 @@ use crate::ast::ObservableKind;
 use crate::checked::Checked;
 use crate::lower::Lowered;
 use crate::report::Report;
-use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
+use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
 use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;
 use hamiltonian_symbolic::transform::check_split;
@@ -20,19 +20,27 @@ pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
 }
 
 fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
+    let mut in_velocities = lowered.in_velocities.iter().copied();
     for (at, observable) in checked.observables.iter().enumerate() {
+        let components = &lowered.model.observables[at].components;
+        let in_velocities: Vec<Node> = in_velocities.by_ref().take(components.len()).collect();
         if observable.kind != ObservableKind::Invariant {
             continue;
         }
         let (name, shell) = (&observable.name, lowered.shells[at]);
         let on = if shell.is_some() { " on its shell" } else { "" };
-        let components = &lowered.model.observables[at].components;
         for (component, value) in components.iter().enumerate() {
             let what = match components.len() {
                 1 => format!("`{name}`"),
                 _ => format!("component {component} of `{name}`"),
             };
-            match is_invariant(&lowered.model, *value, shell) {
+            let verdict = match (&lowered.legendre, in_velocities.get(component), shell) {
+                (Some(legendre), Some(in_velocities), None) => {
+                    is_invariant_of_lagrangian(&lowered.model, *value, legendre, *in_velocities)
+                }
+                _ => is_invariant(&lowered.model, *value, shell),
+            };
+            match verdict {
                 Verdict::Proven => {}
                 Verdict::Disproven {
                     residual,

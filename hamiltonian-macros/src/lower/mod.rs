@@ -56,6 +56,8 @@ pub struct Lowered {
     pub force: Vec<VectorEntry>,
     /// g of `dt = g*ds`.
     pub factor: Option<Node>,
+    /// The components of the observables before velocities became functions of momenta.
+    pub in_velocities: Vec<Node>,
     /// How H was made of a Lagrangian.
     pub legendre: Option<Legendre>,
     /// The expressions that no `f64` is near, or whose coefficient is such, innermost first.
@@ -96,7 +98,8 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         .iter()
         .flat_map(|o| components(checked, o.value))
         .collect();
-    let values = rest.values(&mut model, &observables)?;
+    let in_velocities = rest.evaluator.evaluate(&mut model, &observables)?;
+    let values = rest.in_momenta(&mut model, &observables, &in_velocities)?;
     observables_of(checked, &mut model, values);
     let mut shells = Vec::new();
     for observable in &checked.observables {
@@ -137,6 +140,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         split,
         force,
         factor,
+        in_velocities,
         legendre: made,
         derived,
     })
@@ -185,10 +189,19 @@ impl Rest<'_> {
     /// The values of roots, velocities as functions of (q, p, t).
     fn values(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
         let values = self.evaluator.evaluate(model, roots)?;
+        self.in_momenta(model, roots, &values)
+    }
+
+    fn in_momenta(
+        &mut self,
+        model: &mut Model,
+        roots: &[(NodeId, Demand)],
+        values: &[Node],
+    ) -> Option<Vec<Node>> {
         let mut images = Vec::with_capacity(values.len());
         for ((root, _), value) in roots.iter().zip(values) {
             let spans = self.checked.node(*root).spans;
-            images.push(self.evaluator.in_momenta(model, spans, value)?);
+            images.push(self.evaluator.in_momenta(model, spans, *value)?);
         }
         Some(images)
     }

@@ -6,6 +6,7 @@
 //! comes with sizes and a point where the time derivative along the flow is not zero.
 
 mod cross;
+mod lagrange;
 mod pair;
 mod shell;
 
@@ -13,6 +14,7 @@ pub use pair::bracket;
 
 use crate::dag::{Dependence, Kind, Node};
 use crate::diff;
+use crate::legendre::Legendre;
 use crate::loops::{Point, unroll_nodes};
 use crate::model::Model;
 use crate::normal_form::{
@@ -56,13 +58,41 @@ pub enum Verdict {
 /// `shell` the statement is about points with H = shell only.
 #[must_use]
 pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
+    let verdict = judge(model, expression, shell);
+    crossed(model, expression, verdict)
+}
+
+/// The same for a model that a Lagrangian became. `in_velocities` is the expression as it was
+/// before velocities became functions of momenta, as elements of the direction of momenta: proofs
+/// in them need no inverse of the mass matrix.
+#[must_use]
+pub fn is_invariant_of_lagrangian(
+    model: &Model,
+    expression: Node,
+    legendre: &Legendre,
+    in_velocities: Node,
+) -> Verdict {
+    let has_velocities = model
+        .dag
+        .dependence(in_velocities)
+        .on(Dependence::DIRECTION);
+    let verdict = if has_velocities && lagrange::vanishes(model, legendre, in_velocities) {
+        Verdict::Proven
+    } else {
+        judge(model, expression, None)
+    };
+    crossed(model, expression, verdict)
+}
+
+/// The verdict, with what derivatives and points do not see.
+fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
     let roots: Vec<Node> = model.hamiltonian.into_iter().chain([expression]).collect();
     let has_rust = model
         .dag
         .reachable(&roots)
         .iter()
         .any(|n| matches!(model.dag.kind(*n), Kind::External(..)));
-    match judge(model, expression, shell) {
+    match verdict {
         // A point refutes for the function that was tried, which is not the one in Rust.
         Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided {
             residual,

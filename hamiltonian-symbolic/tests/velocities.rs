@@ -1,0 +1,115 @@
+//! Invariants of Lagrangians in velocities, whose mass matrices are blocks.
+
+use crate::common::{parse, system};
+use hamiltonian_symbolic::bracket::{Verdict, is_invariant_of_lagrangian};
+use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
+use hamiltonian_symbolic::legendre::{Legendre, transform};
+use hamiltonian_symbolic::model::Model;
+
+/// A system given by L, in which momenta stand for velocities, and what it becomes.
+fn lagrangian(signature: &str, parameters: &str, l: &str) -> (Model, Legendre) {
+    let mut model = system(signature, "", parameters, l);
+    let lagrangian = model.hamiltonian.unwrap();
+    let momenta = signature.split(';').nth(1).unwrap();
+    let names: Vec<String> = momenta.split(',').map(|v| v.trim().to_owned()).collect();
+    let legendre = transform(&mut model, lagrangian, &names).unwrap();
+    model.hamiltonian = Some(legendre.hamiltonian);
+    (model, legendre)
+}
+
+/// The verdict on an expression of velocities.
+fn verdict(model: &mut Model, legendre: &Legendre, source: &str) -> Verdict {
+    let node = parse(model, source);
+    let in_velocities = model
+        .dag
+        .substitute(node, |dag, node| match dag.kind(node).clone() {
+            Kind::Element(
+                Array::Phase {
+                    side: Side::P,
+                    group,
+                    column,
+                },
+                row,
+                None,
+            ) => {
+                let array = Array::Direction {
+                    side: Side::P,
+                    group,
+                    column,
+                };
+                Some(dag.element(array, row, None))
+            }
+            _ => None,
+        });
+    let velocity = |node: Node| {
+        let mut velocities = legendre.velocities.iter();
+        velocities.find(|v| v.element == node).map(|v| v.value)
+    };
+    let expression = model.dag.substitute(node, |_, node| velocity(node));
+    is_invariant_of_lagrangian(model, expression, legendre, in_velocities)
+}
+
+fn check(signature: &str, parameters: &str, l: &str, good: &[&str], bad: &[&str]) {
+    let (mut model, legendre) = lagrangian(signature, parameters, l);
+    for source in good {
+        let found = verdict(&mut model, &legendre, source);
+        assert_eq!(found, Verdict::Proven, "{source}");
+    }
+    for source in bad {
+        let found = verdict(&mut model, &legendre, source);
+        assert!(
+            matches!(found, Verdict::Disproven { .. }),
+            "{source}: {found:?}"
+        );
+    }
+}
+
+#[test]
+fn a_block_of_masses_keeps_its_energy() {
+    let energy = "(3+x^2)*u^2/2 + x*u*v + (2+x^2)*v^2/2 + (4+x^4)*w^2/2 + x*v*w + x^2*u*w";
+    check(
+        "x, y, z; u, v, w",
+        "",
+        energy,
+        // y and z are cyclic.
+        &[
+            energy,
+            "x*u + (2 + x^2)*v + x*w",
+            "(4 + x^4)*w + x*v + x^2*u",
+        ],
+        &["(3 + x^2)*u + x*v + x^2*w", "u*v"],
+    );
+}
+
+/// φ, θ, ψ in the convention z-x-z.
+#[test]
+fn the_asymmetric_top_keeps_energy_and_momentum() {
+    let (one, two, three) = (
+        "(u*sin(y)*sin(z) + v*cos(z))",
+        "(u*sin(y)*cos(z) - v*sin(z))",
+        "(u*cos(y) + w)",
+    );
+    let energy = format!("(a*{one}^2 + b*{two}^2 + c*{three}^2)/2");
+    let vertical = format!("a*{one}*sin(y)*sin(z) + b*{two}*sin(y)*cos(z) + c*{three}*cos(y)");
+    let total = format!("a^2*{one}^2 + b^2*{two}^2 + c^2*{three}^2");
+    let wrong = format!("a*{one}^2 + b^2*{two}^2 + c^2*{three}^2");
+    check(
+        "x, y, z; u, v, w",
+        "a b c",
+        &energy,
+        &[&energy, &vertical, &total],
+        &[&wrong, &format!("c*{three}")],
+    );
+}
+
+#[test]
+fn the_double_pendulum_without_gravity_keeps_its_momentum() {
+    let energy = "(m + n)*k^2*u^2/2 + n*l^2*v^2/2 + n*k*l*u*v*cos(x - y)";
+    check(
+        "x, y; u, v",
+        "m n k l",
+        energy,
+        &[energy, "(m + n)*k^2*u + n*l^2*v + n*k*l*(u + v)*cos(x - y)"],
+        &["(m + n)*k^2*u + n*l^2*v"],
+    );
+}

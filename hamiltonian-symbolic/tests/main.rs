@@ -21,6 +21,7 @@ mod readable;
 mod replace;
 mod soundness;
 mod splits;
+mod statements;
 mod structure;
 mod sums;
 mod systems;

@@ -46,6 +46,9 @@ pub struct Sample {
     pub signed: bool,
     /// Which parameters may be negative, and whether the time may.
     pub signs: Signs,
+    /// Whether parameters are multiples of 1/2: powers of negative numbers have values where
+    /// exponents are whole.
+    pub halves: bool,
 }
 
 /// Which parameters are negative: those whose number modulo 3 is a bit of the set; of arrays, some
@@ -55,7 +58,7 @@ pub struct Signs(u8);
 
 impl Signs {
     /// All choices but that of no negative ones, all negative first.
-    pub fn negative() -> impl Iterator<Item = Signs> {
+    pub fn negative() -> impl Iterator<Item = Signs> + Clone {
         [7, 1, 2, 4, 3, 5, 6].into_iter().map(Signs)
     }
     fn of(self, parameter: Parameter) -> bool {
@@ -154,6 +157,14 @@ impl Numbers<'_> {
         }
     }
 
+    fn given_parameter(&self, value: f64) -> f64 {
+        if self.how.halves {
+            (2.0 * value).ceil() / 2.0
+        } else {
+            value
+        }
+    }
+
     fn element(&mut self, array: Array, row: i64, column: i64) -> f64 {
         let key = (array, row, column);
         let value = match (self.given.get(&key), array) {
@@ -165,7 +176,10 @@ impl Numbers<'_> {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
             (None, Array::Direction { .. }) => self.leaf(&key, 0, self.how.signed),
-            (None, Array::Parameter(parameter)) => self.leaf(&key, 0, self.how.signs.of(parameter)),
+            (None, Array::Parameter(parameter)) => {
+                let value = self.leaf(&key, 0, self.how.signs.of(parameter));
+                self.given_parameter(value)
+            }
         };
         if self.read.insert(key, ()).is_none() {
             let group = |side: Side, group: u16| {
@@ -258,17 +272,23 @@ fn is_whole(a: Sampled) -> bool {
     a.error == 0.0 && a.value.fract() == 0.0 && a.value.abs() < 1e15
 }
 
+/// Whether numbers like this add and multiply without error: multiples of 1/64.
+fn is_short(a: Sampled) -> bool {
+    a.error == 0.0 && (64.0 * a.value).fract() == 0.0 && a.value.abs() < 1e6
+}
+
 fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
     let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
-    let mut whole = true;
+    let (mut whole, mut short) = (true, true);
     for part in parts {
         value += part.value;
         error += part.error;
         size += part.value.abs();
         count += 1.0;
         whole &= is_whole(part);
+        short &= is_short(part);
     }
-    if whole && size < 1e15 {
+    if whole && size < 1e15 || short && size < 1e12 {
         return exact(value);
     }
     Sampled {
@@ -279,7 +299,7 @@ fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
 
 fn product(a: Sampled, b: Sampled) -> Sampled {
     let value = a.value * b.value;
-    if is_whole(a) && is_whole(b) && value.abs() < 1e15 {
+    if is_whole(a) && is_whole(b) && value.abs() < 1e15 || is_short(a) && is_short(b) {
         return exact(value);
     }
     Sampled {
@@ -338,7 +358,8 @@ impl Meaning for Numbers<'_> {
                 let name = self.model.parameters[usize::from(parameter.0)].name.clone();
                 let size = self.leaf(&(1u8, parameter), 0, false);
                 let is_negative = self.how.signs.of(*parameter);
-                exact(self.named(&name, if is_negative { -size } else { size }))
+                let value = self.given_parameter(if is_negative { -size } else { size });
+                exact(self.named(&name, value))
             }
             Kind::Time => {
                 let name = self.model.time.clone().unwrap_or_else(|| "t".to_owned());

@@ -18,6 +18,8 @@ const MOST_ARGUMENTS: usize = 64;
 const LARGEST_MULTIPLE: i64 = 64;
 /// The largest ratio of exponents that is looked for.
 const LARGEST_RATIO: i64 = 8;
+/// How many powers of one sign are compared with each other.
+const MOST_POWERS: usize = 8;
 
 impl Algebra {
     /// An elementary function.
@@ -376,7 +378,10 @@ impl Algebra {
             }
         }
         let sign = self.sign(&signed)?;
-        if sign.as_constant().is_some_and(|c| c.is_one()) {
+        let is_positive = |(monomial, k): &(Monomial, Rational)| {
+            k.is_one() && monomial.0.iter().all(|(_, n)| n % 2 == 0)
+        };
+        if sign.as_term().is_some_and(is_positive) {
             return Ok(size);
         }
         let whole = y.terms().iter().find(|(monomial, _)| monomial.is_one());
@@ -394,7 +399,8 @@ impl Algebra {
         self.mul(&size, &power)
     }
 
-    /// s^y. Where s^y and s^(my) both have values, s^(my) is (s^y)^m.
+    /// s^y. Where s^y and s^(my) both have values, s^(my) is (s^y)^m; and s^(x + y) is s^x·s^y where
+    /// all three have.
     fn power_of_sign(&mut self, sign: &Poly, exponent: Poly) -> Poly {
         let one = Some((2, Poly::integer(1)));
         let atom = |algebra: &mut Algebra, exponent: &Poly| {
@@ -422,9 +428,35 @@ impl Algebra {
                 self.redefine(old, if m % 2 == 0 { Poly::integer(1) } else { finer });
             }
         }
-        let power = Poly::atom(atom(self, &exponent), 1);
-        self.powers.push((sign.clone(), exponent));
-        power
+        let of_sign = |algebra: &Algebra| -> Vec<Poly> {
+            let same = algebra.powers.iter().filter(|(other, _)| other == sign);
+            same.map(|(_, known)| known.clone())
+                .take(MOST_POWERS)
+                .collect()
+        };
+        let is_sum = |of: &Poly, x: &Poly, y: &Poly| [x.add(y), x.sub(y), y.sub(x)].contains(of);
+        let known = of_sign(self);
+        for (at, x) in known.iter().enumerate() {
+            for y in &known[at + 1..] {
+                if is_sum(&exponent, x, y) {
+                    let (x, y) = (atom(self, x), atom(self, y));
+                    return Poly::atom(x, 1).times(&Monomial::atom(y, 1));
+                }
+            }
+        }
+        let power = atom(self, &exponent);
+        self.powers.push((sign.clone(), exponent.clone()));
+        // The sum may have come first.
+        for (at, whole) in known.iter().enumerate() {
+            for (_, part) in known.iter().enumerate().filter(|(other, _)| *other != at) {
+                if is_sum(whole, &exponent, part) {
+                    let (whole, part) = (atom(self, whole), atom(self, part));
+                    let product = Poly::atom(part, 1).times(&Monomial::atom(power, 1));
+                    self.redefine(whole, product);
+                }
+            }
+        }
+        Poly::atom(power, 1)
     }
 
     /// ln x, which is about points at which x > 0.

@@ -178,7 +178,8 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
 pub(crate) enum Effort {
     /// Two points at the first of the sizes tried, and one where parameters are negative.
     Glance,
-    /// Four points at each of the sizes tried, and seven where parameters are negative.
+    /// Eight points at each of the sizes tried, seven where parameters are negative, and 64 where
+    /// exponents may be whole.
     Search,
 }
 
@@ -194,7 +195,7 @@ pub(crate) fn witness(
     let mut trials = trials(model, &[node]);
     let seeds = match effort {
         Effort::Glance => 2,
-        Effort::Search => 4,
+        Effort::Search => 8,
     };
     if effort == Effort::Glance {
         trials.truncate(1);
@@ -219,8 +220,27 @@ pub(crate) fn witness(
     if !model.dag.dependence(node).on(given) {
         return None;
     }
+    let nodes = model.dag.reachable(&[node]);
+    let is_power = |node: &Node| matches!(model.dag.kind(*node), Kind::Call(Op::Pow, _));
+    let is_power = effort == Effort::Search && nodes.iter().any(is_power);
     let mut all = vec![node];
     all.extend(others);
+    let seeds = if is_power { 0..64 } else { 0..0 };
+    let signs = std::iter::once(Signs::default()).chain(Signs::negative());
+    for (seed, signs) in seeds.zip(signs.cycle()) {
+        let how = Sample {
+            seed,
+            signed: true,
+            signs,
+            halves: true,
+            ..Sample::default()
+        };
+        let (values, mut point) = sample(model, &all, &trials[0], how, &[])?;
+        if values[0].is_nonzero() && values.iter().all(|value| value.value.is_finite()) {
+            point.splice(0..0, named(model, &trials[0]));
+            return Some((point, values[0].value));
+        }
+    }
     for sizes in &trials {
         for signs in Signs::negative() {
             let how = Sample {

@@ -2,8 +2,8 @@
 //!
 //! Input: a polynomial with sums as atoms. Output: the same polynomial where sums that a
 //! re-indexing turns into each other are one atom, and a sum that one turns into its own negative
-//! is 0. Invariant: only bijections of a loop's range are used: shifts modulo its length, the
-//! exchange of two loops over one range, the exchange that maps j < i onto itself.
+//! is 0. Invariant: only bijections of a loop's range are used: shifts modulo its length, shifts of the
+//! range itself, the exchange of two loops over one range, the exchange that maps j < i onto itself.
 
 use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
@@ -151,6 +151,7 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
 /// All re-indexings of a nest, itself first.
 fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
     let nest = lower(dag, &nest).unwrap_or(nest);
+    let nest = from_zero(dag, nest);
     let mut found = vec![nest];
     let mut at = 0;
     while at < found.len() && found.len() < MOST {
@@ -183,6 +184,42 @@ fn lower(dag: &mut Dag, nest: &Nest) -> Option<Nest> {
         loops: vec![i, below],
         body,
     })
+}
+
+/// Loops that start elsewhere, whatever the loops around, as loops that start at 0.
+fn from_zero(dag: &mut Dag, nest: Nest) -> Nest {
+    let mut loops: Vec<Domain> = Vec::with_capacity(nest.loops.len());
+    let mut shifted: Vec<(Domain, Affine)> = Vec::new();
+    for &domain in &nest.loops {
+        let image = |d: Domain| {
+            let found = shifted.iter().find(|(old, _)| *old == d);
+            found.map_or_else(|| Affine::variable(d), |(_, new)| new.clone())
+        };
+        let range = dag.range(domain).clone();
+        let (start, end) = (range.start.substitute(&image), range.end.substitute(&image));
+        let by = if start.loops.is_empty() {
+            start.clone()
+        } else {
+            Affine::constant(0)
+        };
+        // The loop around that has a new name, if it has one.
+        let around = nest.loops.iter().position(|d| Some(*d) == range.parent);
+        let parent = around.map_or(range.parent, |at| loops.get(at).copied());
+        let new = dag.domain(parent, start.plus(-1, &by), end.plus(-1, &by));
+        loops.push(new);
+        shifted.push((domain, Affine::variable(new).plus(1, &by)));
+    }
+    if loops == nest.loops {
+        return nest;
+    }
+    // From the innermost out: what is put in names new loops only.
+    let mut body = nest.body;
+    for (domain, by) in shifted.iter().rev() {
+        if *by != Affine::variable(*domain) {
+            body = dag.replace(body, *domain, by);
+        }
+    }
+    Nest { loops, body }
 }
 
 /// Two loops over one range exchanged. (j < i has no image of its own kind: exchanged, it is

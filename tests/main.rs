@@ -14,6 +14,7 @@ pub mod coordinates;
 mod counting;
 mod crates;
 mod examples;
+mod forces;
 pub mod geometry;
 pub mod hygiene;
 pub mod invariants;

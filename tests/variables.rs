@@ -11,7 +11,7 @@ hamiltonian! {
     pub struct Flat { mu = 1.2, drag = 0.1, B = 0.3 }
     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
     force(x, y; p_x, p_y) = [-drag*p_x, -drag*p_y + x*y];
-    invariant angular_momentum = x*p_y - y*p_x;
+    monitor angular_momentum = x*p_y - y*p_x;
     event crossing = x - y^2;
     split { K = (p_x^2 + p_y^2)/2 + B*(x*p_y - y*p_x); V = -mu/sqrt(x^2 + y^2) }
 }
@@ -22,7 +22,7 @@ hamiltonian! {
     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - mu/sqrt(x^2 + y^2) + B*(x*p_y - y*p_x);
     coordinates polar(x, y);
     force(x, y; p_x, p_y) = [-drag*p_x, -drag*p_y + x*y];
-    invariant angular_momentum = x*p_y - y*p_x;
+    monitor angular_momentum = x*p_y - y*p_x;
     event crossing = x - y^2;
     split { K = (p_x^2 + p_y^2)/2 + B*(x*p_y - y*p_x); V = -mu/sqrt(x^2 + y^2) }
 }

@@ -33,6 +33,7 @@ mod state;
 mod system;
 
 mod flow;
+mod push;
 
 mod map;
 
@@ -75,6 +76,7 @@ pub use observe::{
     Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Verdict, View, Watch, every, watch,
 };
 pub use output::Recorder;
+pub use push::{Both, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 pub use state::{Carried, Gradient, Pair, Point, State};
 pub use system::{

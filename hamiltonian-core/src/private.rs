@@ -17,6 +17,7 @@ pub use nalgebra::{
 
 pub use crate::error::Error;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
+pub use crate::push::{Both, SubStep};
 pub use crate::reach::Reach;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};

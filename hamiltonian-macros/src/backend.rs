@@ -22,7 +22,7 @@ use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
 use hamiltonian_symbolic::print::Readable;
 use hamiltonian_symbolic::program::{Program, Purpose};
-use hamiltonian_symbolic::structure::{self, Structure};
+use hamiltonian_symbolic::structure;
 use proc_macro2::TokenStream;
 use variables::System;
 
@@ -91,13 +91,22 @@ fn system(
         part.readable.as_ref(),
         is_large(checked, &model),
     );
-    let program = derive(checked, &mut model, &structure, beyond, report)?;
+    if let Ok(split) = &structure.separable {
+        // A product such as (p + q)^2/2 - q*p separates only when multiplied out.
+        let split = model.dag.add(&[split.kinetic, split.potential]);
+        if !surface::separates_as_written(&mut model) {
+            model.hamiltonian = Some(split);
+        }
+    }
+    let verdicts = verdicts::verdicts(&mut model, &structure);
+    let kick = verdicts.separable.is_ok().then_some(verdicts.kick);
+    let program = derive(checked, &mut model, kick, beyond, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     let definition = emit::Definition {
         root: root.clone(),
         form: part.form,
-        structure: verdicts::verdicts(&model, &structure),
+        structure: verdicts,
         externals: surface::externals(checked),
         observables: part.observables,
         vectors: part.vectors,
@@ -132,7 +141,7 @@ fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
 }
 
 /// The functions of a system. Those of a large one that the gradient can stand in for are left out.
-fn wanted(checked: &Checked, model: &Model, large: bool, separable: bool) -> Vec<Purpose> {
+fn wanted(checked: &Checked, model: &Model, large: bool, kick: Option<emit::Kick>) -> Vec<Purpose> {
     let mut wanted = vec![
         Purpose::Energy,
         Purpose::EnergyAndGradient,
@@ -140,15 +149,20 @@ fn wanted(checked: &Checked, model: &Model, large: bool, separable: bool) -> Vec
         Purpose::HessianVector,
     ];
     if !large {
-        wanted.extend([
-            Purpose::GradientQ,
-            Purpose::GradientP,
-            Purpose::Gradient,
-            Purpose::VectorField,
-        ]);
+        wanted.extend([Purpose::GradientQ, Purpose::GradientP, Purpose::Gradient]);
     }
-    if separable {
-        wanted.extend([Purpose::Kick, Purpose::Drift]);
+    // The gradient knows nothing of forces.
+    if !large || !model.force.is_empty() {
+        wanted.push(Purpose::VectorField);
+    }
+    match kick {
+        None => {}
+        Some(emit::Kick::Plain) => wanted.extend([Purpose::Kick, Purpose::Drift]),
+        Some(emit::Kick::Damped { rest }) => {
+            wanted.extend([Purpose::Push, Purpose::Drift]);
+            wanted.extend(rest.then_some(Purpose::Kick));
+        }
+        Some(emit::Kick::SubStep) => wanted.push(Purpose::Drift),
     }
     if checked.item.is_some() && !checked.parameters.is_empty() {
         wanted.push(Purpose::ParameterGradient);
@@ -172,23 +186,11 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
 fn derive(
     checked: &Checked,
     model: &mut Model,
-    structure: &Structure,
+    kick: Option<emit::Kick>,
     beyond: &Beyond,
     report: &mut Report,
 ) -> Option<Program> {
-    if let Ok(split) = &structure.separable {
-        // A product such as (p + q)^2/2 - q*p separates only when multiplied out.
-        let split = model.dag.add(&[split.kinetic, split.potential]);
-        if !surface::separates_as_written(model) {
-            model.hamiltonian = Some(split);
-        }
-    }
-    let mut wanted = wanted(
-        checked,
-        model,
-        is_large(checked, model),
-        structure.separable.is_ok(),
-    );
+    let mut wanted = wanted(checked, model, is_large(checked, model), kick);
     let refusal = match pipeline::derive(model, &wanted) {
         Err(Refusal::NoSecondDerivative { .. }) => {
             wanted.retain(|purpose| *purpose != Purpose::HessianVector);

@@ -10,6 +10,7 @@ pub mod diff;
 pub mod eval;
 pub mod factor;
 pub mod facts;
+pub mod forces;
 pub mod index;
 mod instruct;
 pub mod legendre;

@@ -122,6 +122,8 @@ pub struct Model {
     pub observables: Vec<Observable>,
     /// Vector functions the system offers.
     pub vectors: Vec<VectorFunction>,
+    /// The force on momenta, element by element: ṗ = f − ∂H/∂q.
+    pub force: Vec<VectorEntry>,
     /// H.
     pub hamiltonian: Option<Node>,
 }

@@ -7,6 +7,7 @@ use crate::balance::balance;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
+use crate::forces;
 use crate::index::Index;
 use crate::model::{Model, Shape, VectorEntry, VectorFunction};
 use crate::program::{Program, Purpose, Step, Target};
@@ -230,6 +231,28 @@ pub fn request(
             let function = function.ok_or_else(missing)?;
             vector(model, function.entries, function.sides, &mut request);
         }
+        Purpose::VectorField if !model.force.is_empty() => {
+            for entry in along(model, (false, true)) {
+                request.stores.push(added(scaled(&mut model.dag, entry)));
+            }
+            let gradient = along(model, (true, false));
+            let c = model.dag.coefficient();
+            for entry in forces::slopes(model, &gradient) {
+                let value = model.dag.mul(&[c, entry.value]);
+                request.stores.push(added(VectorEntry { value, ..entry }));
+            }
+        }
+        Purpose::Push | Purpose::Kick if !model.force.is_empty() => {
+            let gradient = along(model, (true, false));
+            // Where there is no exact flow nobody asks for it.
+            let kick = forces::kick(model, &gradient).unwrap_or_default();
+            let entries = match purpose {
+                Purpose::Push => kick.damped,
+                _ => kick.rest,
+            };
+            request.stores.extend(entries.into_iter().map(added));
+        }
+        Purpose::Push => {}
         Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
             let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
             for entry in along(model, sides) {

@@ -229,9 +229,11 @@ pub enum Purpose {
     Observable(u16),
     /// Vector function n of the model into the outputs it has.
     Vector(u16),
-    /// `into_q += c·∂H/∂p`, `into_p −= c·∂H/∂q`.
+    /// `into_q += c·∂H/∂p`, `into_p += c·(f − ∂H/∂q)` with the force f.
     VectorField,
-    /// `into_p −= c·∂H/∂q`.
+    /// The part of the kick of a forced system that reads momenta: `p += w·(f − ∂H/∂q)`.
+    Push,
+    /// `into_p −= c·∂H/∂q`; of a forced system the part of the kick that reads no momenta.
     Kick,
     /// `into_q += c·∂H/∂p`.
     Drift,

@@ -33,6 +33,13 @@ use hamiltonian_lanes::{Mask, Real};
 /// assert!((run.advance(10)?.q[0] - 1.0_f64.cos()).abs() < 1e-5);
 /// # Ok::<(), hamiltonian_core::Error>(())
 /// ```
+///
+/// ```compile_fail,E0277
+/// use hamiltonian_core::schemes::{Composition, IntersectingSubTrajectories};
+///
+/// // (33) carries a point whose distance depends on the step.
+/// let _ = Composition::yoshida(IntersectingSubTrajectories::default());
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Composition<M, const S: usize> {
     stages: [(M, Weight); S],

@@ -164,6 +164,8 @@ fn type_of(checked: &Checked, piece: &Ident) -> Ident {
 pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
     let mut model = model.clone();
     model.hamiltonian = Some(hamiltonian);
+    // The force acts on the whole.
+    model.force.clear();
     model.observables.clear();
     model.vectors.clear();
     model

@@ -67,6 +67,7 @@ pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
         );
         return None;
     }
+    state.model.force = state.force.clone();
     if !state.force.is_empty() {
         state.offer(
             VectorItem::of(VectorUse::Force),

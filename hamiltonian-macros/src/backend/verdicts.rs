@@ -6,13 +6,15 @@
 use crate::emit;
 use crate::emit::Reason;
 use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
+use hamiltonian_symbolic::forces;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure};
 
 /// The verdicts.
-pub fn verdicts(model: &Model, structure: &Structure) -> emit::Structure {
+pub fn verdicts(model: &mut Model, structure: &Structure) -> emit::Structure {
     let name = subject(model);
+    let (kick, exact) = kick(model, structure);
     emit::Structure {
         separable: match &structure.separable {
             Ok(_) => Ok(()),
@@ -33,6 +35,19 @@ pub fn verdicts(model: &Model, structure: &Structure) -> emit::Structure {
                 note: "use a scheme for any separable H, or for any H".into(),
             })
             .copied(),
+        unforced: match model.force.is_empty() {
+            true => Ok(()),
+            false => Err(Reason {
+                message: format!("a force acts on {}, and this scheme integrates H alone", of(model)),
+                label: "needs a system without a force".into(),
+                note: "the two-step and doubled schemes carry a second point, whose distance from the \
+                       first grows with friction; use `StormerVerlet`, `Strang`, `ImplicitMidpoint` or \
+                       `RungeKutta4`"
+                    .into(),
+            }),
+        },
+        exact,
+        kick,
         autonomous: structure
             .autonomous
             .as_ref()
@@ -47,6 +62,43 @@ pub fn verdicts(model: &Model, structure: &Structure) -> emit::Structure {
             .iter()
             .map(|cyclic| cyclic.coordinate.clone())
             .collect(),
+    }
+}
+
+/// How V is kicked with the force, and whether that is exact.
+fn kick(model: &mut Model, structure: &Structure) -> (emit::Kick, Result<(), Reason>) {
+    if model.force.is_empty() || structure.separable.is_err() {
+        return (emit::Kick::Plain, Ok(()));
+    }
+    match forces::kick_of(model) {
+        Ok(kick) if kick.damped.is_empty() => (emit::Kick::Plain, Ok(())),
+        Ok(kick) => {
+            let rest = !kick.rest.is_empty();
+            (emit::Kick::Damped { rest }, Ok(()))
+        }
+        Err(entry) => {
+            let reason = Reason {
+                message: format!(
+                    "the force `{}` on {} is not affine in its own momentum: it has no exact flow",
+                    print::text(model, entry.value),
+                    of(model)
+                ),
+                label: "has its order with exact flows alone".into(),
+                note:
+                    "`StormerVerlet` and `Strang` integrate it by a symmetric sub-step of order 2; \
+                       `ImplicitMidpoint` and its compositions take any force"
+                        .into(),
+            };
+            (emit::Kick::SubStep, Err(reason))
+        }
+    }
+}
+
+/// `` `Pendulum` ``, or `H`
+fn of(model: &Model) -> String {
+    match model.name.as_str() {
+        "H" => "H".into(),
+        name => format!("`{name}`"),
     }
 }
 

@@ -12,7 +12,7 @@ use super::holder::{Holder, Receiver};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
-use super::{Definition, Form, derived, observables, reach, vectors};
+use super::{Definition, Form, Kick, derived, observables, reach, vectors};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
@@ -90,8 +90,11 @@ pub fn implementations(
     emission.dynamics();
     emission.flow(Purpose::VectorField);
     if definition.structure.separable.is_ok() {
-        emission.flow(Purpose::Kick);
-        emission.flow(Purpose::Drift);
+        for purpose in [Purpose::Push, Purpose::Kick, Purpose::Drift] {
+            if context.program.function(purpose).is_some() {
+                emission.flow(purpose);
+            }
+        }
         emission.separable();
     }
     emission.extras();
@@ -330,6 +333,7 @@ impl<'a> Emission<'a> {
     /// The holder of a field, a kick or a drift with its evaluation.
     fn flow(&mut self, purpose: Purpose) {
         let (name, inputs, outputs): (_, &[&str], &[&str]) = match purpose {
+            Purpose::Push => ("__Push", &["_q", "_p"], &["_op"]),
             Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
             Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
             _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
@@ -357,6 +361,11 @@ impl<'a> Emission<'a> {
         let (declaration, holders) = (generics.holder_declaration(), generics.holder_arguments());
         let vector = &self.vector;
         let piece = match purpose {
+            Purpose::Push => Some((
+                0,
+                "let _before = __h::core::clone::Clone::clone(&_x.p);\n\
+                 let (_q, _p, _op) = (&_x.q, &_before, &mut _x.p);",
+            )),
             Purpose::Kick => Some((0, "let (_q, _op) = (&_x.q, &mut _x.p);")),
             Purpose::Drift => Some((1, "let (_p, _oq) = (&_x.p, &mut _x.q);")),
             _ => None,
@@ -426,21 +435,47 @@ impl<'a> Emission<'a> {
     fn separable(&mut self) {
         let generics = self.generics;
         let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
-        for (purpose, flow) in [(Purpose::Kick, "__Kick"), (Purpose::Drift, "__Drift")] {
+        let kick: &[(Purpose, &'static str)] = match self.definition.structure.kick {
+            Kick::Plain => &[(Purpose::Kick, "__Kick")],
+            Kick::Damped { rest: false } => &[(Purpose::Push, "__Push")],
+            Kick::Damped { rest: true } => &[(Purpose::Push, "__Push"), (Purpose::Kick, "__Kick")],
+            Kick::SubStep => &[],
+        };
+        for (piece, flows) in [
+            ("__KickPiece", kick),
+            ("__DriftPiece", &[(Purpose::Drift, "__Drift")]),
+        ] {
+            let ty = match flows {
+                [(_, only)] => format!("{only}{arguments}"),
+                [(_, first), (_, second)] => {
+                    format!("__h::Both<{first}{arguments}, {second}{arguments}>")
+                }
+                _ => format!("__h::SubStep<__Field{arguments}>"),
+            };
             line!(
                 self,
                 "#[doc(hidden)]\n\
                  #[derive(__h::core::clone::Clone, __h::core::marker::Copy, __h::core::fmt::Debug)]\n\
-                 {visibility} struct {flow}Piece;\n\
+                 {visibility} struct {piece};\n\
                  #[automatically_derived]\n\
-                 impl{declaration} __h::Piece<T, __Prepared{arguments}> for {flow}Piece {{\n\
-                 type Point = __h::Point<{vector}>;\ntype Flow = {flow}{arguments};\n\
+                 impl{declaration} __h::Piece<T, __Prepared{arguments}> for {piece} {{\n\
+                 type Point = __h::Point<{vector}>;\ntype Flow = {ty};\n\
                  #[inline(always)]\n\
-                 fn flow(&self, _self: &__Prepared{arguments}, _c: T) -> {flow}{arguments} {{",
+                 fn flow(&self, _self: &__Prepared{arguments}, _c: T) -> {ty} {{",
                 visibility = generics.visibility,
                 vector = self.vector,
             );
-            self.coefficients(purpose, flow);
+            match flows {
+                [(purpose, only)] => self.coefficients(*purpose, only),
+                [(first, one), (second, other)] => {
+                    line!(self, "__h::Both({{");
+                    self.coefficients(*first, one);
+                    line!(self, "}}, {{");
+                    self.coefficients(*second, other);
+                    line!(self, "}})");
+                }
+                _ => line!(self, "__h::SubStep(__h::Dynamics::field(_self, _c))"),
+            }
             line!(self, "}}\n}}");
         }
         let [kick, drift] = &self.definition.structure.halves;

@@ -300,8 +300,8 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
         .any(|v| v.usage == VectorUse::Force);
     if is_forced {
         doc.push_str(
-            "\nThe declared force is in none of this, neither in what is said to be conserved nor in the\n\
-             equations: schemes integrate H alone, and the method `force` gives it.\n",
+            "\nThe declared force f is added to these equations: dp/dt = −∂H/∂q + f. Schemes integrate it,\n\
+             and the method `force` gives it.\n",
         );
     }
     if !text.latex.is_empty() {

@@ -45,8 +45,11 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
         &structure.autonomous,
         generics,
     );
-    for name in ["Unforced", "Exact"] {
-        marker(&mut out, name, "", &Ok(()), generics);
+    for (name, bound, verdict) in [
+        ("Unforced", "__Forced", &structure.unforced),
+        ("Exact", "__NotExact", &structure.exact),
+    ] {
+        marker(&mut out, name, bound, verdict, generics);
     }
     let _ = write!(
         out,

@@ -162,10 +162,30 @@ pub struct Structure {
     pub halves: [String; 2],
     /// T = ½ pᵀM⁻¹p with constant M
     pub quadratic_kinetic: Result<(), Reason>,
+    /// No force acts.
+    pub unforced: Result<(), Reason>,
+    /// The flows of all pieces are exact.
+    pub exact: Result<(), Reason>,
+    /// How V is kicked, with the force.
+    pub kick: Kick,
     /// H does not depend on t
     pub autonomous: Result<(), Reason>,
     /// Coordinates that do not appear in H.
     pub cyclic: Vec<String>,
+}
+
+/// The functions that make up the kick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kick {
+    /// The kick alone: without a force, or with one that does not depend on momenta.
+    Plain,
+    /// The part that reads momenta, and where `rest` the kick after it.
+    Damped {
+        /// Whether there is a part that reads none.
+        rest: bool,
+    },
+    /// A symmetric sub-step over the vector field.
+    SubStep,
 }
 
 /// Why a structure is not there, as rustc says it where a scheme asks for it.

@@ -111,6 +111,9 @@ fn structure(separable: bool) -> Structure {
         halves: ["V".into(), "T".into()],
         separable: verdict.clone(),
         quadratic_kinetic: verdict,
+        unforced: Ok(()),
+        exact: Ok(()),
+        kick: super::Kick::Plain,
         autonomous: Ok(()),
         cyclic: Vec::new(),
     }

@@ -123,6 +123,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         .collect();
     let factor = rest.values(&mut model, &factor)?.first().copied();
     let force = rest.force(&mut model)?;
+    model.force = force.clone();
     // What is proven and derived from here on would be of other loops.
     if model.dag.has_too_many_loops() {
         let message = format!("this system needs more than {LOOPS} loops");

@@ -200,9 +200,9 @@ where w = dtheta/dt
 }
 
 #[test]
-fn a_force_is_said_not_to_be_integrated() {
+fn a_force_is_said_to_be_added() {
     let damped = docs("pub struct Damped { c = 0.1 } H = p^2/2 + q^2/2; force(q; p) = -c*p");
-    assert!(section(&damped, "Equations of motion").contains("schemes integrate H alone"));
+    assert!(section(&damped, "Equations of motion").contains("dp/dt = −∂H/∂q + f"));
     assert!(!docs(PENDULUM).contains("force"));
 }
 

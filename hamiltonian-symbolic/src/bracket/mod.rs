@@ -149,6 +149,12 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         Some(residual) => normal_form::answer(&mut model.dag, residual, Scope::Densely).why(),
         None => indices(),
     };
+    if !model.force.is_empty() {
+        return Verdict::Undecided {
+            residual: text,
+            why: "sizes cannot be tried: a force acts in a loop".to_owned(),
+        };
+    }
     // Small sizes may refute; literal ones may also prove.
     let mut roots = vec![h, expression];
     roots.extend(difference);
@@ -191,9 +197,9 @@ fn indices() -> String {
     "the indices of an array cannot be solved for the variables of loops".to_owned()
 }
 
-/// {I, H} + ∂I/∂t
+/// {I, H} + f·∂I/∂p + ∂I/∂t with the force f
 fn derivative(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
-    let flow = bracket(model, expression, h)?;
+    let flow = pair::along_flow(model, expression, h)?;
     let explicit = diff::gradient(&mut model.dag, expression, Dependence::TIME);
     let parts: Vec<Node> = std::iter::once(flow)
         .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))

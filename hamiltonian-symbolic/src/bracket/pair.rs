@@ -9,34 +9,52 @@ use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, write_out};
-use crate::model::{Model, Shape};
+use crate::model::{Model, Shape, VectorEntry};
 use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
 /// cannot be solved for loop variables, or where that takes too many loops. Where all sizes are
 /// literal there are no indices left to solve once the sums are unrolled.
 pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
-    in_loops(model, a, b).or_else(|| {
+    in_loops(model, a, b, &[]).or_else(|| {
         if !model.sizes.is_empty() || model.dag.has_too_many_loops() {
             return None;
         }
         let (a, b) = (write_out(model, a).ok()?, write_out(model, b).ok()?);
-        in_loops(model, a, b)
+        in_loops(model, a, b, &[])
     })
 }
 
-/// {a, b}, loops as loops.
-fn in_loops(model: &mut Model, a: Node, b: Node) -> Option<Node> {
+/// {a, H} + f·∂a/∂p with the model's force f: the time derivative of `a` but for ∂a/∂t.
+pub fn along_flow(model: &mut Model, a: Node, h: Node) -> Option<Node> {
+    if model.force.is_empty() {
+        return bracket(model, a, h);
+    }
+    let force = model.force.clone();
+    in_loops(model, a, h, &force)
+}
+
+/// {a, b}, loops as loops, with a force f that acts as if ∂b/∂q were ∂b/∂q − f.
+fn in_loops(model: &mut Model, a: Node, b: Node, force: &[VectorEntry]) -> Option<Node> {
     let shapes: Vec<Shape> = model.groups.iter().map(|g| g.shape.clone()).collect();
     let dag = &mut model.dag;
     let (aq, ap) = (
         diff::gradient(dag, a, Dependence::Q),
         diff::gradient(dag, a, Dependence::P),
     );
-    let (bq, bp) = (
+    let (mut bq, bp) = (
         diff::gradient(dag, b, Dependence::Q),
         diff::gradient(dag, b, Dependence::P),
     );
+    for entry in force {
+        let conjugate = Array::Phase {
+            side: Side::Q,
+            group: entry.group,
+            column: entry.column,
+        };
+        let leaf = dag.element(conjugate, entry.row.clone(), None);
+        bq.push((leaf, dag.neg(entry.value)));
+    }
     let mut terms: Vec<(Rational, Node)> = Vec::new();
     for (group, shape) in shapes.iter().enumerate() {
         let (rows, columns) = match shape {

@@ -84,6 +84,14 @@ pub fn analyse(model: &mut Model) -> Structure {
 }
 
 fn is_autonomous(model: &Model, h: Node) -> Result<(), String> {
+    let mut forces = model.force.iter().map(|entry| entry.value);
+    if let Some(force) = forces.find(|f| model.dag.dependence(*f).on(Dependence::TIME)) {
+        let time = model.time.as_deref().unwrap_or("t");
+        return Err(format!(
+            "the force `{}` depends on `{time}`",
+            print::text(model, force)
+        ));
+    }
     match term_with(&model.dag, h, |dag, node| {
         dag.dependence(node).on(Dependence::TIME)
     }) {
@@ -225,6 +233,19 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
                 None
             };
             read.entry((*group, *column)).or_default().push(row);
+        }
+    }
+    // Under a force a momentum is not conserved, whatever H looks at.
+    for entry in &model.force {
+        if !model.dag.is_zero(entry.value) {
+            let rows = read.entry((entry.group, entry.column)).or_default();
+            let row = &entry.row;
+            rows.push(
+                row.modulo
+                    .is_none()
+                    .then(|| row.affine.as_constant())
+                    .flatten(),
+            );
         }
     }
     let mut found = Vec::new();

@@ -1,7 +1,56 @@
 //! The language with scalar coordinates, end to end: what is defined is what runs.
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Autonomous, Dual, Dynamics, Observable, QuadraticKinetic, Separable};
+use hamiltonian::{
+    Autonomous, DoubleDouble, Dual, Dynamics, Observable, QuadraticKinetic, Separable,
+};
+
+hamiltonian! {
+    /// Defaults that are expressions of numbers.
+    pub struct Exact {
+        a = 0.9,
+        third = 2/3 - 1/3,
+        angle = -pi/4,
+        root = sqrt(2)/2,
+        m: [2] = [1/10, 3],
+    }
+    H(q, x; p, y) = p^2/(2*m[0]) + y^2/(2*m[1]) + a*q + third*x + angle*q*x + root*q^2
+}
+
+#[test]
+fn defaults_are_exact_in_every_scalar() {
+    let of_f64 = Exact::default();
+    assert_eq!((of_f64.a, of_f64.third), (0.9, 1.0 / 3.0));
+    assert_eq!(of_f64.angle, -std::f64::consts::FRAC_PI_4);
+    assert_eq!(of_f64.root, std::f64::consts::FRAC_1_SQRT_2);
+    assert_eq!((of_f64.m[0], of_f64.m[1]), (0.1, 3.0));
+    assert_eq!(
+        Exact::<f64>::with_defaults().energy(&State::new([1.0, 2.0], [3.0, 4.0])),
+        of_f64.energy(&State::new([1.0, 2.0], [3.0, 4.0]))
+    );
+    let exact = Exact::<DoubleDouble>::with_defaults();
+    let tiny = DoubleDouble::from(1e-31);
+    let is = |value: DoubleDouble, expected: DoubleDouble| {
+        assert!(
+            (value - expected).abs() < tiny,
+            "{value:?} is not {expected:?}"
+        );
+    };
+    let number = |value: f64| DoubleDouble::from(value);
+    is(exact.a * number(10.0), number(9.0));
+    is(exact.third * number(3.0), number(1.0));
+    is(exact.root * exact.root, number(0.5));
+    is(exact.m[0] * number(10.0), number(1.0));
+    is((exact.angle + exact.angle).cos(), number(0.0));
+    // The f64 nearest to 9/10 is another number.
+    assert!((number(of_f64.a) * number(10.0) - number(9.0)).abs() > number(1e-17));
+    // What one field says, the others follow.
+    let other = Exact {
+        a: number(2.0),
+        ..Exact::with_defaults()
+    };
+    is(other.third, exact.third);
+}
 
 fn close(a: f64, b: f64) {
     assert!((a - b).abs() <= 1e-14 * (1.0 + a.abs()), "{a} is not {b}");

@@ -78,20 +78,11 @@ pub struct Parameter {
 #[derive(Debug)]
 pub enum ParameterKind {
     /// `name` or `name = -1.5`
-    Scalar(Option<DefaultValue>),
+    Scalar(Option<Expression>),
     /// `name: usize`
     Size,
-    /// `name: [s]` or `name: [s][s]`
-    Array(Vec<Size>),
-}
-
-/// The default of a scalar parameter.
-#[derive(Debug, Clone)]
-pub struct DefaultValue {
-    /// A minus sign stands before the number.
-    pub negative: bool,
-    /// The number.
-    pub number: Number,
+    /// `name: [s]`, `name: [s][s]` or `name: [2] = [1.0, 2.0]`
+    Array(Vec<Size>, Option<Expression>),
 }
 
 /// A size where an array is declared.

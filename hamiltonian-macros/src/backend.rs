@@ -49,6 +49,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
             report.error(definition(checked), reason.to_owned(), help);
             return None;
         }
+        let defaults = surface::defaults(checked, report)?;
         let beyond = std::mem::take(&mut lowered.beyond);
         let System {
             model,
@@ -58,11 +59,11 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         } = variables::change(checked, lowered, report)?;
         let mut code = TokenStream::new();
         for (name, hamiltonian) in &pieces {
-            let piece = surface::Part::piece(checked, name);
+            let piece = surface::Part::piece(checked, name, &defaults);
             let model = surface::piece_model(&model, *hamiltonian);
             code.extend(system(checked, root, model, piece, &beyond, report)?);
         }
-        let mut whole = surface::Part::whole(checked, vectors, &pieces, declared);
+        let mut whole = surface::Part::whole(checked, vectors, &pieces, declared, &defaults);
         whole.readable = readable;
         code.extend(system(checked, root, model, whole, &beyond, report)?);
         Some(code)

@@ -20,7 +20,7 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::{Comparison, DefaultValue, Number, ObservableKind};
+use crate::ast::{Comparison, Number, ObservableKind};
 use crate::names::Builtin;
 use crate::report::Spans;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -128,8 +128,8 @@ pub struct Parameter {
     pub name: Ident,
     /// Scalar, vector or matrix.
     pub ty: Type,
-    /// The default of a scalar.
-    pub default: Option<DefaultValue>,
+    /// Its default, number by number.
+    pub default: Option<Vec<NodeId>>,
 }
 
 /// A group of coordinates with its momenta.

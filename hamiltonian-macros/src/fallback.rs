@@ -55,7 +55,7 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
         let ty = match parameter.kind {
             ParameterKind::Size => quote!(usize),
             ParameterKind::Scalar(_) => quote!(__P),
-            ParameterKind::Array(_) => quote!([__P; __ERROR]),
+            ParameterKind::Array(..) => quote!([__P; __ERROR]),
         };
         scalar |= !matches!(parameter.kind, ParameterKind::Size);
         fields.push(quote!(#visibility #field: #ty));

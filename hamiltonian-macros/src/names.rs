@@ -193,7 +193,7 @@ const RUST_KEYWORDS: &[&str] = &[
 /// Methods every system has, which an observable would hide.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
-    "energy", "gradient", "prepare", "zeros", "new", "default", "clone", "fmt", "velocity", "conjugate_momentum",
+    "energy", "gradient", "prepare", "zeros", "new", "default", "with_defaults", "clone", "fmt", "velocity", "conjugate_momentum",
     "observable", "flow", "kick", "drift", "hessian_vector", "time_derivative", "check_shape",
 ];
 

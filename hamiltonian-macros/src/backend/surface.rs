@@ -6,9 +6,10 @@
 use crate::ast::ObservableKind;
 use crate::checked::{self, Checked, Definition, SizeKind, Type};
 use crate::emit::{
-    Declared, External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
+    self, Declared, External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem,
+    VectorItem,
 };
-use crate::lower::number;
+use crate::lower::constants;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
@@ -18,8 +19,39 @@ use hamiltonian_symbolic::print::Readable;
 use proc_macro2::Ident;
 use quote::{format_ident, quote};
 
+/// The defaults of the parameters, number by number, as expressions of the scalar `T`.
+pub type Defaults = Vec<Option<Vec<String>>>;
+
+/// The defaults as they are emitted.
+pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
+    let mut all = Vec::with_capacity(checked.parameters.len());
+    for parameter in &checked.parameters {
+        let Some(roots) = &parameter.default else {
+            all.push(None);
+            continue;
+        };
+        let (dag, values) = constants(checked, roots, report)?;
+        let mut numbers = Vec::with_capacity(values.len());
+        for (value, root) in values.into_iter().zip(roots) {
+            let spans = checked.node(*root).spans;
+            if dag.leaves_f64(value) {
+                let message = format!("the default of `{}` does not fit an f64", parameter.name);
+                report.error(spans, message, "write a number between 1e-323 and 1.7e308");
+                return None;
+            }
+            let Some(text) = emit::closed(&dag, value) else {
+                report.internal(spans, "a default is not made of numbers alone");
+                return None;
+            };
+            numbers.push(text);
+        }
+        all.push(Some(numbers));
+    }
+    Some(all)
+}
+
 /// The header, or the captured names.
-pub fn form(checked: &Checked) -> Form {
+pub fn form(checked: &Checked, defaults: &Defaults) -> Form {
     let Some(item) = &checked.item else {
         return Form::Expression(checked.captures.clone());
     };
@@ -40,13 +72,11 @@ pub fn form(checked: &Checked) -> Form {
         parameters: checked
             .parameters
             .iter()
-            .map(|parameter| ParameterItem {
+            .zip(defaults)
+            .map(|(parameter, default)| ParameterItem {
                 name: parameter.name.clone(),
                 attributes: parameter.attributes.clone(),
-                default: parameter.default.as_ref().map(|default| {
-                    let value = number(&default.number);
-                    if default.negative { value.neg() } else { value }
-                }),
+                default: default.clone(),
             })
             .collect(),
         fields: item
@@ -118,12 +148,13 @@ impl Part {
         vectors: Vec<VectorItem>,
         pieces: &[(Ident, Node)],
         declared: Option<Declared>,
+        defaults: &Defaults,
     ) -> Part {
         let pieces = pieces
             .iter()
             .map(|(name, _)| (name.clone(), type_of(checked, name)));
         Part {
-            form: form(checked),
+            form: form(checked, defaults),
             observables: observables(checked),
             vectors,
             pieces: pieces.collect(),
@@ -133,8 +164,8 @@ impl Part {
     }
 
     /// A piece of its split: a type of its own with the same parameters.
-    pub fn piece(checked: &Checked, name: &Ident) -> Part {
-        let mut form = form(checked);
+    pub fn piece(checked: &Checked, name: &Ident, defaults: &Defaults) -> Part {
+        let mut form = form(checked, defaults);
         if let Form::Item(item) = &mut form {
             let text = format!(" The piece `{name}` of the split of [`{}`].", item.name);
             item.attributes = vec![quote! { #[doc = #text] }];

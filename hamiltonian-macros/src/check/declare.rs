@@ -4,13 +4,17 @@
 //! what their names stand for. Invariant: every name is declared once.
 
 use super::{Binding, Checker};
-use crate::ast::{ParameterKind, Signature, Size, StatementKind, Variable};
+use crate::ast::{Expression, ParameterKind, Signature, Size, StatementKind, Variable};
 use crate::checked::{
-    Extent, Field, Group, GroupId, Item, Parameter, ParameterId, Size as CheckedSize, SizeId,
-    SizeKind, Type,
+    Extent, Field, Group, GroupId, Item, Kind, NodeId, Parameter, ParameterId, Size as CheckedSize,
+    SizeId, SizeKind, Type,
 };
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
+
+/// The most numbers of an array whose size is a literal: such arrays live on the stack, a scheme holds
+/// tens of them, and a thread may have no more than 2 MB.
+const LARGEST: u64 = 1 << 12;
 
 impl Checker<'_> {
     /// Lets a name stand for something, unless it does already.
@@ -63,10 +67,14 @@ impl Checker<'_> {
                         continue;
                     }
                     ParameterKind::Scalar(_) => Some(Type::Scalar),
-                    ParameterKind::Array(sizes) => self.array(sizes),
+                    ParameterKind::Array(sizes, _) => self.array(sizes),
                 };
-                let default = match &parameter.kind {
-                    ParameterKind::Scalar(default) => default.clone(),
+                let default = match (&parameter.kind, ty) {
+                    (
+                        ParameterKind::Scalar(Some(default))
+                        | ParameterKind::Array(_, Some(default)),
+                        Some(ty),
+                    ) => self.default_value(&parameter.name, ty, default),
                     _ => None,
                 };
                 let id = ParameterId(self.out.parameters.len() as u32);
@@ -95,6 +103,68 @@ impl Checker<'_> {
         self.one_definition()
     }
 
+    /// The numbers of a default, if that is what it is.
+    fn default_value(
+        &mut self,
+        name: &Ident,
+        ty: Type,
+        default: &Expression,
+    ) -> Option<Vec<NodeId>> {
+        let value = self.expression(default)?;
+        let at = self.out.node(value).spans;
+        let found = self.type_of(value);
+        if found != ty || matches!(ty, Type::Matrix(..)) {
+            let message = format!(
+                "the default of `{name}` is {}, but the parameter is {}",
+                self.type_shown(found),
+                self.type_shown(ty)
+            );
+            let help = match ty {
+                Type::Vector(Extent::Literal(_)) => {
+                    "write one number for each component: `[1.0, 2.0]`"
+                }
+                Type::Scalar => "write one number",
+                _ => {
+                    "remove it and give the value to `new`: an array with a default is a vector of a literal length"
+                }
+            };
+            self.report.error(at, message, help);
+            return None;
+        }
+        let mut pending = vec![value];
+        while let Some(id) = pending.pop() {
+            let node = self.out.node(id);
+            match &node.kind {
+                Kind::Number(_)
+                | Kind::Pi
+                | Kind::Neg(_)
+                | Kind::Add(..)
+                | Kind::Sub(..)
+                | Kind::Mul(..)
+                | Kind::Div(..)
+                | Kind::Pow(..)
+                | Kind::Vector(_)
+                | Kind::Call(..) => node.kind.for_each_child(|child| pending.push(child)),
+                _ => {
+                    let message = format!("the default of `{name}` is not made of numbers alone");
+                    let help = "write a number, such as `0.5`, `2/3` or `pi/4`";
+                    self.report.error(node.spans, message, help);
+                    return None;
+                }
+            }
+        }
+        match &self.out.node(value).kind {
+            Kind::Vector(items) => Some(items.clone()),
+            _ if ty == Type::Scalar => Some(vec![value]),
+            _ => {
+                let help = "write one number for each component: `[1.0, 2.0]`";
+                let message = format!("the default of `{name}` is not a list of numbers");
+                self.report.error(at, message, help);
+                None
+            }
+        }
+    }
+
     fn size(&mut self, name: &Ident, kind: SizeKind, attributes: Vec<proc_macro2::TokenStream>) {
         let id = SizeId(self.out.sizes.len() as u32);
         self.declare(name, Binding::Size(id));
@@ -106,6 +176,21 @@ impl Checker<'_> {
     }
 
     fn array(&mut self, sizes: &[Size]) -> Option<Type> {
+        let literal = |size: &Size| match size {
+            Size::Literal(value, _) => Some(*value),
+            Size::Name(_) => None,
+        };
+        let numbers = sizes.iter().filter_map(literal);
+        let numbers = numbers.fold(1u64, u64::saturating_mul);
+        if numbers > LARGEST {
+            let rows = &sizes[0];
+            let message = format!(
+                "an array of {numbers} numbers does not fit on the stack, where at most {LARGEST} may stand"
+            );
+            let help = "set the size at run time, which keeps the numbers on the heap: `pub struct Name { n: usize }` and `[n]`";
+            self.report.error(rows.span(), message, help);
+            return None;
+        }
         match sizes {
             [] => Some(Type::Scalar),
             [size] => Some(Type::Vector(self.extent(size)?)),

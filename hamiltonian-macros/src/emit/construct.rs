@@ -6,29 +6,60 @@
 
 use super::block::Context;
 use super::generics::{Generics, list};
-use super::number::float;
+use super::number::over;
 use super::{Definition, Field, Item, allowances, layout, lex, reach};
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
-/// `Default`, over f64 only, where every parameter has a default.
+/// Where every parameter has a default: `Default`, over f64 only, because a second one would leave
+/// `Name::default()` undecided, and `with_defaults` over any scalar.
 pub fn default(item: &Item, context: Context, generics: &Generics) -> String {
     if context.is_run_time.contains(&true) || item.parameters.iter().any(|p| p.default.is_none()) {
         return String::new();
     }
-    let mut fields = String::new();
-    for parameter in &item.parameters {
-        if let Some(value) = &parameter.default {
-            let _ = write!(fields, "{}: {}, ", parameter.name, float(value.to_f64()));
-        }
-    }
+    let fields = |scalar: Option<&str>| -> String {
+        let values = item
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(number, parameter)| {
+                let value = default_of(item, context, number, scalar);
+                format!("{}: {value}, ", parameter.name)
+            });
+        values.collect()
+    };
     let (constants, system) = over_f64(generics);
-    format!(
+    let mut text = format!(
         "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
-         fn default() -> Self {{ Self {{ {fields} }} }}\n}}\n"
-    )
+         fn default() -> Self {{ Self {{ {} }} }}\n}}\n",
+        fields(None)
+    );
+    if let Some(scalar) = generics.scalars.first() {
+        let _ = write!(
+            text,
+            "impl{} {} {{\n\
+             /// The system with the default of every parameter, each rounded once to the scalar type of \
+             the parameters. `Default` is the same over `f64`.\n\
+             #[must_use]\n{} fn with_defaults() -> Self {{ Self {{ {} }} }}\n}}\n",
+            generics.declaration(),
+            generics.system_type(),
+            generics.visibility,
+            fields(Some(scalar))
+        );
+    }
+    text
+}
+
+/// The default of a parameter that has one; over `f64` where no scalar is named.
+fn default_of(item: &Item, context: Context, number: usize, scalar: Option<&str>) -> String {
+    let numbers = item.parameters[number].default.iter().flatten();
+    let numbers: Vec<String> = numbers.map(|text| over(text, scalar)).collect();
+    match context.model.parameters[number].shape {
+        Shape::Scalar => numbers.concat(),
+        _ => format!("__h::core::convert::From::from([{}])", numbers.join(", ")),
+    }
 }
 
 /// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
@@ -69,13 +100,8 @@ pub fn new(
         let parameter = &item.parameters[*number];
         let name = &parameter.name;
         let shape = &context.model.parameters[*number].shape;
-        if let Some(value) = &parameter.default {
-            let value = if is_told {
-                let (hi, lo) = value.to_words();
-                format!("{scalar}::constant({}, {})", float(hi), float(lo))
-            } else {
-                float(value.to_f64())
-            };
+        if parameter.default.is_some() {
+            let value = default_of(item, context, *number, is_told.then_some(scalar));
             let _ = write!(fields, "{name}: {value}, ");
             continue;
         }

@@ -37,12 +37,12 @@ mod vectors;
 mod tests;
 
 pub use declared::Declared;
+pub use number::closed;
 pub use reach::{Bound, Reach};
 pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::Program;
-use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
 
 /// All that emission reads.
@@ -120,8 +120,8 @@ pub struct ParameterItem {
     pub name: Ident,
     /// Docs.
     pub attributes: Vec<TokenStream>,
-    /// The default of a scalar.
-    pub default: Option<Rational>,
+    /// Its default, number by number: expressions of the scalar `T`.
+    pub default: Option<Vec<String>>,
 }
 
 /// A field of the struct.

@@ -4,6 +4,7 @@
 //! number is rounded here and nowhere else.
 
 use hamiltonian_symbolic::PI_LOW;
+use hamiltonian_symbolic::dag::{Dag, Kind, Node};
 use hamiltonian_symbolic::rational::Rational;
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -48,6 +49,51 @@ fn constant(value: &Rational) -> String {
         return two_words((numerator as f64 / denominator as f64, 0.0));
     }
     two_words(value.to_words())
+}
+
+/// An expression of numbers alone, over the scalar type `T`.
+pub fn closed(dag: &Dag, node: Node) -> Option<String> {
+    Some(match dag.kind(node) {
+        Kind::Constant(value) => constant(value),
+        Kind::Pi => pi(),
+        Kind::Sum(c, terms) => {
+            let mut text = constant(c);
+            for (k, term) in terms {
+                text = format!("({text} + {} * {})", constant(k), closed(dag, *term)?);
+            }
+            text
+        }
+        Kind::Product(k, factors) => {
+            let mut text = constant(k);
+            for (factor, n) in factors {
+                let (base, n) = (closed(dag, *factor)?, n);
+                let sign = if *n > 0 { '*' } else { '/' };
+                for _ in 0..n.unsigned_abs() {
+                    text = format!("({text} {sign} {base})");
+                }
+            }
+            text
+        }
+        Kind::Call(op, arguments) => {
+            let arguments: Option<Vec<String>> =
+                arguments.iter().map(|node| closed(dag, *node)).collect();
+            format!("__h::Real::{}({})", op.row().name, arguments?.join(", "))
+        }
+        _ => return None,
+    })
+}
+
+/// An expression over `T` as one over another scalar; over `f64` a number is a literal.
+pub fn over(text: &str, scalar: Option<&str>) -> String {
+    let number = text.strip_prefix("T::constant(");
+    let number = number.and_then(|rest| rest.strip_suffix(')')?.split_once(", "));
+    match (scalar, number) {
+        (None, Some((high, low))) if !low.contains("T::") => high.to_owned(),
+        _ => {
+            let scalar = scalar.unwrap_or("__h::core::primitive::f64");
+            text.replace("T::constant", &format!("<{scalar} as __h::Real>::constant"))
+        }
+    }
 }
 
 /// π as an expression of the scalar type `T`.

@@ -1,9 +1,10 @@
 //! Snapshots of emitted code, from models made by hand.
 
 use super::{
-    Definition, Field, Form, Item, ObservableItem, ParameterItem, Reason, SizeItem, Structure, Text,
+    Definition, Field, Form, Item, ObservableItem, ParameterItem, Reason, SizeItem, Structure,
+    Text, closed,
 };
-use hamiltonian_symbolic::dag::{Array, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Dag, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, Size};
 use hamiltonian_symbolic::model::{
     Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape,
@@ -79,7 +80,10 @@ fn item(model: &Model, defaults: &[&str], run_time: &[bool]) -> Item {
             attributes: Vec::new(),
             default: defaults.get(at).and_then(|digits| {
                 let (digits, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
-                Rational::decimal(digits, exponent.parse().unwrap())
+                let value = Rational::decimal(digits, exponent.parse().unwrap())?;
+                let mut dag = Dag::new();
+                let value = dag.constant(value);
+                closed(&dag, value).map(|text| vec![text])
             }),
         });
     let run_time = run_time
@@ -167,7 +171,7 @@ pub fn nonseparable() -> TokenStream {
     let d = &mut model.dag;
     let a = d.parameter(hamiltonian_symbolic::dag::Parameter(0));
     let one = d.integer(1);
-    let plus = |d: &mut hamiltonian_symbolic::dag::Dag, x: Node| {
+    let plus = |d: &mut Dag, x: Node| {
         let square = d.powi(x, 2);
         d.add(&[square, one])
     };
@@ -247,9 +251,8 @@ pub fn gravity() -> TokenStream {
     let (i, j) = (Affine::variable(outer), Affine::variable(inner));
     let g = d.parameter(hamiltonian_symbolic::dag::Parameter(0));
     let mass = Array::Parameter(hamiltonian_symbolic::dag::Parameter(1));
-    let element = |d: &mut hamiltonian_symbolic::dag::Dag, array, index: &Affine| {
-        d.element(array, Index::plain(index.clone()), None)
-    };
+    let element =
+        |d: &mut Dag, array, index: &Affine| d.element(array, Index::plain(index.clone()), None);
     let (mi, mj) = (element(d, mass, &i), element(d, mass, &j));
     let momenta: Vec<Node> = (0..3).map(|c| element(d, phase(Side::P, c), &i)).collect();
     let squares = d.sum_of_squares(&momenta);

@@ -30,6 +30,13 @@ pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'sta
             below(-1) || above(1),
             "the argument of `acos` must be in [-1, 1]",
         ),
+        Builtin::Tan => {
+            let turn = dag.in_pi(*x)?.to_small();
+            (
+                turn.is_some_and(|(_, d)| d == 2),
+                "the argument of `tan` must not be an odd multiple of `pi/2`",
+            )
+        }
         Builtin::Acosh => (below(1), "the argument of `acosh` must be ≥ 1"),
         Builtin::Atanh => (
             below(-1) || at(-1) || at(1) || above(1),

@@ -15,14 +15,12 @@ mod loops;
 mod scope;
 mod velocity;
 
-pub use scope::number;
-
 use crate::ast;
 use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
 use evaluate::{Derived, Evaluator};
-use hamiltonian_symbolic::dag::{Node, Side};
+use hamiltonian_symbolic::dag::{Dag, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
@@ -145,6 +143,21 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         legendre: made,
         derived,
     })
+}
+
+/// Expressions of numbers alone, in an arena of their own.
+pub fn constants(
+    checked: &Checked,
+    roots: &[NodeId],
+    report: &mut Report,
+) -> Option<(Dag, Vec<Node>)> {
+    let mut model = Model::default();
+    let demands: Vec<_> = roots
+        .iter()
+        .map(|root| (*root, Demand::default()))
+        .collect();
+    let values = Evaluator::new(checked, report).evaluate(&mut model, &demands)?;
+    Some((model.dag, values))
 }
 
 /// H in the place of L; p(q, v) and v(q, p) become vector functions.

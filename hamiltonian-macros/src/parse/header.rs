@@ -5,7 +5,7 @@
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};
-use crate::ast::{DefaultValue, Item, Parameter, ParameterKind, Size};
+use crate::ast::{Expression, Item, Parameter, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
@@ -239,7 +239,7 @@ impl Parser<'_> {
         let name = self.declared("the name of a parameter", FORM)?;
         let kind = if self.at_equals(0) {
             self.position += 1;
-            ParameterKind::Scalar(Some(self.default_value(&name)?))
+            ParameterKind::Scalar(Some(self.default_value(&name, "1.0")?))
         } else if self.at_punct(':') {
             self.position += 1;
             self.parameter_type(&name)?
@@ -253,12 +253,8 @@ impl Parser<'_> {
                     "write `,` instead of `;`",
                 ),
                 Some(TokenKind::Punct('=', _)) => (
-                    "only scalars have a default".into(),
+                    "sizes have no default".into(),
                     "remove it and give the value to `new`",
-                ),
-                _ if matches!(kind, ParameterKind::Scalar(Some(_))) => (
-                    "a default is a number, not an expression".into(),
-                    "write its value as one number, such as `0.5`",
                 ),
                 _ => (
                     format!("expected `,` after `{name}`, {}", self.found()),
@@ -278,13 +274,9 @@ impl Parser<'_> {
         })
     }
 
-    fn default_value(&mut self, name: &Ident) -> Result<DefaultValue> {
-        let mut negative = false;
-        while self.at_punct('-') || self.at_punct('+') {
-            negative ^= self.at_punct('-');
-            self.position += 1;
-        }
-        let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Literal) else {
+    /// What stands after `=`: an expression of numbers.
+    fn default_value(&mut self, name: &Ident, form: &str) -> Result<Expression> {
+        if self.position >= self.limit || self.at_punct(',') {
             let message = format!(
                 "expected a number as the default of `{name}`, {}",
                 self.found()
@@ -292,20 +284,28 @@ impl Parser<'_> {
             return self.abort(
                 self.here(),
                 message,
-                format!("write `{name} = 1.0`, or `{name}` for a parameter without default"),
+                format!("write `{name} = {form}`, or `{name}` for a parameter without default"),
             );
-        };
-        self.position += 1;
-        match self.number(token, false) {
-            Some(number) => Ok(DefaultValue { negative, number }),
-            None => Err(super::Abort),
         }
+        let start = self.ast.nodes.len() as u32;
+        let root = self.expression()?;
+        Ok(Expression {
+            nodes: start..self.ast.nodes.len() as u32,
+            root,
+        })
     }
 
     /// `usize`, `[s]`, `[s][s]`, after the colon.
     fn parameter_type(&mut self, name: &Ident) -> Result<ParameterKind> {
         if self.at_open(Delimiter::Bracket) {
-            return Ok(ParameterKind::Array(self.sizes()?));
+            let sizes = self.sizes()?;
+            let default = if self.at_equals(0) {
+                self.position += 1;
+                Some(self.default_value(name, "[1.0, 2.0]")?)
+            } else {
+                None
+            };
+            return Ok(ParameterKind::Array(sizes, default));
         }
         let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
             let message = format!("expected what `{name}` is, {}", self.found());

@@ -76,7 +76,7 @@ fn emitted_code_is_the_same_for_every_length() {
     for definition in DEFINITIONS {
         let eight = emitted(definition, 8);
         assert!(eight.iter().any(|token| token == "@"), "{eight:?}");
-        for length in [200, 10_000] {
+        for length in [200, 1000] {
             assert_eq!(eight, emitted(definition, length), "{definition}");
         }
     }

@@ -5,6 +5,7 @@
 //! are those of `T` alone, comparisons go by value, and a derivative part that is exactly 0
 //! (a constant) stays 0 whatever infinity the rule has there.
 
+use core::f64::consts::FRAC_2_SQRT_PI;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 use crate::real::{Mask, Real};
@@ -352,6 +353,14 @@ impl<T: Real> Real for Dual<T> {
         self.chain(self.re.ln_1p(), (T::one() + self.re).recip())
     }
     #[inline(always)]
+    fn erf(self) -> Self {
+        self.chain(self.re.erf(), bell(self.re))
+    }
+    #[inline(always)]
+    fn erfc(self) -> Self {
+        self.chain(self.re.erfc(), -bell(self.re))
+    }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         let (sin, cos) = self.re.sin_cos();
         (self.chain(sin, cos), self.chain(cos, -sin))
@@ -403,3 +412,12 @@ impl<T: Real> Real for Dual<T> {
 fn cosine_of_asin<T: Real>(x: T) -> T {
     ((T::one() - x) * (T::one() + x)).sqrt()
 }
+
+/// `2/√π·exp(−x²)`, the derivative of the error function.
+#[inline(always)]
+fn bell<T: Real>(x: T) -> T {
+    T::constant(FRAC_2_SQRT_PI, FRAC_2_SQRT_PI_LOW) * (-(x * x)).exp()
+}
+
+/// 2/√π less its double.
+const FRAC_2_SQRT_PI_LOW: f64 = 1.533545961316588e-17;

@@ -4,7 +4,7 @@
 //! a sum are rounded apart, so the same bits on every machine), and every operator is one
 //! instruction.
 
-use crate::elementary::{double, single};
+use crate::elementary::{elementary, root};
 use crate::real::{Mask, Real};
 
 impl Mask for bool {
@@ -30,9 +30,9 @@ impl Mask for bool {
     }
 }
 
-/// [`Real`] for one float type, with its elementary functions from `$functions`.
+/// [`Real`] for one float type, with the elementary functions given.
 macro_rules! float {
-    ($float:ident, $functions:ident) => {
+    ($float:ident { $($functions:tt)* }) => {
         impl Real for $float {
             type Mask = bool;
             type Size = Self;
@@ -101,32 +101,44 @@ macro_rules! float {
                     self
                 }
             }
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) {
-                $functions::sin_cos(self)
-            }
-            float!(@unary $functions: sqrt cbrt sin cos tan asin acos atan sinh cosh tanh
-                asinh acosh atanh exp exp_m1 ln ln_1p);
-            float!(@binary $functions: atan2 hypot pow);
+            $($functions)*
         }
     };
-    (@unary $functions:ident: $($name:ident)*) => {
+}
+
+/// The elementary functions of `f32`: those of `f64`, rounded.
+macro_rules! rounded {
+    ($($name:ident)*; $($two:ident)*) => {
         $(
             #[inline(always)]
             fn $name(self) -> Self {
-                $functions::$name(self)
+                <f64 as Real>::$name(f64::from(self)) as f32
             }
         )*
-    };
-    (@binary $functions:ident: $($name:ident)*) => {
         $(
             #[inline(always)]
-            fn $name(self, other: Self) -> Self {
-                $functions::$name(self, other)
+            fn $two(self, other: Self) -> Self {
+                <f64 as Real>::$two(f64::from(self), f64::from(other)) as f32
             }
         )*
     };
 }
 
-float!(f64, double);
-float!(f32, single);
+float! { f64 {
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        root::sqrt(self)
+    }
+    elementary! { inline }
+} }
+
+float! { f32 {
+    // Twice the digits and two more: the root of an f32 rounds twice to what it rounds to once.
+    rounded! { sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp exp_m1 ln ln_1p
+        cbrt erf erfc; pow hypot atan2 }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        let (sine, cosine) = <f64 as Real>::sin_cos(f64::from(self));
+        (sine as f32, cosine as f32)
+    }
+} }

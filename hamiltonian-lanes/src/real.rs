@@ -237,6 +237,22 @@ pub trait Real:
     fn ln(self) -> Self;
     /// `ln(1 + self)`, accurate near 0.
     fn ln_1p(self) -> Self;
+    /// Error function `2/√π·∫₀ˣ exp(−t²) dt`; its derivative is `2/√π·exp(−x²)`.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::{Dual, Real};
+    /// let x = Dual::variable(0.0).erf();
+    /// assert_eq!((x.re, x.eps), (0.0, core::f64::consts::FRAC_2_SQRT_PI));
+    /// ```
+    fn erf(self) -> Self;
+    /// Complementary error function `1 − erf(self)`, relatively accurate where it is small.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::Real;
+    /// assert_eq!(1.0 - 10f64.erf(), 0.0);
+    /// assert_eq!(10f64.erfc(), 2.0884875837625446e-45);
+    /// ```
+    fn erfc(self) -> Self;
     /// Sine and cosine of one angle.
     fn sin_cos(self) -> (Self, Self);
     /// The angle of the point (`other`, `self`) in (−π, π].

@@ -13,7 +13,7 @@ use super::arithmetic::{exponent, significand};
 use super::constants::{
     ATANH, ATANH_TAIL, EXP, EXP_TAIL, LN_2, LN_2_FIRST, LN_2_SECOND, LN_2_THIRD,
 };
-use crate::elementary::double;
+use crate::real::Real;
 
 const ZERO: DoubleDouble = DoubleDouble { hi: 0.0, lo: 0.0 };
 const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };
@@ -189,7 +189,7 @@ impl DoubleDouble {
                 Exponent::Even => 2.0,
                 Exponent::Fraction => 0.5,
             };
-            return Self::from(double::pow(self.hi, if y.hi < 0.0 { -like } else { like }));
+            return Self::from(Real::pow(self.hi, if y.hi < 0.0 { -like } else { like }));
         }
         let negative = self.hi < 0.0;
         if negative && kind == Exponent::Fraction {

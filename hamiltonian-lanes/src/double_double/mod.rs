@@ -7,9 +7,10 @@
 mod arithmetic;
 mod constants;
 
-mod reduction;
+pub(crate) mod reduction;
 mod roots;
 
+mod error;
 mod exponential;
 mod trigonometric;
 

@@ -20,7 +20,7 @@ const WORDS: usize = 6;
 const FRACTION: usize = 64 * WORDS - 2;
 
 /// `(n mod 4, r)` with `x = n·π/2 + r`, for finite `x`.
-pub(super) fn reduce(x: DoubleDouble) -> (u64, DoubleDouble) {
+pub(crate) fn reduce(x: DoubleDouble) -> (u64, DoubleDouble) {
     if x.hi.abs() <= 0.785 {
         return (0, x);
     }

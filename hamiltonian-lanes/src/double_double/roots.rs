@@ -6,7 +6,7 @@
 
 use super::DoubleDouble;
 use super::arithmetic::{exponent, fast_two_sum, power_of_two, two_product};
-use crate::elementary::double;
+use crate::real::Real;
 
 impl DoubleDouble {
     /// The square root, relative error ≤ 3.2u²; NaN below 0 (V. Lefèvre, N. Louvet, J.-M. Muller,
@@ -14,7 +14,7 @@ impl DoubleDouble {
     #[inline]
     pub(super) fn square_root(self) -> Self {
         if !(self.hi > 0.0 && self.hi <= f64::MAX) {
-            return Self::from(double::sqrt(self.hi));
+            return Self::from(Real::sqrt(self.hi));
         }
         // Below, the error of the square of the root would be subnormal.
         if self.hi < 1e-270 {
@@ -30,7 +30,7 @@ impl DoubleDouble {
                 .square_root()
                 .scale(power_of_two(100));
         }
-        let root = double::sqrt(self.hi);
+        let root = Real::sqrt(self.hi);
         let (square, error) = two_product(root, root);
         let rest = ((self.hi - square) - error) + self.lo;
         let (hi, lo) = fast_two_sum(root, rest / (2.0 * root));
@@ -42,7 +42,7 @@ impl DoubleDouble {
     pub(super) fn cube_root(self) -> Self {
         let size = self.hi.abs();
         if !(size > 0.0 && size <= f64::MAX) {
-            return Self::from(double::cbrt(self.hi));
+            return Self::from(Real::cbrt(self.hi));
         }
         if size < 1e-270 {
             return self
@@ -57,7 +57,7 @@ impl DoubleDouble {
                 .cube_root()
                 .scale(power_of_two(10));
         }
-        let root = double::cbrt(self.hi);
+        let root = Real::cbrt(self.hi);
         let (square, error) = two_product(root, root);
         let cube = Self {
             hi: square,

@@ -151,6 +151,14 @@ impl Real for DoubleDouble {
         self.logarithm_of_one_plus()
     }
     #[inline(always)]
+    fn erf(self) -> Self {
+        self.error_function()
+    }
+    #[inline(always)]
+    fn erfc(self) -> Self {
+        self.error_function_complement()
+    }
+    #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
         self.sine_cosine()
     }

@@ -13,7 +13,7 @@ use super::DoubleDouble;
 use super::arithmetic::exponent;
 use super::constants::{COS, COS_TAIL, FRAC_3_PI_4, FRAC_PI_2, FRAC_PI_4, PI, SIN, SIN_TAIL};
 use super::reduction::reduce;
-use crate::elementary::double;
+use crate::real::Real;
 
 const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };
 const NAN: DoubleDouble = DoubleDouble {
@@ -55,7 +55,7 @@ impl DoubleDouble {
         // Scaled, so that the products neither overflow nor lose their low words.
         let shift = -exponent(y.hi.abs().max(x.hi.abs()));
         let (y, x) = (y.scale_by_power(shift), x.scale_by_power(shift));
-        let start = double::atan2(y.hi, x.hi);
+        let start = Real::atan2(y.hi, x.hi);
         let (sin, cos) = Self::from(start).sine_cosine();
         // The point turned back by the angle `start` lies almost on the positive axis.
         let rest = (y * cos - x * sin) / (x * cos + y * sin);

@@ -6,7 +6,8 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use super::{Pack, assigning, elementary};
+use super::{Pack, assigning};
+use crate::elementary::elementary;
 use crate::level::Register;
 use crate::real::{Lift, Mask, Real};
 use crate::word::{Bits, Word};
@@ -235,6 +236,13 @@ impl<R: Register> Real for V<R> {
         let lanes = R::store(self.0);
         lanes.as_ref().get(k as usize).copied().unwrap_or(f64::NAN)
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        let mut lanes = R::Array::default();
+        for lane in lanes.as_mut() {
+            *lane = next();
+        }
+        Self(R::load(&lanes))
+    }
     #[inline(always)]
     fn epsilon() -> f64 {
         f64::EPSILON
@@ -255,7 +263,7 @@ impl<R: Register> Real for V<R> {
         let zero = Self::zero();
         Self::select(self.lt(zero) | zero.lt(self), Self(one), self)
     }
-    elementary! {}
+    elementary! { inline(always) }
 }
 
 impl<R: Register> Word for V<R> {

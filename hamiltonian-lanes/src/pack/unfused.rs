@@ -5,7 +5,8 @@
 
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Pack, assigning, elementary};
+use super::{Pack, assigning};
+use crate::elementary::elementary;
 use crate::real::{Lift, Mask, Real};
 use crate::word::Word;
 
@@ -118,6 +119,9 @@ impl<P: Pack> Real for Nf<P> {
     fn lane(self, k: u32) -> f64 {
         self.0.lane(k)
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self(P::read_words(next))
+    }
     #[inline(always)]
     fn epsilon() -> f64 {
         f64::EPSILON
@@ -134,7 +138,7 @@ impl<P: Pack> Real for Nf<P> {
     fn sign(self) -> Self {
         Self(self.0.sign())
     }
-    elementary! {}
+    elementary! { inline(always) }
 }
 
 impl<P: Pack> Word for Nf<P> {

@@ -7,7 +7,8 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use super::{Pack, assigning, elementary};
+use super::{Pack, assigning};
+use crate::elementary::elementary;
 use crate::real::{Lift, Mask, Real};
 use crate::word::{Bits, Word};
 
@@ -244,6 +245,9 @@ impl<P: Pack, const K: usize> Real for W<P, K> {
         let pack = self.0.get((k / P::LANES) as usize);
         pack.map_or(f64::NAN, |pack| pack.lane(k % P::LANES))
     }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self([(); K].map(|()| P::read_words(next)))
+    }
     #[inline(always)]
     fn epsilon() -> f64 {
         f64::EPSILON
@@ -260,7 +264,7 @@ impl<P: Pack, const K: usize> Real for W<P, K> {
     fn sign(self) -> Self {
         Self(each!(K, self.0, k => self.0[k].sign()))
     }
-    elementary! {}
+    elementary! { inline(always) }
 }
 
 impl<P: Pack, const K: usize> Word for W<P, K> {

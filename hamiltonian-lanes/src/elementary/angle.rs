@@ -1,0 +1,170 @@
+//! Sine, cosine, tangent.
+//!
+//! Input: any double. Output: the function's value. Invariant: angles up to 2²⁰ are reduced
+//! modulo π/2 in line, with the head of π/2 by parts whose products are exact, so that what is
+//! left has a second word however near to a multiple of π/2 the angle lies; larger ones go, lane
+//! by lane, through the reduction of [`crate::double_double`] (Payne and Hanek). The sign bit is
+//! taken off first and put back last, so that odd functions are odd to the bit.
+
+use super::coefficients::*;
+use super::pairs::{ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit};
+use crate::double_double::{DoubleDouble, reduction};
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+/// The largest angle that is reduced in line.
+const LARGE: f64 = (1u64 << 20) as f64;
+
+/// `(n, r, tail)` with `angle = n·π/2 + r + tail`, |r| ≤ π/4, for 0 ≤ angle ≤ [`LARGE`]; `n`
+/// modulo 4 in the lowest bits.
+#[inline(always)]
+fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
+    let shifted = angle.fma(W::splat(TWO_OVER_PI), W::splat(ROUNDER));
+    let n = shifted - W::splat(ROUNDER);
+    let (r, tail) = if W::FUSED {
+        // Exact, since both terms are multiples of 2⁻⁵³ and the difference is below 1.
+        let first = n.fma(W::splat(-HALF_PI_HIGH), angle);
+        let low = n * W::splat(HALF_PI_LOW);
+        let cut = n.fma(W::splat(HALF_PI_LOW), -low);
+        let (r, rest) = fast_two_sum(first, -low);
+        (r, n.fma(W::splat(-HALF_PI_TAIL), rest - cut))
+    } else {
+        // Three exact products; each difference keeps what it rounds off.
+        let first = angle - n * W::splat(HALF_PI_1);
+        let (second, rest) = fast_two_sum(first, -(n * W::splat(HALF_PI_2)));
+        let (r, more) = fast_two_sum(second, -(n * W::splat(HALF_PI_3)));
+        (r, (rest + more) - n * W::splat(HALF_PI_4))
+    };
+    (shifted.bits(), r, tail)
+}
+
+/// `((r, s), (w, c))`: sine and cosine of `r + tail` are `r + s` and `w + c`, for |r| ≤ π/4.
+#[inline(always)]
+fn parts<W: Word>(r: W, tail: W) -> ((W, W), (W, W)) {
+    let z = r * r;
+    let half = W::splat(0.5) * z;
+    let w = W::one() - half;
+    let sine = (r * z).fma(polynomial(z, &SINE), tail * w);
+    let cut = (W::one() - w) - half;
+    let cosine = (z * z).fma(polynomial(z, &COSINE), cut - r * tail);
+    ((r, sine), (w, cosine))
+}
+
+/// Sine and cosine in quadrant `n`, of an angle with the sign bit `sign`.
+#[inline(always)]
+fn turn<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> (W, W) {
+    let ((r, s), (w, c)) = parts(r, tail);
+    let (sine, cosine) = (r + s, w + c);
+    let swapped = W::odd(n);
+    let two = W::Bits::splat(2);
+    let sine_sign = (n & two).shl::<62>() ^ sign;
+    let cosine_sign = (n.plus(W::Bits::splat(1)) & two).shl::<62>();
+    (
+        flip(W::select(swapped, cosine, sine), sine_sign),
+        flip(W::select(swapped, sine, cosine), cosine_sign),
+    )
+}
+
+/// Tangent in quadrant `n`.
+#[inline(always)]
+fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
+    let ((r, s), (w, c)) = parts(r, tail);
+    let (sine, cosine) = (fast_two_sum(r, s), fast_two_sum(w, c));
+    let swapped = W::odd(n);
+    let above = (
+        W::select(swapped, cosine.0, sine.0),
+        W::select(swapped, cosine.1, sine.1),
+    );
+    let below = (
+        W::select(swapped, sine.0, cosine.0),
+        W::select(swapped, sine.1, cosine.1),
+    );
+    let (high, low) = quotient(above, below);
+    flip(high + low, n.shl::<63>() ^ sign)
+}
+
+/// Sine.
+#[inline(always)]
+pub(crate) fn sin<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    let (n, r, tail) = reduce(angle);
+    let y = turn(n, r, tail, sign_bit(x)).0;
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, sin_of_large);
+    }
+    y
+}
+
+/// Cosine.
+#[inline(always)]
+pub(crate) fn cos<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    let (n, r, tail) = reduce(angle);
+    let y = turn(n, r, tail, sign_bit(x)).1;
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, cos_of_large);
+    }
+    y
+}
+
+/// Sine and cosine.
+#[inline(always)]
+pub(crate) fn sin_cos<W: Word>(x: W) -> (W, W) {
+    let angle = x.abs();
+    let (n, r, tail) = reduce(angle);
+    let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return (
+            sine.replace(rare, x, sin_of_large),
+            cosine.replace(rare, x, cos_of_large),
+        );
+    }
+    (sine, cosine)
+}
+
+/// Tangent.
+#[inline(always)]
+pub(crate) fn tan<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    let (n, r, tail) = reduce(angle);
+    let y = slope(n, r, tail, sign_bit(x));
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, tan_of_large);
+    }
+    y
+}
+
+/// [`reduce`] for every finite angle; NaN otherwise.
+fn reduce_any(angle: f64) -> (u64, f64, f64) {
+    if angle.is_finite() {
+        let (n, rest) = reduction::reduce(DoubleDouble::from(angle));
+        (n, rest.hi(), rest.lo())
+    } else {
+        (0, f64::NAN, f64::NAN)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn sin_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_any(x.abs());
+    turn(n, r, tail, sign_bit(x)).0
+}
+
+#[cold]
+#[inline(never)]
+fn cos_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_any(x.abs());
+    turn(n, r, tail, sign_bit(x)).1
+}
+
+#[cold]
+#[inline(never)]
+fn tan_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_any(x.abs());
+    slope(n, r, tail, sign_bit(x))
+}

@@ -1,0 +1,207 @@
+//! Exponential and hyperbolic functions.
+//!
+//! Input: any double. Output: the function's value. Invariant: `x = k·ln 2 + r` with |r| ≤ ln 2/2;
+//! exp r = cosh r + sinh r by two polynomials, and what a leading sum cuts off is kept. Arguments
+//! at which a power of two leaves the normal range go lane by lane.
+
+use super::coefficients::*;
+use super::pairs::{ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit};
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+/// Up to here 2^k and its inverse are normal.
+const LARGE: f64 = 708.0;
+
+/// `x + more = k·ln 2 + high − low`; `high` is exact, `low` small.
+struct Reduced<W: Word> {
+    /// `k` in the lowest bits.
+    power: W::Bits,
+    high: W,
+    low: W,
+}
+
+#[inline(always)]
+fn reduce<W: Word>(x: W, more: W) -> Reduced<W> {
+    let shifted = x.fma(W::splat(LOG2_E), W::splat(ROUNDER));
+    let k = shifted - W::splat(ROUNDER);
+    Reduced {
+        power: shifted.bits(),
+        high: k.fma(W::splat(-LN_2_HIGH), x),
+        low: k.fma(W::splat(LN_2_LOW), -more),
+    }
+}
+
+impl<W: Word> Reduced<W> {
+    /// `2^k`.
+    #[inline(always)]
+    fn scale(&self) -> W {
+        W::from_bits(self.power.plus(W::Bits::splat(1023)).shl::<52>())
+    }
+
+    /// `2^−k`.
+    #[inline(always)]
+    fn inverse_scale(&self) -> W {
+        W::from_bits(W::Bits::splat(1023).minus(self.power).shl::<52>())
+    }
+
+    /// `(one, rest)`: exp(x + more) = 2^k·(one + rest).
+    #[inline(always)]
+    fn exp(&self) -> (W, W) {
+        let r = self.high - self.low;
+        let z = r * r;
+        let series = r.fma(polynomial(z, &EXP_ODD), polynomial(z, &EXP_EVEN));
+        let (one, cut) = fast_two_sum(W::one(), self.high);
+        (one, z.fma(series, cut - self.low))
+    }
+
+    /// `(c, s)`: cosh r = 1 + c and sinh r = high + s.
+    #[inline(always)]
+    fn hyperbolic(&self) -> (W, W) {
+        let r = self.high - self.low;
+        let z = r * r;
+        let c = z * polynomial(z, &EXP_EVEN);
+        let s = (r * z).fma(polynomial(z, &EXP_ODD), -self.low);
+        (c, s)
+    }
+}
+
+/// `exp(x + more)` as `(power, one, rest)`, that is `2^power·(one + rest)` with the power in the
+/// lowest bits, for |x| ≤ 800 and |more| far below 1.
+#[inline(always)]
+pub(super) fn exp_parts<W: Word>(x: W, more: W) -> (W::Bits, W, W) {
+    let reduced = reduce(x, more);
+    let (one, rest) = reduced.exp();
+    (reduced.power, one, rest)
+}
+
+/// `y·2^power`, where both are normal.
+#[inline(always)]
+pub(super) fn scale_normal<W: Word>(y: W, power: W::Bits) -> W {
+    W::from_bits(y.bits().plus(power.shl::<52>()))
+}
+
+/// `y·2^power` rounded once, for |power| ≤ 2000, the power in the lowest bits.
+pub(super) fn scale_any(y: f64, power: u64) -> f64 {
+    // The bits stand above those of a large number: the lowest 32 are the power's.
+    let power = i64::from(power as u32 as i32);
+    let half = power / 2;
+    let two_to = |k: i64| f64::from_bits(((1023 + k) as u64) << 52);
+    y * two_to(half) * two_to(power - half)
+}
+
+/// `exp(x + more)·2^shift` over the whole range.
+pub(super) fn exp_any(x: f64, more: f64, shift: i64) -> f64 {
+    if x.is_nan() {
+        return x;
+    }
+    let (power, one, rest) = exp_parts(x.clamp(-800.0, 800.0), more);
+    scale_any(one + rest, power.wrapping_add(shift as u64))
+}
+
+/// Exponential.
+#[inline(always)]
+pub(crate) fn exp<W: Word>(x: W) -> W {
+    let (power, one, rest) = exp_parts(x, W::zero());
+    let y = scale_normal(one + rest, power);
+    let rare = !x.abs().le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, exp_of_large);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn exp_of_large(x: f64) -> f64 {
+    exp_any(x, 0.0, 0)
+}
+
+/// `exp x − 1`: `(2^k − 1) + 2^k·r + …`, the first sum with what it cuts off.
+#[inline(always)]
+pub(crate) fn exp_m1<W: Word>(x: W) -> W {
+    let reduced = reduce(x, W::zero());
+    let (c, s) = reduced.hyperbolic();
+    let scale = reduced.scale();
+    let (high, cut) = fast_two_sum(scale - W::one(), scale * reduced.high);
+    let y = high + scale.fma(c + s, cut);
+    // The sign of 0, which the sum loses.
+    let y = W::from_bits(y.bits() | sign_bit(x));
+    let rare = !x.abs().le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, exp_m1_of_large);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn exp_m1_of_large(x: f64) -> f64 {
+    if x < 0.0 { -1.0 } else { exp_any(x, 0.0, 0) }
+}
+
+/// `(2·sinh, 2·cosh)` of `0 ≤ x ≤ LARGE`, each of two words: with `a = 2^k + 2^−k` and
+/// `b = 2^k − 2^−k`, 2·sinh x = b·cosh r + a·sinh r and 2·cosh x = a·cosh r + b·sinh r.
+#[inline(always)]
+fn both<W: Word>(x: W) -> ((W, W), (W, W)) {
+    let reduced = reduce(x, W::zero());
+    let (c, s) = reduced.hyperbolic();
+    let (up, down) = (reduced.scale(), reduced.inverse_scale());
+    let (a, b) = (up + down, up - down);
+    let (up, down) = (up * reduced.high, down * reduced.high);
+    let (p, p_cut) = fast_two_sum(up, down);
+    let (m, m_cut) = fast_two_sum(up, -down);
+    let (sinh, sinh_cut) = fast_two_sum(b, p);
+    let (cosh, cosh_cut) = fast_two_sum(a, m);
+    (
+        (sinh, b.fma(c, a.fma(s, sinh_cut + p_cut))),
+        (cosh, a.fma(c, b.fma(s, cosh_cut + m_cut))),
+    )
+}
+
+/// Hyperbolic sine.
+#[inline(always)]
+pub(crate) fn sinh<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let (high, low) = both(size).0;
+    let y = flip(W::splat(0.5) * (high + low), sign_bit(x));
+    let rare = !size.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, sinh_of_large);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn sinh_of_large(x: f64) -> f64 {
+    flip(exp_any(x.abs(), 0.0, -1), sign_bit(x))
+}
+
+/// Hyperbolic cosine.
+#[inline(always)]
+pub(crate) fn cosh<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let (high, low) = both(size).1;
+    let y = W::splat(0.5) * (high + low);
+    let rare = !size.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, cosh_of_large);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn cosh_of_large(x: f64) -> f64 {
+    exp_any(x.abs(), 0.0, -1)
+}
+
+/// Hyperbolic tangent: 1 to the last bit from 22 on.
+#[inline(always)]
+pub(crate) fn tanh<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let end = W::splat(22.0);
+    let (sinh, cosh) = both(W::select(end.lt(size), end, size));
+    let (high, low) = quotient(fast_two_sum(sinh.0, sinh.1), fast_two_sum(cosh.0, cosh.1));
+    flip(high + low, sign_bit(x))
+}

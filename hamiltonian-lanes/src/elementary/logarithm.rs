@@ -1,0 +1,216 @@
+//! Logarithms and inverse hyperbolic functions.
+//!
+//! Input: any double. Output: the function's value. Invariant: `x = 2^k·(1 + f)` with
+//! √½ ≤ 1 + f < √2, and ln(1 + f) by `s = f/(2 + f)`: 2s + … = f − (f²/2 − s·(f²/2 + …)), so that
+//! only a small term is rounded (the form of K. C. Ng's `log` in fdlibm, 1993). The inverse
+//! hyperbolic functions take the logarithm of a number of two words.
+
+use super::coefficients::*;
+use super::pairs::{fast_two_sum, flip, polynomial, quotient, sign_bit, square_root, two_product,
+    two_sum};
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+const ONE: u64 = 1023 << 52;
+const FRACTION: u64 = (1 << 52) - 1;
+/// √½ as bits, rounded down.
+const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcc;
+const TWO_TO_52: f64 = (1u64 << 52) as f64;
+
+/// `(field, k, f)` of a positive normal `x = 2^k·(1 + f)`; `field = k + 1023`, and `f` is exact.
+#[inline(always)]
+pub(super) fn split<W: Word>(x: W) -> (W::Bits, W, W) {
+    let shifted = x.bits().plus(W::Bits::splat(ONE - ROOT_HALF));
+    let field = shifted.shr::<52>();
+    let k = W::from_bits(field | W::Bits::splat(TWO_TO_52.to_bits()));
+    let k = k - W::splat(TWO_TO_52 + 1023.0);
+    let bits = (shifted & W::Bits::splat(FRACTION)).plus(W::Bits::splat(ROOT_HALF));
+    (field, k, W::from_bits(bits) - W::one())
+}
+
+/// `k·ln 2 + ln(1 + f + more)`, with |more| below a unit in the last place of 1.
+#[inline(always)]
+fn assemble<W: Word>(k: W, f: W, more: W) -> W {
+    let s = f / (W::splat(2.0) + f);
+    let z = s * s;
+    let half_square = W::splat(0.5) * f * f;
+    let inner = z.fma(polynomial(z, &LOGARITHM), half_square);
+    let (high, cut) = fast_two_sum(k * W::splat(LN_2_HIGH), f);
+    let low = k.fma(W::splat(LN_2_LOW), more + cut);
+    high + (s.fma(inner, low) - half_square)
+}
+
+/// `ln(2^shift·(u + more))`, for a normal positive `u` and |more| below its last place. Near 1 the
+/// relative error is small as long as `(u − 1) + more` has it.
+#[inline(always)]
+fn ln_of_pair<W: Word>(u: W, more: W) -> W {
+    let (field, k, f) = split(u);
+    let inverse_scale = W::from_bits(W::Bits::splat(2046).minus(field).shl::<52>());
+    let (f, rest) = fast_two_sum(f, more * inverse_scale);
+    // The derivative of the logarithm at 1 + f is 1 − f to the precision that the rest needs.
+    assemble(k, f, rest - rest * f)
+}
+
+/// Whether `x` is positive, normal and finite.
+#[inline(always)]
+pub(super) fn is_plain<W: Word>(x: W) -> W::Mask {
+    W::splat(f64::MIN_POSITIVE).le(x) & x.le(W::splat(f64::MAX))
+}
+
+/// Natural logarithm.
+#[inline(always)]
+pub(crate) fn ln<W: Word>(x: W) -> W {
+    let (_, k, f) = split(x);
+    let y = assemble(k, f, W::zero());
+    let rare = !is_plain(x);
+    if rare.any() {
+        return y.replace(rare, x, ln_of_rare);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn ln_of_rare(x: f64) -> f64 {
+    if x == 0.0 {
+        f64::NEG_INFINITY
+    } else if x < 0.0 {
+        f64::NAN
+    } else if x < f64::MIN_POSITIVE {
+        let (_, k, f) = split(x * TWO_TO_52);
+        assemble(k - 52.0, f, 0.0)
+    } else {
+        // +∞, or NaN.
+        x
+    }
+}
+
+/// `ln(1 + x)`: the logarithm of the rounded sum and what it cuts off.
+#[inline(always)]
+pub(crate) fn ln_1p<W: Word>(x: W) -> W {
+    let (u, cut) = two_sum(W::one(), x);
+    let y = ln_of_pair(u, cut);
+    // The sign of 0, which the sum loses.
+    let y = W::from_bits(y.bits() | sign_bit(x));
+    let rare = !((-W::one()).lt(x) & x.le(W::splat(f64::MAX)));
+    if rare.any() {
+        return y.replace(rare, x, ln_1p_of_rare);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn ln_1p_of_rare(x: f64) -> f64 {
+    if x == -1.0 {
+        f64::NEG_INFINITY
+    } else if x < -1.0 {
+        f64::NAN
+    } else {
+        x
+    }
+}
+
+/// Beyond, squares overflow, and `x + √(x² ± 1)` is `2x` to the last bit.
+const LARGE: f64 = (1u128 << 100) as f64;
+
+/// `ln 2x` for `x ≥ LARGE`; `x` itself where infinite or NaN.
+fn ln_of_double(x: f64) -> f64 {
+    if x <= f64::MAX {
+        let (_, k, f) = split(x);
+        assemble(k + 1.0, f, 0.0)
+    } else {
+        x
+    }
+}
+
+/// Inverse hyperbolic sine: `ln(x + √(x² + 1))`.
+#[inline(always)]
+pub(crate) fn asinh<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let (square, square_cut) = two_product(size, size);
+    let (sum, cut) = two_sum(W::one(), square);
+    let (root, root_cut) = square_root((sum, cut + square_cut));
+    let (u, cut) = fast_two_sum(root, size);
+    let y = flip(ln_of_pair(u, cut + root_cut), sign_bit(x));
+    let rare = !size.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, asinh_of_large);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn asinh_of_large(x: f64) -> f64 {
+    flip(ln_of_double(x.abs()), sign_bit(x))
+}
+
+/// Inverse hyperbolic cosine: `ln(x + √(x² − 1))`.
+#[inline(always)]
+pub(crate) fn acosh<W: Word>(x: W) -> W {
+    let (square, square_cut) = two_product(x, x);
+    let (difference, cut) = fast_two_sum(square, -W::one());
+    let (root, root_cut) = square_root((difference, cut + square_cut));
+    let (u, cut) = fast_two_sum(x, root);
+    let y = ln_of_pair(u, cut + root_cut);
+    let rare = !(W::one().le(x) & x.le(W::splat(LARGE)));
+    if rare.any() {
+        return y.replace(rare, x, acosh_of_rare);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn acosh_of_rare(x: f64) -> f64 {
+    if x < 1.0 { f64::NAN } else { ln_of_double(x) }
+}
+
+/// Inverse hyperbolic tangent: `½·ln(1 + 2x/(1 − x))`.
+#[inline(always)]
+pub(crate) fn atanh<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let below = fast_two_sum(W::one(), -size);
+    let (q, q_cut) = quotient((size + size, W::zero()), below);
+    let (u, cut) = two_sum(W::one(), q);
+    let y = W::splat(0.5) * ln_of_pair(u, cut + q_cut);
+    let y = flip(y, sign_bit(x));
+    let rare = !size.lt(W::one());
+    if rare.any() {
+        return y.replace(rare, x, atanh_of_rare);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn atanh_of_rare(x: f64) -> f64 {
+    if x.abs() == 1.0 {
+        flip(f64::INFINITY, sign_bit(x))
+    } else {
+        f64::NAN
+    }
+}
+
+/// `ln x` of two words to about 2⁻⁶⁸, for a positive normal `x`: 2s + ⅔s³ + s⁵·P(s²), the first
+/// two terms and their sums exactly, and `shift·ln 2` more.
+#[inline(always)]
+pub(super) fn ln_pair<W: Word>(x: W, shift: W) -> (W, W) {
+    let (_, k, f) = split(x);
+    let k = k + shift;
+    let (s, s_cut) = quotient((f, W::zero()), fast_two_sum(W::splat(2.0), f));
+    let (z, z_cut) = two_product(s, s);
+    let z_cut = (s + s).fma(s_cut, z_cut);
+    let series = z * polynomial(z, &LOGARITHM_TAIL);
+    let (w, w_cut) = fast_two_sum(W::splat(2.0 / 3.0), series);
+    let w_cut = w_cut + W::splat(TWO_THIRDS_LOW);
+    let (v, v_cut) = two_product(z, w);
+    let v_cut = z.fma(w_cut, z_cut.fma(w, v_cut));
+    let (t, t_cut) = two_product(v, s);
+    let t_cut = v.fma(s_cut, v_cut.fma(s, t_cut));
+    let (high, cut) = fast_two_sum(k * W::splat(LN_2_HIGH), s + s);
+    let low = k.fma(W::splat(LN_2_LOW), s_cut + s_cut) + (t_cut + cut);
+    let (high, cut) = fast_two_sum(high, t);
+    fast_two_sum(high, low + cut)
+}

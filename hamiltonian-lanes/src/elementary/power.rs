@@ -1,0 +1,202 @@
+//! Powers, cube root, distance.
+//!
+//! Input: any doubles. Output: the function's value. Invariant: `x^y = exp(y·ln x)` with the
+//! logarithm and the product of two words; the cube root and the distance correct a first value by
+//! an exact remainder. Bases that are not positive, normal and finite, and results near or beyond
+//! the ends of the range, go lane by lane.
+
+use super::coefficients::*;
+use super::exponential::{exp_any, exp_parts, scale_normal};
+use super::logarithm::{is_plain, ln_pair};
+use super::pairs::{fast_two_sum, flip, sign_bit, two_product};
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+const TWO_TO_52: f64 = (1u64 << 52) as f64;
+
+/// `y·ln x` of two words, for a positive normal `x`.
+#[inline(always)]
+fn exponent<W: Word>(x: W, y: W, shift: W) -> (W, W) {
+    let (high, low) = ln_pair(x, shift);
+    let (product, cut) = two_product(y, high);
+    (product, y.fma(low, cut))
+}
+
+/// `x^y`.
+#[inline(always)]
+pub(crate) fn pow<W: Word>(x: W, y: W) -> W {
+    let (high, low) = exponent(x, y, W::zero());
+    let (power, one, rest) = exp_parts(high, low);
+    let value = scale_normal(one + rest, power);
+    // Splitting the largest exponents overflows.
+    let plain = is_plain(x) & high.abs().le(W::splat(708.0)) & y.abs().le(W::splat(1e300));
+    let rare = !plain;
+    if rare.any() {
+        return value.replace2(rare, x, y, pow_of_rare);
+    }
+    value
+}
+
+/// The special cases of C17, annex F.10.4.4.
+#[cold]
+#[inline(never)]
+fn pow_of_rare(x: f64, y: f64) -> f64 {
+    if y == 0.0 || x == 1.0 {
+        return 1.0;
+    }
+    if x.is_nan() || y.is_nan() {
+        return x + y;
+    }
+    let size = x.abs();
+    if y.is_infinite() {
+        return if size == 1.0 {
+            1.0
+        } else if (size > 1.0) == (y > 0.0) {
+            f64::INFINITY
+        } else {
+            0.0
+        };
+    }
+    let (integer, odd) = parity(y);
+    let negative = sign_bit(x) != 0;
+    let sign = if negative && odd { 1 << 63 } else { 0 };
+    if size == 0.0 || size.is_infinite() {
+        let grows = (size == 0.0) == (y < 0.0);
+        return flip(if grows { f64::INFINITY } else { 0.0 }, sign);
+    }
+    if negative && !integer {
+        return f64::NAN;
+    }
+    // Beyond, every result but that of ±1 is 0 or infinite already.
+    let y = y.clamp(-1e25, 1e25);
+    let (high, low) = if size < f64::MIN_POSITIVE {
+        exponent(size * TWO_TO_52, y, -52.0)
+    } else {
+        exponent(size, y, 0.0)
+    };
+    // Where the result leaves the range the second word no longer counts.
+    let low = if high.abs() < 800.0 { low } else { 0.0 };
+    flip(exp_any(high, low, 0), sign)
+}
+
+/// Whether a finite number is an integer, and whether an odd one.
+fn parity(y: f64) -> (bool, bool) {
+    let size = y.abs();
+    if size >= TWO_TO_52 {
+        // The last bit is worth 1 below 2⁵³, and 2 or more above.
+        return (true, size < 2.0 * TWO_TO_52 && size.to_bits() & 1 == 1);
+    }
+    let whole = size as u64;
+    let integer = whole as f64 == size;
+    (integer, integer && whole & 1 == 1)
+}
+
+/// A third of the bits of `x`, with an offset that makes `x^(−1/3)` to within 3.5 %.
+#[inline(always)]
+fn guess_inverse_cube_root<W: Word>(x: W) -> W {
+    // Sign and upper bits as a number below 2⁵², so that a product can divide it by 3.
+    let upper = x.bits().shr::<12>() | W::Bits::splat(TWO_TO_52.to_bits());
+    let upper = W::from_bits(upper) - W::splat(TWO_TO_52);
+    let third = W::splat(CUBE_ROOT_OFFSET) - upper * W::splat(1.0 / 3.0);
+    let bits = (third + W::splat(TWO_TO_52)).bits();
+    W::from_bits(bits.shl::<12>())
+}
+
+/// The cube root of a positive normal number. With `e = 1 − x·y³`, x^(−1/3) is
+/// y·(1 − e)^(−1/3) = y·(1 + e/3 + 2e²/9 + 14e³/81 + …), three times over; the last time around a
+/// root `c` of 17 bits, whose cube is exact.
+#[inline(always)]
+fn cube_root<W: Word>(x: W) -> W {
+    let [a1, a2, a3, a4] = [1.0 / 3.0, 2.0 / 9.0, 14.0 / 81.0, 35.0 / 243.0].map(W::splat);
+    let one = W::one();
+    let y = guess_inverse_cube_root(x);
+    let e = one - x * y * y * y;
+    let y = (y * e).fma(e.fma(e.fma(e.fma(a4, a3), a2), a1), y);
+    let e = one - x * y * y * y;
+    let y = (y * e).fma(e.fma(a2, a1), y);
+    let root = x * y * y;
+    let c = root.bits().plus(W::Bits::splat(1 << 35)) & W::Bits::splat(!((1 << 36) - 1));
+    let c = W::from_bits(c);
+    // cbrt x = c·(1 − d)^(−1/3) with d = (x − c³)/x; the remainder is exact.
+    let d = (x - c * c * c) * y * y * y;
+    (c * d).fma(d.fma(d.fma(a3, a2), a1), c)
+}
+
+/// Cube root.
+#[inline(always)]
+pub(crate) fn cbrt<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let y = flip(cube_root(size), sign_bit(x));
+    let rare = !is_plain(size);
+    if rare.any() {
+        return y.replace(rare, x, cbrt_of_rare);
+    }
+    y
+}
+
+#[cold]
+#[inline(never)]
+fn cbrt_of_rare(x: f64) -> f64 {
+    let size = x.abs();
+    if size > 0.0 && size < f64::MIN_POSITIVE {
+        // 2⁵⁴ is the cube of 2¹⁸.
+        let root = cube_root(size * (1u64 << 54) as f64) / (1u64 << 18) as f64;
+        flip(root, sign_bit(x))
+    } else {
+        x
+    }
+}
+
+/// Between its inverse and this, squares neither overflow nor lose what they cut off.
+const SQUARABLE: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 << 127) as f64;
+
+/// `√(large² + small²)` for 0 ≤ small ≤ large within `SQUARABLE`.
+#[inline(always)]
+fn distance<W: Word>(large: W, small: W) -> W {
+    let (a, a_cut) = two_product(large, large);
+    let (b, b_cut) = two_product(small, small);
+    let (sum, cut) = fast_two_sum(a, b);
+    let root = sum.sqrt();
+    let (square, square_cut) = two_product(root, root);
+    let remainder = ((sum - square) - square_cut) + (cut + (a_cut + b_cut));
+    root + remainder / (root + root)
+}
+
+/// `√(x² + y²)`.
+#[inline(always)]
+pub(crate) fn hypot<W: Word>(x: W, y: W) -> W {
+    let (x_size, y_size) = (x.abs(), y.abs());
+    let x_larger = y_size.le(x_size);
+    let large = W::select(x_larger, x_size, y_size);
+    let small = W::select(x_larger, y_size, x_size);
+    let value = distance(large, small);
+    let plain = large.le(W::splat(SQUARABLE)) & W::splat(1.0 / SQUARABLE).le(large);
+    // A NaN as the smaller one is asked for: the comparison that orders them is false.
+    let rare = !(plain & small.le(large));
+    if rare.any() {
+        return value.replace2(rare, x, y, hypot_of_rare);
+    }
+    value
+}
+
+#[cold]
+#[inline(never)]
+fn hypot_of_rare(x: f64, y: f64) -> f64 {
+    let (x, y) = (x.abs(), y.abs());
+    if x.is_infinite() || y.is_infinite() {
+        return f64::INFINITY;
+    }
+    if x.is_nan() || y.is_nan() {
+        return x + y;
+    }
+    let (large, small) = if x < y { (y, x) } else { (x, y) };
+    if small == 0.0 {
+        return large;
+    }
+    let scale = if large > 1.0 {
+        1.0 / (2.0 * SQUARABLE * SQUARABLE)
+    } else {
+        2.0 * SQUARABLE * SQUARABLE
+    };
+    distance(large * scale, small * scale) / scale
+}

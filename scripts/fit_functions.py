@@ -235,9 +235,9 @@ def main():
     table("ARC_SINE", "asin s = s + s·z·P(z), z = s² ≤ ¼",
           precise(lambda z: (asin(sqrt(z)) / sqrt(z) - 1) / z),
           lambda z: z, 0, mpf("0.2501"), 13)
-    table("ERROR", "erf x = x + x·P(z), z = x² ≤ 1",
+    table("ERROR", "erf x = x + x·P(z), z = x² ≤ ⅝²",
           precise(lambda z: erf(sqrt(z)) / sqrt(z) - 1),
-          lambda z: sqrt(z) / erf(sqrt(z)), 0, 1, 12)
+          lambda z: sqrt(z) / erf(sqrt(z)), 0, mpf(25) / 64, 10)
     centre = mpf(4)
     last = mpf("27.3")
 
@@ -247,8 +247,8 @@ def main():
 
     scaled = precise(scaled)
     table("ERROR_COMPLEMENT",
-          "(1 + 2x)·exp(x²)·erfc x = c + t·P(t), t = (x − 4)/(x + 4), 0 ≤ x ≤ 27.3",
-          scaled, lambda t: 1 / scaled(t), mpf(-1), (last - centre) / (last + centre), 24)
+          "(1 + 2x)·exp(x²)·erfc x = c + t·P(t), t = (x − 4)/(x + 4), ⅝ ≤ x ≤ 27.3",
+          scaled, lambda t: 1 / scaled(t), (mpf("0.62") - centre) / (mpf("0.62") + centre), (last - centre) / (last + centre), 23)
 
 
 main()

@@ -129,7 +129,7 @@ float! { f64 {
     fn sqrt(self) -> Self {
         root::sqrt(self)
     }
-    elementary! { inline }
+    elementary! { #[inline] }
 } }
 
 float! { f32 {

@@ -3,6 +3,7 @@
 mod decimal;
 mod double_double;
 mod dual;
+mod functions;
 mod levels;
 mod packs;
 mod scalars;

@@ -26,10 +26,7 @@ fn angle<W: Word>(y: W, x: W, mirror: W::Mask) -> W {
         W::select(high, difference, small),
         W::select(high, difference_cut, zero),
     );
-    let below = (
-        W::select(high, sum, large),
-        W::select(high, sum_cut, zero),
-    );
+    let below = (W::select(high, sum, large), W::select(high, sum_cut, zero));
     let (t, t_cut) = quotient(above, below);
     let z = t * t;
     let rest = (t * z).fma(polynomial(z, &ARC_TANGENT), t_cut);
@@ -65,9 +62,8 @@ pub(crate) fn atan2<W: Word>(y: W, x: W) -> W {
     let small = Real::min(height, width);
     let large = Real::max(height, width);
     let least = W::splat(1.0 / PLAIN);
-    let plain = large.le(W::splat(PLAIN))
-        & least.le(large)
-        & (least.le(small) | small.equals(W::zero()));
+    let plain =
+        large.le(W::splat(PLAIN)) & least.le(large) & (least.le(small) | small.equals(W::zero()));
     let rare = !plain;
     if rare.any() {
         return value.replace2(rare, y, x, atan2_of_rare);
@@ -84,7 +80,11 @@ fn atan2_of_rare(y: f64, x: f64) -> f64 {
     let (height, width) = (y.abs(), x.abs());
     let left = sign_bit(x) != 0;
     if height == 0.0 && width == 0.0 || height.is_infinite() && width.is_infinite() {
-        let (height, width) = if height == 0.0 { (0.0, 1.0) } else { (1.0, 1.0) };
+        let (height, width) = if height == 0.0 {
+            (0.0, 1.0)
+        } else {
+            (1.0, 1.0)
+        };
         return flip(angle(height, width, left), sign_bit(y));
     }
     // 2⁶⁰ and more apart the angle is the quotient, or a multiple of π/2 to the last bit.
@@ -92,7 +92,11 @@ fn atan2_of_rare(y: f64, x: f64) -> f64 {
     let value = if height / APART > width {
         angle(1.0, 0.0, left)
     } else if width / APART > height {
-        if left { angle(0.0, 1.0, true) } else { height / width }
+        if left {
+            angle(0.0, 1.0, true)
+        } else {
+            height / width
+        }
     } else {
         let scale = if height.max(width) > 1.0 {
             1.0 / PLAIN

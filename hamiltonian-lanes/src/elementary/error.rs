@@ -3,7 +3,7 @@
 //! Input: any double. Output: the function's value. Invariant:
 //! erfc x = exp(−x²)·P(t)/(1 + 2x) with t = (x − 4)/(x + 4) (M. M. Shepherd and J. G. Laframboise,
 //! *Math. Comp.* 36, 249, 1981, doi:10.2307/2007741), of which every factor keeps its second word;
-//! erf is 1 less that from 1 on, and a polynomial below.
+//! erf is 1 less that, and near 0 both are one polynomial.
 
 use super::coefficients::*;
 use super::exponential::{exp_parts, scale_any, scale_normal};
@@ -14,12 +14,18 @@ use crate::word::Word;
 /// From here on erfc lies near or below the smallest normal number.
 const LARGE: f64 = 26.0;
 
-/// erfc of `0 ≤ x ≤ 28` as `(power, high, low)`: 2^power·(high + low).
+/// Up to here erf is a polynomial. At 0 the quotient's slope would double its rounding.
+const NEAR: f64 = 0.625;
+
+/// erfc of `NEAR ≤ x ≤ 28` as `(power, high, low)`: 2^power·(high + low).
 #[inline(always)]
 fn complement<W: Word>(x: W) -> (W::Bits, W, W) {
     let four = W::splat(4.0);
     let t = (x - four) / (x + four);
-    let series = t.fma(polynomial(t, &ERROR_COMPLEMENT), W::splat(ERROR_COMPLEMENT_LOW));
+    let series = t.fma(
+        polynomial(t, &ERROR_COMPLEMENT),
+        W::splat(ERROR_COMPLEMENT_LOW),
+    );
     let (p, p_cut) = fast_two_sum(W::splat(ERROR_COMPLEMENT_HIGH), series);
     let (square, square_cut) = two_product(x, x);
     let (power, one, rest) = exp_parts(-square, -square_cut);
@@ -40,6 +46,9 @@ pub(crate) fn erfc<W: Word>(x: W) -> W {
     let (two, cut) = fast_two_sum(W::splat(2.0), -(high * scale));
     let far = two + (cut - low * scale);
     let y = W::select(x.lt(W::zero()), far, near);
+    let (one, cut) = fast_two_sum(W::one(), -x);
+    let middle = one + x.fma(-polynomial(x * x, &ERROR), cut);
+    let y = W::select(size.le(W::splat(NEAR)), middle, y);
     let rare = !size.le(W::splat(LARGE));
     if rare.any() {
         return y.replace(rare, x, erfc_of_large);
@@ -74,5 +83,5 @@ pub(crate) fn erf<W: Word>(x: W) -> W {
     let scale = scale_normal(W::one(), power);
     let (one, cut) = fast_two_sum(W::one(), -(high * scale));
     let far = one + (cut - low * scale);
-    flip(W::select(W::one().lt(size), far, near), sign_bit(x))
+    flip(W::select(W::splat(NEAR).lt(size), far, near), sign_bit(x))
 }

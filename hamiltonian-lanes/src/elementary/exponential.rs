@@ -5,12 +5,21 @@
 //! at which a power of two leaves the normal range go lane by lane.
 
 use super::coefficients::*;
-use super::pairs::{ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit};
+use super::pairs::{
+    ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_sum,
+};
 use crate::real::Mask;
 use crate::word::{Bits, Word};
 
 /// Up to here 2^k and its inverse are normal.
 const LARGE: f64 = 708.0;
+
+/// cosh r = 1 + r²/2 + r⁴·P(r²): the same polynomial without its first coefficient.
+const EXP_EVEN_REST: [f64; 5] = {
+    let [half, a, b, c, d, e] = EXP_EVEN;
+    assert!(half == 0.5);
+    [a, b, c, d, e]
+};
 
 /// `x + more = k·ln 2 + high − low`; `high` is exact, `low` small.
 struct Reduced<W: Word> {
@@ -54,14 +63,17 @@ impl<W: Word> Reduced<W> {
         (one, z.fma(series, cut - self.low))
     }
 
-    /// `(c, s)`: cosh r = 1 + c and sinh r = high + s.
+    /// `(half, c, s)`: cosh r = 1 + half + c and sinh r = high + s. The half of r² is apart, as a
+    /// word that a sum can keep the rest of; `c` has what it cuts off.
     #[inline(always)]
-    fn hyperbolic(&self) -> (W, W) {
-        let r = self.high - self.low;
-        let z = r * r;
-        let c = z * polynomial(z, &EXP_EVEN);
+    fn hyperbolic(&self) -> (W, W, W) {
+        let (r, cut) = fast_two_sum(self.high, -self.low);
+        let (z, z_cut) = two_product(r, r);
+        let half = W::splat(0.5);
+        let fourth = (z * z) * polynomial(z, &EXP_EVEN_REST);
+        let c = (half.fma(z_cut, r * cut)) + fourth;
         let s = (r * z).fma(polynomial(z, &EXP_ODD), -self.low);
-        (c, s)
+        (half * z, c, s)
     }
 }
 
@@ -116,14 +128,15 @@ fn exp_of_large(x: f64) -> f64 {
     exp_any(x, 0.0, 0)
 }
 
-/// `exp x − 1`: `(2^k − 1) + 2^k·r + …`, the first sum with what it cuts off.
+/// `exp x − 1`: `(2^k − 1) + 2^k·r + 2^k·r²/2 + …`, the sums with what they cut off.
 #[inline(always)]
 pub(crate) fn exp_m1<W: Word>(x: W) -> W {
     let reduced = reduce(x, W::zero());
-    let (c, s) = reduced.hyperbolic();
+    let (half, c, s) = reduced.hyperbolic();
     let scale = reduced.scale();
     let (high, cut) = fast_two_sum(scale - W::one(), scale * reduced.high);
-    let y = high + scale.fma(c + s, cut);
+    let (high, more) = two_sum(high, scale * half);
+    let y = high + scale.fma(c + s, cut + more);
     // The sign of 0, which the sum loses.
     let y = W::from_bits(y.bits() | sign_bit(x));
     let rare = !x.abs().le(W::splat(LARGE));
@@ -144,17 +157,21 @@ fn exp_m1_of_large(x: f64) -> f64 {
 #[inline(always)]
 fn both<W: Word>(x: W) -> ((W, W), (W, W)) {
     let reduced = reduce(x, W::zero());
-    let (c, s) = reduced.hyperbolic();
+    let (half, c, s) = reduced.hyperbolic();
     let (up, down) = (reduced.scale(), reduced.inverse_scale());
-    let (a, b) = (up + down, up - down);
+    let (a, a_cut) = fast_two_sum(up, down);
+    let (b, b_cut) = fast_two_sum(up, -down);
     let (up, down) = (up * reduced.high, down * reduced.high);
     let (p, p_cut) = fast_two_sum(up, down);
     let (m, m_cut) = fast_two_sum(up, -down);
     let (sinh, sinh_cut) = fast_two_sum(b, p);
     let (cosh, cosh_cut) = fast_two_sum(a, m);
+    let (cosh, half_cut) = fast_two_sum(cosh, a * half);
+    let sinh_cut = (sinh_cut + p_cut) + b_cut;
+    let cosh_cut = (cosh_cut + m_cut) + (a_cut + half_cut);
     (
-        (sinh, b.fma(c, a.fma(s, sinh_cut + p_cut))),
-        (cosh, a.fma(c, b.fma(s, cosh_cut + m_cut))),
+        (sinh, b.fma(half + c, a.fma(s, sinh_cut))),
+        (cosh, a.fma(c, b.fma(s, cosh_cut))),
     )
 }
 

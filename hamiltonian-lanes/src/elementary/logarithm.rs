@@ -6,8 +6,9 @@
 //! hyperbolic functions take the logarithm of a number of two words.
 
 use super::coefficients::*;
-use super::pairs::{fast_two_sum, flip, polynomial, quotient, sign_bit, square_root, two_product,
-    two_sum};
+use super::pairs::{
+    fast_two_sum, flip, polynomial, quotient, sign_bit, square_root, two_product, two_sum,
+};
 use crate::real::Mask;
 use crate::word::{Bits, Word};
 
@@ -92,7 +93,7 @@ pub(crate) fn ln_1p<W: Word>(x: W) -> W {
     let y = ln_of_pair(u, cut);
     // The sign of 0, which the sum loses.
     let y = W::from_bits(y.bits() | sign_bit(x));
-    let rare = !((-W::one()).lt(x) & x.le(W::splat(f64::MAX)));
+    let rare = !((-W::one()).lt(x) & x.le(W::splat(LARGE)));
     if rare.any() {
         return y.replace(rare, x, ln_1p_of_rare);
     }
@@ -107,18 +108,18 @@ fn ln_1p_of_rare(x: f64) -> f64 {
     } else if x < -1.0 {
         f64::NAN
     } else {
-        x
+        ln_times(x, 0.0)
     }
 }
 
-/// Beyond, squares overflow, and `x + √(x² ± 1)` is `2x` to the last bit.
+/// Beyond, squares may overflow, `1 + x` is `x` to the last bit, and `x + √(x² ± 1)` is `2x`.
 const LARGE: f64 = (1u128 << 100) as f64;
 
-/// `ln 2x` for `x ≥ LARGE`; `x` itself where infinite or NaN.
-fn ln_of_double(x: f64) -> f64 {
+/// `ln(2^shift·x)` for `x ≥ LARGE`; `x` itself where infinite or NaN.
+fn ln_times(x: f64, shift: f64) -> f64 {
     if x <= f64::MAX {
         let (_, k, f) = split(x);
-        assemble(k + 1.0, f, 0.0)
+        assemble(k + shift, f, 0.0)
     } else {
         x
     }
@@ -143,7 +144,7 @@ pub(crate) fn asinh<W: Word>(x: W) -> W {
 #[cold]
 #[inline(never)]
 fn asinh_of_large(x: f64) -> f64 {
-    flip(ln_of_double(x.abs()), sign_bit(x))
+    flip(ln_times(x.abs(), 1.0), sign_bit(x))
 }
 
 /// Inverse hyperbolic cosine: `ln(x + √(x² − 1))`.
@@ -164,7 +165,7 @@ pub(crate) fn acosh<W: Word>(x: W) -> W {
 #[cold]
 #[inline(never)]
 fn acosh_of_rare(x: f64) -> f64 {
-    if x < 1.0 { f64::NAN } else { ln_of_double(x) }
+    if x < 1.0 { f64::NAN } else { ln_times(x, 1.0) }
 }
 
 /// Inverse hyperbolic tangent: `½·ln(1 + 2x/(1 − x))`.

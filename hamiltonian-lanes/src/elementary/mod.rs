@@ -18,9 +18,9 @@ mod coefficients;
 mod pairs;
 
 /// The methods of [`Real`](crate::Real) that are elementary functions, for a
-/// [`Word`](crate::word::Word); the long ones with the given attribute.
+/// [`Word`](crate::word::Word): `elementary! { #[…] }` with the attribute of the long ones.
 macro_rules! elementary {
-    ($long:meta) => {
+    (#[$long:meta]) => {
         crate::elementary::elementary! { @one inline(always):
             angle { sin cos } exponential { exp exp_m1 } logarithm { ln ln_1p } }
         crate::elementary::elementary! { @one $long:

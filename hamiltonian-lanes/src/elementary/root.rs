@@ -61,7 +61,15 @@ mod tests {
                 "{x:e}: {found:e}, expected {expected:e}"
             );
         }
-        for x in [0.0, -0.0, f64::INFINITY, f64::from_bits(1), f64::from_bits(2), f64::MAX, 1.0] {
+        for x in [
+            0.0,
+            -0.0,
+            f64::INFINITY,
+            f64::from_bits(1),
+            f64::from_bits(2),
+            f64::MAX,
+            1.0,
+        ] {
             assert_eq!(by_integers(x).to_bits(), x.sqrt().to_bits(), "{x:e}");
         }
     }

@@ -263,7 +263,7 @@ impl<R: Register> Real for V<R> {
         let zero = Self::zero();
         Self::select(self.lt(zero) | zero.lt(self), Self(one), self)
     }
-    elementary! { inline(always) }
+    elementary! { #[inline(always)] }
 }
 
 impl<R: Register> Word for V<R> {

@@ -7,7 +7,7 @@ use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Pack, assigning};
 use crate::elementary::elementary;
-use crate::real::{Lift, Mask, Real};
+use crate::real::{Lift, Real};
 use crate::word::Word;
 
 /// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
@@ -138,7 +138,7 @@ impl<P: Pack> Real for Nf<P> {
     fn sign(self) -> Self {
         Self(self.0.sign())
     }
-    elementary! { inline(always) }
+    elementary! { #[inline(always)] }
 }
 
 impl<P: Pack> Word for Nf<P> {

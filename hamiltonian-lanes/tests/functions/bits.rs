@@ -1,0 +1,60 @@
+//! The same bits in a scalar and in the lanes of every level that does not fuse, in debug and in
+//! release: hashes over random arguments.
+
+use hamiltonian_lanes::Cpu;
+
+use super::points::{ROWS, Random};
+
+fn count() -> usize {
+    if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
+        1_000_000
+    } else {
+        4_096
+    }
+}
+
+/// FNV-1a over the bits of values (G. Fowler, L. C. Noll, K.-P. Vo, 1991); all NaN are one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Hash(u64);
+
+impl Hash {
+    fn add(&mut self, value: f64) {
+        let bits = if value.is_nan() {
+            f64::NAN.to_bits()
+        } else {
+            value.to_bits()
+        };
+        for byte in bits.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+}
+
+const START: Hash = Hash(0xcbf2_9ce4_8422_2325);
+
+fn hash(values: impl IntoIterator<Item = f64>) -> Hash {
+    let mut hash = START;
+    values.into_iter().for_each(|value| hash.add(value));
+    hash
+}
+
+#[test]
+fn lanes_have_the_bits_of_scalars() {
+    let mut random = Random(3);
+    for row in ROWS {
+        let (x, y): (Vec<f64>, Vec<f64>) = (0..count()).map(|k| row.draw(k, &mut random)).unzip();
+        let scalar = hash(x.iter().zip(&y).map(|(&x, &y)| (row.f64)(x, y)));
+        println!("{:8} {:016x}", row.name, scalar.0);
+        for cpu in Cpu::available() {
+            let lanes = |unfused| {
+                let mut out = vec![0.0; x.len()];
+                (row.lanes)(cpu, unfused, &x, &y, &mut out);
+                hash(out)
+            };
+            assert_eq!(lanes(true), scalar, "{}, {cpu:?} unfused", row.name);
+            if matches!(cpu, Cpu::Portable | Cpu::Sse2) {
+                assert_eq!(lanes(false), scalar, "{}, {cpu:?}", row.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""No call is left inside a lane loop.
+
+Input: the assembly of a bench, made here by cargo. Output: for each level's entry, how many lane
+loops it has; the exit status says whether one of them calls anything. A lane loop is an innermost
+loop with packed arithmetic. The cold functions that recompute rare arguments lane by lane
+(`replace…`) are allowed: they are reached by a branch that is not taken.
+
+    python3 scripts/lane_calls.py [BENCH …]        (by default: ensemble)
+
+A call in such a loop costs a factor of up to a hundred: what is not inlined is compiled without the
+level's instructions and passes its packs through memory.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*5enter5entry")
+PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
+COLD = re.compile(r"replace")
+
+
+def assembly(bench):
+    """The text that rustc emits for a bench, as one piece."""
+    command = ["cargo", "rustc", "--release", "--bench", bench, "--message-format=json"]
+    command += ["--", "--emit=asm,link", "-Ccodegen-units=1", "-Cdebuginfo=0"]
+    run = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    for line in run.stdout.splitlines():
+        message = json.loads(line)
+        if message.get("executable") and message["target"]["name"] == bench:
+            path = pathlib.Path(message["executable"]).with_suffix(".s")
+            return path.read_text()
+    sys.exit(f"cargo named no executable for the bench {bench}")
+
+
+def functions(text):
+    """The entries of levels: (name of the level, instructions, index of each label)."""
+    found, level = [], None
+    for line in text.splitlines():
+        name = re.match(r"(\S+):", line)
+        if name and not name[1].startswith(".L"):
+            entry = ENTRY.search(name[1])
+            level = entry and entry[1]
+            if level:
+                code, labels = [], {}
+                found.append((level, code, labels))
+        elif level and name:
+            labels[name[1]] = len(code)
+        elif level and re.match(r"\s+[a-z]", line):
+            operation, _, operands = line.strip().partition("\t")
+            code.append((operation, operands))
+    return found
+
+
+def loops(code, labels):
+    """The innermost natural loops, as sets of instructions."""
+    after, before = [[] for _ in code], [[] for _ in code]
+    for i, (operation, operands) in enumerate(code):
+        target = labels.get(operands.split()[0]) if operands else None
+        if operation.startswith("j") and target is not None and target < len(code):
+            after[i].append(target)
+        falls = not re.match(r"(jmp|ret|ud2)", operation)
+        if falls and i + 1 < len(code):
+            after[i].append(i + 1)
+        for j in after[i]:
+            before[j].append(i)
+    bodies = {}
+    for latch, following in enumerate(after):
+        for header in following:
+            if header > latch:
+                continue
+            body, left = {header}, [latch]
+            while left:
+                i = left.pop()
+                if i not in body:
+                    body.add(i)
+                    left.extend(before[i])
+            # A jump back from a block that the loop does not dominate is no loop.
+            if 0 not in body or header == 0:
+                bodies.setdefault(header, set()).update(body)
+    return [
+        body
+        for header, body in bodies.items()
+        if not any(other in body for other in bodies if other != header)
+    ]
+
+
+def examine(text):
+    """(level, lane loops, calls in them) of every entry."""
+    for level, code, labels in functions(text):
+        lane_loops, calls = 0, []
+        for body in loops(code, labels):
+            inside = [code[i] for i in sorted(body)]
+            if not any(PACKED.match(operation) for operation, _ in inside):
+                continue
+            lane_loops += 1
+            calls += [
+                operands
+                for operation, operands in inside
+                if operation.startswith("call") and not COLD.search(operands)
+            ]
+        yield level, lane_loops, calls
+
+
+SAMPLE = """
+_ZN_level..dispatch..Avx2$u20$as$u20$_5enter5entryE:
+\tvxorpd\t%ymm0, %ymm0, %ymm0
+.LBB0_1:
+\tvmulpd\t%ymm0, %ymm0, %ymm0
+\tvucomisd\t%xmm1, %xmm0
+\tja\t.LBB0_3
+.LBB0_2:
+\tdecq\t%rax
+\tjne\t.LBB0_1
+\tcallq\tafter_the_loop
+\tretq
+.LBB0_3:
+\tcallq\t{}
+\tjmp\t.LBB0_2
+"""
+
+
+def main():
+    # What is to be found is found, before its absence says anything.
+    assert list(examine(SAMPLE.format("sin"))) == [("Avx2", 1, ["sin"])]
+    assert list(examine(SAMPLE.format("replace_in_packs"))) == [("Avx2", 1, [])]
+
+    failed = False
+    for bench in sys.argv[1:] or ["ensemble"]:
+        total = 0
+        for level, lane_loops, calls in examine(assembly(bench)):
+            total += lane_loops
+            failed |= bool(calls)
+            verdict = f"FAILED, calls {', '.join(calls)}" if calls else "no call"
+            print(f"{bench}, {level}: {lane_loops} lane loops, {verdict}")
+        if total == 0:
+            failed = True
+            print(f"FAILED {bench}: no lane loop was found")
+    sys.exit(failed)
+
+
+if __name__ == "__main__":
+    main()

@@ -76,13 +76,13 @@ fn pendulum_twin(n: u64) -> Vec<f64> {
     let h = black_box(STEP);
     let (mut q, mut p): (f64, f64) = black_box((0.7, 3.0));
     let (kick, drift) = (h * (m * g * l), h / (m * l * l));
-    p -= 0.5 * kick * q.sin();
+    p -= 0.5 * kick * Real::sin(q);
     q += drift * p;
     for _ in 1..n {
-        p -= kick * q.sin();
+        p -= kick * Real::sin(q);
         q += drift * p;
     }
-    p -= 0.5 * kick * q.sin();
+    p -= 0.5 * kick * Real::sin(q);
     vec![q, p]
 }
 

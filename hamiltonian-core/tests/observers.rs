@@ -121,7 +121,7 @@ fn csv_reads_back_to_the_same_bits() {
     let last = run.state();
     assert_eq!(
         rows[3],
-        [last.t, last.q[0], last.p[0], -10.0 * last.q[0].cos()]
+        [last.t, last.q[0], last.p[0], -10.0 * Real::cos(last.q[0])]
     );
 }
 

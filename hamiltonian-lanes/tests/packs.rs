@@ -165,19 +165,19 @@ impl Real for Pack {
         f64::EPSILON
     }
     fn sin_cos(self) -> (Self, Self) {
-        (self.each(f64::sin), self.each(f64::cos))
+        (self.each(Real::sin), self.each(Real::cos))
     }
     fn atan2(self, other: Self) -> Self {
-        self.zip(other, f64::atan2)
+        self.zip(other, Real::atan2)
     }
     fn hypot(self, other: Self) -> Self {
-        self.zip(other, f64::hypot)
+        self.zip(other, Real::hypot)
     }
     fn pow(self, exponent: Self) -> Self {
-        self.zip(exponent, f64::powf)
+        self.zip(exponent, Real::pow)
     }
     by_lane!(sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh
-        exp exp_m1 ln ln_1p);
+        exp exp_m1 ln ln_1p erf erfc);
 }
 
 /// Everything that decides lane by lane, in one value each.

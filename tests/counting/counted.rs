@@ -168,6 +168,6 @@ impl Real for Counted {
     functions!(roots: sqrt);
     functions!(exponentials: exp);
     functions!(functions: cbrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp_m1
-        ln ln_1p);
+        ln ln_1p erf erfc);
     functions_of_two!(atan2 hypot pow);
 }

@@ -19,9 +19,26 @@ const LARGE: f64 = (1u64 << 20) as f64;
 /// modulo 4 in the lowest bits.
 #[inline(always)]
 fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
+    if W::LANES == 1 {
+        // Up to 3π/4 with room for rounding, where `n` would come to the same, and where the
+        // chain of operations that finds it is the longer half of a single sine.
+        if angle.le(W::splat(0.78)).all() {
+            return (W::Bits::splat(0), angle, W::zero());
+        }
+        if (W::splat(0.79).le(angle) & angle.le(W::splat(2.35))).all() {
+            let (r, tail) = rest(angle, W::one());
+            return (W::Bits::splat(1), r, tail);
+        }
+    }
     let shifted = angle.fma(W::splat(TWO_OVER_PI), W::splat(ROUNDER));
-    let n = shifted - W::splat(ROUNDER);
-    let (r, tail) = if W::FUSED {
+    let (r, tail) = rest(angle, shifted - W::splat(ROUNDER));
+    (shifted.bits(), r, tail)
+}
+
+/// `(r, tail)` with `angle = n·π/2 + r + tail`.
+#[inline(always)]
+fn rest<W: Word>(angle: W, n: W) -> (W, W) {
+    if W::FUSED {
         // Exact, since both terms are multiples of 2⁻⁵³ and the difference is below 1.
         let first = n.fma(W::splat(-HALF_PI_HIGH), angle);
         let low = n * W::splat(HALF_PI_LOW);
@@ -29,24 +46,29 @@ fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
         let (r, rest) = fast_two_sum(first, -low);
         (r, n.fma(W::splat(-HALF_PI_TAIL), rest - cut))
     } else {
-        // Three exact products; each difference keeps what it rounds off.
+        // Three exact products; each sum keeps what it rounds off.
         let first = angle - n * W::splat(HALF_PI_1);
-        let (second, rest) = fast_two_sum(first, -(n * W::splat(HALF_PI_2)));
-        let (r, more) = fast_two_sum(second, -(n * W::splat(HALF_PI_3)));
-        (r, (rest + more) - n * W::splat(HALF_PI_4))
-    };
-    (shifted.bits(), r, tail)
+        let (low, cut) = fast_two_sum(n * W::splat(HALF_PI_2), n * W::splat(HALF_PI_3));
+        let (r, rest) = fast_two_sum(first, -low);
+        (r, (rest - cut) - n * W::splat(HALF_PI_4))
+    }
+}
+
+/// `1 − z/2 = w + cut`.
+#[inline(always)]
+fn cosine_head<W: Word>(z: W) -> (W, W) {
+    // Half of z is exact, so that each of these rounds once whether the type fuses or not.
+    let w = z.fma(W::splat(-0.5), W::one());
+    (w, z.fma(W::splat(-0.5), W::one() - w))
 }
 
 /// `((r, s), (w, c))`: sine and cosine of `r + tail` are `r + s` and `w + c`, for |r| ≤ π/4.
 #[inline(always)]
 fn parts<W: Word>(r: W, tail: W) -> ((W, W), (W, W)) {
     let z = r * r;
-    let half = W::splat(0.5) * z;
-    let w = W::one() - half;
+    let (w, cut) = cosine_head(z);
     let sine = (r * z).fma(polynomial(z, &SINE), tail * w);
-    let cut = (W::one() - w) - half;
-    let cosine = (z * z).fma(polynomial(z, &COSINE), cut - r * tail);
+    let cosine = (z * z).fma(polynomial(z, &COSINE), (-r).fma(tail, cut));
     ((r, sine), (w, cosine))
 }
 
@@ -89,22 +111,23 @@ fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
 /// told apart before and the operations done once. A cosine is the sine a quadrant on.
 #[inline(always)]
 fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
+    if W::LANES == 1 {
+        return turn(n, r, tail, sign).0;
+    }
     let swapped = W::odd(n);
     let z = r * r;
-    let half = W::splat(0.5) * z;
-    let w = W::one() - half;
-    let cut = (W::one() - w) - half;
-    let rest = W::select(swapped, cut - r * tail, tail * w);
+    let (w, cut) = cosine_head(z);
+    let rest = W::select(swapped, (-r).fma(tail, cut), tail * w);
     let factor = W::select(swapped, z, r) * z;
     // As in `polynomial`.
-    let square = z * z;
-    let high = coefficient::<W, 5>(swapped)
-        .fma(square, coefficient::<W, 3>(swapped))
-        .fma(square, coefficient::<W, 1>(swapped));
-    let low = coefficient::<W, 4>(swapped)
-        .fma(square, coefficient::<W, 2>(swapped))
-        .fma(square, coefficient::<W, 0>(swapped));
-    let y = W::select(swapped, w, r) + factor.fma(high.fma(z, low), rest);
+    let (square, first, second, third) = (
+        z * z,
+        coefficient::<W, 1>(swapped).fma(z, coefficient::<W, 0>(swapped)),
+        coefficient::<W, 3>(swapped).fma(z, coefficient::<W, 2>(swapped)),
+        coefficient::<W, 5>(swapped).fma(z, coefficient::<W, 4>(swapped)),
+    );
+    let series = third.fma(square * square, second.fma(square, first));
+    let y = W::select(swapped, w, r) + factor.fma(series, rest);
     flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
 }
 

@@ -63,24 +63,31 @@ pub(super) fn square_root<W: Word>(a: (W, W)) -> (W, W) {
     (root, (((a.0 - p) - e) + a.1) / divisor)
 }
 
-/// The polynomial with the given coefficients, the lowest first: two interleaved schemes of
-/// Horner, which halve the chain of dependent operations.
+/// The polynomial with the given coefficients, the lowest first: four at a time as two pairs (G.
+/// Estrin, *Proc. Western Joint IRE-AIEE-ACM Computer Conf.* 33, 1960), and Horner's scheme in z⁴,
+/// which makes the chain of dependent operations short.
 #[inline(always)]
 pub(super) fn polynomial<W: Word, const N: usize>(z: W, coefficients: &[f64; N]) -> W {
     let square = z * z;
-    let mut a = W::splat(coefficients[N - 1]);
-    let mut b = W::splat(coefficients[N - 2]);
-    let mut next = N - 2;
-    while next >= 2 {
-        a = a.fma(square, W::splat(coefficients[next - 1]));
-        b = b.fma(square, W::splat(coefficients[next - 2]));
-        next -= 2;
+    let fourth = square * square;
+    let mut start = (N - 1) / 4 * 4;
+    let mut sum = four(z, square, coefficients, start);
+    while start > 0 {
+        start -= 4;
+        sum = sum.fma(fourth, four(z, square, coefficients, start));
     }
-    if next == 1 {
-        a = a.fma(square, W::splat(coefficients[0]));
-        b.fma(z, a)
-    } else {
-        a.fma(z, b)
+    sum
+}
+
+/// The four terms from number `start` on, over `z^start`; those that there are.
+#[inline(always)]
+fn four<W: Word, const N: usize>(z: W, square: W, coefficients: &[f64; N], start: usize) -> W {
+    let at = |k: usize| W::splat(coefficients[start + k]);
+    match N - start {
+        1 => at(0),
+        2 => at(1).fma(z, at(0)),
+        3 => at(2).fma(square, at(1).fma(z, at(0))),
+        _ => at(3).fma(z, at(2)).fma(square, at(1).fma(z, at(0))),
     }
 }
 

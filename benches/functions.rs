@@ -1,0 +1,336 @@
+//! What an elementary function costs: nanoseconds a value for scalars and for the packs of every
+//! level of this CPU, beside the standard library and the crate `wide`, all in one process.
+//!
+//! `cargo bench --bench functions` prints a table; with `-- --json` one line a function and level:
+//! `{"function":…, "level":…, "ns":…, "std_ns":…}`, and the latencies. `wide` chooses its
+//! instructions when it is compiled: with `RUSTFLAGS="-C target-cpu=native"` it has those that the
+//! levels here find at run time. (The crate `sleef` 0.3.3 needs a nightly compiler and is left out;
+//! so are functions that neither `std` nor `wide` has.) Each number is the least of many short
+//! rounds, which alternate between the rivals, so that only ratios within one line matter.
+//!
+//! The last line is W1, the pendulum by Störmer–Verlet with one state: the same loop with the sine
+//! of this library and with that of the standard library.
+
+use std::hint::black_box;
+use std::marker::PhantomData;
+use std::time::Instant;
+
+use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch_at_most};
+use wide::f64x8;
+
+/// Values a round: their arguments stay in the first cache.
+const COUNT: usize = 1024;
+const ROUNDS: usize = 400;
+
+/// One function as it is written over every scalar, and as its rivals have it.
+trait Function {
+    const NAME: &'static str;
+    /// Where arguments are drawn from, uniformly.
+    const RANGE: (f64, f64);
+    fn ours<T: Real>(x: T) -> T;
+    /// `None` where the standard library has no such function.
+    const STD: Option<fn(&[f64], &mut [f64])>;
+    const STD_CHAIN: Option<fn(&[f64]) -> f64>;
+    const WIDE: Option<fn(&[f64], &mut [f64])>;
+}
+
+/// The values of `$f` at all arguments, one after the other.
+macro_rules! each {
+    ($x:ident => $f:expr) => {
+        |from: &[f64], into: &mut [f64]| {
+            for (&$x, into) in from.iter().zip(into) {
+                *into = $f;
+            }
+        }
+    };
+}
+
+/// Values each of which waits for the one before: a product by 0 and a sum more than the function.
+macro_rules! chain {
+    ($x:ident => $f:expr) => {
+        |from: &[f64]| {
+            let zero = black_box(0.0);
+            let mut last = 0.0;
+            for &x in from {
+                let $x = x + zero * last;
+                last = $f;
+            }
+            last
+        }
+    };
+}
+
+macro_rules! functions {
+    (@std $x:ident $std:expr) => {
+        const STD: Option<fn(&[f64], &mut [f64])> = Some(each!($x => $std));
+        const STD_CHAIN: Option<fn(&[f64]) -> f64> = Some(chain!($x => $std));
+    };
+    (@std $x:ident) => {
+        const STD: Option<fn(&[f64], &mut [f64])> = None;
+        const STD_CHAIN: Option<fn(&[f64]) -> f64> = None;
+    };
+    (@wide $x:ident $wide:expr) => {
+        const WIDE: Option<fn(&[f64], &mut [f64])> = Some(|from, into| {
+            for (from, into) in from.chunks_exact(8).zip(into.chunks_exact_mut(8)) {
+                let $x = f64x8::new(<[f64; 8]>::try_from(from).unwrap());
+                into.copy_from_slice(&$wide.to_array());
+            }
+        });
+    };
+    (@wide $x:ident) => { const WIDE: Option<fn(&[f64], &mut [f64])> = None; };
+    ($($name:ident($x:ident) in $low:literal .. $high:literal:
+        $ours:expr $(, std $std:expr)? $(, wide $wide:expr)?;)*) => {
+        $(
+            #[allow(non_camel_case_types)]
+            struct $name;
+            impl Function for $name {
+                const NAME: &'static str = stringify!($name);
+                const RANGE: (f64, f64) = ($low, $high);
+                #[inline(always)]
+                fn ours<T: Real>($x: T) -> T { $ours }
+                functions!(@std $x $($std)?);
+                functions!(@wide $x $($wide)?);
+            }
+        )*
+        fn all(report: &mut Report) {
+            $(report.function::<$name>();)*
+        }
+    };
+}
+
+functions! {
+    sin(x) in -10.0 .. 10.0: x.sin(), std f64::sin(x), wide x.sin();
+    cos(x) in -10.0 .. 10.0: x.cos(), std f64::cos(x), wide x.cos();
+    // Both values are needed: their sum.
+    sin_cos(x) in -10.0 .. 10.0: { let (s, c) = x.sin_cos(); s + c },
+        std { let (s, c) = f64::sin_cos(x); s + c }, wide { let (s, c) = x.sin_cos(); s + c };
+    tan(x) in -10.0 .. 10.0: x.tan(), std f64::tan(x), wide x.tan();
+    exp(x) in -20.0 .. 20.0: x.exp(), std f64::exp(x), wide x.exp();
+    exp_m1(x) in -2.0 .. 2.0: x.exp_m1(), std f64::exp_m1(x);
+    ln(x) in 0.1 .. 100.0: x.ln(), std f64::ln(x), wide x.ln();
+    ln_1p(x) in -0.5 .. 10.0: x.ln_1p(), std f64::ln_1p(x);
+    pow(x) in 0.1 .. 10.0: x.pow(x), std f64::powf(x, x), wide x.pow_f64x8(x);
+    cbrt(x) in -10.0 .. 10.0: x.cbrt(), std f64::cbrt(x);
+    sinh(x) in -5.0 .. 5.0: x.sinh(), std f64::sinh(x);
+    cosh(x) in -5.0 .. 5.0: x.cosh(), std f64::cosh(x);
+    tanh(x) in -5.0 .. 5.0: x.tanh(), std f64::tanh(x);
+    asinh(x) in -5.0 .. 5.0: x.asinh(), std f64::asinh(x);
+    acosh(x) in 1.0 .. 10.0: x.acosh(), std f64::acosh(x);
+    atanh(x) in -1.0 .. 1.0: x.atanh(), std f64::atanh(x);
+    atan(x) in -5.0 .. 5.0: x.atan(), std f64::atan(x), wide x.atan();
+    atan2(x) in -5.0 .. 5.0: x.atan2(T::one() - x), std f64::atan2(x, 1.0 - x),
+        wide x.atan2(f64x8::ONE - x);
+    asin(x) in -1.0 .. 1.0: x.asin(), std f64::asin(x), wide x.asin();
+    acos(x) in -1.0 .. 1.0: x.acos(), std f64::acos(x), wide x.acos();
+    hypot(x) in -5.0 .. 5.0: x.hypot(T::one() - x), std f64::hypot(x, 1.0 - x);
+    erf(x) in -3.0 .. 3.0: x.erf();
+    erfc(x) in -3.0 .. 3.0: x.erfc();
+}
+
+/// A function over all arguments in one register after the other; or, chained, of one argument after
+/// the other in all lanes, each waiting for the last.
+struct Values<'a, F> {
+    function: PhantomData<F>,
+    from: &'a [f64],
+    into: &'a mut [f64],
+    chained: bool,
+}
+
+impl<F: Function> Kernel for Values<'_, F> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let lanes = L::Pack::LANES as usize;
+        if self.chained {
+            let zero = L::Pack::constant(black_box(0.0), 0.0);
+            let mut last = zero;
+            for &x in self.from {
+                last = F::ours(L::Pack::constant(x, 0.0) + zero * last);
+            }
+            last.store(self.into);
+        } else {
+            for (from, into) in
+                (self.from.chunks_exact(lanes)).zip(self.into.chunks_exact_mut(lanes))
+            {
+                F::ours(L::Pack::load(from, 0.0)).store(into);
+            }
+        }
+    }
+}
+
+fn on_level<F: Function>(cpu: Cpu, chained: bool, from: &[f64], into: &mut [f64]) {
+    let function = PhantomData::<F>;
+    dispatch_at_most(
+        cpu,
+        Values {
+            function,
+            from,
+            into,
+            chained,
+        },
+    );
+}
+
+/// One rival: its name and one round of its work.
+struct Rival<'a> {
+    name: String,
+    chained: bool,
+    round: Box<dyn FnMut(&[f64], &mut [f64]) + 'a>,
+    least: f64,
+}
+
+struct Report {
+    json: bool,
+    only: Vec<String>,
+}
+
+impl Report {
+    fn function<F: Function>(&mut self) {
+        if !self.only.is_empty() && !self.only.iter().any(|name| name == F::NAME) {
+            return;
+        }
+        let (low, high) = F::RANGE;
+        // A stride that meets every part of the range in no order.
+        let from: Vec<f64> = (0..COUNT)
+            .map(|k| low + (high - low) * ((k * 389 % COUNT) as f64 + 0.37) / COUNT as f64)
+            .collect();
+        let mut into = vec![0.0; COUNT];
+        let mut rivals = Vec::new();
+        let mut add = |name: &str, chained, round: Box<dyn FnMut(&[f64], &mut [f64])>| {
+            let name = name.to_string();
+            rivals.push(Rival {
+                name,
+                chained,
+                round,
+                least: f64::INFINITY,
+            });
+        };
+        if let (Some(values), Some(chain)) = (F::STD, F::STD_CHAIN) {
+            add("std", false, Box::new(values));
+            add(
+                "std",
+                true,
+                Box::new(move |from, into| into[0] = chain(from)),
+            );
+        }
+        if let Some(values) = F::WIDE {
+            add("wide", false, Box::new(values));
+        }
+        add("scalar", false, Box::new(each!(x => F::ours(x))));
+        add(
+            "scalar",
+            true,
+            Box::new(|from, into| into[0] = chain!(x => F::ours(x))(from)),
+        );
+        for cpu in Cpu::available() {
+            let name = format!("{cpu:?}").to_lowercase();
+            for chained in [false, true] {
+                add(
+                    &name,
+                    chained,
+                    Box::new(move |from, into| on_level::<F>(cpu, chained, from, into)),
+                );
+            }
+        }
+        for _ in 0..ROUNDS {
+            for rival in &mut rivals {
+                let start = Instant::now();
+                (rival.round)(black_box(&from), black_box(&mut into));
+                let each = start.elapsed().as_secs_f64() * 1e9 / COUNT as f64;
+                rival.least = rival.least.min(each);
+            }
+        }
+        self.lines(F::NAME, &rivals);
+    }
+
+    fn lines(&self, function: &str, rivals: &[Rival]) {
+        let least = |name: &str, chained| {
+            let found = rivals
+                .iter()
+                .find(|rival| rival.name == name && rival.chained == chained);
+            found.map(|rival| rival.least)
+        };
+        let number =
+            |value: Option<f64>| value.map_or("null".into(), |value| format!("{value:.3}"));
+        if !self.json {
+            print!("{function:8}");
+        }
+        for rival in rivals.iter().filter(|rival| !rival.chained) {
+            let latency = least(&rival.name, true);
+            if self.json {
+                println!(
+                    "{{\"function\":\"{function}\",\"level\":\"{}\",\"ns\":{:.3},\"std_ns\":{},\
+                     \"latency_ns\":{},\"std_latency_ns\":{}}}",
+                    rival.name,
+                    rival.least,
+                    number(least("std", false)),
+                    number(latency),
+                    number(least("std", true)),
+                );
+            } else {
+                let ratio = least("std", false)
+                    .map_or(String::new(), |std| format!(" ({:.1}×)", std / rival.least));
+                print!("  {} {:.2}{ratio}", rival.name, rival.least);
+            }
+        }
+        if !self.json {
+            let scalar = least("scalar", true).unwrap_or(f64::NAN);
+            let std = least("std", true).unwrap_or(f64::NAN);
+            println!("  latency: scalar {scalar:.2}, std {std:.2}");
+        }
+    }
+}
+
+/// W1: steps of a pendulum with the given sine, kick–drift form.
+#[inline(always)]
+fn pendulum(sine: impl Fn(f64) -> f64, start: (f64, f64), n: u32) -> (f64, f64) {
+    let (kick, drift) = (black_box(9.81e-3), black_box(1e-3));
+    let (mut q, mut p) = start;
+    for _ in 0..n {
+        p -= kick * sine(q);
+        q += drift * p;
+    }
+    (q, p)
+}
+
+#[inline(never)]
+fn pendulum_ours(start: (f64, f64), n: u32) -> (f64, f64) {
+    pendulum(|q| Real::sin(q), start, n)
+}
+
+#[inline(never)]
+fn pendulum_std(start: (f64, f64), n: u32) -> (f64, f64) {
+    pendulum(f64::sin, start, n)
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let json = arguments.iter().any(|argument| argument == "--json");
+    let only = arguments
+        .into_iter()
+        .filter(|argument| !argument.starts_with("--"))
+        .collect();
+    let mut report = Report { json, only };
+    all(&mut report);
+
+    let n = 2000;
+    let mut least = [f64::INFINITY; 2];
+    for _ in 0..ROUNDS {
+        for (least, steps) in least.iter_mut().zip([pendulum_ours, pendulum_std]) {
+            let start = Instant::now();
+            black_box(steps(black_box((0.7, 3.0)), n));
+            *least = least.min(start.elapsed().as_secs_f64() * 1e9 / f64::from(n));
+        }
+    }
+    let [ours, std] = least;
+    if json {
+        println!(
+            "{{\"function\":\"pendulum step\",\"level\":\"scalar\",\"ns\":{ours:.3},\"std_ns\":{std:.3}}}"
+        );
+    } else {
+        println!(
+            "pendulum, one state: {ours:.2} ns a step, with std {std:.2}: {:.2}×",
+            std / ours
+        );
+    }
+}

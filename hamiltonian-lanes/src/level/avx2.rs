@@ -1,7 +1,7 @@
 //! AVX2 with FMA: four lanes, and one.
 //!
-//! Input: registers. Output: [`Register`] for `__m256d` and for [`One`]. Invariant: flags are all
-//! bits of a lane or none.
+//! Input: registers. Output: [`Register`] for `__m256d` and for [`One`]. Invariant: a lane's flag is
+//! its sign bit; the others say nothing.
 
 use core::arch::x86_64::*;
 
@@ -43,11 +43,7 @@ impl Register for __m256d {
         fn shr<const K: u32>(a: Self) -> Self {
             _mm256_castsi256_pd(_mm256_srl_epi64(_mm256_castpd_si256(a), _mm_cvtsi32_si128(K as i32)))
         }
-        fn odd(a: Self) -> __m256d {
-            let one = _mm256_set1_epi64x(1);
-            let lowest = _mm256_and_si256(_mm256_castpd_si256(a), one);
-            _mm256_castsi256_pd(_mm256_cmpeq_epi64(lowest, one))
-        }
+        fn odd(a: Self) -> __m256d { Self::shl::<63>(a) }
         fn lt(a: Self, b: Self) -> __m256d { _mm256_cmp_pd::<_CMP_LT_OQ>(a, b) }
         fn le(a: Self, b: Self) -> __m256d { _mm256_cmp_pd::<_CMP_LE_OQ>(a, b) }
         fn equals(a: Self, b: Self) -> __m256d { _mm256_cmp_pd::<_CMP_EQ_OQ>(a, b) }

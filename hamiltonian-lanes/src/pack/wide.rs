@@ -127,13 +127,21 @@ impl<P: Pack, const K: usize> Mask for Masks<P, K> {
     }
     #[inline(always)]
     fn any(self) -> bool {
-        // A branch a mask: joined masks of a byte each become a detour through vectors.
+        // A branch for three masks: more of them joined, where they are a byte each, become a
+        // detour through vectors.
         let mut k = 0;
         while k < K {
-            if self.0[k].any() {
+            let mut any = self.0[k];
+            if k + 1 < K {
+                any = any | self.0[k + 1];
+            }
+            if k + 2 < K {
+                any = any | self.0[k + 2];
+            }
+            if any.any() {
                 return true;
             }
-            k += 1;
+            k += 3;
         }
         false
     }
@@ -286,8 +294,7 @@ impl<P: Pack, const K: usize> Word for W<P, K> {
         // values themselves would leave their registers on the common path.
         let mut out = Self(each!(K, [P::zero(); K], k => self.0[k]));
         let x = Self(each!(K, [P::zero(); K], k => x.0[k]));
-        let mask = Masks(each!(K, [P::Mask::splat(false); K], k => mask.0[k]));
-        replace_in_packs(&mut out, &mask, &x, f);
+        replace_in_packs(&mut out, &mask.ones(), &x, f);
         Self(each!(K, [P::zero(); K], k => out.0[k]))
     }
     #[inline(always)]
@@ -295,41 +302,51 @@ impl<P: Pack, const K: usize> Word for W<P, K> {
         let mut out = Self(each!(K, [P::zero(); K], k => self.0[k]));
         let x = Self(each!(K, [P::zero(); K], k => x.0[k]));
         let y = Self(each!(K, [P::zero(); K], k => y.0[k]));
-        let mask = Masks(each!(K, [P::Mask::splat(false); K], k => mask.0[k]));
-        replace_in_packs2(&mut out, &mask, &x, &y, f);
+        replace_in_packs2(&mut out, &mask.ones(), &x, &y, f);
         Self(each!(K, [P::zero(); K], k => out.0[k]))
     }
 }
 
-/// [`Word::replace`] pack by pack.
+impl<P: Pack, const K: usize> Masks<P, K> {
+    /// 1 where a lane is set, 0 elsewhere: a mask for calls. As masks of a byte each they would be
+    /// gathered in a vector on the common path.
+    #[inline(always)]
+    fn ones(self) -> W<P, K> {
+        W(each!(K, [P::zero(); K], k => P::select(self.0[k], P::one(), P::zero())))
+    }
+}
+
+/// [`Word::replace`] pack by pack, in the lanes where `ones` is not 0.
 #[cold]
 #[inline(never)]
 fn replace_in_packs<P: Pack, const K: usize>(
     out: &mut W<P, K>,
-    mask: &Masks<P, K>,
+    ones: &W<P, K>,
     x: &W<P, K>,
     f: fn(f64) -> f64,
 ) {
     for (k, pack) in out.0.iter_mut().enumerate() {
-        if mask.0[k].any() {
-            *pack = pack.replace(mask.0[k], x.0[k], f);
+        let mask = P::zero().lt(ones.0[k]);
+        if mask.any() {
+            *pack = pack.replace(mask, x.0[k], f);
         }
     }
 }
 
-/// [`Word::replace2`] pack by pack.
+/// [`Word::replace2`] pack by pack, in the lanes where `ones` is not 0.
 #[cold]
 #[inline(never)]
 fn replace_in_packs2<P: Pack, const K: usize>(
     out: &mut W<P, K>,
-    mask: &Masks<P, K>,
+    ones: &W<P, K>,
     x: &W<P, K>,
     y: &W<P, K>,
     f: fn(f64, f64) -> f64,
 ) {
     for (k, pack) in out.0.iter_mut().enumerate() {
-        if mask.0[k].any() {
-            *pack = pack.replace2(mask.0[k], x.0[k], y.0[k], f);
+        let mask = P::zero().lt(ones.0[k]);
+        if mask.any() {
+            *pack = pack.replace2(mask, x.0[k], y.0[k], f);
         }
     }
 }

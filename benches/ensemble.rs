@@ -15,7 +15,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Drift, Kick, Separable, System};
+use hamiltonian::{Carried, Clock, Map, Scheme, Step, System};
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
 
 hamiltonian! {
@@ -43,27 +43,28 @@ fn starts() -> States {
     }
 }
 
-/// `n` steps of all trajectories in the lanes of a pack: a block stays in registers for all steps.
+/// `n` steps of all trajectories in the lanes of a pack, by the scheme's own map: a block stays in
+/// registers for all steps.
 #[inline(always)]
 fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
-    let zero = T::zero();
     let h = T::constant(STEP, 0.0);
     let prepared = <Pendulum as System<T>>::prepare(system);
-    let half = <Pendulum as Separable<T>>::kick(&prepared, T::constant(0.5, 0.0) * h);
-    let kick = <Pendulum as Separable<T>>::kick(&prepared, h);
-    let drift = <Pendulum as Separable<T>>::drift(&prepared, h);
+    let scheme = StormerVerlet::default();
+    let map = Scheme::<T, Pendulum>::prepare(&scheme, &prepared, Step::of(h));
+    let clock = Clock {
+        start: T::zero(),
+        interval: h,
+    };
     let lanes = T::LANES as usize;
     for (some_q, some_p) in states.q.chunks_mut(lanes).zip(states.p.chunks_mut(lanes)) {
-        let State { mut q, mut p, .. } = State::new([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
-        half.kick(zero, &q, &mut p);
-        drift.drift(zero, &p, &mut q);
-        for _ in 1..n {
-            kick.kick(zero, &q, &mut p);
-            drift.drift(zero, &p, &mut q);
-        }
-        half.kick(zero, &q, &mut p);
-        q[0].store(some_q);
-        p[0].store(some_p);
+        let start = State::new([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
+        let mut carried = Scheme::<T, Pendulum>::start(&scheme, &prepared, &start, h);
+        let mut work = map.work(&carried);
+        map.run(clock, 0, n, &mut carried, &mut work);
+        map.close(clock.at(n), &mut carried);
+        let point = carried.point();
+        point.q[0].store(some_q);
+        point.p[0].store(some_p);
     }
 }
 

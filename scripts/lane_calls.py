@@ -25,7 +25,7 @@ COLD = re.compile(r"replace")
 
 def assembly(bench):
     """The text that rustc emits for a bench, as one piece."""
-    command = ["cargo", "rustc", "--release", "--bench", bench, "--message-format=json"]
+    command = ["cargo", "rustc", "--release", "--bench", bench, "--message-format=json-render-diagnostics"]
     command += ["--", "--emit=asm,link", "-Ccodegen-units=1", "-Cdebuginfo=0"]
     run = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     for line in run.stdout.splitlines():

@@ -126,7 +126,7 @@ fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
         coefficient::<W, 3>(swapped).fma(z, coefficient::<W, 2>(swapped)),
         coefficient::<W, 5>(swapped).fma(z, coefficient::<W, 4>(swapped)),
     );
-    let series = third.fma(square * square, second.fma(square, first));
+    let series = third.fma(square, second).fma(square, first);
     let y = W::select(swapped, w, r) + factor.fma(series, rest);
     flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
 }

@@ -134,9 +134,10 @@ pub(crate) fn exp_m1<W: Word>(x: W) -> W {
     let reduced = reduce(x, W::zero());
     let (half, c, s) = reduced.hyperbolic();
     let scale = reduced.scale();
-    let (high, cut) = fast_two_sum(scale - W::one(), scale * reduced.high);
+    let (start, start_cut) = two_sum(scale, -W::one());
+    let (high, cut) = fast_two_sum(start, scale * reduced.high);
     let (high, more) = two_sum(high, scale * half);
-    let y = high + scale.fma(c + s, cut + more);
+    let y = high + scale.fma(c + s, start_cut + (cut + more));
     // The sign of 0, which the sum loses.
     let y = W::from_bits(y.bits() | sign_bit(x));
     let rare = !x.abs().le(W::splat(LARGE));

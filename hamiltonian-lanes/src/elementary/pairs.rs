@@ -63,32 +63,24 @@ pub(super) fn square_root<W: Word>(a: (W, W)) -> (W, W) {
     (root, (((a.0 - p) - e) + a.1) / divisor)
 }
 
-/// The polynomial with the given coefficients, the lowest first: four at a time as two pairs (G.
-/// Estrin, *Proc. Western Joint IRE-AIEE-ACM Computer Conf.* 33, 1960), and Horner's scheme in z⁴,
-/// which makes the chain of dependent operations short.
+/// The polynomial with the given coefficients, the lowest first: Horner's scheme in z² over pairs of
+/// terms, which halves the chain of dependent operations and rounds twice beside the first
+/// coefficient.
 #[inline(always)]
 pub(super) fn polynomial<W: Word, const N: usize>(z: W, coefficients: &[f64; N]) -> W {
     let square = z * z;
-    let fourth = square * square;
-    let mut start = (N - 1) / 4 * 4;
-    let mut sum = four(z, square, coefficients, start);
+    let at = |k: usize| W::splat(coefficients[k]);
+    let mut start = (N - 1) / 2 * 2;
+    let mut sum = if start == N - 1 {
+        at(start)
+    } else {
+        at(start + 1).fma(z, at(start))
+    };
     while start > 0 {
-        start -= 4;
-        sum = sum.fma(fourth, four(z, square, coefficients, start));
+        start -= 2;
+        sum = sum.fma(square, at(start + 1).fma(z, at(start)));
     }
     sum
-}
-
-/// The four terms from number `start` on, over `z^start`; those that there are.
-#[inline(always)]
-fn four<W: Word, const N: usize>(z: W, square: W, coefficients: &[f64; N], start: usize) -> W {
-    let at = |k: usize| W::splat(coefficients[start + k]);
-    match N - start {
-        1 => at(0),
-        2 => at(1).fma(z, at(0)),
-        3 => at(2).fma(square, at(1).fma(z, at(0))),
-        _ => at(3).fma(z, at(2)).fma(square, at(1).fma(z, at(0))),
-    }
 }
 
 /// The sign bit of each lane.

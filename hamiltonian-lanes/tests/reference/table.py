@@ -187,6 +187,15 @@ for k in range(200):
     # Decimal's division rounds the exact quotient to 32 digits, ties to even.
     digits = f"{Decimal(value.numerator) / Decimal(value.denominator):.31e}".replace("e+", "e")
     texts.append(" ".join((text, bits(hi), bits(lo), digits)))
+# Drawn last, so that the points above stay what they were.
+ERRORS = {
+    "erf": (mpmath.erf, uniform(-6, 6, 120) + spread(-250, 0, 60) + uniform(0.9, 1.1, 20)),
+    "erfc": (mpmath.erfc, uniform(-6, 25, 160) + spread(-250, 0, 40) + uniform(0.4, 1.1, 60)),
+}
+for name, (function, points) in ERRORS.items():
+    for p in points:
+        lines.append(line(name, (p,), function(mpf(p[0]) + mpf(p[1]))))
+
 with open("tests/reference/decimal.txt", "w", encoding="ascii") as out:
     out.write("\n".join(texts) + "\n")
 

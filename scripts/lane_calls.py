@@ -55,45 +55,66 @@ def functions(text):
     return found
 
 
+def blocks(code, labels):
+    """Basic blocks as (instructions, blocks that may follow), the entry first."""
+    starts = {0, *(start for start in labels.values() if start < len(code))}
+    starts |= {i + 1 for i, (o, _) in enumerate(code[:-1]) if re.match(r"j|ret|ud2", o)}
+    order = sorted(starts)
+    number = {start: b for b, start in enumerate(order)}
+    found = []
+    for b, start in enumerate(order):
+        body = range(start, order[b + 1] if b + 1 < len(order) else len(code))
+        operation, operands = code[body[-1]]
+        after = []
+        if operation.startswith("j") and operands in labels:
+            after.append(number.get(labels[operands]))
+        if not re.match(r"jmp|ret|ud2", operation) and b + 1 < len(order):
+            after.append(b + 1)
+        found.append((body, [a for a in after if a is not None]))
+    return found
+
+
 def loops(code, labels):
-    """The innermost natural loops, as sets of instructions."""
-    after, before = [[] for _ in code], [[] for _ in code]
-    for i, (operation, operands) in enumerate(code):
-        target = labels.get(operands.split()[0]) if operands else None
-        if operation.startswith("j") and target is not None and target < len(code):
-            after[i].append(target)
-        falls = not re.match(r"(jmp|ret|ud2)", operation)
-        if falls and i + 1 < len(code):
-            after[i].append(i + 1)
-        for j in after[i]:
-            before[j].append(i)
+    """The innermost natural loops, each as its instructions."""
+    graph = blocks(code, labels)
+    before = [[] for _ in graph]
+    for b, (_, after) in enumerate(graph):
+        for a in after:
+            before[a].append(b)
+    # Which blocks every way to a block passes, as bits; blocks without a way to them keep all.
+    everything = (1 << len(graph)) - 1
+    passed = [1] + [everything] * (len(graph) - 1)
+    changed = True
+    while changed:
+        changed = False
+        for b in range(1, len(graph)):
+            common = everything
+            for a in before[b]:
+                common &= passed[a]
+            common |= 1 << b
+            changed |= common != passed[b]
+            passed[b] = common
     bodies = {}
-    for latch, following in enumerate(after):
-        for header in following:
-            if header > latch:
+    for latch, (_, after) in enumerate(graph):
+        for header in after:
+            if passed[latch] == everything or not passed[latch] >> header & 1:
                 continue
-            body, left = {header}, [latch]
+            body, left = bodies.setdefault(header, {header}), [latch]
             while left:
-                i = left.pop()
-                if i not in body:
-                    body.add(i)
-                    left.extend(before[i])
-            # A jump back from a block that the loop does not dominate is no loop.
-            if 0 not in body or header == 0:
-                bodies.setdefault(header, set()).update(body)
-    return [
-        body
-        for header, body in bodies.items()
-        if not any(other in body for other in bodies if other != header)
-    ]
+                b = left.pop()
+                if b not in body:
+                    body.add(b)
+                    left.extend(before[b])
+    for header, body in bodies.items():
+        if not any(other in body for other in bodies if other != header):
+            yield [code[i] for b in sorted(body) for i in graph[b][0]]
 
 
 def examine(text):
     """(level, lane loops, calls in them) of every entry."""
     for level, code, labels in functions(text):
         lane_loops, calls = 0, []
-        for body in loops(code, labels):
-            inside = [code[i] for i in sorted(body)]
+        for inside in loops(code, labels):
             if not any(PACKED.match(operation) for operation, _ in inside):
                 continue
             lane_loops += 1

@@ -1,9 +1,24 @@
 //! The scalars of `hamiltonian`: what schemes and emitted programs compute with.
 //!
 //! Input: numbers of the caller. Output: [`Real`], the arithmetic everything is generic over, for
-//! `f64`, `f32`, [`Dual`] numbers (exact derivatives, nested for higher orders) and
-//! [`DoubleDouble`] (about 106 bits). Invariant: a scalar is a value of fixed size without heap
-//! memory, and every operation is total: NaN and infinities, never a panic.
+//! `f64`, `f32`, [`Dual`] numbers (exact derivatives, nested for higher orders), [`DoubleDouble`]
+//! (about 106 bits) and packs of lanes; the levels of CPUs that packs belong to. Invariant: a scalar
+//! is a value of fixed size without heap memory, and every operation is total: NaN and infinities,
+//! never a panic.
+//!
+//! # Scalars and levels
+//! | scalar | lanes | `fma` | where it comes from |
+//! |---|---|---|---|
+//! | `f64` | 1 | two roundings | everywhere; the bits of single runs |
+//! | [`Level::Scalar`] | 1 | as the level's packs | a [`Kernel`]'s level |
+//! | [`Level::Pack`] | 2, 4 or 8 | one rounding on Neon, Avx2, Avx512 | the same: one register |
+//! | [`Level::Wide`] | 8, 16, 24 or 80 | the same | the same: registers in lock-step |
+//! | [`W<P, K>`](W) | `K` × those of `P` | as `P` | any pack, `f64` too |
+//! | [`Nf<P>`](Nf) | those of `P` | two roundings: the bits of `f64` | any pack |
+//!
+//! [`dispatch`] asks the CPU once and runs a kernel on its best level, with a plain `cargo build`;
+//! [`dispatch_at_most`] hides features. [`Cpu`] lists the levels. Without the feature `std` nobody
+//! asks the CPU: the best level is that of the target the crate is compiled for.
 //!
 //! ```
 //! use hamiltonian_lanes::{DoubleDouble, Dual, Real};

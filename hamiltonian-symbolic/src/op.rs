@@ -78,9 +78,24 @@ pub enum Far {
     Nothing,
 }
 
+/// Where a function has a value, poles aside.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Domain {
+    /// Everywhere.
+    All,
+    /// x ≥ the number.
+    From(i8),
+    /// |x| ≤ 1
+    Units,
+    /// x ≥ 0, or y whole.
+    Power,
+}
+
 /// Where a function is regular, for real arguments.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regularity {
+    /// Where it has a value.
+    pub domain: Domain,
     /// The sign of its values.
     pub range: Range,
     /// Where it is not analytic.
@@ -148,8 +163,9 @@ macro_rules! operations {
             }
         }
     };
-    (@regularity $range:ident, $breaks:ident $(($at:ident))?, $pole:ident $(($of:ident))?, $far:ident, $kind:ident) => {
+    (@regularity $domain:ident $(($from:expr))?, $range:ident, $breaks:ident $(($at:ident))?, $pole:ident $(($of:ident))?, $far:ident, $kind:ident) => {
         Regularity {
+            domain: Domain::$domain $(($from))?,
             range: Range::$range,
             breaks: Break::$breaks $((At::$at))?,
             pole: $pole $((At::$of))?,
@@ -165,49 +181,49 @@ macro_rules! operations {
 
 operations! {
     Sqrt sqrt(x) None Some(0), "\\sqrt",
-        [NonNegative, Kink(Zero), None, Infinite, Branched],
+        [From(0), NonNegative, Kink(Zero), None, Infinite, Branched],
         |d, x, f| { let g = d.powi(f, -1); vec![d.scale(&Rational::new(1, 2), g)] };
     Cbrt cbrt(x) Odd Some(0), "\\sqrt[3]",
-        [Any, Kink(Zero), None, Infinite, Branched],
+        [All, Any, Kink(Zero), None, Infinite, Branched],
         |d, x, f| { let g = d.powi(f, -2); vec![d.scale(&Rational::new(1, 3), g)] };
     Abs abs(x) Even Some(0), "\\operatorname{abs}",
-        [NonNegative, Kink(Zero), None, Infinite, Branched],
+        [All, NonNegative, Kink(Zero), None, Infinite, Branched],
         |d, x, f| vec![d.call(Op::Sign, x)];
     Sign sign(x) Odd Some(0), "\\operatorname{sign}",
-        [Any, Jump(Zero), None, Limits, Branched],
+        [All, Any, Jump(Zero), None, Limits, Branched],
         |d, x, f| vec![d.integer(0)];
     Sin sin(x) Odd Some(0), "\\sin",
-        [Any, Nowhere, None, Nothing, Entire],
+        [All, Any, Nowhere, None, Nothing, Entire],
         |d, x, f| vec![d.call(Op::Cos, x)];
     Cos cos(x) Even Some(1), "\\cos",
-        [Any, Nowhere, None, Nothing, Entire],
+        [All, Any, Nowhere, None, Nothing, Entire],
         |d, x, f| { let s = d.call(Op::Sin, x); vec![d.neg(s)] };
     Tan tan(x) Odd Some(0), "\\tan",
-        [Any, Nowhere, Some(Cosine), Nothing, Entire],
+        [All, Any, Nowhere, Some(Cosine), Nothing, Entire],
         |d, x, f| { let s = d.powi(f, 2); let one = d.integer(1); vec![d.add(&[one, s])] };
     Asin asin(x) Odd Some(0), "\\arcsin",
-        [Any, Kink(Units), None, Nothing, Branched],
+        [Units, Any, Kink(Units), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
     Acos acos(x) None None, "\\arccos",
-        [NonNegative, Kink(Units), None, Nothing, Branched],
+        [Units, NonNegative, Kink(Units), None, Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); let r = d.call(Op::Sqrt, &[r]); let r = d.powi(r, -1); vec![d.neg(r)] };
     Atan atan(x) Odd Some(0), "\\arctan",
-        [Any, Nowhere, None, Limits, Branched],
+        [All, Any, Nowhere, None, Limits, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], 1); vec![d.powi(r, -1)] };
     Sinh sinh(x) Odd Some(0), "\\sinh",
-        [Any, Nowhere, None, Infinite, Entire],
+        [All, Any, Nowhere, None, Infinite, Entire],
         |d, x, f| vec![d.call(Op::Cosh, x)];
     Cosh cosh(x) Even Some(1), "\\cosh",
-        [Positive, Nowhere, None, Infinite, Entire],
+        [All, Positive, Nowhere, None, Infinite, Entire],
         |d, x, f| vec![d.call(Op::Sinh, x)];
     Tanh tanh(x) Odd Some(0), "\\tanh",
-        [Any, Nowhere, None, Limits, Entire],
+        [All, Any, Nowhere, None, Limits, Entire],
         |d, x, f| vec![d.one_plus_square(f, -1)];
     Asinh asinh(x) Odd Some(0), "\\operatorname{arsinh}",
-        [Any, Nowhere, None, Infinite, Branched],
+        [All, Any, Nowhere, None, Infinite, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], 1); let r = d.call(Op::Sqrt, &[r]); vec![d.powi(r, -1)] };
     Acosh acosh(x) None None, "\\operatorname{arcosh}",
-        [NonNegative, Kink(One), None, Infinite, Branched],
+        [From(1), NonNegative, Kink(One), None, Infinite, Branched],
         |d, x, f| {
         // √(x−1)·√(x+1), because √(x²−1) would cancel near 1 and be real below −1.
         let (one, minus) = (d.integer(1), d.integer(-1));
@@ -217,22 +233,22 @@ operations! {
         vec![d.powi(product, -1)]
     };
     Atanh atanh(x) Odd Some(0), "\\operatorname{artanh}",
-        [Any, Nowhere, Some(Units), Nothing, Branched],
+        [Units, Any, Nowhere, Some(Units), Nothing, Branched],
         |d, x, f| { let r = d.one_plus_square(x[0], -1); vec![d.powi(r, -1)] };
     Exp exp(x) None Some(1), "\\exp",
-        [Positive, Nowhere, None, Mixed, Entire],
+        [All, Positive, Nowhere, None, Mixed, Entire],
         |d, x, f| vec![f];
     ExpM1 exp_m1(x) None Some(0), "\\operatorname{expm1}",
-        [Any, Nowhere, None, Mixed, Entire],
+        [All, Any, Nowhere, None, Mixed, Entire],
         |d, x, f| vec![d.call(Op::Exp, x)];
     Ln ln(x) None None, "\\ln",
-        [Any, Nowhere, Some(Zero), Infinite, Branched],
+        [From(0), Any, Nowhere, Some(Zero), Infinite, Branched],
         |d, x, f| vec![d.powi(x[0], -1)];
     Ln1p ln_1p(x) None Some(0), "\\operatorname{log1p}",
-        [Any, Nowhere, Some(MinusOne), Infinite, Branched],
+        [From(-1), Any, Nowhere, Some(MinusOne), Infinite, Branched],
         |d, x, f| { let one = d.integer(1); let r = d.add(&[one, x[0]]); vec![d.powi(r, -1)] };
     Atan2 atan2(y, x) None None, "\\operatorname{atan2}",
-        [Any, Jump(Cut), None, Nothing, Branched],
+        [All, Any, Jump(Cut), None, Nothing, Branched],
         |d, x, f| {
         let squares = d.sum_of_squares(&[x[1], x[0]]);
         let r = d.powi(squares, -1);
@@ -240,27 +256,27 @@ operations! {
         vec![d.mul(&[x[1], r]), d.neg(minus)]
     };
     Hypot hypot(x, y) None None, "\\operatorname{hypot}",
-        [NonNegative, Kink(Origin), None, Infinite, Branched],
+        [All, NonNegative, Kink(Origin), None, Infinite, Branched],
         |d, x, f| {
         let r = d.powi(f, -1);
         vec![d.mul(&[x[0], r]), d.mul(&[x[1], r])]
     };
     Min min(x, y) None None, "\\min",
-        [Any, Kink(Equal), None, Nothing, Branched],
+        [All, Any, Kink(Equal), None, Nothing, Branched],
         |d, x, f| {
         let first = d.less_equal(x[0], x[1]);
         let (zero, one) = (d.integer(0), d.integer(1));
         vec![d.select(first, one, zero), d.select(first, zero, one)]
     };
     Max max(x, y) None None, "\\max",
-        [Any, Kink(Equal), None, Nothing, Branched],
+        [All, Any, Kink(Equal), None, Nothing, Branched],
         |d, x, f| {
         let first = d.less_equal(x[1], x[0]);
         let (zero, one) = (d.integer(0), d.integer(1));
         vec![d.select(first, one, zero), d.select(first, zero, one)]
     };
     Pow pow(x, y) None None, "\\operatorname{pow}",
-        [OfBase, Kink(Zero), Some(Zero), Infinite, Branched],
+        [Power, OfBase, Kink(Zero), Some(Zero), Infinite, Branched],
         |d, x, f| {
         // y·x^(y−1) from its own power, not from f/x, which is 0/0 at x = 0.
         let minus = d.integer(-1);

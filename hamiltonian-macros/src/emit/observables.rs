@@ -7,7 +7,9 @@ use super::block::Context;
 use super::dynamics::vector;
 use super::generics::Generics;
 use super::{Definition, allowances, lex};
-use hamiltonian_symbolic::model::{Model, ObservableKind};
+use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::facts::conditions;
+use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
@@ -95,12 +97,30 @@ pub fn methods(
         } else {
             quote! { #(#attributes)* }
         };
+        let domain = domain(context.model, observable);
         out.extend(quote! {
             #docs
+            #domain
             #allow
             #[must_use]
             #visibility fn #name<T: #bound>(&self, state: &__h::State<#state>) -> #result { #body }
         });
     }
     out
+}
+
+/// Where an invariant has values, and with that is conserved, if that is not everywhere H has.
+fn domain(model: &Model, observable: &Observable) -> Option<TokenStream> {
+    if observable.kind != ObservableKind::Invariant {
+        return None;
+    }
+    let of_h: Vec<Node> = model.hamiltonian.into_iter().collect();
+    let of_h = conditions(model, &of_h);
+    let mut own = conditions(model, &observable.components);
+    own.retain(|condition| !of_h.contains(condition));
+    if own.is_empty() {
+        return None;
+    }
+    let text = format!("\n\n Conserved where H has values and {}.", own.join(", "));
+    Some(quote! { #[doc = #text] })
 }

@@ -224,3 +224,37 @@ fn equations_in_another_time_are_in_that_time() {
     let latex = section(&lagrangian, "LaTeX");
     assert!(latex.contains(r"{\mathrm{d} s_{2}}"), "{latex}");
 }
+
+/// The code of a definition.
+fn code(source: &str) -> String {
+    let source = format!("(::hamiltonian) {}", unmarked(source).0);
+    expand(TokenStream::from_str(&source).unwrap()).to_string()
+}
+
+#[test]
+fn an_invariant_says_where_it_has_values() {
+    let code = code(
+        "pub struct Well { a = 2 }
+        H(q; p) = p^2/2 + 1/q^2;
+        invariant side = sign(q);
+        invariant power = (p^2 + 2/q^2)^a;
+        invariant log = ln(p^2/2 + 1/q^2 - 3)",
+    );
+    assert_eq!(code.matches("Conserved where").count(), 1, "{code}");
+    let said = "Conserved where H has values and `p^2/2 + 1/q^2 - 3` > 0.";
+    assert!(code.contains(said), "{code}");
+}
+
+/// No inverse of the mass matrix is needed for the proof.
+#[test]
+fn a_block_of_masses_keeps_its_energy() {
+    let energy = "(3 + x^2)*u^2/2 + x*u*v + (2 + x^2)*v^2/2 + (4 + x^4)*w^2/2 + x*v*w + x^2*u*w";
+    let block = |invariant: &str| {
+        code(&format!(
+            "pub struct Block {{}} L(x, y, z; u, v, w) = {energy}; invariant kept = {invariant}"
+        ))
+    };
+    assert!(!block(energy).contains("compile_error"));
+    assert!(!block("x*u + (2 + x^2)*v + x*w").contains("compile_error"));
+    assert!(block("u^2").contains("is not conserved"));
+}

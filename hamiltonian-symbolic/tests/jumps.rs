@@ -2,7 +2,9 @@
 
 use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::dag::Side;
+use hamiltonian_symbolic::index::Index;
+use hamiltonian_symbolic::model::{Model, VectorEntry};
 
 fn verdict(model: &mut Model, invariant: &str) -> Verdict {
     let node = parse(model, invariant);
@@ -179,4 +181,23 @@ fn a_value_of_its_own_at_a_jump_counts() {
     }
     accepted(&mut free, "if q == 1 { 1 } else { 1 + p - p }");
     accepted(&mut free, "p + if q == 1 { q - 1 } else { 0 }");
+}
+
+/// A force may give energy: H keeps orbits away from nothing then.
+#[test]
+fn with_a_force_nothing_is_kept_away() {
+    let mut well = system("q; p", "", "", "p^2/2 + 1/q^2");
+    accepted(&mut well, "sign(q)");
+    let drag = parse(&mut well, "-p");
+    well.force = vec![VectorEntry {
+        side: Side::P,
+        group: 0,
+        column: 0,
+        row: Index::constant(0),
+        value: drag,
+    }];
+    let found = verdict(&mut well, "sign(q)");
+    assert!(matches!(found, Verdict::Jumps { .. }), "{found:?}");
+    let found = verdict(&mut well, "p^2/2 + 1/q^2");
+    assert!(matches!(found, Verdict::Disproven { .. }), "{found:?}");
 }

@@ -41,7 +41,7 @@ pub(super) struct Obstacle {
 pub(super) fn find(model: &Model, expression: Node, h: Node) -> Option<Obstacle> {
     let mut model = model.clone();
     let facts = facts(&mut model, &[expression, h]);
-    let first = Claim::new(&model.dag, &facts, expression, h);
+    let first = Claim::new(&model, &facts, expression, h);
     if first.passes(first.expression.into(), first.h.into()) {
         return None;
     }
@@ -58,17 +58,21 @@ struct Claim {
     roots: [Node; 2],
     expression: Regular,
     h: Regular,
-    /// Whether H does not depend on time.
+    /// Whether H is conserved: it does not depend on time, and there is no force.
     is_still: bool,
+    /// Whether there is a force, which need not be analytic.
+    is_forced: bool,
 }
 
 impl Claim {
-    fn new(dag: &Dag, facts: &Facts, expression: Node, h: Node) -> Claim {
+    fn new(model: &Model, facts: &Facts, expression: Node, h: Node) -> Claim {
+        let is_forced = !model.force.is_empty();
         Claim {
             roots: [expression, h],
             expression: facts.get(expression),
             h: facts.get(h),
-            is_still: !dag.dependence(h).on(Dependence::TIME),
+            is_still: !is_forced && !model.dag.dependence(h).on(Dependence::TIME),
+            is_forced,
         }
     }
 
@@ -76,7 +80,7 @@ impl Claim {
     fn passes(&self, expression: Ends, h: Ends) -> bool {
         let is_kept = h.is_continuous || h.is_same || h.is_projective && self.is_still;
         is_kept && expression.is_projective
-            || expression.is_same && h.is_same
+            || expression.is_same && h.is_same && (!self.is_forced || expression.is_quotient)
             || expression.is_quotient && h.is_continuous
     }
 
@@ -146,7 +150,7 @@ impl Claim {
         {
             return Ok(());
         }
-        if !has_loops(&model.dag, h) && place.is_followed(model, h, u) {
+        if !self.is_forced && !has_loops(&model.dag, h) && place.is_followed(model, h, u) {
             return Ok(());
         }
         of_expression.and(of_h).map_err(limit)?;

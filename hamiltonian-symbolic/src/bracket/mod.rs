@@ -76,7 +76,9 @@ pub fn is_invariant_of_lagrangian(
         .dag
         .dependence(in_velocities)
         .on(Dependence::DIRECTION);
-    let verdict = if has_velocities && lagrange::vanishes(model, legendre, in_velocities) {
+    let is_free = model.force.is_empty();
+    let verdict = if is_free && has_velocities && lagrange::vanishes(model, legendre, in_velocities)
+    {
         Verdict::Proven
     } else {
         judge(model, expression, None)

@@ -64,6 +64,25 @@ pub struct Outcome<T> {
 /// Runs a function of a program at a point, all stages.
 #[must_use]
 pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) -> Outcome<T> {
+    run_in_order(program, function, point, false)
+}
+
+/// The same with the last iteration of every loop of the evaluation first.
+#[must_use]
+pub fn run_reversed<T: Real>(
+    program: &Program,
+    function: &Function,
+    point: &Point<T>,
+) -> Outcome<T> {
+    run_in_order(program, function, point, true)
+}
+
+fn run_in_order<T: Real>(
+    program: &Program,
+    function: &Function,
+    point: &Point<T>,
+    reversed: bool,
+) -> Outcome<T> {
     let mut machine = Machine {
         program,
         point,
@@ -71,6 +90,8 @@ pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) ->
         masks: Map::default(),
         variables: Map::default(),
         outputs: point.outputs.clone(),
+        is_in_place: function.purpose.is_in_place(),
+        reversed: false,
     };
     for target in &function.cleared {
         for column in machine.outputs.get_mut(target).into_iter().flatten() {
@@ -79,6 +100,7 @@ pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) ->
     }
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
+    machine.reversed = reversed;
     machine.steps(&function.evaluation);
     let results = function
         .results
@@ -98,9 +120,26 @@ struct Machine<'a, T: Real> {
     masks: Map<Value, T::Mask>,
     variables: Map<Domain, i64>,
     outputs: Map<Target, Vec<Vec<T>>>,
+    is_in_place: bool,
+    reversed: bool,
 }
 
 impl<T: Real> Machine<'_, T> {
+    /// The columns an array's elements are read from.
+    fn columns(&self, array: &Array) -> Option<&Vec<Vec<T>>> {
+        match *array {
+            Array::Phase {
+                side,
+                group,
+                column,
+            } if self.is_in_place => self.outputs.get(&Target::Phase {
+                side,
+                group,
+                column,
+            }),
+            _ => self.point.arrays.get(array),
+        }
+    }
     fn number(&self, value: Value) -> T {
         self.numbers[value.0 as usize]
     }
@@ -153,7 +192,13 @@ impl<T: Real> Machine<'_, T> {
                     for accumulator in &l.accumulators {
                         self.numbers[accumulator.0 as usize] = T::zero();
                     }
-                    for i in self.affine(&l.start)..self.affine(&l.end) {
+                    let (start, end) = (self.affine(&l.start), self.affine(&l.end));
+                    for k in 0..(end - start).max(0) {
+                        let i = if self.reversed {
+                            end - 1 - k
+                        } else {
+                            start + k
+                        };
                         self.variables.insert(l.domain, i);
                         self.steps(&l.body);
                     }
@@ -180,9 +225,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Load(array, row, column) => {
                 let column_number = column.as_ref().map_or(0, |c| self.index(c));
                 let row = self.index(row);
-                self.point
-                    .arrays
-                    .get(array)
+                self.columns(array)
                     .and_then(|a| a.get(column_number))
                     .and_then(|c| c.get(row))
                     .copied()

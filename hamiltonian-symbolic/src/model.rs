@@ -6,6 +6,7 @@
 
 use crate::dag::{Array, Dag, Node, Parameter, Side};
 use crate::index::{Affine, Index};
+use crate::split::Piece;
 
 /// The shape of a group of coordinates or of a parameter.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -126,6 +127,8 @@ pub struct Model {
     pub force: Vec<VectorEntry>,
     /// H.
     pub hamiltonian: Option<Node>,
+    /// The pieces of H with exact flows, outermost first; none where H is not split.
+    pub pieces: Vec<Piece>,
 }
 
 impl Model {

@@ -182,6 +182,7 @@ pub fn request(
         results: Vec::new(),
         stores: Vec::new(),
         cleared: Vec::new(),
+        pinned: None,
     };
     let mut along = |model: &mut Model, sides: (bool, bool)| {
         let entries = gradient.get_or_insert_with(|| partials(model, h));
@@ -259,6 +260,12 @@ pub fn request(
                 request.stores.push(added(scaled(&mut model.dag, entry)));
             }
         }
+        Purpose::Piece(number) => {
+            if let Some(piece) = model.pieces.get(usize::from(number)).cloned() {
+                request.stores = piece.stores(model);
+                request.pinned = piece.flow.innermost();
+            }
+        }
     }
     Ok(request)
 }
@@ -307,6 +314,13 @@ fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
         _ => None,
     };
     adjoints.into_iter().filter_map(entry).collect()
+}
+
+/// The stores that add c·J∇h of an expression.
+pub(crate) fn rates(model: &mut Model, h: Node) -> Vec<Store> {
+    let entries = partials(model, h).into_iter();
+    let dag = &mut model.dag;
+    entries.map(|entry| added(scaled(dag, entry))).collect()
 }
 
 /// The gradient of a scalar expression as a vector function with both parts.

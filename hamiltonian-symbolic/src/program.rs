@@ -237,9 +237,17 @@ pub enum Purpose {
     Kick,
     /// `into_q += c·∂H/∂p`.
     Drift,
+    /// The exact flow of piece n of the model's splitting, for the step coefficient: it reads and
+    /// writes one point, the outputs.
+    Piece(u16),
 }
 
 impl Purpose {
+    /// Whether coordinates and momenta are read from the outputs.
+    #[must_use]
+    pub fn is_in_place(self) -> bool {
+        matches!(self, Purpose::Piece(_))
+    }
     /// Whether outputs are added to instead of overwritten.
     #[must_use]
     pub fn accumulates(self) -> bool {

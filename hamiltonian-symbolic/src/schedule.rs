@@ -5,11 +5,14 @@
 //! one level over one loop shares one nest; what needs a finished sum stands in a later nest over
 //! the same loop, where the body is computed again.
 
-use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::factor::count_uses;
 use crate::index::{Domain, Index};
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
+
+/// Coordinates and momenta.
+const SPACE: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0);
 
 /// An element of an output and what is put there, in every iteration of the value's loop.
 #[derive(Clone, Debug)]
@@ -37,6 +40,9 @@ pub struct Request {
     pub stores: Vec<Store>,
     /// Outputs to be set to 0 first.
     pub cleared: Vec<Target>,
+    /// The loop in which all that moves is computed and stored: its iterations read what those
+    /// before them wrote.
+    pub pinned: Option<Domain>,
 }
 
 impl Request {
@@ -91,6 +97,7 @@ pub fn schedule(dag: &Dag, requests: &[Request], images: &Images) -> Program {
         Stage::Parameters,
         &computed,
         &[],
+        None,
         nothing.clone(),
     );
     program.prepare = prepare;
@@ -111,6 +118,7 @@ pub fn schedule(dag: &Dag, requests: &[Request], images: &Images) -> Program {
             Stage::Coefficient,
             &coefficients,
             &[],
+            None,
             prepared.clone(),
         );
         let (evaluation, values) = stage(
@@ -119,6 +127,7 @@ pub fn schedule(dag: &Dag, requests: &[Request], images: &Images) -> Program {
             Stage::Evaluation,
             &request.results,
             &request.stores,
+            request.pinned,
             carried,
         );
         let results = request.results.iter();
@@ -169,6 +178,7 @@ fn stage(
     stage: Stage,
     wanted: &[Node],
     stores: &[Store],
+    pinned: Option<Domain>,
     carried: Numbers,
 ) -> (Vec<Step>, Numbers) {
     let roots: Vec<Node> = wanted
@@ -185,6 +195,7 @@ fn stage(
         known: carried,
         scopes: Vec::new(),
         open: Vec::new(),
+        pinned,
     };
     let stores: Vec<&Store> = stores.iter().collect();
     let steps = placer.block(None, wanted, &stores);
@@ -208,6 +219,8 @@ pub(crate) struct Placer<'a> {
     /// What is computed in each of the open blocks, outermost first.
     scopes: Vec<Vec<Node>>,
     open: Vec<Option<Domain>>,
+    /// The loop in which all that moves is computed.
+    pinned: Option<Domain>,
 }
 
 impl Placer<'_> {
@@ -232,7 +245,18 @@ impl Placer<'_> {
         value
     }
 
+    /// The loop a node is computed in.
+    fn home(&self, node: Node) -> Option<Domain> {
+        match self.pinned {
+            Some(_) if self.dag.dependence(node).on(SPACE) => self.pinned,
+            _ => self.dag.home(node),
+        }
+    }
+
     fn home_of(&self, store: &Store) -> Option<Domain> {
+        if self.pinned.is_some() {
+            return self.pinned;
+        }
         let set = self.dag.variables(store.value)
             | store.row.variables()
             | store.column.as_ref().map_or(0, Index::variables);
@@ -252,7 +276,7 @@ impl Placer<'_> {
             let mut own = 0;
             self.dag
                 .for_children(node, |child| own = own.max(level.get(child).unwrap_or(0)));
-            if self.dag.home(node) == here
+            if self.home(node) == here
                 && let Kind::Reduce(domain, _) = self.dag.kind(node)
             {
                 own += 1;
@@ -285,7 +309,7 @@ impl Placer<'_> {
             }
             for &node in &needed {
                 let is_now = level.get(node) == Some(now);
-                if is_now && self.dag.home(node) == here && !fused.contains_key(&node) {
+                if is_now && self.home(node) == here && !fused.contains_key(&node) {
                     self.compute(&mut steps, node, &level);
                 }
             }
@@ -360,7 +384,7 @@ impl Placer<'_> {
         stores: &[&Store],
     ) -> Map<Node, ()> {
         let mut fused: Map<Node, ()> = Map::default();
-        let open = |node: Node| self.stage_of(node) == self.stage && self.dag.home(node) == here;
+        let open = |node: Node| self.stage_of(node) == self.stage && self.home(node) == here;
         for &node in needed {
             if !open(node) {
                 continue;

@@ -12,24 +12,66 @@ mod rank;
 mod rows;
 mod solve;
 mod space;
+mod sweep;
 mod tape;
 mod units;
 
 pub use motion::{Motion, Move};
 pub use rows::{ROWS, Row, row};
 
-use crate::dag::Node;
+use crate::dag::{Dependence, Node};
+use crate::index::Domain;
 use crate::model::{Model, ObservableKind};
+use crate::pipeline;
 use crate::print;
+use crate::schedule::Store;
+use crate::transform::check_split;
 use space::Space;
 
 /// A flow in closed form.
 #[derive(Clone, PartialEq, Debug)]
-pub struct ExactFlow {
-    /// What moves in the time of the step coefficient.
-    pub motion: Motion,
-    /// The names of the rows it is made of; none for a piece that is linear in time.
-    pub rows: Vec<&'static str>,
+pub enum ExactFlow {
+    /// No conjugate pair meets: everything moves at a constant rate, c·J∇h.
+    Linear,
+    /// What moves in the time of the step coefficient, and the names of the rows that is made of.
+    Closed(Motion, Vec<&'static str>),
+    /// The same in every iteration of a loop, one after the other.
+    Loop {
+        /// What moves in an iteration.
+        motion: Motion,
+        /// The names of the rows.
+        rows: Vec<&'static str>,
+        /// The innermost loop.
+        innermost: Domain,
+        /// Whether iterations commute, so that their order does not matter.
+        merges: bool,
+    },
+}
+
+impl ExactFlow {
+    /// The names of the rows it is made of; none where it is linear in time.
+    #[must_use]
+    pub fn rows(&self) -> &[&'static str] {
+        match self {
+            ExactFlow::Linear => &[],
+            ExactFlow::Closed(_, rows) | ExactFlow::Loop { rows, .. } => rows,
+        }
+    }
+    /// Whether the flow for one time after that for another is the flow for both.
+    #[must_use]
+    pub fn merges(&self) -> bool {
+        match self {
+            ExactFlow::Linear | ExactFlow::Closed(..) => true,
+            ExactFlow::Loop { merges, .. } => *merges,
+        }
+    }
+    /// The loop whose every iteration reads and writes.
+    pub(crate) fn innermost(&self) -> Option<Domain> {
+        match self {
+            ExactFlow::Linear | ExactFlow::Closed(..) => None,
+            ExactFlow::Loop { innermost, .. } => Some(*innermost),
+        }
+    }
 }
 
 /// A part of H with its flow.
@@ -64,26 +106,47 @@ pub struct Reasons {
     pub keeps_invariants: bool,
 }
 
-/// Why there is no splitting.
+/// The term of H that no row takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Refusal {
-    /// No row takes this term of H.
-    Term {
-        /// The term, as it was written.
-        node: Node,
-        /// The same as text.
-        text: String,
-    },
-    /// Elements are not given by number: a search by terms does not apply.
-    Loops,
+pub struct Refusal {
+    /// The term, as it was written.
+    pub node: Node,
+    /// The same as text.
+    pub text: String,
+}
+
+/// The most pieces of a splitting.
+pub const MOST: usize = 8;
+
+impl Piece {
+    /// What a program is to do for the flow.
+    pub(crate) fn stores(&self, model: &mut Model) -> Vec<Store> {
+        match &self.flow {
+            ExactFlow::Linear => pipeline::rates(model, self.h),
+            ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
+                motion.stores(&mut model.dag)
+            }
+        }
+    }
 }
 
 /// The exact flow of one expression; what is made is in the model's arena.
 pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
-    let mut space = Space::new(model, &[h])?;
+    let Some(mut space) = Space::new(model, &[h]) else {
+        return looped(model, h);
+    };
     let found = any_flow(&mut space, h);
     model.dag = space.model.dag;
     found.map(ExactFlow::from)
+}
+
+/// The flow of an expression with loops.
+fn looped(model: &mut Model, h: Node) -> Option<ExactFlow> {
+    let dependence = model.dag.dependence(h);
+    match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
+        (true, true) => sweep::one(model, h),
+        _ => Some(ExactFlow::Linear),
+    }
 }
 
 /// The flow of an expression as it stands, or multiplied out.
@@ -100,9 +163,9 @@ fn any_flow(space: &mut Space, h: Node) -> Option<solve::Flow> {
 
 impl From<solve::Flow> for ExactFlow {
     fn from(flow: solve::Flow) -> ExactFlow {
-        ExactFlow {
-            motion: flow.motion,
-            rows: flow.rows,
+        match flow.rows.is_empty() {
+            true => ExactFlow::Linear,
+            false => ExactFlow::Closed(flow.motion, flow.rows),
         }
     }
 }
@@ -116,12 +179,33 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
         Some(h) => h,
         None => model.dag.integer(0),
     };
-    let mut space = Space::new(model, &[h]).ok_or(Refusal::Loops)?;
-    let found = search(&mut space, h);
-    model.dag = space.model.dag;
-    found.map_err(|node| Refusal::Term {
+    let found = match Space::new(model, &[h]) {
+        Some(mut space) => {
+            let found = search(&mut space, h);
+            model.dag = space.model.dag;
+            found
+        }
+        None => over_loops(model, h),
+    };
+    let refused = |node| Refusal {
         node,
         text: print::text(model, node),
+    };
+    found.map_err(refused)
+}
+
+/// A splitting into loops of flows.
+fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
+    let pieces = sweep::find(model, h)?;
+    let parts = pieces.iter().map(|piece| (piece.name.clone(), piece.h));
+    let parts: Vec<(String, Node)> = parts.collect();
+    // More pieces than a splitting has are refused with what was met first.
+    if pieces.is_empty() || pieces.len() > MOST || check_split(model, &parts).is_err() {
+        return Err(h);
+    }
+    Ok(Splitting {
+        pieces,
+        choice: None,
     })
 }
 
@@ -147,7 +231,7 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
         constants = level.constant;
     }
     let fewest = candidates.iter().map(Vec::len).min().unwrap_or(0);
-    candidates.retain(|pieces| pieces.len() <= fewest + 2);
+    candidates.retain(|pieces| pieces.len() <= (fewest + 2).min(MOST));
     // A number that stands in H is no piece; what adds up without it is proven with it.
     let constant = space.dag().add(&constants);
     let adds_up = |space: &mut Space, pieces: &Vec<cover::Block>| {
@@ -193,33 +277,33 @@ pub fn declared(
 ) -> Result<Splitting, (usize, Refusal)> {
     let mut pieces = Vec::with_capacity(parts.len());
     for (at, (name, h)) in parts.iter().enumerate() {
-        let mut space = Space::new(model, &[*h]).ok_or((at, Refusal::Loops))?;
-        let found = any_flow(&mut space, *h);
-        let refused = match &found {
-            None => cover_term(&mut space, *h),
-            Some(_) => *h,
-        };
-        model.dag = space.model.dag;
-        let Some(flow) = found else {
-            let text = print::text(model, refused);
-            return Err((
-                at,
-                Refusal::Term {
-                    node: refused,
-                    text,
-                },
-            ));
+        let Some(flow) = exact_flow(model, *h) else {
+            let node = blamed(model, *h);
+            let text = print::text(model, node);
+            return Err((at, Refusal { node, text }));
         };
         pieces.push(Piece {
             h: *h,
             name: name.clone(),
-            flow: flow.into(),
+            flow,
         });
     }
     Ok(Splitting {
         pieces,
         choice: None,
     })
+}
+
+/// The term of an expression that has no flow.
+fn blamed(model: &mut Model, h: Node) -> Node {
+    match Space::new(model, &[h]) {
+        Some(mut space) => {
+            let term = cover_term(&mut space, h);
+            model.dag = space.model.dag;
+            term
+        }
+        None => sweep::find(model, h).err().unwrap_or(h),
+    }
 }
 
 /// The first term of a sum without a flow of its own; the whole where each has one.

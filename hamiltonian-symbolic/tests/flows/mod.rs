@@ -1,6 +1,6 @@
 //! What every exact flow must pass, by its values and tangents in 32 digits.
 
-use super::common::{self, parse};
+use crate::common::{self, parse};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
@@ -8,7 +8,7 @@ use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::schedule::{Images, Request, schedule};
-use hamiltonian_symbolic::split::exact_flow;
+use hamiltonian_symbolic::split::{ExactFlow, exact_flow};
 
 /// A piece, and the row that takes it.
 pub struct Case {
@@ -28,6 +28,7 @@ impl Values {
             results: nodes.to_vec(),
             stores: Vec::new(),
             cleared: Vec::new(),
+            pinned: None,
         };
         Values(schedule(&model.dag, &[request], &Images::default()))
     }
@@ -65,7 +66,6 @@ impl Random {
 /// z₁(c) of a flow and J∇h, as programs.
 pub struct Checked {
     pub model: Model,
-    pub h: Node,
     pub image: Values,
     pub field: Values,
     pub energy: Values,
@@ -76,8 +76,11 @@ pub fn prepare(signature: &str, parameters: &str, text: &str) -> Option<Checked>
     let mut model = common::model(signature, "", parameters);
     let h = parse(&mut model, text);
     let found = exact_flow(&mut model, h)?;
-    let guard = found.motion.domain.clone();
-    let images = found.motion.images(&mut model.dag);
+    let ExactFlow::Closed(motion, rows) = found else {
+        return None;
+    };
+    let guard = motion.domain.clone();
+    let images = motion.images(&mut model.dag);
     let minus = model.dag.integer(-1);
     let nan = model.dag.call(hamiltonian_symbolic::op::Op::Sqrt, &[minus]);
     let mut nodes = Vec::new();
@@ -122,8 +125,7 @@ pub fn prepare(signature: &str, parameters: &str, text: &str) -> Option<Checked>
         image: Values::of(&model, &nodes),
         field: Values::of(&model, &field),
         energy: Values::of(&model, &[h]),
-        rows: found.rows,
-        h,
+        rows,
         model,
     })
 }
@@ -266,7 +268,7 @@ fn follow(
     if fine
         .iter()
         .zip(&coarse)
-        .any(|(a, b)| !((a - b).abs() <= 1e-7 * scale))
+        .any(|(a, b)| (a - b).abs() > 1e-7 * scale || (a - b).is_nan())
     {
         return;
     }

@@ -107,7 +107,7 @@ fn in_chart(
         (Some(1), Some(1)) => {
             names.read(
                 space.dag(),
-                "r = sqrt(2*F*f2); C = cosh(P*r*s); S = sinh(P*r*s)/r; d = C + Fu*S; \
+                "r = sqrt(2*F*f2); grown = sinh(P*r*s); C = sqrt(1 + grown^2); S = grown/r; d = C + Fu*S; \
                  u1 = (u + b/f2)*C - b/f2 + 2*F*S",
             )?;
         }

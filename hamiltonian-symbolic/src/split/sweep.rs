@@ -1,0 +1,429 @@
+//! Splittings of sums over arrays: a piece is a loop of exact flows of its terms.
+//!
+//! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
+//! solved once, as a system of the few elements it names, which are proven to be different ones;
+//! what names one site is exact in any order, what joins sites is swept one way down and the other
+//! way up.
+
+use super::motion::{Motion, Move};
+use super::space::Space;
+use super::{ExactFlow, Piece};
+use super::{any_flow, search};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::index::{Affine, Domain, Index};
+use crate::model::{Group, Model, ParameterDeclaration, Shape};
+use crate::print;
+use crate::rational::Rational;
+
+/// A term of H: what is summed over which loops.
+#[derive(Clone, Debug)]
+struct Term {
+    chain: Vec<Domain>,
+    body: Node,
+    source: Node,
+}
+
+/// The terms over one chain of loops that name the same elements.
+struct Site {
+    chain: Vec<Domain>,
+    rows: Vec<Index>,
+    terms: Vec<Term>,
+}
+
+/// The pieces of H, or its first term without a flow.
+pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
+    let terms = terms(&mut model.dag, h);
+    let mut easy = [Vec::new(), Vec::new()];
+    let mut sites: Vec<Site> = Vec::new();
+    let mut constants = Vec::new();
+    for term in terms {
+        let rows = rows(&model.dag, term.body);
+        let site = |s: &&mut Site| s.chain == term.chain && s.rows == rows;
+        match sites.iter_mut().find(site) {
+            Some(site) => site.terms.push(term),
+            None if rows.is_empty() => constants.push(term),
+            None => sites.push(Site {
+                chain: term.chain.clone(),
+                rows,
+                terms: vec![term],
+            }),
+        }
+    }
+    let mut pieces = Vec::new();
+    for site in sites {
+        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).collect();
+        // In one site alone V and T need not be a loop of flows.
+        let is_mixed = bodies.iter().any(|body| couples(&model.dag, *body));
+        let joins = site.rows.len() > 1 && both_sides(&model.dag, &bodies);
+        if is_mixed || joins {
+            let body = model.dag.add(&bodies);
+            if let Some(found) = solved(model, &site, body, false) {
+                pieces.extend(found);
+                continue;
+            }
+        }
+        let mut hard = Vec::new();
+        for term in &site.terms {
+            match side(&model.dag, term.body) {
+                Some(side) => easy[usize::from(side == Side::P)].push(term.clone()),
+                None => hard.push(term.clone()),
+            }
+        }
+        if let Some(first) = hard.first() {
+            let (first, bodies) = (first.clone(), hard.iter().map(|term| term.body));
+            let bodies: Vec<Node> = bodies.collect();
+            let body = model.dag.add(&bodies);
+            match solved(model, &site, body, true) {
+                Some(found) => pieces.extend(found),
+                None => return Err(first.source),
+            }
+        }
+    }
+    // A term of parameters alone moves nothing; it stands with what moves least.
+    easy[0].extend(constants);
+    let [potential, kinetic] = easy.map(|terms| summed(&mut model.dag, &terms));
+    for (at, part) in [kinetic, potential].into_iter().enumerate() {
+        if !model.dag.is_zero(part) {
+            let piece = Piece {
+                h: part,
+                name: print::text(model, part),
+                flow: ExactFlow::Linear,
+            };
+            pieces.insert(at.min(pieces.len()), piece);
+        }
+    }
+    Ok(pieces)
+}
+
+/// The flow of one expression with loops, as one loop of flows.
+pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
+    let terms = terms(&mut model.dag, h);
+    let first = terms.first()?.clone();
+    let rows = rows(&model.dag, first.body);
+    let mut bodies = Vec::new();
+    let mut all = rows;
+    for term in &terms {
+        if term.chain != first.chain {
+            return None;
+        }
+        bodies.push(term.body);
+        for row in self::rows(&model.dag, term.body) {
+            if !all.contains(&row) {
+                all.push(row);
+            }
+        }
+    }
+    let site = Site {
+        chain: first.chain,
+        rows: all,
+        terms: Vec::new(),
+    };
+    let body = model.dag.add(&bodies);
+    let pieces = solved(model, &site, body, false)?;
+    pieces.into_iter().next().map(|piece| piece.flow)
+}
+
+/// H by terms: through sums, loops and factors that do not move.
+fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
+    let mut found = Vec::new();
+    let start = Term {
+        chain: Vec::new(),
+        body: h,
+        source: h,
+    };
+    let mut left = vec![start];
+    while let Some(term) = left.pop() {
+        let with = |body: Node| Term {
+            body,
+            ..term.clone()
+        };
+        match dag.kind(term.body).clone() {
+            Kind::Sum(c, parts) => {
+                let mut inner: Vec<Term> = Vec::new();
+                for (k, node) in &parts {
+                    inner.push(with(dag.scale(k, *node)));
+                }
+                if !c.is_zero() {
+                    inner.push(with(dag.constant(c)));
+                }
+                for part in &mut inner {
+                    if part.chain.is_empty() {
+                        part.source = part.body;
+                    }
+                }
+                left.extend(inner.into_iter().rev());
+            }
+            Kind::Reduce(domain, body) => {
+                let mut chain = term.chain.clone();
+                chain.push(domain);
+                left.push(Term {
+                    chain,
+                    body,
+                    source: term.source,
+                });
+            }
+            Kind::Product(k, factors) => {
+                let opens = |node: Node| matches!(dag.kind(node), Kind::Reduce(..) | Kind::Sum(..));
+                let moves = |node: Node| dag.dependence(node).on(Dependence::MOVING);
+                let mut moving = factors.iter().filter(|(node, _)| moves(*node));
+                match (moving.next(), moving.next()) {
+                    (Some(&(inner, 1)), None) if opens(inner) => {
+                        let rest = factors.iter().filter(|(node, _)| *node != inner).copied();
+                        let rest: Vec<_> = rest.collect();
+                        let factor = dag.product(&k, &rest);
+                        let inside = dag.kind(inner).clone();
+                        match inside {
+                            Kind::Reduce(domain, body) => {
+                                let body = dag.mul(&[factor, body]);
+                                let mut chain = term.chain.clone();
+                                chain.push(domain);
+                                left.push(Term {
+                                    chain,
+                                    body,
+                                    source: term.source,
+                                });
+                            }
+                            Kind::Sum(c, parts) => {
+                                let mut inner = Vec::new();
+                                for (k, node) in &parts {
+                                    let part = dag.mul(&[factor, *node]);
+                                    inner.push(with(dag.scale(k, part)));
+                                }
+                                if !c.is_zero() {
+                                    inner.push(with(dag.scale(&c, factor)));
+                                }
+                                left.extend(inner.into_iter().rev());
+                            }
+                            _ => found.push(term),
+                        }
+                    }
+                    _ => found.push(term),
+                }
+            }
+            _ => found.push(term),
+        }
+    }
+    found
+}
+
+/// The elements of phase space that an expression names, without what stands in its own loops.
+fn elements(dag: &Dag, root: Node) -> Vec<(Node, Side, u16, u16, Index)> {
+    let mut found = Vec::new();
+    for node in dag.reachable(&[root]) {
+        if let Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            None,
+        ) = dag.kind(node)
+        {
+            found.push((node, *side, *group, *column, row.clone()));
+        }
+    }
+    found
+}
+
+/// The rows it names, sorted.
+fn rows(dag: &Dag, body: Node) -> Vec<Index> {
+    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.4).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
+fn couples(dag: &Dag, node: Node) -> bool {
+    side(dag, node).is_none()
+}
+
+/// The side an expression is of, if it is of one.
+fn side(dag: &Dag, node: Node) -> Option<Side> {
+    let dependence = dag.dependence(node);
+    match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
+        (_, false) => Some(Side::Q),
+        (false, true) => Some(Side::P),
+        (true, true) => None,
+    }
+}
+
+fn both_sides(dag: &Dag, bodies: &[Node]) -> bool {
+    let on = |what: Dependence| bodies.iter().any(|body| dag.dependence(*body).on(what));
+    on(Dependence::Q) && on(Dependence::P)
+}
+
+fn summed(dag: &mut Dag, terms: &[Term]) -> Node {
+    let mut parts = Vec::new();
+    for term in terms {
+        parts.push((Rational::ONE, around(dag, &term.chain, term.body)));
+    }
+    dag.linear(&Rational::ZERO, &parts)
+}
+
+fn around(dag: &mut Dag, chain: &[Domain], body: Node) -> Node {
+    let loops = chain.iter().rev();
+    loops.fold(body, |body, domain| dag.reduce(*domain, body))
+}
+
+/// Whether the rows of a body are different ones in every iteration, where a condition holds: a
+/// site alone, neighbours on a line or a ring, pairs j < i.
+fn are_distinct(dag: &mut Dag, chain: &[Domain], rows: &[Index]) -> Option<Option<Node>> {
+    let variable = |index: &Index| match index.affine.loops.as_slice() {
+        [(domain, 1)] if index.affine.sizes.is_empty() => Some((*domain, index.affine.constant)),
+        _ => None,
+    };
+    match (chain, rows) {
+        // Elements given by number are different where their numbers are.
+        ([], rows) => rows
+            .iter()
+            .all(|row| row.modulo.is_none() && row.affine.as_constant().is_some())
+            .then_some(None),
+        ([_], [row]) => variable(row).map(|_| None),
+        ([_], [a, b]) => {
+            let ((d, i), (e, j)) = (variable(a)?, variable(b)?);
+            if d != e || (i - j).abs() != 1 {
+                return None;
+            }
+            let modulo = a.modulo.clone().or_else(|| b.modulo.clone());
+            match (modulo, &a.modulo, &b.modulo) {
+                (None, ..) => Some(None),
+                (Some(n), x, y) => {
+                    let same = |m: &Option<Affine>| m.as_ref().is_none_or(|m| *m == n);
+                    if !same(x) || !same(y) {
+                        return None;
+                    }
+                    // On a ring of one the neighbour is the site itself.
+                    match n.as_constant() {
+                        Some(count) => (count > 1).then_some(None),
+                        None => {
+                            let (count, one) = (dag.affine(&n), dag.integer(1));
+                            Some(Some(dag.less(one, count)))
+                        }
+                    }
+                }
+            }
+        }
+        ([outer, inner], [a, b]) => {
+            let is_pair = |i: Option<(Domain, i64)>, j: Option<(Domain, i64)>| {
+                i == Some((*outer, 0)) && j == Some((*inner, 0))
+            };
+            let plain = a.modulo.is_none() && b.modulo.is_none();
+            let pair = is_pair(variable(a), variable(b)) || is_pair(variable(b), variable(a));
+            let below = dag.range(*inner).end == Affine::variable(*outer);
+            (plain && pair && below).then_some(None)
+        }
+        _ => None,
+    }
+}
+
+/// The loops of flows that a body is; one, unless it `may_part`.
+fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<Vec<Piece>> {
+    let condition = are_distinct(&mut model.dag, &site.chain, &site.rows)?;
+    let (small, images) = scratch(model, body);
+    let over = |dag: &mut Dag, root: Node, map: &Map<Node, Node>| {
+        dag.substitute(root, |_, node| map.get(&node).copied())
+    };
+    let mut small = small;
+    let small_body = over(&mut small.dag, body, &images);
+    let mut space = Space::new(&small, &[small_body])?;
+    let found = match any_flow(&mut space, small_body) {
+        Some(flow) => vec![(small_body, ExactFlow::from(flow))],
+        None if may_part => {
+            let parts = search(&mut space, small_body).ok()?.pieces.into_iter();
+            parts.map(|piece| (piece.h, piece.flow)).collect()
+        }
+        None => return None,
+    };
+    model.dag = space.model.dag;
+    let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
+    let mut pieces = Vec::with_capacity(found.len());
+    for (part, flow) in found {
+        let part = over(&mut model.dag, part, &back);
+        let h = around(&mut model.dag, &site.chain, part);
+        let flow = match flow {
+            ExactFlow::Closed(motion, rows) => {
+                let mut moves = Vec::with_capacity(motion.moves.len());
+                for m in motion.moves {
+                    moves.push(Move {
+                        leaf: back.get(&m.leaf).copied().unwrap_or(m.leaf),
+                        value: over(&mut model.dag, m.value, &back),
+                        added: m.added,
+                    });
+                }
+                let mut domain: Vec<Node> = condition.into_iter().collect();
+                for holds in motion.domain {
+                    domain.push(over(&mut model.dag, holds, &back));
+                }
+                let motion = Motion { moves, domain };
+                match site.chain.last() {
+                    Some(innermost) => ExactFlow::Loop {
+                        motion,
+                        rows,
+                        innermost: *innermost,
+                        merges: site.rows.len() == 1,
+                    },
+                    None => ExactFlow::Closed(motion, rows),
+                }
+            }
+            flow => flow,
+        };
+        pieces.push(Piece {
+            h,
+            name: print::text(model, h),
+            flow,
+        });
+    }
+    Some(pieces)
+}
+
+/// A system of scalars in which every element that a body names is one of its own, and the
+/// elements with what stands for them.
+fn scratch(model: &Model, body: Node) -> (Model, Map<Node, Node>) {
+    let mut small = model.clone();
+    let mut images: Map<Node, Node> = Map::default();
+    let mut places: Vec<(u16, u16, Index)> = Vec::new();
+    for (node, side, group, column, row) in elements(&model.dag, body) {
+        let place = (group, column, row);
+        let at = places.iter().position(|known| *known == place);
+        let at = at.unwrap_or_else(|| {
+            let number = places.len();
+            small.groups.push(Group {
+                coordinate: format!("q{number}"),
+                momentum: format!("p{number}"),
+                shape: Shape::Scalar,
+            });
+            places.push(place);
+            number
+        });
+        let own = model.groups.len() + at;
+        images.insert(node, small.scalar(side, own));
+        // The partner is an element too, whether it is named or not.
+        let other = if side == Side::Q { Side::P } else { Side::Q };
+        let (group, column, row) = places[at].clone();
+        let array = Array::Phase {
+            side: other,
+            group,
+            column,
+        };
+        let partner = small.dag.element(array, row, None);
+        let image = small.scalar(other, own);
+        images.insert(partner, image);
+    }
+    for node in model.dag.reachable(&[body]) {
+        let is_given = matches!(
+            model.dag.kind(node),
+            Kind::Element(Array::Parameter(_), ..) | Kind::Variable(_)
+        );
+        if is_given {
+            let number = small.parameters.len();
+            small.parameters.push(ParameterDeclaration {
+                name: format!("c{number}"),
+                shape: Shape::Scalar,
+            });
+            let image = small.dag.parameter(Parameter(number as u16));
+            images.insert(node, image);
+        }
+    }
+    (small, images)
+}

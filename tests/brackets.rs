@@ -71,7 +71,7 @@ hamiltonian! {
     pub struct Conditional { n: usize }
     let last = if p[0] < q[0] { sum(i in n - 1..n) { p[i] } } else { q[0]^2 };
     H(q[n]; p[n]) = norm_squared(p)/2 + last;
-    split { Free = norm_squared(p)/2; Bound = last };
+    monitor bound = last;
     monitor along = bracket(q[0], last)
 }
 
@@ -189,7 +189,7 @@ fn conditions_beside_a_bracket() {
         let state = State::new(vec![0.5; n], vec![0.25; n]);
         let kinetic = n as f64 / 32.0;
         close(system.energy(&state), kinetic + 0.25);
-        close(system.piece_bound().energy(&state), 0.25);
+        close(system.bound(&state), 0.25);
         close(system.along(&state), f64::from(u8::from(n == 1)));
     }
 }

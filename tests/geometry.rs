@@ -37,6 +37,7 @@ fn on_systems_that_are_not_separable() {
     let mut geometry = Geometry::new(Paper34::default(), &[-3.0], &[0.5], 0.05);
     visit_any(&mut geometry);
     visit_unforced(&mut geometry);
+    visit_split(&mut geometry);
     let mut geometry = Geometry::new(Shaken34::default(), &[1.0], &[0.5], 0.1);
     visit_any(&mut geometry);
     visit_unforced(&mut geometry);

@@ -26,6 +26,7 @@ pub mod long;
 pub mod order;
 pub mod paper;
 pub mod sizes;
+pub mod splits;
 pub mod systems;
 #[allow(dead_code, unused_imports)]
 #[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]

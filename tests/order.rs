@@ -44,6 +44,7 @@ fn on_the_papers_nonseparable_system() {
     let mut order = Order::new(system, &[-3.0], &[0.0], 1.0, 0.002);
     visit_any(&mut order);
     visit_unforced(&mut order);
+    visit_split(&mut order);
 }
 
 #[test]
@@ -52,6 +53,7 @@ fn on_a_nonseparable_system_with_time() {
     let mut order = Order::new(system, &[1.0], &[0.5], 2.0, 0.01);
     visit_any(&mut order);
     visit_unforced(&mut order);
+    visit_split(&mut order);
 }
 
 #[test]

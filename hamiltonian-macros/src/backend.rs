@@ -8,6 +8,7 @@ mod blame;
 mod docs;
 mod proofs;
 mod reaches;
+mod splits;
 mod surface;
 mod variables;
 mod verdicts;
@@ -23,7 +24,7 @@ use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
 use hamiltonian_symbolic::print::Readable;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure;
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use variables::System;
 
 /// Past this many nodes H is large.
@@ -61,10 +62,11 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         for (name, hamiltonian) in &pieces {
             let piece = surface::Part::piece(checked, name, &defaults);
             let model = surface::piece_model(&model, *hamiltonian);
-            code.extend(system(checked, root, model, piece, &beyond, report)?);
+            code.extend(system(checked, root, model, (piece, &[]), &beyond, report)?);
         }
         let mut whole = surface::Part::whole(checked, vectors, &pieces, declared, &defaults);
         whole.readable = readable;
+        let whole = (whole, pieces.as_slice());
         code.extend(system(checked, root, model, whole, &beyond, report)?);
         Some(code)
     };
@@ -76,7 +78,7 @@ fn system(
     checked: &Checked,
     root: &TokenStream,
     mut model: Model,
-    part: surface::Part,
+    (part, declared): (surface::Part, &[(Ident, Node)]),
     beyond: &Beyond,
     report: &mut Report,
 ) -> Option<TokenStream> {
@@ -99,7 +101,17 @@ fn system(
             model.hamiltonian = Some(split);
         }
     }
-    let verdicts = verdicts::verdicts(&mut model, &structure);
+    let large = is_large(checked, &model);
+    let split = splits::settle(
+        checked,
+        &mut model,
+        &structure,
+        (&part, declared),
+        large,
+        report,
+    );
+    text.facts.extend(split.facts);
+    let verdicts = verdicts::verdicts(&mut model, &structure, split.verdict);
     let kick = verdicts.separable.is_ok().then_some(verdicts.kick);
     let program = derive(checked, &mut model, kick, beyond, report)?;
     text.operations = docs::operations(&model, &program);
@@ -168,6 +180,7 @@ fn wanted(checked: &Checked, model: &Model, large: bool, kick: Option<emit::Kick
     if checked.item.is_some() && !checked.parameters.is_empty() {
         wanted.push(Purpose::ParameterGradient);
     }
+    wanted.extend((0..model.pieces.len()).map(|at| Purpose::Piece(at as u16)));
     wanted.extend((0..model.observables.len()).map(|at| Purpose::Observable(at as u16)));
     wanted.extend((0..model.vectors.len()).map(|at| Purpose::Vector(at as u16)));
     wanted

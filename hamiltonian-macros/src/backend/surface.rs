@@ -135,6 +135,8 @@ pub struct Part {
     pub vectors: Vec<VectorItem>,
     /// The pieces of its split and their types.
     pub pieces: Vec<(Ident, Ident)>,
+    /// Whether it is a piece of a split.
+    pub is_piece: bool,
     /// The variables it was declared in, where it is integrated in others.
     pub declared: Option<Declared>,
     /// Its formulas for reading, where they are others than those computed.
@@ -158,6 +160,7 @@ impl Part {
             observables: observables(checked),
             vectors,
             pieces: pieces.collect(),
+            is_piece: false,
             declared,
             readable: None,
         }
@@ -177,6 +180,7 @@ impl Part {
             observables: Vec::new(),
             vectors: Vec::new(),
             pieces: Vec::new(),
+            is_piece: true,
             declared: None,
             readable: None,
         }
@@ -199,6 +203,7 @@ pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
     model.force.clear();
     model.observables.clear();
     model.vectors.clear();
+    model.pieces.clear();
     model
 }
 

@@ -12,7 +12,11 @@ use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure};
 
 /// The verdicts.
-pub fn verdicts(model: &mut Model, structure: &Structure) -> emit::Structure {
+pub fn verdicts(
+    model: &mut Model,
+    structure: &Structure,
+    split: Result<(), Reason>,
+) -> emit::Structure {
     let name = subject(model);
     let (kick, exact) = kick(model, structure);
     emit::Structure {
@@ -20,6 +24,7 @@ pub fn verdicts(model: &mut Model, structure: &Structure) -> emit::Structure {
             Ok(_) => Ok(()),
             Err(coupling) => Err(not_separable(model, &name, coupling)),
         },
+        split,
         halves: match &structure.separable {
             Ok(split) => [split.potential, split.kinetic].map(|half| print::text(model, half)),
             Err(_) => Default::default(),
@@ -103,7 +108,7 @@ fn of(model: &Model) -> String {
 }
 
 /// ``H of `Pendulum` ``, or `H`
-fn subject(model: &Model) -> String {
+pub(super) fn subject(model: &Model) -> String {
     if model.name == "H" {
         "H".into()
     } else {

@@ -30,6 +30,32 @@ pub struct Context<'a> {
     pub is_run_time: &'a [bool],
     /// The numbers met so far.
     pub numbers: &'a Numbers,
+    /// Whether coordinates and momenta are read where they are written: iterations see what those
+    /// before them left.
+    pub in_place: bool,
+    /// Whether loops run from their last iteration to the first; asked of bodies in place only.
+    pub reversed: bool,
+}
+
+impl Context<'_> {
+    /// The slice an array's elements are read from.
+    pub fn read(self, array: Array) -> Slice {
+        match array {
+            Array::Phase {
+                side,
+                group,
+                column,
+            } if self.in_place => Slice::write(
+                self.layout,
+                Target::Phase {
+                    side,
+                    group,
+                    column,
+                },
+            ),
+            _ => Slice::read(self.layout, array),
+        }
+    }
 }
 
 /// The name of a value.
@@ -199,7 +225,7 @@ impl<'a> Writer<'a> {
     }
 
     fn element(&self, array: Array, row: &Index, column: Option<&Index>) -> String {
-        let slice = Slice::read(self.context.layout, array);
+        let slice = self.context.read(array);
         match array {
             Array::Phase { group, .. } | Array::Direction { group, .. } => {
                 self.place(slice, Some(group), row)
@@ -265,6 +291,9 @@ impl<'a> Writer<'a> {
                 name(*accumulator)
             );
         }
+        if self.context.in_place {
+            return self.sweep(inner);
+        }
         let found = Accesses::of(self.context, inner);
         let (known_indices, known_slices) = (self.indices.len(), self.slices.len());
         let d = inner.domain.0;
@@ -311,6 +340,17 @@ impl<'a> Writer<'a> {
         line!(self, "}}");
         self.indices.truncate(known_indices);
         self.slices.truncate(known_slices);
+    }
+
+    /// A loop whose iterations read and write one point, in either order.
+    fn sweep(&mut self, inner: &Loop) {
+        let d = inner.domain.0;
+        let start = self.context.indices.start(&inner.start);
+        let end = self.context.indices.saturating(&inner.end);
+        let order = if self.context.reversed { ".rev()" } else { "" };
+        line!(self, "for _i{d} in ({start}..{end}){order} {{");
+        self.steps(&inner.body);
+        line!(self, "}}");
     }
 
     /// Where the wrapped indices start in a segment, and how long it is until one of them wraps.
@@ -438,7 +478,7 @@ impl Finder<'_> {
                 Step::Let(value) => {
                     let program = self.context.program;
                     if let Instruction::Load(array, row, column) = program.instruction(*value) {
-                        let slice = Slice::read(self.context.layout, *array);
+                        let slice = self.context.read(*array);
                         let along = self.index(row, inner);
                         if let Some(column) = column {
                             self.index(column, inner);

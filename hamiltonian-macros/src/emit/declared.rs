@@ -32,6 +32,8 @@ pub struct Declared {
 /// What the storage of the declared variables is written from.
 fn context<'a>(declared: &'a Declared, own: Context<'a>) -> Context<'a> {
     Context {
+        in_place: false,
+        reversed: false,
         model: &declared.model,
         layout: layout(&declared.model.groups),
         suffix: "Declared",

@@ -97,6 +97,7 @@ pub fn implementations(
         }
         emission.separable();
     }
+    emission.pieces();
     emission.extras();
     (emission.out, emission.bodies.parts)
 }
@@ -107,7 +108,7 @@ fn prepared(context: Context) -> Holder {
     let mut arrays = Vec::new();
     for function in &program.functions {
         for steps in [&function.coefficient, &function.evaluation] {
-            for slice in scan(program, context.layout, steps, &[]).slices {
+            for slice in scan(context, steps, &[]).slices {
                 if let Slice::Parameter(array) = slice {
                     arrays.push(array);
                 }
@@ -119,14 +120,14 @@ fn prepared(context: Context) -> Holder {
     Holder::new(context, "__Prepared", &program.prepared, arrays)
 }
 
-struct Emission<'a> {
-    definition: &'a Definition<'a>,
-    context: Context<'a>,
-    generics: &'a Generics,
+pub(super) struct Emission<'a> {
+    pub(super) definition: &'a Definition<'a>,
+    pub(super) context: Context<'a>,
+    pub(super) generics: &'a Generics,
     prepared: Holder,
-    bodies: Bodies<'a>,
-    vector: String,
-    out: String,
+    pub(super) bodies: Bodies<'a>,
+    pub(super) vector: String,
+    pub(super) out: String,
 }
 
 macro_rules! line {
@@ -284,14 +285,9 @@ impl<'a> Emission<'a> {
     }
 
     /// What a function reads from its own holder, in the order it reads it.
-    fn holder(&self, purpose: Purpose, name: &'static str) -> Option<Holder> {
+    pub(super) fn holder(&self, purpose: Purpose, name: &'static str) -> Option<Holder> {
         let function = self.context.program.function(purpose)?;
-        let scan = scan(
-            self.context.program,
-            self.context.layout,
-            &function.evaluation,
-            &function.results,
-        );
+        let scan = scan(self.context, &function.evaluation, &function.results);
         let arrays = scan.slices.iter().filter_map(|slice| match slice {
             Slice::Parameter(array) => Some(*array),
             _ => None,
@@ -305,7 +301,7 @@ impl<'a> Emission<'a> {
     }
 
     /// The body that makes the holder of a function from prepared values and the coefficient.
-    fn coefficients(&mut self, purpose: Purpose, name: &'static str) {
+    pub(super) fn coefficients(&mut self, purpose: Purpose, name: &'static str) {
         let Some(function) = self.context.program.function(purpose) else {
             line!(self, "{}", derived::FLOW);
             return;
@@ -478,19 +474,18 @@ impl<'a> Emission<'a> {
             }
             line!(self, "}}\n}}");
         }
-        let [kick, drift] = &self.definition.structure.halves;
         line!(
             self,
             "#[automatically_derived]\nimpl{declaration} __h::Separable<T> for {system} {{\n\
              type Kick = __KickPiece;\ntype Drift = __DriftPiece;\n\
-             const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}\n\
-             #[automatically_derived]\nimpl{declaration} __h::Split<T> for {system} {{\n\
-             type Pieces = (__KickPiece, __DriftPiece);\n\
-             const PIECES: Self::Pieces = (__KickPiece, __DriftPiece);\n\
-             const NAMES: &'static [&'static __h::core::primitive::str] = &[{kick:?}, {drift:?}];\n}}",
+             const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}",
             declaration = generics.declaration_with_scalar(),
             system = generics.system_type(),
         );
+        if self.context.model.pieces.is_empty() {
+            let halves = self.definition.structure.halves.clone();
+            self.split(&["__KickPiece", "__DriftPiece"], &halves);
+        }
     }
 
     /// Inherent methods of prepared systems: observables, and derivatives by parameters.
@@ -590,7 +585,7 @@ impl<'a> Emission<'a> {
     }
 }
 
-fn evaluation(
+pub(super) fn evaluation(
     bodies: &mut Bodies,
     name: &str,
     receiver: Receiver,

@@ -52,7 +52,7 @@ impl Bodies<'_> {
             let steps = context.program.compact(body.steps);
             return self.write_parts(out, body, &steps);
         }
-        let scan = scan(context.program, context.layout, body.steps, body.results);
+        let scan = scan(context, body.steps, body.results);
         let mut slices = scan.slices;
         slices.extend(block::cleared(context, body.cleared));
         slices.extend(body.arrays.iter().map(|array| Slice::Parameter(*array)));

@@ -50,6 +50,8 @@ impl Parts {
     /// What bodies are written from.
     pub fn context<'a>(&'a self, definition: &Definition<'a>) -> Context<'a> {
         Context {
+            in_place: false,
+            reversed: false,
             model: definition.model,
             program: definition.program,
             layout: layout(&definition.model.groups),

@@ -8,7 +8,10 @@ use super::Structure;
 use super::generics::Generics;
 use std::fmt::Write;
 
-/// `Separable` where it does not hold, `QuadraticKinetic`, `Autonomous` and `Cyclic`.
+/// A piece that cannot exist.
+const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
+
+/// `Separable` and `Split` where they do not hold, `QuadraticKinetic`, `Autonomous` and `Cyclic`.
 pub fn implementations(structure: &Structure, generics: &Generics) -> String {
     let mut out = String::new();
     let system = generics.system_type();
@@ -20,14 +23,22 @@ pub fn implementations(structure: &Structure, generics: &Generics) -> String {
              impl{generics} __h::Separable<T> for {system} where for<'a> &'a {system}: __HIsSeparable {{\n\
              type Kick = {never};\ntype Drift = {never};\n\
              const KICK: Self::Kick = __h::core::panic!({message:?});\n\
-             const DRIFT: Self::Drift = __h::core::panic!({message:?});\n}}\n\
-             #[automatically_derived]\n\
-             impl{generics} __h::Split<T> for {system} where for<'a> &'a {system}: __HIsSeparable {{\n\
-             type Pieces = {never};\n\
+             const DRIFT: Self::Drift = __h::core::panic!({message:?});\n}}\n",
+            generics = generics.declaration_with_scalar(),
+            never = NEVER,
+            message = reason.message.replace('{', "{{").replace('}', "}}"),
+        );
+    }
+    if let Err(reason) = &structure.split {
+        reason_trait(&mut out, "__HIsSplit", reason);
+        let _ = write!(
+            out,
+            "#[automatically_derived]\n\
+             impl{generics} __h::Split<T> for {system} where for<'a> &'a {system}: __HIsSplit {{\n\
+             type Pieces = {NEVER};\n\
              const PIECES: Self::Pieces = __h::core::panic!({message:?});\n\
              const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n}}\n",
             generics = generics.declaration_with_scalar(),
-            never = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>",
             message = reason.message.replace('{', "{{").replace('}', "}}"),
         );
     }

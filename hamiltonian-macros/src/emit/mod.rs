@@ -29,6 +29,7 @@ mod mixed;
 mod number;
 mod observables;
 mod parts;
+mod pieces;
 mod reach;
 mod scan;
 mod vectors;
@@ -158,6 +159,8 @@ pub struct External {
 pub struct Structure {
     /// H = T(p, t) + V(q, t)
     pub separable: Result<(), Reason>,
+    /// H is a sum of pieces with exact flows: those of the model, or V and T.
+    pub split: Result<(), Reason>,
     /// V and T in the author's notation, where H is separable.
     pub halves: [String; 2],
     /// T = ½ pᵀM⁻¹p with constant M

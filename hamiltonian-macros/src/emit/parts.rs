@@ -114,7 +114,7 @@ impl Bodies<'_> {
         let context = self.context;
         let program = context.program;
         let parts = cut(program, steps);
-        let scan = |steps, results| scan(program, context.layout, steps, results);
+        let scan = |steps, results| scan(context, steps, results);
         let mut scans: Vec<Scan> = parts
             .iter()
             .map(|part| scan(&steps[part.clone()], &[]))

@@ -3,7 +3,8 @@
 //! Input: steps. Output: [`Scan`]. Invariant: lists are in order of first occurrence (sorted where
 //! it says so), without repetition.
 
-use super::layout::{Layout, Slice};
+use super::block::Context;
+use super::layout::Slice;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 
 /// What a block does.
@@ -34,11 +35,11 @@ impl Marks {
 }
 
 /// What a block with these results does.
-pub fn scan(program: &Program, layout: Layout, steps: &[Step], results: &[Value]) -> Scan {
+pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
     let mut walker = Walker {
-        program,
-        layout,
-        known: Marks::new(program),
+        program: context.program,
+        context,
+        known: Marks::new(context.program),
         scan: Scan::default(),
     };
     walker.walk(steps, true);
@@ -52,7 +53,7 @@ pub fn scan(program: &Program, layout: Layout, steps: &[Step], results: &[Value]
 
 struct Walker<'a> {
     program: &'a Program,
-    layout: Layout,
+    context: Context<'a>,
     known: Marks,
     scan: Scan,
 }
@@ -71,7 +72,7 @@ impl Walker<'_> {
                     let instruction = self.program.instruction(*value);
                     instruction.for_operands(|operand| self.read(operand));
                     if let Instruction::Load(array, ..) = instruction {
-                        self.scan.slices.push(Slice::read(self.layout, *array));
+                        self.scan.slices.push(self.context.read(*array));
                     }
                     self.compute(*value, outer);
                 }
@@ -81,7 +82,8 @@ impl Walker<'_> {
                 }
                 Step::Store(target, _, _, update) => {
                     update.for_operands(|operand| self.read(operand));
-                    self.scan.slices.push(Slice::write(self.layout, *target));
+                    let slice = Slice::write(self.context.layout, *target);
+                    self.scan.slices.push(slice);
                 }
                 Step::Loop(inner) => {
                     for &accumulator in &inner.accumulators {

@@ -114,6 +114,7 @@ fn structure(separable: bool) -> Structure {
     Structure {
         halves: ["V".into(), "T".into()],
         separable: verdict.clone(),
+        split: verdict.clone(),
         quadratic_kinetic: verdict,
         unforced: Ok(()),
         exact: Ok(()),

@@ -160,7 +160,17 @@ fn structure() {
         [
             "H is not separable: see the term `0.5*q^2*p^2`.",
             "H does not depend on time: it is conserved.",
+            "H is split into 2 pieces with exact flows, outermost first: `p^2/2 + 0.5`; `0.5*q^2*p^2 + q^2/2` (f(q)·p²).",
+            "This splitting was chosen among 12 by its error times its cost: H is off by at most 1.4e-2 in short runs of second order with step 0.1 near unit size.",
         ]
+    );
+    assert_eq!(
+        facts("struct A {} H(q; p) = p^2/(2*(1 + q^2))")
+            .last()
+            .map(String::as_str),
+        Some(
+            "H is not split into exact flows: no exact flow is known for the term `p^2/(2*(q^2 + 1))`."
+        )
     );
 }
 

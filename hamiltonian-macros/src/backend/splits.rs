@@ -1,0 +1,155 @@
+//! H as a sum of pieces with exact flows: declared, or found, or the term that has none.
+//!
+//! Input: a model, what is known of it, what the author declared. Output: the model's pieces, and
+//! what the docs and rustc say of them. Invariant: pieces that are kept are proven to add up to H,
+//! each with an exact flow; V and T of a separable H need no search.
+
+use super::surface::Part;
+use crate::checked::Checked;
+use crate::emit::Reason;
+use crate::report::Report;
+use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::split::{self, Piece, Refusal, Splitting};
+use hamiltonian_symbolic::structure::Structure;
+use proc_macro2::Ident;
+
+/// What is said of a splitting.
+pub struct Found {
+    /// Whether there is one, or the reason why not.
+    pub verdict: Result<(), Reason>,
+    /// What the docs say, a sentence each.
+    pub facts: Vec<String>,
+}
+
+/// Splits the model's H; `declared` are the pieces the author wrote, with their parts of H.
+pub fn settle(
+    checked: &Checked,
+    model: &mut Model,
+    structure: &Structure,
+    (part, declared): (&Part, &[(Ident, Node)]),
+    large: bool,
+    report: &mut Report,
+) -> Found {
+    let is_written_so = checked.charts.is_empty() && checked.time_factor.is_none();
+    let mut found = if declared.is_empty() {
+        if structure.separable.is_ok() {
+            return Found {
+                verdict: Ok(()),
+                facts: Vec::new(),
+            };
+        }
+        if large {
+            return refused(model, "it is too long to be searched for exact flows");
+        }
+        if part.is_piece {
+            alone(model)
+        } else {
+            split::find(model).map_err(|refusal| (0, refusal))
+        }
+    } else {
+        let parts = declared.iter().map(|(name, h)| (name.to_string(), *h));
+        let parts: Vec<(String, Node)> = parts.collect();
+        split::declared(model, &parts)
+    };
+    if let Err((at, refusal)) = &found
+        && let Some((name, _)) = declared.get(*at)
+    {
+        if is_written_so {
+            report.error(
+                name.span(),
+                format!(
+                    "no exact flow is known for the piece `{name}`: its term `{}` is of none of the forms whose flow is closed",
+                    refusal.text
+                ),
+                "split it further, or leave the term to a piece with which it is of such a form: \
+                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p, f(q)*p^2, functions of an angular momentum",
+            );
+        } else if structure.separable.is_ok() {
+            // In other variables than those it was written in, V and T still are pieces.
+            found = Ok(Splitting {
+                pieces: Vec::new(),
+                choice: None,
+            });
+        }
+    }
+    if !model.force.is_empty() {
+        // V and T carry the force; no other piece does.
+        return match &structure.separable {
+            Ok(_) => Found {
+                verdict: Ok(()),
+                facts: Vec::new(),
+            },
+            Err(_) => refused(model, "a force acts that is not of H"),
+        };
+    }
+    match found {
+        Ok(splitting) => {
+            let facts = facts(&splitting);
+            model.pieces = splitting.pieces;
+            Found {
+                verdict: Ok(()),
+                facts,
+            }
+        }
+        Err((_, refusal)) => refused(
+            model,
+            &format!("no exact flow is known for the term `{}`", refusal.text),
+        ),
+    }
+}
+
+/// A piece of a split by itself: one flow.
+fn alone(model: &mut Model) -> Result<Splitting, (usize, Refusal)> {
+    let h = match model.hamiltonian {
+        Some(h) => h,
+        None => model.dag.integer(0),
+    };
+    let name = hamiltonian_symbolic::print::text(model, h);
+    split::declared(model, &[(name, h)])
+}
+
+fn refused(model: &Model, why: &str) -> Found {
+    let name = super::verdicts::subject(model);
+    Found {
+        verdict: Err(Reason {
+            message: format!("{name} is not split into exact flows: {why}"),
+            label: "needs H = A + B + … whose pieces have exact flows".into(),
+            note: "declare pieces by hand, `split { A = …; B = …; }`, or use a scheme for any H: \
+                   `ImplicitMidpoint`, `Pihajoki`, `IntersectingSubTrajectories`, `RungeKutta4` \
+                   (not symplectic)"
+                .into(),
+        }),
+        facts: vec![format!("H is not split into exact flows: {why}.")],
+    }
+}
+
+/// What a splitting is, and why.
+fn facts(splitting: &Splitting) -> Vec<String> {
+    let piece = |piece: &Piece| match piece.flow.rows() {
+        [] => format!("`{}`", piece.name),
+        rows => format!("`{}` ({})", piece.name, rows.join(", ")),
+    };
+    let pieces: Vec<String> = splitting.pieces.iter().map(piece).collect();
+    let mut facts = match pieces.as_slice() {
+        [] => return Vec::new(),
+        [one] => vec![format!("The flow of all of H is exact: {one}.")],
+        all => vec![format!(
+            "H is split into {} pieces with exact flows, outermost first: {}.",
+            all.len(),
+            all.join("; ")
+        )],
+    };
+    if let Some(reasons) = &splitting.choice {
+        if reasons.error.is_finite() {
+            facts.push(format!(
+                "This splitting was chosen among {} by its error times its cost: H is off by at most {:.1e} in short runs of second order with step 0.1 near unit size.",
+                reasons.among, reasons.error
+            ));
+        }
+        if reasons.keeps_invariants {
+            facts.push("Every piece keeps every invariant.".to_owned());
+        }
+    }
+    facts
+}

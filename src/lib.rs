@@ -92,6 +92,10 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
 #[doc = include_str!("../LANGUAGE.md")]
 pub mod language {}
 
+/// Whole programs for what is often wanted.
+#[doc = include_str!("../RECIPES.md")]
+pub mod recipes {}
+
 #[doc = include_str!("../README.md")]
 #[cfg(doctest)]
 struct Readme;

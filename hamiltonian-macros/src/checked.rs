@@ -363,7 +363,7 @@ pub enum Kind {
     },
     /// S, … → V of literal extent
     Vector(Vec<NodeId>),
-    /// A function of the language; operand types in [`Builtin`]. Never [`Builtin::Pow`] nor
+    /// A function of the language; operand types in [`Builtin`]. Never [`Op::Pow`](hamiltonian_symbolic::op::Op::Pow) nor
     /// [`Builtin::Bracket`], which have nodes of their own.
     Call(Builtin, Vec<NodeId>),
     /// S, … → S: a Rust function.

@@ -462,7 +462,7 @@ fn varies(dag: &Dag, node: Node) -> bool {
         Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
             varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
         }),
-        Kind::Call(op, x) => op.row().arity == 1 && varies(dag, x[0]),
+        Kind::Call(op, x) => op.row().arguments.len() == 1 && varies(dag, x[0]),
         // A leaf that one term reads alone.
         Kind::Sum(_, terms) => terms.iter().enumerate().any(|(at, (_, term))| {
             let leaves = || dag.reachable(&[*term]).into_iter().filter(|n| is_leaf(*n));

@@ -116,8 +116,8 @@ type Partials = fn(&mut Dag, &[Node], Node) -> Vec<Node>;
 pub struct Row {
     /// The name in the language, which is also the method of `Real`.
     pub name: &'static str,
-    /// How many arguments it takes.
-    pub arity: usize,
+    /// Its arguments as they are written: `atan2(y, x)`.
+    pub arguments: &'static [&'static str],
     /// What it does with a sign.
     pub parity: Parity,
     /// Its exact value at 0 where that is an integer.
@@ -142,7 +142,7 @@ macro_rules! operations {
         /// All rows, in the order of [`Op`].
         pub static TABLE: &[Row] = &[$(Row {
             name: stringify!($name),
-            arity: [$(stringify!($arg)),+].len(),
+            arguments: &[$(stringify!($arg)),+],
             parity: Parity::$parity,
             at_zero: $zero,
             latex: $latex,

@@ -9,6 +9,7 @@ use super::{Binding, Checker};
 use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::{self, Builtin, Domain, Entry};
+use hamiltonian_symbolic::op::Op;
 
 /// How products over a range are called elsewhere.
 const PRODUCTS: &[&str] = &["prod", "product", "Π"];
@@ -60,7 +61,7 @@ impl Checker<'_> {
                 None
             }
             None => match names::function(name) {
-                Some(entry) => self.builtin(raw, entry, arguments, frame),
+                Some(entry) => self.builtin(raw, &entry, arguments, frame),
                 None => {
                     self.unknown_function(raw, symbol);
                     None
@@ -199,7 +200,7 @@ impl Checker<'_> {
             Domain::Scalars => {
                 let values = self.scalars(entry.name, arguments, frame)?;
                 let kind = match (entry.function, values.as_slice()) {
-                    (Builtin::Pow, [base, exponent]) => Kind::Pow(*base, *exponent),
+                    (Builtin::Elementary(Op::Pow), [base, exponent]) => Kind::Pow(*base, *exponent),
                     (Builtin::Bracket, [a, b]) => {
                         if !self.active.is_empty() {
                             self.error(

@@ -293,7 +293,7 @@ impl Checker<'_> {
             }
         }
         if functions {
-            known.extend(names::FUNCTIONS.iter().map(|entry| entry.name.to_owned()));
+            known.extend(names::functions().map(|entry| entry.name.to_owned()));
         } else {
             let groups = self.out.groups.iter();
             let declared = groups.flat_map(|group| {

@@ -4,13 +4,13 @@
 //! arguments are known numbers. Invariant: exact for rational arguments; others, such as `pi/2`,
 //! must lie outside by more than rounding can explain.
 
-use crate::names::Builtin;
 use hamiltonian_symbolic::dag::{Dag, Kind, Node};
+use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
 use std::cmp::Ordering;
 
 /// What the function takes, if a known number is not among it.
-pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'static str> {
+pub fn outside(dag: &Dag, function: Op, arguments: &[Node]) -> Option<&'static str> {
     let [x, rest @ ..] = arguments else {
         return None;
     };
@@ -19,30 +19,29 @@ pub fn outside(dag: &Dag, function: Builtin, arguments: &[Node]) -> Option<&'sta
     let above = |bound| against(bound) == Some(Ordering::Greater);
     let at = |bound| against(bound) == Some(Ordering::Equal);
     let (is_outside, takes) = match function {
-        Builtin::Sqrt => (below(0), "the argument of `sqrt` must be ≥ 0"),
-        Builtin::Ln => (below(0) || at(0), "the argument of `ln` must be > 0"),
-        Builtin::Ln1p => (below(-1) || at(-1), "the argument of `ln_1p` must be > -1"),
-        Builtin::Asin => (
+        Op::Sqrt => (below(0), "the argument of `sqrt` must be ≥ 0"),
+        Op::Ln => (below(0) || at(0), "the argument of `ln` must be > 0"),
+        Op::Ln1p => (below(-1) || at(-1), "the argument of `ln_1p` must be > -1"),
+        Op::Asin => (
             below(-1) || above(1),
             "the argument of `asin` must be in [-1, 1]",
         ),
-        Builtin::Acos => (
+        Op::Acos => (
             below(-1) || above(1),
             "the argument of `acos` must be in [-1, 1]",
         ),
-        Builtin::Tan => {
-            let turn = dag.in_pi(*x)?.to_small();
-            (
-                turn.is_some_and(|(_, d)| d == 2),
-                "the argument of `tan` must not be an odd multiple of `pi/2`",
-            )
-        }
-        Builtin::Acosh => (below(1), "the argument of `acosh` must be ≥ 1"),
-        Builtin::Atanh => (
+        Op::Tan => (
+            dag.in_pi(*x)
+                .and_then(|turn| turn.to_small())
+                .is_some_and(|(_, d)| d == 2),
+            "the argument of `tan` must not be an odd multiple of `pi/2`",
+        ),
+        Op::Acosh => (below(1), "the argument of `acosh` must be ≥ 1"),
+        Op::Atanh => (
             below(-1) || at(-1) || at(1) || above(1),
             "the argument of `atanh` must be in (-1, 1)",
         ),
-        Builtin::Pow => {
+        Op::Pow => {
             let exponent = rest.first().and_then(|y| rational(dag, *y))?;
             let is_whole = exponent.to_small().is_none_or(|(_, d)| d == 1);
             if at(0) && exponent.is_negative() {

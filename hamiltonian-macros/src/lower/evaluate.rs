@@ -12,7 +12,7 @@ use super::velocity;
 use super::{Beyond, LARGEST, SHARE_LOOPS};
 use crate::ast::Comparison;
 use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
-use crate::names::{Builtin, FUNCTIONS};
+use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Dag, Map, Node, Parameter, Part, Side};
@@ -324,7 +324,7 @@ impl<'a> Evaluator<'a> {
                 dag.div(*a, *b)
             }
             (Kind::Pow(base, _), [a, b]) => {
-                self.refuse_outside(model, Builtin::Pow, *base, demand, values);
+                self.refuse_outside(model, Op::Pow, *base, demand, values);
                 model.dag.pow(*a, *b)
             }
             (Kind::And(..), [a, b]) => dag.and(*a, *b),
@@ -339,8 +339,11 @@ impl<'a> Evaluator<'a> {
                 _ => dag.mul(values),
             },
             (Kind::Index { .. } | Kind::Vector(_), [value, ..]) => *value,
+            (Kind::Call(Builtin::Elementary(op), items), values) => {
+                self.refuse_outside(model, *op, items[0], demand, values);
+                model.dag.call(*op, values)
+            }
             (Kind::Call(function, items), values) => {
-                self.refuse_outside(model, *function, items[0], demand, values);
                 self.call(&mut model.dag, node, *function, items, demand, values)
             }
             (Kind::Function(function, _), values) => {
@@ -359,7 +362,7 @@ impl<'a> Evaluator<'a> {
     fn refuse_outside(
         &mut self,
         model: &Model,
-        function: Builtin,
+        function: Op,
         argument: NodeId,
         demand: &Demand,
         values: &[Node],
@@ -375,13 +378,9 @@ impl<'a> Evaluator<'a> {
             .map(|value| print::text(model, *value))
             .collect();
         let message = match (function, numbers.as_slice()) {
-            (Builtin::Sqrt, [x]) => format!("the square root of {x} is not a real number"),
-            (Builtin::Pow, [x, y]) => format!("{x} to the power of {y} is not a real number"),
-            (_, [x, ..]) => {
-                let entry = FUNCTIONS.iter().find(|entry| entry.function == function);
-                let name = entry.map_or("", |entry| entry.name);
-                format!("`{name}` of {x} is not a real number")
-            }
+            (Op::Sqrt, [x]) => format!("the square root of {x} is not a real number"),
+            (Op::Pow, [x, y]) => format!("{x} to the power of {y} is not a real number"),
+            (_, [x, ..]) => format!("`{}` of {x} is not a real number", function.row().name),
             _ => return,
         };
         self.refuse(self.checked.node(argument).spans, &message, takes);
@@ -499,22 +498,12 @@ impl<'a> Evaluator<'a> {
                     squared
                 }
             }
-            Builtin::Cross => match values {
-                [a, b, c, d] => {
-                    let (first, second) = (dag.mul(&[*a, *b]), dag.mul(&[*c, *d]));
-                    dag.sub(first, second)
-                }
-                _ => self.fault(node, "a cross product has two vectors"),
-            },
-            _ => {
-                let name = FUNCTIONS
-                    .iter()
-                    .find(|entry| entry.function == function)
-                    .map(|entry| entry.name);
-                match name.and_then(Op::named) {
-                    Some(op) => dag.call(op, values),
-                    None => self.fault(node, "its function is not in the table"),
-                }
+            Builtin::Cross | Builtin::Elementary(_) | Builtin::Bracket => {
+                let [a, b, c, d] = values else {
+                    return self.fault(node, "a cross product has two vectors");
+                };
+                let (first, second) = (dag.mul(&[*a, *b]), dag.mul(&[*c, *d]));
+                dag.sub(first, second)
             }
         }
     }

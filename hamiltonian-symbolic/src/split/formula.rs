@@ -157,7 +157,7 @@ impl Reader<'_> {
             ("pick", &[condition, yes, no]) => Some(self.dag.select(condition, yes, no)),
             _ => {
                 let op = Op::named(name)?;
-                (op.row().arity == arguments.len()).then(|| self.dag.call(op, &arguments))
+                (op.row().arguments.len() == arguments.len()).then(|| self.dag.call(op, &arguments))
             }
         }
     }

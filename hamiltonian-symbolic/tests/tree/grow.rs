@@ -165,7 +165,7 @@ fn power(tree: &mut Tree, random: &mut Random, rest: usize) -> usize {
 
 fn function(tree: &mut Tree, random: &mut Random, rest: usize) -> usize {
     let op = random.one_of(Op::all());
-    if op.row().arity != 1 {
+    if op.row().arguments.len() != 1 {
         return function(tree, random, rest);
     }
     let a = expression(tree, random, rest);

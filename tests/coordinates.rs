@@ -404,6 +404,8 @@ fn any_number<const N: usize>() {
     equal(&new.momentum(&there), &declared.momentum(&state));
     // A force is carried as the momenta are.
     let (force, old) = (new.force(&there), declared.force(&state));
+    // Generic code has it too.
+    assert_eq!(System::<f64>::force_at(&new, &there), force);
     let pushed = hamiltonian::coordinates::to_heliocentric(&State { p: old, ..state });
     equal(&force, &pushed.p);
     same_system!(declared, new, state);

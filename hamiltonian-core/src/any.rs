@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
 use crate::observe::Observer;
 use crate::scheme::Entry;
-use crate::system::{Dynamics, Observable, System};
+use crate::system::{Observable, System};
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -102,9 +102,6 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> AnyRun for Integr
         S::OBSERVABLES
     }
     fn observable(&self, name: &str) -> Option<f64> {
-        let index = S::OBSERVABLES.iter().position(|known| known.name == name)?;
-        let state = self.state();
-        let value = (self.prepared()).observable(index, state.t, &state.q, &state.p);
-        Some(value.to_f64())
+        Integrator::observable_named(self, name).map(Real::to_f64)
     }
 }

@@ -426,6 +426,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             .energy(self.state.t, &self.state.q, &self.state.p)
     }
 
+    /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`
+    /// where there is none.
+    pub fn observable_named(&self, name: &str) -> Option<T> {
+        let index = S::observable_index(name)?;
+        let State { t, q, p } = &self.state;
+        Some(self.prepared.observable(index, *t, q, p))
+    }
+
     /// The system with its parameters worked in.
     pub fn prepared(&self) -> &S::Prepared {
         &self.prepared

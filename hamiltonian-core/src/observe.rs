@@ -50,6 +50,11 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
         self.prepared
             .observable(index, self.state.t, &self.state.q, &self.state.p)
     }
+
+    /// The observable of that name here; `None` where there is none.
+    pub fn observable_named(&self, name: &str) -> Option<T> {
+        S::observable_index(name).map(|index| self.observable(index))
+    }
 }
 
 /// What watches a run, and may end it.

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::flow::{Piece, Pieces, VectorField};
 use crate::state::{Gradient, Point, State};
 use crate::vector::Vector;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{Dual, Real};
 
 /// One group of coordinates as it was declared: `q`, `x[N]`, `q[n][3]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,6 +119,73 @@ pub trait System<T: Real> {
         );
         gradient
     }
+
+    /// The force f on the momenta at a state, dp/dt = −∂H/∂q + f; zero where none acts.
+    fn force_at(&self, state: &State<Self::Vector>) -> Self::Vector {
+        let mut force = self.zeros();
+        let prepared = self.prepare();
+        prepared.force(state.t, &state.q, &state.p, &mut force);
+        force
+    }
+
+    /// The number of an observable, a monitor, an invariant or an event, in
+    /// [`OBSERVABLES`](System::OBSERVABLES): `height`, or `angular_momentum[2]` for a component.
+    fn observable_index(name: &str) -> Option<usize> {
+        Self::OBSERVABLES
+            .iter()
+            .position(|known| known.name == name)
+    }
+
+    /// The observable of that name at a state; `None` where there is none.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{State, System};
+    ///
+    /// let state = State::new([1.0], [0.0]);
+    /// // The oscillator declares none.
+    /// assert_eq!(Oscillator.observable_named("height", &state), None);
+    /// ```
+    fn observable_named(&self, name: &str, state: &State<Self::Vector>) -> Option<T> {
+        let index = Self::observable_index(name)?;
+        let prepared = self.prepare();
+        Some(prepared.observable(index, state.t, &state.q, &state.p))
+    }
+
+    /// The derivatives by all coordinates and momenta of the observable of that name at a state;
+    /// `None` where there is none. It is evaluated over dual numbers, once for each of them.
+    fn observable_gradient(
+        &self,
+        name: &str,
+        state: &State<<Self as System<T>>::Vector>,
+    ) -> Option<Gradient<<Self as System<T>>::Vector>>
+    where
+        Self: System<Dual<T>>,
+    {
+        let index = <Self as System<T>>::observable_index(name)?;
+        let prepared = <Self as System<Dual<T>>>::prepare(self);
+        let dual = |from: &<Self as System<T>>::Vector| {
+            let mut to = <Self as System<Dual<T>>>::zeros(self);
+            for i in 0..from.len() {
+                *to.component_mut(i) = Dual::fixed(from.component(i));
+            }
+            to
+        };
+        let (t, mut q, mut p) = (Dual::fixed(state.t), dual(&state.q), dual(&state.p));
+        let mut gradient = Gradient {
+            q: state.q.zeros_like(),
+            p: state.p.zeros_like(),
+        };
+        for i in 0..state.q.len() {
+            *q.component_mut(i) = Dual::variable(state.q.component(i));
+            *gradient.q.component_mut(i) = prepared.observable(index, t, &q, &p).eps;
+            *q.component_mut(i) = Dual::fixed(state.q.component(i));
+            *p.component_mut(i) = Dual::variable(state.p.component(i));
+            *gradient.p.component_mut(i) = prepared.observable(index, t, &q, &p).eps;
+            *p.component_mut(i) = Dual::fixed(state.p.component(i));
+        }
+        Some(gradient)
+    }
 }
 
 /// A prepared system: H and its derivatives at (t, q, p).
@@ -169,6 +236,10 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
         out_q: &mut Self::Vector,
         out_p: &mut Self::Vector,
     );
+    /// The force f on the momenta into `out`; the provided one is for systems without a force.
+    fn force(&self, _: T, _: &Self::Vector, _: &Self::Vector, out: &mut Self::Vector) {
+        out.set_zero();
+    }
     /// Observable `index` of [`System::OBSERVABLES`].
     fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
     /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared

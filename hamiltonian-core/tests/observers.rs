@@ -272,3 +272,37 @@ fn closures_watch_beside_an_observer() {
     again.advance(11).unwrap();
     assert_eq!(again.observer().0, *alone.observer());
 }
+
+/// Code for any system reaches observables and their gradients by name.
+#[test]
+fn observables_by_name_in_generic_code() {
+    fn slope<S: System<f64> + System<Dual<f64>>>(system: &S, name: &str, q: f64) -> Option<f64> {
+        let zeros = <S as System<f64>>::zeros(system);
+        let mut state = State {
+            t: 0.0,
+            q: zeros.clone(),
+            p: zeros,
+        };
+        *state.q.component_mut(0) = q;
+        let gradient = system.observable_gradient(name, &state)?;
+        assert_eq!(gradient.p.component(0), 0.0);
+        Some(gradient.q.component(0))
+    }
+    // height = −10 cos θ
+    let system = pendulum(true);
+    assert_eq!(slope(&system, "height", 0.3), Some(10.0 * 0.3_f64.sin()));
+    assert_eq!(slope(&system, "depth", 0.3), None);
+    let mut run = run();
+    let state = run.advance(10).unwrap().clone();
+    let height = Some(-10.0 * state.q[0].cos());
+    assert_eq!(system.observable_named("height", &state), height);
+    assert_eq!(run.observable_named("height"), height);
+    assert_eq!(run.observable_named("depth"), None);
+    let mut seen = Vec::new();
+    let mut run = run.watch(1, |view| seen.push(view.observable_named("height")));
+    run.advance(1).unwrap();
+    drop(run);
+    assert_eq!(seen[0], height);
+    // No force acts.
+    assert_eq!(system.force_at(&state)[0], 0.0);
+}

@@ -237,6 +237,14 @@ impl<'a> Emission<'a> {
              _p: &Self::Vector) -> T {{\n{}\n}}",
             observables::dispatch(self.context.model),
         );
+        let mut vectors = self.definition.vectors.iter();
+        if let Some(at) = vectors.position(|item| item.usage == vectors::VectorUse::Force) {
+            line!(
+                self,
+                "#[inline(always)]\nfn force(&self, _t: T, _q: &Self::Vector, _p: &Self::Vector, \
+                 _op: &mut Self::Vector) {{\nself.v{at}(_t, _q, _p, _op);\n}}"
+            );
+        }
         line!(
             self,
             "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nlet _self = self;"

@@ -45,6 +45,8 @@ mod part;
 
 mod observe;
 mod output;
+#[cfg(feature = "progress")]
+mod progress;
 
 mod checkpoint;
 mod resume;
@@ -76,6 +78,8 @@ pub use observe::{
     Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Verdict, View, Watch, every, watch,
 };
 pub use output::Recorder;
+#[cfg(feature = "progress")]
+pub use progress::Progress;
 pub use push::{Both, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 pub use state::{Carried, Gradient, Pair, Point, State};

@@ -7,6 +7,8 @@ mod common;
 mod composition;
 mod lanes;
 mod observers;
+#[cfg(feature = "progress")]
+mod progress;
 mod reach;
 mod run;
 mod start;

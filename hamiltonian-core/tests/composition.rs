@@ -9,7 +9,7 @@ use hamiltonian_core::{DoubleDouble, OneStep, Scheme, Vector};
 
 /// The slope of the error at t = 1 between two steps, in double-double, against a fourth-order
 /// method with a step 64 times smaller, whose error is below a thousandth of any here.
-fn slope<S, M>(system: &S, scheme: M, q: &[f64], p: &[f64]) -> f64
+pub fn slope<S, M>(system: &S, scheme: M, q: &[f64], p: &[f64]) -> f64
 where
     S: System<DoubleDouble>,
     M: Scheme<DoubleDouble, S>,
@@ -26,7 +26,7 @@ where
 }
 
 #[track_caller]
-fn is(order: f64, slope: f64) {
+pub fn is(order: f64, slope: f64) {
     assert!((slope - order).abs() < 0.05, "{slope} instead of {order}");
 }
 

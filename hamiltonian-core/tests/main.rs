@@ -7,6 +7,7 @@ mod common;
 mod composition;
 mod lanes;
 mod observers;
+mod own;
 #[cfg(feature = "progress")]
 mod progress;
 mod reach;

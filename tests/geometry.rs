@@ -1,6 +1,7 @@
 //! The forms that steps preserve, by exact tangents, with negative controls.
 
 use crate::common::geometry::*;
+use crate::common::measured_here;
 use crate::common::systems::*;
 use hamiltonian::schemes::*;
 use hamiltonian::{Dual, Separable, Split, Unforced};
@@ -13,7 +14,7 @@ where
     visit_unforced(&mut geometry);
     visit_split(&mut geometry);
     visit_separable(&mut geometry);
-    assert_eq!(geometry.measured.len(), 3 * catalogue().count());
+    assert_eq!(geometry.measured.len(), 3 * measured_here());
     for (entry, defect) in geometry.measured {
         println!("{} {}: {defect:.1e}", entry.name, entry.variant);
     }

@@ -21,6 +21,8 @@ pub enum Form {
     /// dq_a∧dp_b + dq_b∧dp_a of two points a and b that the scheme carries, and not dq∧dp of
     /// the one that is seen.
     TwoPoint,
+    /// dq∧dp of the state up to O(h^(2p+2)) a step for order p: the scheme is pseudo-symplectic.
+    Nearly,
     /// None: the scheme is no geometric one.
     Nothing,
 }
@@ -32,10 +34,15 @@ pub enum Needs {
     Any,
     /// No forces, [`Unforced`](crate::Unforced).
     Unforced,
-    /// Pieces with exact flows, [`Split`](crate::Split).
+    /// Pieces, [`Split`](crate::Split).
     Split,
+    /// Pieces whose flows are all exact, [`Split`](crate::Split) and [`Exact`](crate::Exact).
+    Exact,
     /// H = T(p, t) + V(q, t), [`Separable`](crate::Separable).
     Separable,
+    /// H = ½ pᵀM⁻¹p + V(q, t) with constant M: [`Separable`](crate::Separable) and
+    /// [`QuadraticKinetic`](crate::QuadraticKinetic).
+    QuadraticKinetic,
 }
 
 /// What is known about a scheme: one line of the [catalogue](crate::schemes::catalogue).

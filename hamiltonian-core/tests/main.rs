@@ -10,7 +10,9 @@ mod observers;
 mod own;
 #[cfg(feature = "progress")]
 mod progress;
+mod preserving;
 mod reach;
 mod run;
+mod schemes;
 mod start;
 mod tables;

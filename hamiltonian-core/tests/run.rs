@@ -207,13 +207,18 @@ fn the_first_bad_step_is_found() {
                     iterations,
                     ..
                 } => {
-                    assert_eq!(
-                        (entry.name, *step),
-                        ("ImplicitMidpoint", single.steps() + 1)
-                    );
+                    let implicit = [
+                        "ImplicitMidpoint",
+                        "Gauss",
+                        "DiscreteGradient",
+                        "Semiexplicit",
+                    ];
+                    assert!(implicit.contains(&entry.name), "{}", entry.name);
+                    assert_eq!(*step, single.steps() + 1);
                     assert_eq!(*time, single.time());
                     assert!(
-                        !residual.is_finite() || *iterations == 100,
+                        // The limits of Newton's method, the semiexplicit one and the others.
+                        !residual.is_finite() || matches!(*iterations, 30 | 50 | 100),
                         "{residual} {iterations}"
                     );
                 }

@@ -5,11 +5,15 @@
 //! tests, which iterate over it; a scheme that is not in it is not in the library.
 
 use super::{
-    ConsecutiveSubTrajectories, ImplicitMidpoint, IntersectingSubTrajectories, Pihajoki,
-    RungeKutta4, Start, StormerVerlet, Strang, SymplecticEuler, TwoStepMidpoint,
+    Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, Compensated,
+    ConsecutiveSubTrajectories, DiscreteGradient, Gauss, ImplicitMidpoint,
+    IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
+    Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
+    SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
+    SymplecticEuler, Tao, TwoStepMidpoint, Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, Scheme};
-use crate::system::{Separable, Split, System, Unforced};
+use crate::system::{Exact, QuadraticKinetic, Separable, Split, System, Unforced};
 use hamiltonian_lanes::Real;
 
 /// What is done with each scheme of the catalogue.
@@ -20,7 +24,10 @@ pub trait Visitor<T: Real, S: System<T>> {
 
 macro_rules! catalogue {
     (any { $($any:expr,)+ } unforced { $($unforced:expr,)+ } split { $($split:expr,)+ }
-     separable { $($separable:expr,)+ }) => {
+     exact { $($exact:expr,)+ }
+     separable { $($separable:expr,)+ } quadratic { $($quadratic:expr,)+ }
+     implicit { $($implicit:expr,)+ } doubled { $($doubled:expr,)+ }
+     compensated { $($compensated:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
         ///
         /// ```
@@ -29,7 +36,9 @@ macro_rules! catalogue {
         /// }
         /// ```
         pub fn catalogue() -> impl Iterator<Item = Entry> {
-            [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($separable.entry(),)+]
+            [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($exact.entry(),)+ $($separable.entry(),)+
+                $($quadratic.entry(),)+ $($implicit.entry(),)+ $($doubled.entry(),)+
+                $($compensated.entry(),)+]
                 .into_iter()
         }
 
@@ -43,14 +52,41 @@ macro_rules! catalogue {
             $(visitor.visit($unforced);)+
         }
 
-        /// Visits the schemes that ask for pieces with exact flows.
+        /// Visits the schemes that ask for pieces.
         pub fn visit_split<T: Real, S: Split<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visitor.visit($split);)+
+        }
+
+        /// Visits the schemes that ask for pieces whose flows are all exact.
+        pub fn visit_exact<T: Real, S: Split<T> + Exact>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($exact);)+
         }
 
         /// Visits the schemes that ask for H = T(p, t) + V(q, t).
         pub fn visit_separable<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visitor.visit($separable);)+
+        }
+
+        /// Visits the schemes of higher order that solve equations.
+        pub fn visit_implicit<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($implicit);)+
+        }
+
+        /// Visits the schemes by tables on two copies.
+        pub fn visit_doubled<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($doubled);)+
+        }
+
+        /// Visits the compensated schemes.
+        pub fn visit_compensated<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
+            $(visitor.visit($compensated);)+
+        }
+
+        /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q, t) with constant M.
+        pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic>(
+            visitor: &mut impl Visitor<T, S>,
+        ) {
+            $(visitor.visit($quadratic);)+
         }
     };
 }
@@ -76,10 +112,48 @@ unforced {
 split {
     Strang,
 }
+exact {
+    Ruth3,
+    Yoshida4,
+    Suzuki4,
+    BlanesMoan4,
+    Yoshida6,
+    KahanLi6,
+    BlanesMoan6,
+    McLachlan8,
+    KahanLi8,
+    SofroniouSpaletta8,
+    SofroniouSpaletta10,
+    Saba2,
+    Saba3,
+    Saba4,
+    Aba104,
+    Aba864,
+    Aba1064,
+}
 separable {
     SymplecticEuler::KickDrift,
     SymplecticEuler::DriftKick,
     StormerVerlet::KickDriftKick,
     StormerVerlet::DriftKickDrift,
+}
+quadratic {
+    Srkn6b,
+    Srkn11b,
+    Srkn14a,
+    BlanesCasasEscorihuela8,
+}
+implicit {
+    Gauss::<2>::default(),
+    DiscreteGradient::default(),
+    Semiexplicit::<Strang>::default(),
+}
+doubled {
+    Tao::default(),
+    Mixed::<Strang>::default(),
+    MidpointProjected::<Strang>::default(),
+}
+compensated {
+    Compensated(Strang),
 }
 }

@@ -121,7 +121,7 @@ impl<T: Real, P: Dynamics<T>, const FIRST: bool> Piece<T, P> for Cross<FIRST> {
 }
 
 /// The map of a table on H(q, p̃) + H(q̃, p), with `A` outermost.
-type Doubled<T, S, A, B, W> = Zigzag<
+pub(super) type Doubled<T, S, A, B, W> = Zigzag<
     Copies<<S as System<T>>::Vector>,
     <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Outer,
     <(A, B) as Pieces<T, <S as System<T>>::Prepared>>::Inner,

@@ -1,52 +1,97 @@
 //! The schemes, each with its equation, order, coefficients and source, and the list of them.
 //!
-//! | scheme | equations | order | asks for | preserves | evaluations a step |
+//! | scheme | equations | order | asks for | preserves | work a step |
 //! |---|---|---|---|---|---|
 //! | [`StormerVerlet`] | (27) | 2 | `Separable` | dq∧dp | 1 kick, 1 drift |
 //! | [`SymplecticEuler`] | | 1 | `Separable` | dq∧dp | 1 kick, 1 drift |
-//! | [`Pihajoki`] | (29), (30) | 2 | | dq∧dp + dq̃∧dp̃ of the copies | 2 gradients |
-//! | [`TwoStepMidpoint`] | (25) | 2 | | dq_a∧dp_b + dq_b∧dp_a | 1 gradient |
-//! | [`ConsecutiveSubTrajectories`] | (26) | 2 | | dq_a∧dp_b + dq_b∧dp_a | 2 gradients, **time advances by 2Δt** |
-//! | [`IntersectingSubTrajectories`] | (33) | 2 | | dq_a∧dp_b + dq_b∧dp_a | 2 gradients |
+//! | [`Strang`] | | 2 | `Split` | dq∧dp | 1 stage: each piece twice, neighbours in one |
+//! | [`Ruth3`] | | 3 | `Split` | dq∧dp | 3 stages |
+//! | [`Yoshida4`], [`Suzuki4`], [`BlanesMoan4`] | | 4 | `Split` | dq∧dp | 3, 5, 6 stages |
+//! | [`Yoshida6`], [`KahanLi6`], [`BlanesMoan6`] | | 6 | `Split` | dq∧dp | 7, 9, 10 stages |
+//! | [`McLachlan8`], [`KahanLi8`], [`SofroniouSpaletta8`] | | 8 | `Split` | dq∧dp | 15, 17, 21 stages |
+//! | [`SofroniouSpaletta10`] | | 10 | `Split` | dq∧dp | 35 stages |
+//! | [`Srkn6b`], [`Srkn11b`], [`Srkn14a`] | | 4, 6, 6 | quadratic T | dq∧dp | 6, 11, 14 kicks |
+//! | [`BlanesCasasEscorihuela8`] | | 8 | quadratic T | dq∧dp | 19 kicks |
+//! | [`Saba2`] … [`Saba4`] | | (4, 2) … (8, 2) | `Split`, small second piece | dq∧dp | 2 … 4 stages |
+//! | [`Aba104`], [`Aba864`], [`Aba1064`] | | as named | `Split`, small second piece | dq∧dp | 7, 7, 8 stages |
+//! | [`Compensated`] | | its table's | `Separable` | dq∧dp | its table's, and low words |
+//! | [`Pihajoki`] | (29), (30) | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 2 gradients |
+//! | [`Mixed`] | | its table's | no forces | nothing | its table's on the copies |
+//! | [`Tao`] | | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 3 gradients |
+//! | [`MidpointProjected`] | | its table's | no forces | dq∧dp to O(h^(2p+2)) | 2 gradients a stage |
+//! | [`Semiexplicit`] | | its table's | no forces | dq∧dp | 2 gradients a stage and iteration |
+//! | [`TwoStepMidpoint`] | (25) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 1 gradient |
+//! | [`ConsecutiveSubTrajectories`] | (26) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients, **time advances by 2Δt** |
+//! | [`IntersectingSubTrajectories`] | (33) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients |
 //! | [`ImplicitMidpoint`] | | 2 | | dq∧dp | 1 gradient an iteration |
+//! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
+//! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
+//!
+//! [`Composition`] makes schemes of higher order of any symmetric one, `KahanLi6.of(…)`; [`Paced`] gives
+//! one-step schemes variable steps that are reversible.
 //!
 //! "Asks for" is a trait bound: a scheme on a system without the structure does not compile.
 //! Equation numbers are those of "Developing an explicit Hamiltonian variational integrator".
 //!
 //! A new scheme is a type with its [`Listed`](crate::Listed) entry and its
-//! [`Scheme`](crate::Scheme) implementation — for a splitting into two pieces, a [`Table`] — and
-//! one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
+//! [`Scheme`](crate::Scheme) implementation — for a splitting, a table in [`tables`] and a line in
+//! `tabulated.rs` — and one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
 
 mod table;
 pub mod tables;
 mod zigzag;
 
-pub mod collocation;
-
 mod separable;
 mod splittings;
+mod tabulated;
+
+mod compensated;
 
 mod extended;
+mod projection;
+mod tao;
 mod trajectories;
 
+pub mod collocation;
+mod gauss;
 mod iterate;
 mod midpoint;
+mod newton;
+
+mod discrete_gradient;
 mod runge_kutta;
 
 mod composition;
+mod paced;
 
 mod catalogue;
 
-pub use catalogue::{Visitor, catalogue, visit_any, visit_separable, visit_split, visit_unforced};
+pub use catalogue::{
+    Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_exact, visit_implicit,
+    visit_quadratic, visit_separable, visit_split, visit_unforced,
+};
+pub use compensated::{Carrying, Compensated};
 pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};
+pub use discrete_gradient::{DiscreteGradient, EnergyKeeping, EnergyWork};
 pub use extended::{Copies, Cross, Crossed, Pihajoki};
+pub use gauss::{Carries, Collocated, CollocatedWork, Gauss, Stages};
 pub use iterate::{Contraction, Outcome, iterate};
 pub use midpoint::{ImplicitMidpoint, Midpoint, MidpointWork};
+pub use paced::{Density, Pace, Paced, Pacing, PacingWork};
+pub use projection::{
+    Averaged, MidpointProjected, Mixed, Mixing, Projected, ProjectedWork, Semiexplicit,
+};
 pub use runge_kutta::{Classical, ClassicalWork, RungeKutta4};
 pub use separable::{StormerVerlet, SymplecticEuler};
 pub use splittings::Strang;
 pub use table::{Durations, Reversed, Table, Weight};
+pub use tabulated::{
+    Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, KahanLi6, KahanLi8,
+    McLachlan8, Ruth3, Saba2, Saba3, Saba4, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,
+    Srkn11b, Srkn14a, Suzuki4, Yoshida4, Yoshida6,
+};
+pub use tao::{Bind, Tao, Turned};
 pub use trajectories::{
     ConsecutiveSubTrajectories, Interleaved, IntersectingSubTrajectories, Start, TwoStep,
     TwoStepMidpoint,

@@ -14,7 +14,7 @@
 //! | α₁ α₂ … of a map and its adjoint in turn | (α₁, α₂), (α₃, α₄), … |
 //! | a₁ b₁ a₂ b₂ … of two flows in turn | (d₁, u₁), … with d₁ = a₁, d₁ + u₁ = b₁, u₁ + d₂ = a₂, … |
 
-use super::Weight;
+use super::table::{Durations, Weight};
 
 pub mod general;
 pub mod near_integrable;
@@ -56,7 +56,7 @@ pub struct Coefficients<const S: usize> {
     /// Which splittings those are.
     pub class: Class,
     /// The durations of each stage, `(down, up)`, in units of the step.
-    pub stages: [(Weight, Weight); S],
+    pub stages: [Durations; S],
     /// Author, journal or book, year, DOI.
     pub source: &'static str,
 }
@@ -71,7 +71,7 @@ pub struct Listing {
     /// Which splittings those are.
     pub class: Class,
     /// The durations of each stage, `(down, up)`, in units of the step.
-    pub stages: &'static [(Weight, Weight)],
+    pub stages: &'static [Durations],
     /// Author, journal or book, year, DOI.
     pub source: &'static str,
 }
@@ -112,15 +112,12 @@ all! {
 }
 
 /// γ₁ … of the middle, then mirrored, of a composition of a symmetric map.
-const fn symmetric<const HALF: usize, const S: usize>(
-    gammas: [Weight; HALF],
-) -> [(Weight, Weight); S] {
+const fn symmetric<const HALF: usize, const S: usize>(gammas: [Weight; HALF]) -> [Durations; S] {
     assert!(S + 1 == 2 * HALF, "the middle of a composition stands once");
     let mut stages = [(Weight(0.0, 0.0), Weight(0.0, 0.0)); S];
     let mut i = 0;
     while i < S {
-        let Weight(hi, lo) = gammas[if i < HALF { i } else { S - 1 - i }];
-        let half = Weight(0.5 * hi, 0.5 * lo);
+        let half = gammas[if i < HALF { i } else { S - 1 - i }].half();
         stages[i] = (half, half);
         i += 1;
     }
@@ -128,7 +125,7 @@ const fn symmetric<const HALF: usize, const S: usize>(
 }
 
 /// α₁ … αₛ, then mirrored, of a map and its adjoint in turn.
-const fn palindrome<const S: usize>(alphas: [Weight; S]) -> [(Weight, Weight); S] {
+const fn palindrome<const S: usize>(alphas: [Weight; S]) -> [Durations; S] {
     let mut stages = [(Weight(0.0, 0.0), Weight(0.0, 0.0)); S];
     let mut i = 0;
     while i < S {
@@ -147,7 +144,7 @@ const fn palindrome<const S: usize>(alphas: [Weight; S]) -> [(Weight, Weight); S
 }
 
 /// a₁ b₁ a₂ b₂ … bₛ of two flows in turn, with nothing after the last.
-const fn strokes<const N: usize, const S: usize>(weights: [Weight; N]) -> [(Weight, Weight); S] {
+const fn strokes<const N: usize, const S: usize>(weights: [Weight; N]) -> [Durations; S] {
     assert!(N == 2 * S, "a table ends with the second flow");
     let mut stages = [(Weight(0.0, 0.0), Weight(0.0, 0.0)); S];
     let mut before = Weight(0.0, 0.0);
@@ -163,7 +160,7 @@ const fn strokes<const N: usize, const S: usize>(weights: [Weight; N]) -> [(Weig
 }
 
 /// a₁ b₁ a₂ … of two flows in turn up to the middle, then mirrored: `S` flows of the second kind.
-const fn mirrored<const N: usize, const S: usize>(weights: [Weight; N]) -> [(Weight, Weight); S] {
+const fn mirrored<const N: usize, const S: usize>(weights: [Weight; N]) -> [Durations; S] {
     assert!(
         S + 1 == N,
         "the middle stroke of a symmetric table stands once"

@@ -1,0 +1,212 @@
+//! Gonzalez' discrete gradient: steps that keep H.
+//!
+//! Input: a system without forces. Output: [`DiscreteGradient`]. Invariant: the difference of H over a
+//! step is rounding, whatever the step.
+
+use super::iterate::{Contraction, iterate};
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Pair, Point, State};
+use crate::system::{Dynamics, System, Unforced};
+use crate::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+
+/// The midpoint discrete gradient of Gonzalez: order 2, keeps H to rounding, time-reversible; not
+/// symplectic.
+///
+/// ```text
+/// z[n+1] = z[n] + h J∇̄H,   ∇̄H = ∇H(m) + (H(z[n+1]) − H(z[n]) − ∇H(m)·Δ) Δ/|Δ|²
+/// ```
+///
+/// with `m = (z[n] + z[n+1])/2` and `Δ = z[n+1] − z[n]`. Where H depends on t, the step keeps H at the time
+/// in its middle. Solved by fixed-point iteration from the slope of the step before.
+///
+/// Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449, eq. 3.7, doi:10.1007/BF02440162.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, System, schemes::DiscreteGradient};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut run = Integrator::new(&Oscillator, DiscreteGradient::default(), start, 0.5)?;
+/// let end = run.advance(1_000)?;
+/// assert!((Oscillator.energy(end) - 0.5).abs() < 1e-14);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DiscreteGradient {
+    /// A step that is not solved after so many iterations is an error.
+    pub max_iterations: u32,
+}
+
+impl Default for DiscreteGradient {
+    /// At most 100 iterations.
+    fn default() -> Self {
+        DiscreteGradient {
+            max_iterations: 100,
+        }
+    }
+}
+
+impl Listed for DiscreteGradient {
+    fn entry(&self) -> Entry {
+        Entry {
+            name: "DiscreteGradient",
+            variant: "",
+            equations: "",
+            order: 2,
+            duration: 1,
+            needs: Needs::Unforced,
+            preserves: Form::Nothing,
+            source: "Gonzalez 1996, eq. 3.7, doi:10.1007/BF02440162",
+        }
+    }
+}
+
+impl OneStep for DiscreteGradient {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for DiscreteGradient {
+    type Map = EnergyKeeping<T, S::Prepared>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        EnergyKeeping {
+            dynamics: prepared.clone(),
+            h: step.h,
+            half: step.h * T::constant(0.5, 0.0),
+            limit: self.max_iterations,
+        }
+    }
+    fn start(
+        &self,
+        _: &S::Prepared,
+        state: &State<S::Vector>,
+        _: T,
+    ) -> Pair<Point<S::Vector>, Point<S::Vector>> {
+        let point = state.point();
+        let slope = point.zeros_like();
+        Pair { x: point, y: slope }
+    }
+}
+
+/// The map of [`DiscreteGradient`]: x is the point, y the slope Δ/h of the last step.
+#[derive(Debug, Clone)]
+pub struct EnergyKeeping<T, P> {
+    dynamics: P,
+    h: T,
+    half: T,
+    limit: u32,
+}
+
+/// slope ↦ J∇̄H.
+struct Slope<'a, T: Real, P: Dynamics<T>> {
+    map: &'a EnergyKeeping<T, P>,
+    t: T,
+    energy: T,
+    point: &'a Point<P::Vector>,
+    other: &'a mut Point<P::Vector>,
+    gradient: &'a mut Point<P::Vector>,
+}
+
+impl<T: Real, P: Dynamics<T>> Contraction<Point<P::Vector>> for Slope<'_, T, P> {
+    #[inline(always)]
+    fn map(&mut self, slope: &Point<P::Vector>, next: &mut Point<P::Vector>) {
+        let EnergyKeeping {
+            dynamics, h, half, ..
+        } = self.map;
+        self.other.copy_from(self.point);
+        self.other.accumulate(*h, slope);
+        let change = dynamics.energy(self.t, &self.other.q, &self.other.p) - self.energy;
+        self.other.copy_from(self.point);
+        self.other.accumulate(*half, slope);
+        let Point { q, p } = &mut *self.gradient;
+        dynamics.gradient(self.t, &self.other.q, &self.other.p, q, p);
+        let (mut along, mut square) = (T::zero(), T::zero());
+        for k in 0..<Point<P::Vector> as Vector>::PARTS {
+            for (gradient, slope) in self.gradient.part(k).iter().zip(slope.part(k)) {
+                along = gradient.fma(*slope, along);
+                square = slope.fma(*slope, square);
+            }
+        }
+        // (change − ∇H·Δ)/|Δ|², for the slope in place of Δ; a point at rest stays.
+        let factor = (change / *h - along) / square;
+        let factor = T::select(square.equals(T::zero()), T::zero(), factor);
+        self.gradient.accumulate(factor, slope);
+        // J
+        next.q.copy_from(&self.gradient.p);
+        next.p.copy_from(&self.gradient.q);
+        next.p.scale(-T::one());
+    }
+    #[inline(always)]
+    fn scale(&self, slope: &Point<P::Vector>) -> T::Size {
+        // The rounding of H enters divided by |Δ|.
+        let step = self.map.h.size();
+        self.point.size() / step + slope.size() + self.energy.size() / (step * slope.size())
+    }
+}
+
+/// The scratch of [`EnergyKeeping`].
+#[derive(Debug, Clone)]
+pub struct EnergyWork<V: Vector> {
+    other: Point<V>,
+    gradient: Point<V>,
+    next: Point<V>,
+}
+
+impl<T: Real, P: Dynamics<T>> EnergyKeeping<T, P> {
+    #[inline]
+    fn solve(
+        &self,
+        t: T,
+        z: &mut Pair<Point<P::Vector>, Point<P::Vector>>,
+        work: &mut EnergyWork<P::Vector>,
+    ) -> Cause {
+        let Pair { x: point, y: slope } = z;
+        let t = t + self.half;
+        let mut equation = Slope {
+            map: self,
+            t,
+            energy: self.dynamics.energy(t, &point.q, &point.p),
+            point,
+            other: &mut work.other,
+            gradient: &mut work.gradient,
+        };
+        let outcome = iterate(self.limit, &mut equation, slope, &mut work.next);
+        let solved = outcome.solved.all();
+        if !solved {
+            slope.poison(!outcome.solved);
+        }
+        point.accumulate(self.h, slope);
+        if solved {
+            Cause::Overflow
+        } else {
+            outcome.cause()
+        }
+    }
+}
+
+impl<T: Real, P: Dynamics<T>> Map for EnergyKeeping<T, P> {
+    type Carried = Pair<Point<P::Vector>, Point<P::Vector>>;
+    type Work = EnergyWork<P::Vector>;
+
+    fn work(&self, like: &Self::Carried) -> Self::Work {
+        EnergyWork {
+            other: like.x.clone(),
+            gradient: like.x.clone(),
+            next: like.x.clone(),
+        }
+    }
+
+    #[inline(always)]
+    fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.solve(t, z, work);
+    }
+
+    #[cold]
+    fn explain(&self, t: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
+        self.solve(t, z, work)
+    }
+}

@@ -1,0 +1,136 @@
+//! Newton's method for implicit stages: what is left where the fixed point is none.
+//!
+//! Input: a prepared system, the stages' points, their equations. Output: the slopes one Newton step
+//! further. Invariant: lanes do not mix; rows are exchanged lane by lane.
+
+use super::gauss::Stages;
+use crate::state::Point;
+use crate::system::Dynamics;
+use crate::vector::Vector;
+use alloc::vec::Vec;
+use hamiltonian_lanes::Real;
+
+/// More unknowns than these, the components of all stages together, are not solved for: the matrix
+/// has their square.
+const LARGEST: usize = 256;
+
+/// The matrix of the linear equations, its right-hand side, and vectors of the system's shape.
+#[derive(Debug, Clone)]
+pub(super) struct Linear<V: Vector> {
+    /// None where there are too many unknowns.
+    matrix: Option<Vec<V::Scalar>>,
+    right: Vec<V::Scalar>,
+    unit: Point<V>,
+    column: Point<V>,
+}
+
+impl<V: Vector> Linear<V> {
+    /// For `stages` points like this one.
+    pub(super) fn new(like: &Point<V>, stages: usize) -> Self {
+        let size = stages * like.len();
+        let fits = size <= LARGEST;
+        let zero = V::Scalar::zero();
+        Linear {
+            matrix: fits.then(|| alloc::vec![zero; size * size]),
+            right: alloc::vec![zero; if fits { size } else { 0 }],
+            unit: like.zeros_like(),
+            column: like.zeros_like(),
+        }
+    }
+
+    /// Whether Newton's method can be used.
+    pub(super) fn fits(&self) -> bool {
+        self.matrix.is_some()
+    }
+
+    /// Puts −a·J∇²H(z) into the rows of stage `i`, where `a(j)` is the coefficient of stage j, and adds
+    /// the unit matrix.
+    pub(super) fn linearise<P: Dynamics<V::Scalar, Vector = V>>(
+        &mut self,
+        dynamics: &P,
+        t: V::Scalar,
+        z: &Point<V>,
+        i: usize,
+        stages: usize,
+        a: impl Fn(usize) -> V::Scalar,
+    ) {
+        let Some(matrix) = &mut self.matrix else {
+            return;
+        };
+        let n = z.len();
+        let size = stages * n;
+        for k in 0..n {
+            self.unit.set_zero();
+            *self.unit.component_mut(k) = V::Scalar::one();
+            let Point { q, p } = &mut self.column;
+            dynamics.hessian_vector(t, &z.q, &z.p, &self.unit.q, &self.unit.p, q, p);
+            for row in 0..n {
+                // J: (∂/∂p, −∂/∂q).
+                let entry = if 2 * row < n {
+                    self.column.component(row + n / 2)
+                } else {
+                    -self.column.component(row - n / 2)
+                };
+                for j in 0..stages {
+                    let unit = i == j && row == k;
+                    let one = V::Scalar::constant(f64::from(u8::from(unit)), 0.0);
+                    matrix[(i * n + row) * size + j * n + k] = one - a(j) * entry;
+                }
+            }
+        }
+    }
+
+    /// Solves for the right-hand side `residual` and adds the solution to it in place.
+    pub(super) fn solve<const S: usize>(&mut self, residual: &mut Stages<Point<V>, S>) {
+        let Some(matrix) = &mut self.matrix else {
+            return;
+        };
+        let n = residual.0.first().map_or(0, Vector::len);
+        for (i, stage) in residual.0.iter().enumerate() {
+            for k in 0..n {
+                self.right[i * n + k] = stage.component(k);
+            }
+        }
+        eliminate(matrix, &mut self.right);
+        for (i, stage) in residual.0.iter_mut().enumerate() {
+            for k in 0..n {
+                *stage.component_mut(k) = self.right[i * n + k];
+            }
+        }
+    }
+}
+
+/// Gaussian elimination with partial pivoting, lane by lane; `right` becomes the solution.
+fn eliminate<T: Real>(matrix: &mut [T], right: &mut [T]) {
+    let size = right.len();
+    for k in 0..size {
+        for i in k + 1..size {
+            // The larger of the two moves up, in the lanes where it is the lower one.
+            let larger = matrix[k * size + k].abs().lt(matrix[i * size + k].abs());
+            for j in k..size {
+                let (a, b) = (matrix[k * size + j], matrix[i * size + j]);
+                matrix[k * size + j] = T::select(larger, b, a);
+                matrix[i * size + j] = T::select(larger, a, b);
+            }
+            let (a, b) = (right[k], right[i]);
+            right[k] = T::select(larger, b, a);
+            right[i] = T::select(larger, a, b);
+        }
+        for i in k + 1..size {
+            let factor = matrix[i * size + k] / matrix[k * size + k];
+            for j in k + 1..size {
+                let product = factor * matrix[k * size + j];
+                matrix[i * size + j] -= product;
+            }
+            let product = factor * right[k];
+            right[i] -= product;
+        }
+    }
+    for k in (0..size).rev() {
+        let mut sum = right[k];
+        for j in k + 1..size {
+            sum -= matrix[k * size + j] * right[j];
+        }
+        right[k] = sum / matrix[k * size + k];
+    }
+}

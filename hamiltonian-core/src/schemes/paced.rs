@@ -1,0 +1,219 @@
+//! Variable steps that are reversible: the density of steps follows a function of the state.
+//!
+//! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric in the
+//! point and the density together, so no drift comes in that a fixed step would not have.
+
+use crate::flow::VectorField;
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, OneStep, Scheme};
+use crate::state::{Carried, Point, State};
+use crate::system::{Dynamics, System};
+use crate::vector::Vector;
+use core::fmt::Debug;
+use hamiltonian_lanes::Real;
+
+/// Where steps are to be short: Q(t, q, p) > 0, in any unit; steps will be proportional to 1/Q.
+///
+/// What is asked for is the rate d ln Q/dt along the motion, given q̇ and ṗ: for Kepler's problem with
+/// Q = r^(−3/2), −(3/2) q·q̇/q·q.
+pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
+    /// d ln Q/dt at (t, q, p), where the velocity is (dq, dp).
+    fn rate(&self, t: V::Scalar, q: &V, p: &V, dq: &V, dp: &V) -> V::Scalar;
+}
+
+/// A one-step scheme with variable steps, explicit and time-reversible.
+///
+/// With the run's step ε, the scheme's map Φ and G = d ln Q/dt, starting from ρ = 1,
+///
+/// ```text
+/// ρ ← ρ + ½εG(z);   h = ε/ρ;   z ← Φₕ(z);   t ← t + h;   ρ ← ρ + ½εG(z)
+/// ```
+///
+/// so the first step is about ε, and ρ stays near Q/Q(z₀). Time is carried: the run's clock counts ε, the
+/// state shows the time itself. Preserves no form (steps depend on the state), but for reversible systems and symmetric Φ
+/// it has no drift of H. A symplectic alternative is a change of time in the definition of the system.
+///
+/// Source: E. Hairer, G. Söderlind, SIAM J. Sci. Comput. 26 (2005) 1838, eq. 2.8,
+/// doi:10.1137/040606995.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paced<M, G> {
+    /// What makes the steps.
+    pub scheme: M,
+    /// How short they are to be.
+    pub density: G,
+}
+
+impl<M: OneStep, G: Clone + Debug + Send + Sync + 'static> Listed for Paced<M, G> {
+    fn entry(&self) -> Entry {
+        let of = self.scheme.entry();
+        Entry {
+            name: "Paced",
+            variant: of.name,
+            equations: "",
+            preserves: Form::Nothing,
+            source: "Hairer, Söderlind 2005, eq. 2.8, doi:10.1137/040606995",
+            ..of
+        }
+    }
+}
+
+/// What [`Paced`] carries: the point, and the density of steps ρ, the rate G and the time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pace<V: Vector> {
+    point: Point<V>,
+    /// ρ, G, t.
+    pace: [V::Scalar; 3],
+}
+
+impl<V: Vector> Vector for Pace<V> {
+    type Scalar = V::Scalar;
+    const PARTS: usize = Point::<V>::PARTS + 1;
+    #[inline(always)]
+    fn part(&self, k: usize) -> &[V::Scalar] {
+        if k < Point::<V>::PARTS {
+            self.point.part(k)
+        } else {
+            &self.pace
+        }
+    }
+    #[inline(always)]
+    fn part_mut(&mut self, k: usize) -> &mut [V::Scalar] {
+        if k < Point::<V>::PARTS {
+            self.point.part_mut(k)
+        } else {
+            &mut self.pace
+        }
+    }
+    fn zeros_like(&self) -> Self {
+        Pace {
+            point: self.point.zeros_like(),
+            pace: [V::Scalar::zero(); 3],
+        }
+    }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        Pace {
+            point: self.point.take(),
+            pace: self.pace,
+        }
+    }
+}
+
+impl<V: Vector> Carried for Pace<V> {
+    type Vector = V;
+    #[inline(always)]
+    fn point(&self) -> &Point<V> {
+        &self.point
+    }
+    #[inline(always)]
+    fn time(&self, _: V::Scalar) -> V::Scalar {
+        self.pace[2]
+    }
+}
+
+/// G at a point.
+#[inline(always)]
+fn rate<T: Real, P: Dynamics<T>, G: Density<P::Vector>>(
+    density: &G,
+    field: &P::Field,
+    t: T,
+    point: &Point<P::Vector>,
+    velocity: &mut Point<P::Vector>,
+) -> T {
+    velocity.set_zero();
+    let Point { q: dq, p: dp } = velocity;
+    field.add(t, &point.q, &point.p, dq, dp);
+    density.rate(t, &point.q, &point.p, dq, dp)
+}
+
+impl<T, S, M, G> Scheme<T, S> for Paced<M, G>
+where
+    T: Real,
+    S: System<T>,
+    M: OneStep + Scheme<T, S>,
+    M::Map: Map<Carried = Point<S::Vector>>,
+    G: Density<S::Vector>,
+{
+    type Map = Pacing<T, S, M, G>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Pacing {
+            prepared: prepared.clone(),
+            field: prepared.field(T::one()),
+            scheme: self.scheme.clone(),
+            density: self.density.clone(),
+            epsilon: step.h,
+            half: step.h * T::constant(0.5, 0.0),
+        }
+    }
+    fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, _: T) -> Pace<S::Vector> {
+        let point = state.point();
+        let mut velocity = point.zeros_like();
+        let field = prepared.field(T::one());
+        let rate = rate::<T, S::Prepared, G>(&self.density, &field, state.t, &point, &mut velocity);
+        Pace {
+            point,
+            pace: [T::one(), rate, state.t],
+        }
+    }
+}
+
+/// The map of [`Paced`].
+pub struct Pacing<T: Real, S: System<T>, M, G> {
+    prepared: S::Prepared,
+    field: <S::Prepared as Dynamics<T>>::Field,
+    scheme: M,
+    density: G,
+    epsilon: T,
+    half: T,
+}
+
+/// The scratch of [`Pacing`].
+pub struct PacingWork<V: Vector, W> {
+    velocity: Point<V>,
+    inner: W,
+}
+
+impl<T, S, M, G> Map for Pacing<T, S, M, G>
+where
+    T: Real,
+    S: System<T>,
+    M: OneStep + Scheme<T, S>,
+    M::Map: Map<Carried = Point<S::Vector>>,
+    G: Density<S::Vector>,
+{
+    type Carried = Pace<S::Vector>;
+    type Work = PacingWork<S::Vector, <M::Map as Map>::Work>;
+
+    fn work(&self, like: &Self::Carried) -> Self::Work {
+        let map = self.scheme.prepare(&self.prepared, Step::of(self.epsilon));
+        PacingWork {
+            velocity: like.point.clone(),
+            inner: map.work(&like.point),
+        }
+    }
+
+    #[inline(always)]
+    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        let [density, rate_here, t] = &mut z.pace;
+        *density += self.half * *rate_here;
+        let h = self.epsilon / *density;
+        let map = self.scheme.prepare(&self.prepared, Step::of(h));
+        map.step(*t, *t + h, &mut z.point, &mut work.inner);
+        *t += h;
+        *rate_here =
+            rate::<T, S::Prepared, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);
+        *density += self.half * *rate_here;
+        // A density that is not positive any more has no step.
+        let gone = density.le(T::zero());
+        *density = T::select(gone, T::constant(f64::NAN, 0.0), *density);
+    }
+
+    #[cold]
+    fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
+        let [density, rate_here, t] = &mut z.pace;
+        *density += self.half * *rate_here;
+        let h = self.epsilon / *density;
+        let map = self.scheme.prepare(&self.prepared, Step::of(h));
+        map.explain(*t, *t + h, true, &mut z.point, &mut work.inner)
+    }
+}

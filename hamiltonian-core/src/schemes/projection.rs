@@ -1,0 +1,536 @@
+//! Doubled schemes brought back to one point at every step.
+//!
+//! Input: a system without forces and a table of weights. Output: [`MidpointProjected`],
+//! [`Semiexplicit`]. Invariant: a step begins with both copies at the point (or symmetrically
+//! displaced from it) and ends with one point; in between is the splitting of H(q, p̃) + H(q̃, p).
+
+use super::extended::{Copies, Cross, Doubled};
+use super::gauss::Stages;
+use super::table::Table;
+use super::zigzag::Zigzag;
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Carried, Pair, Point, State};
+use crate::system::{System, Unforced};
+use crate::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+
+/// The splitting of H(q, p̃) + H(q̃, p) by the table `W`.
+type Inner<T, S, W> = Doubled<T, S, Cross<false>, Cross<true>, W>;
+
+fn inner<T: Real, S: System<T>, W: Table>(
+    table: &W,
+    prepared: &S::Prepared,
+    h: T,
+) -> Inner<T, S, W> {
+    Zigzag::new(
+        table,
+        &(Cross::<false>, Cross::<true>),
+        prepared,
+        Step::of(h),
+    )
+}
+
+/// Two copies from the point, moved by a splitting of the doubled space, and their mean: explicit for
+/// every H, of the order of the table.
+///
+/// With Ψ the splitting of H(q, p̃) + H(q̃, p) by the table `M`,
+///
+/// ```text
+/// (a, b) = Ψ(z[n], z[n]);   z[n+1] = (a + b)/2
+/// ```
+///
+/// dq∧dp is *not* preserved, but nearly: a step of order p violates it by O(h^(2p+2))
+/// (pseudo-symplectic), as the copies part by O(h^(p+1)). What is carried besides the point is the first
+/// copy before the projection: [`Integrator::copy_distance`](crate::Integrator::copy_distance) is
+/// half of |a − b|, an estimate of the error of the last step that costs nothing.
+///
+/// Source: J. Luo, X. Wu, G. Huang, F. Liu, Astrophys. J. 834 (2017) 64,
+/// doi:10.3847/1538-4357/834/1/64.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::{KahanLi8, MidpointProjected}};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let scheme = MidpointProjected::<KahanLi8>::default();
+/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.1)?;
+/// assert!((run.advance(100)?.q[0] - 10.0_f64.cos()).abs() < 1e-8);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct MidpointProjected<M>(pub M);
+
+impl<M: Table> Listed for MidpointProjected<M> {
+    fn entry(&self) -> Entry {
+        let of = self.0.entry();
+        Entry {
+            name: "MidpointProjected",
+            variant: of.name,
+            needs: Needs::Unforced,
+            preserves: Form::Nearly,
+            source: "Luo, Wu, Huang, Liu 2017, doi:10.3847/1538-4357/834/1/64",
+            ..of
+        }
+    }
+}
+
+impl<M: Table + OneStep<Adjoint = M>> OneStep for MidpointProjected<M> {
+    type Adjoint = super::Adjoint<Self>;
+    fn adjoint(&self) -> Self::Adjoint {
+        super::Adjoint(*self)
+    }
+}
+
+impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for MidpointProjected<M> {
+    type Map = Averaged<Inner<T, S, M>>;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Averaged(inner::<T, S, M>(&self.0, prepared, step.h))
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+        Pair {
+            x: state.point(),
+            y: state.point(),
+        }
+    }
+}
+
+/// The map of [`MidpointProjected`].
+#[derive(Debug, Clone)]
+pub struct Averaged<M>(M);
+
+impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Averaged<M> {
+    type Carried = Copies<V>;
+    type Work = ();
+
+    fn work(&self, _: &Copies<V>) {}
+
+    #[inline(always)]
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
+        z.y.copy_from(&z.x);
+        self.0.step(t, end, z, &mut ());
+        let half = V::Scalar::constant(0.5, 0.0);
+        z.x.scale(half);
+        z.x.accumulate(half, &z.y);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: V::Scalar,
+        end: V::Scalar,
+        _: bool,
+        z: &mut Copies<V>,
+        _: &mut (),
+    ) -> Cause {
+        z.y.copy_from(&z.x);
+        self.0.explain(t, end, true, z, &mut ())
+    }
+}
+
+/// Two copies that are mixed after every step: Pihajoki's scheme by any table, with his mixing maps.
+///
+/// ```text
+/// (z, z̃) ← Ψ(z, z̃);   q ← αq + (1 − α)q̃,  q̃ ← (1 − α)q + αq̃;   p, p̃ likewise with β
+/// ```
+///
+/// α = β = 1 is no mixing, [`Pihajoki`](super::Pihajoki); 0 exchanges halves of the copies, ½ makes
+/// them equal, both of which is [`MidpointProjected`]. The copies are carried. Mixing ties them together,
+/// and breaks the form dq∧dp + dq̃∧dp̃ unless α = β = 1 or α = β = 0.
+///
+/// Source: P. Pihajoki, Celest. Mech. Dyn. Astron. 121 (2015) 211, section 3.2,
+/// doi:10.1007/s10569-014-9597-9.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::{Mixed, Strang}};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let scheme = Mixed { table: Strang, coordinates: 1.0, momenta: 0.5 };
+/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.01)?;
+/// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mixed<M> {
+    /// The splitting of the doubled space.
+    pub table: M,
+    /// α.
+    pub coordinates: f64,
+    /// β.
+    pub momenta: f64,
+}
+
+impl<M: Default> Default for Mixed<M> {
+    /// Coordinates as they are, momenta averaged.
+    fn default() -> Self {
+        Mixed {
+            table: M::default(),
+            coordinates: 1.0,
+            momenta: 0.5,
+        }
+    }
+}
+
+impl<M: Table> Listed for Mixed<M> {
+    fn entry(&self) -> Entry {
+        let of = self.table.entry();
+        Entry {
+            name: "Mixed",
+            variant: of.name,
+            needs: Needs::Unforced,
+            preserves: Form::Nothing,
+            source: "Pihajoki 2015, section 3.2, doi:10.1007/s10569-014-9597-9",
+            ..of
+        }
+    }
+}
+
+impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Mixed<M> {
+    type Map = Mixing<Inner<T, S, M>, T>;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Mixing {
+            inner: inner::<T, S, M>(&self.table, prepared, step.h),
+            coordinates: T::constant(self.coordinates, 0.0),
+            momenta: T::constant(self.momenta, 0.0),
+        }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+        Pair {
+            x: state.point(),
+            y: state.point(),
+        }
+    }
+}
+
+/// The map of [`Mixed`].
+#[derive(Debug, Clone)]
+pub struct Mixing<M, T> {
+    inner: M,
+    coordinates: T,
+    momenta: T,
+}
+
+impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Mixing<M, V::Scalar> {
+    type Carried = Copies<V>;
+    type Work = ();
+
+    fn work(&self, _: &Copies<V>) {}
+
+    #[inline(always)]
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
+        self.inner.step(t, end, z, &mut ());
+        mix(self.coordinates, &mut z.x.q, &mut z.y.q);
+        mix(self.momenta, &mut z.x.p, &mut z.y.p);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: V::Scalar,
+        end: V::Scalar,
+        _: bool,
+        z: &mut Copies<V>,
+        _: &mut (),
+    ) -> Cause {
+        self.inner.explain(t, end, true, z, &mut ())
+    }
+}
+
+/// `a ← c·a + (1 − c)·b`, `b ← (1 − c)·a + c·b`.
+#[inline(always)]
+fn mix<V: Vector>(c: V::Scalar, a: &mut V, b: &mut V) {
+    let rest = V::Scalar::one() - c;
+    for k in 0..V::PARTS {
+        for (a, b) in a.part_mut(k).iter_mut().zip(b.part_mut(k)) {
+            (*a, *b) = (c * *a + rest * *b, rest * *a + c * *b);
+        }
+    }
+}
+
+/// The symmetric projection of Jayawardana and Ohsawa: symplectic in the original phase space for
+/// every H, of the order of the table; explicit but for one multiplier.
+///
+/// With Ψ the splitting of H(q, p̃) + H(q̃, p) by the table `M`, the multiplier μ is found such that
+/// both copies end at one point:
+///
+/// ```text
+/// (a, b) = Ψ(z[n] + μ, z[n] − μ);   a + μ = b − μ = z[n+1]
+/// ```
+///
+/// Solved by Broyden's method from the multipliers of the last two steps, until the defect
+/// a − b + 2μ is rounding; some two to six applications of Ψ a step. Preserves dq∧dp, and all
+/// quadratic invariants of H; time-reversible for symmetric tables.
+///
+/// Source: B. Jayawardana, T. Ohsawa, Math. Comp. 92 (2023) 251, eqs. 10 and 11, doi:10.1090/mcom/3778;
+/// T. Ohsawa, SIAM J. Numer. Anal. 61 (2023) 1293, doi:10.1137/22M1517718.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::{Semiexplicit, Suzuki4}};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut run = Integrator::new(&Oscillator, Semiexplicit::<Suzuki4>::default(), start, 0.1)?;
+/// let end = run.advance(1_000)?;
+/// // A quadratic H is preserved to rounding.
+/// assert!((end.q[0].powi(2) + end.p[0].powi(2) - 1.0).abs() < 1_000.0 * 8.0 * f64::EPSILON);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Semiexplicit<M> {
+    /// The splitting of the doubled space.
+    pub table: M,
+    /// A step that is not solved after so many iterations is an error.
+    pub max_iterations: u32,
+}
+
+impl<M: Default> Default for Semiexplicit<M> {
+    /// At most 50 iterations.
+    fn default() -> Self {
+        Semiexplicit {
+            table: M::default(),
+            max_iterations: 50,
+        }
+    }
+}
+
+impl<M: Table> Listed for Semiexplicit<M> {
+    fn entry(&self) -> Entry {
+        let of = self.table.entry();
+        Entry {
+            name: "Semiexplicit",
+            variant: of.name,
+            needs: Needs::Unforced,
+            preserves: Form::OnePoint,
+            source: "Jayawardana, Ohsawa 2023, eqs. 10 and 11, doi:10.1090/mcom/3778",
+            ..of
+        }
+    }
+}
+
+impl<M: Table + OneStep<Adjoint = M>> OneStep for Semiexplicit<M> {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Semiexplicit<M> {
+    type Map = Projected<Inner<T, S, M>>;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        Projected {
+            inner: inner::<T, S, M>(&self.table, prepared, step.h),
+            limit: self.max_iterations,
+        }
+    }
+    fn start(
+        &self,
+        _: &S::Prepared,
+        state: &State<S::Vector>,
+        _: T,
+    ) -> Pair<Point<S::Vector>, Stages<Point<S::Vector>, 2>> {
+        let point = state.point();
+        let none = point.zeros_like();
+        Pair {
+            x: point,
+            y: Stages([none.clone(), none]),
+        }
+    }
+}
+
+/// The map of [`Semiexplicit`]: carries the multipliers of the last step and of the one before.
+#[derive(Debug, Clone)]
+pub struct Projected<M> {
+    inner: M,
+    limit: u32,
+}
+
+/// So many updates of the Jacobian; those after them would be rounding.
+const UPDATES: usize = 6;
+
+/// The scratch of [`Projected`].
+#[derive(Debug, Clone)]
+pub struct ProjectedWork<V: Vector> {
+    copies: Copies<V>,
+    multiplier: Point<V>,
+    end: Point<V>,
+    step: Point<V>,
+    /// The steps of Broyden's method, s₀ first, and 1/|s|² of each.
+    steps: Stages<Point<V>, UPDATES>,
+    inverse_squares: [V::Scalar; UPDATES],
+}
+
+impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Projected<M> {
+    /// Broyden's method for μ, with the inverse Jacobian of the defect as products of the steps
+    /// (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3,
+    /// doi:10.1137/1.9781611970944). It starts as ¼, the one for h = 0. A lane that is solved is not
+    /// touched any more.
+    #[inline]
+    fn solve(
+        &self,
+        t: V::Scalar,
+        end: V::Scalar,
+        z: &mut <Self as Map>::Carried,
+        work: &mut ProjectedWork<V>,
+    ) -> Cause {
+        type Size<V> = <<V as Vector>::Scalar as Real>::Size;
+        let one = V::Scalar::one();
+        let half = V::Scalar::constant(0.5, 0.0);
+        let size = |x: f64| Size::<V>::constant(x, 0.0);
+        let Pair {
+            x: point,
+            y: Stages([last, before]),
+        } = z;
+        // As if the multipliers went on along a line.
+        let guess = &mut work.multiplier;
+        guess.copy_from(last);
+        guess.scale(V::Scalar::constant(2.0, 0.0));
+        guess.accumulate(-one, before);
+        let scale = point.size();
+        let epsilon = V::Scalar::epsilon();
+        let floor = size(ROUNDING * epsilon) * scale;
+        let goal = size(epsilon) * scale;
+        let worth = size(WORTH * epsilon) * scale;
+        let mut solved = <<V::Scalar as Real>::Mask as Mask>::splat(false);
+        let mut defect = size(f64::INFINITY);
+        let mut residual = defect;
+        let mut iterations = 0;
+        let mut stored = 0;
+        while iterations < self.limit {
+            let Pair { x: a, y: b } = &mut work.copies;
+            a.copy_from(point);
+            a.accumulate(one, &work.multiplier);
+            b.copy_from(point);
+            b.accumulate(-one, &work.multiplier);
+            self.inner.step(t, end, &mut work.copies, &mut ());
+            iterations += 1;
+            // The defect, and the mean of a + μ and b − μ.
+            let Pair { x: a, y: b } = &mut work.copies;
+            work.step.copy_from(a);
+            work.step.accumulate(-one, b);
+            work.step
+                .accumulate(V::Scalar::constant(2.0, 0.0), &work.multiplier);
+            a.scale(half);
+            a.accumulate(half, b);
+            work.end.copy_where(!solved, a);
+            let now = work.step.size();
+            residual = Size::<V>::select(solved, residual, now);
+            let stalled = (size(STALLED) * defect).le(now) & now.lt(floor);
+            let lost = !now.equals(now);
+            solved = solved | now.le(goal) | stalled;
+            if (solved | lost).all() {
+                break;
+            }
+            defect = now;
+            // −B·defect
+            let z = &mut work.step;
+            z.scale(V::Scalar::constant(-0.25, 0.0));
+            let steps = &mut work.steps.0;
+            for j in 1..stored {
+                let factor = dot(&steps[j - 1], z) * work.inverse_squares[j - 1];
+                z.accumulate(factor, &steps[j]);
+            }
+            if stored > 0 && stored < UPDATES {
+                let shrink = dot(&steps[stored - 1], z) * work.inverse_squares[stored - 1];
+                z.scale(one / (one - shrink));
+            }
+            if stored < UPDATES {
+                // Steps as small as rounding say nothing about the Jacobian.
+                let square = dot(z, z);
+                let inverse =
+                    V::Scalar::select(worth.lt(z.size()), one / square, V::Scalar::zero());
+                work.inverse_squares[stored] = inverse;
+                steps[stored].copy_from(z);
+                stored += 1;
+            }
+            before.copy_from(&work.multiplier);
+            before.accumulate(one, z);
+            work.multiplier.copy_where(!solved, before);
+        }
+        before.copy_from(last);
+        last.copy_from(&work.multiplier);
+        point.copy_from(&work.end);
+        if solved.all() {
+            return Cause::Overflow;
+        }
+        point.poison(!solved);
+        let lane = (!solved).first().unwrap_or(0);
+        Cause::Unsolved {
+            residual: residual.lane(lane),
+            iterations,
+        }
+    }
+}
+
+/// A defect that no longer shrinks is rounding if it is at most this many ε of the point.
+const ROUNDING: f64 = 1024.0;
+
+/// A defect larger than this part of the one before does not shrink: rounding has its own limit, to
+/// which it may come down for ever.
+const STALLED: f64 = 0.9;
+
+/// A step of this many ε of the point still says something about the Jacobian.
+const WORTH: f64 = 1e4;
+
+/// The sum of products.
+#[inline(always)]
+fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
+    let mut sum = V::Scalar::zero();
+    for k in 0..V::PARTS {
+        for (a, b) in a.part(k).iter().zip(b.part(k)) {
+            sum = a.fma(*b, sum);
+        }
+    }
+    sum
+}
+
+impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Projected<M> {
+    type Carried = Pair<Point<V>, Stages<Point<V>, 2>>;
+    type Work = ProjectedWork<V>;
+
+    fn work(&self, like: &Self::Carried) -> Self::Work {
+        let point = || like.point().clone();
+        ProjectedWork {
+            copies: Pair {
+                x: point(),
+                y: point(),
+            },
+            multiplier: point(),
+            end: point(),
+            step: point(),
+            steps: Stages(core::array::from_fn(|_| point())),
+            inverse_squares: [V::Scalar::zero(); UPDATES],
+        }
+    }
+
+    #[inline(always)]
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.solve(t, end, z, work);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: V::Scalar,
+        end: V::Scalar,
+        _: bool,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) -> Cause {
+        let mut copies = Pair {
+            x: z.x.clone(),
+            y: z.x.clone(),
+        };
+        match self.solve(t, end, z, work) {
+            Cause::Overflow => Cause::Overflow,
+            // Where the splitting itself leaves its domain, that is the cause.
+            unsolved => match self.inner.explain(t, end, true, &mut copies, &mut ()) {
+                Cause::Piece(piece) if !copies.is_finite() => Cause::Piece(piece),
+                _ => unsolved,
+            },
+        }
+    }
+}

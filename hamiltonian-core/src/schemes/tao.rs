@@ -1,0 +1,149 @@
+//! Tao's binding of the two copies.
+//!
+//! Input: a system without forces. Output: [`Tao`], and [`Bind`], the piece that turns the copies
+//! around their mean. Invariant: the two pieces of H and the binding are exact flows of the doubled
+//! space; the loop is [`Zigzag`]'s.
+
+use super::extended::{Copies, Cross};
+use super::splittings::Strang;
+use super::zigzag::Zigzag;
+use crate::flow::{Flow, Piece, Pieces};
+use crate::map::Step;
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Pair, State};
+use crate::system::{Dynamics, System, Unforced};
+use crate::vector::Vector;
+use hamiltonian_lanes::Real;
+
+/// Tao's scheme: Pihajoki's two copies, bound together by ω; order 2, explicit for every H.
+///
+/// Strang's splitting of H(q, p̃) + H(q̃, p) + ½ω(|q − q̃|² + |p − p̃|²). The last piece turns
+/// (q − q̃, p − p̃) by the angle 2ωh; three evaluations of J∇H a step.
+///
+/// Preserves dq∧dp + dq̃∧dp̃ in the doubled space, and there an energy near H(q, p̃) + H(q̃, p) + the
+/// binding; dq∧dp of what is seen is *not* preserved, but the copies stay together where ω is large
+/// enough.
+///
+/// Which ω: larger than the rate at which copies of the unbound scheme part, that is of the order of
+/// the largest frequency of the motion; the error grows as ωh², and stability asks for ωh well below 1.
+/// Ten to twenty times the frequency is a start. Its copies are bound by no theorem where ω is small:
+/// watch [`Integrator::copy_distance`](crate::Integrator::copy_distance).
+///
+/// Higher even orders are compositions: `KahanLi6.of(Tao { omega: 20.0 })`.
+///
+/// Source: M. Tao, Phys. Rev. E 94 (2016) 043303, eqs. 1 to 4, doi:10.1103/PhysRevE.94.043303.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::Tao};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut run = Integrator::new(&Oscillator, Tao { omega: 10.0 }, start, 0.01)?;
+/// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
+/// assert!(run.copy_distance() < 1e-4);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tao {
+    /// ω, the strength of the binding, in units of 1 over time.
+    pub omega: f64,
+}
+
+impl Default for Tao {
+    /// ω = 20, for motions whose frequencies are about 1.
+    fn default() -> Self {
+        Tao { omega: 20.0 }
+    }
+}
+
+impl Listed for Tao {
+    fn entry(&self) -> Entry {
+        Entry {
+            name: "Tao",
+            variant: "",
+            equations: "",
+            order: 2,
+            duration: 1,
+            needs: Needs::Unforced,
+            preserves: Form::TwoCopies,
+            source: "Tao 2016, eqs. 1 to 4, doi:10.1103/PhysRevE.94.043303",
+        }
+    }
+}
+
+impl OneStep for Tao {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+/// ½ω(|q − q̃|² + |p − p̃|²).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bind {
+    /// ω.
+    pub omega: f64,
+}
+
+/// The flow of [`Bind`]: (q − q̃, p − p̃) turned by 2ωc, the means as they are.
+#[derive(Debug, Clone, Copy)]
+pub struct Turned<T> {
+    cos: T,
+    sin: T,
+}
+
+impl<V: Vector> Flow<Copies<V>> for Turned<V::Scalar> {
+    const NAME: &'static str = "binding";
+    #[inline(always)]
+    fn apply(&self, _: V::Scalar, z: &mut Copies<V>) {
+        let half = V::Scalar::constant(0.5, 0.0);
+        let Pair { x, y } = z;
+        for k in 0..V::PARTS {
+            let first = x.q.part_mut(k).iter_mut().zip(x.p.part_mut(k));
+            let second = y.q.part_mut(k).iter_mut().zip(y.p.part_mut(k));
+            for ((q, p), (other_q, other_p)) in first.zip(second) {
+                let (dq, dp) = (half * (*q - *other_q), half * (*p - *other_p));
+                let (mean_q, mean_p) = (half * (*q + *other_q), half * (*p + *other_p));
+                let turned_q = self.cos * dq + self.sin * dp;
+                let turned_p = self.cos * dp - self.sin * dq;
+                *q = mean_q + turned_q;
+                *p = mean_p + turned_p;
+                *other_q = mean_q - turned_q;
+                *other_p = mean_p - turned_p;
+            }
+        }
+    }
+}
+
+impl<T: Real, P: Dynamics<T>> Piece<T, P> for Bind {
+    type Point = Copies<P::Vector>;
+    type Flow = Turned<T>;
+    #[inline(always)]
+    fn flow(&self, _: &P, c: T) -> Turned<T> {
+        let (sin, cos) = (T::constant(2.0 * self.omega, 0.0) * c).sin_cos();
+        Turned { cos, sin }
+    }
+}
+
+/// The pieces of Tao's H, the outermost first.
+type Bound = (Cross<true>, Cross<false>, Bind);
+
+impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for Tao {
+    type Map = Zigzag<
+        Copies<S::Vector>,
+        <Bound as Pieces<T, S::Prepared>>::Outer,
+        <Bound as Pieces<T, S::Prepared>>::Inner,
+        Strang,
+    >;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let bind = Bind { omega: self.omega };
+        Zigzag::new(&Strang, &(Cross, Cross, bind), prepared, step)
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Copies<S::Vector> {
+        Pair {
+            x: state.point(),
+            y: state.point(),
+        }
+    }
+}

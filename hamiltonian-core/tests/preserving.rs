@@ -1,0 +1,455 @@
+//! Figures of runs: closure, what is kept, variable steps, low words, small pieces.
+//!
+//! Input: schemes on systems written by hand. Output: numbers against closed forms and against
+//! schemes that should do worse. Invariant: every bound has a scheme that breaks it.
+
+use super::common::systems::{
+    Formula, Halves, Hand, HenonHeiles, Paper34, Pendulum, pendulum, scalar,
+};
+use super::common::{difference, start};
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{
+    DoubleDouble, Group, Integrator, Map, Real, Scheme, State, Step, System, Vector,
+};
+
+/// The Jacobi function cn(u | m), by the arithmetic–geometric mean (Abramowitz and Stegun, 16.4).
+fn cn(u: f64, m: f64) -> f64 {
+    let (mut a, mut b) = (1.0_f64, (1.0 - m).sqrt());
+    let mut ratios = vec![];
+    while (a - b).abs() > 1e-17 * a && ratios.len() < 20 {
+        let c = 0.5 * (a - b);
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+        ratios.push(c / a);
+    }
+    let mut phi = a * u * f64::from(1_u32 << ratios.len());
+    for ratio in ratios.iter().rev() {
+        phi = 0.5 * (phi + (ratio * phi.sin()).asin());
+    }
+    phi.cos()
+}
+
+/// The period of (34) from (−3, 0).
+const PERIOD: f64 = 3.261_057_238_358_885;
+
+/// The distance from (−3, 0) after ten periods of `steps` steps each.
+fn closure(scheme: impl Scheme<f64, Hand<Paper34, 1>>, steps: u64) -> f64 {
+    let system = Hand(Paper34);
+    let run = Integrator::new(
+        &system,
+        scheme,
+        State::new([-3.0], [0.0]),
+        PERIOD / steps as f64,
+    );
+    let mut run = run.expect("a good start");
+    let end = run.advance(10 * steps).expect("good steps");
+    (end.q[0] + 3.0).hypot(end.p[0])
+}
+
+#[test]
+fn ten_periods_of_34_close() {
+    // 17 stages are 35 evaluations of J∇H a step: 3080 a period.
+    let projected = closure(MidpointProjected::<KahanLi8>::default(), 88);
+    let second = closure(MidpointProjected::<Strang>::default(), 1026);
+    println!("midpoint-projected Kahan–Li 8 {projected:.1e}, Strang at equal cost {second:.1e}");
+    assert!(projected <= 3e-12, "{projected:e}");
+    assert!(second > 1e-6, "{second:e}");
+}
+
+#[test]
+fn orbits_of_34_are_jacobis_cosine() {
+    let system = Hand(Paper34);
+    let mut run = Integrator::new(
+        &system,
+        Semiexplicit::<KahanLi8>::default(),
+        State::new([-3.0], [0.0]),
+        0.02,
+    )
+    .expect("a good start");
+    let mut worst = 0.0_f64;
+    for k in 1..=500 {
+        let q = run.advance(1).expect("a good step").q[0];
+        let exact = -3.0 * cn(10.0_f64.sqrt() * 0.02 * f64::from(k), 0.9);
+        worst = worst.max((q - exact).abs());
+    }
+    println!("q against −3 cn to t = 10: {worst:.1e}");
+    assert!(worst <= 1e-11, "{worst:e}");
+    let end = run.state();
+    assert!((end.q[0] + 2.402_238_313_100_827).abs() <= 1e-11);
+    assert!((end.p[0] - 0.690_609_507_457_253_4).abs() <= 1e-11);
+}
+
+#[test]
+fn mixing_holds_the_copies_together() {
+    fn distance(coordinates: f64, momenta: f64) -> f64 {
+        let system = Hand(Paper34);
+        let scheme = Mixed {
+            table: Strang,
+            coordinates,
+            momenta,
+        };
+        let start = State::new([-3.0], [0.0]);
+        let mut run = Integrator::new(&system, scheme, start, 1e-3).expect("a good start");
+        run.advance(4_000).expect("good steps");
+        run.copy_distance()
+    }
+    let (unmixed, mixed) = (distance(1.0, 1.0), distance(1.0, 0.5));
+    println!("copies at t = 4: unmixed {unmixed:.2e}, momenta averaged {mixed:.2e}");
+    // The reference value of the scheme without mixing is 2.7.
+    assert!((unmixed - 2.7).abs() < 0.1, "{unmixed}");
+    assert!(mixed < 1e-3, "{mixed:e}");
+}
+
+#[test]
+fn discrete_gradients_keep_h() {
+    fn worst(scheme: impl Scheme<f64, Hand<Pendulum, 1>>) -> f64 {
+        let system = pendulum(true);
+        let start = State::new([std::f64::consts::FRAC_PI_4], [0.0]);
+        let energy = system.energy(&start);
+        let mut run = Integrator::new(&system, scheme, start, 0.1).expect("a good start");
+        let mut worst = 0.0_f64;
+        for _ in 0..10_000 {
+            let state = run.advance(1).expect("a good step");
+            worst = worst.max((system.energy(state) / energy - 1.0).abs());
+        }
+        worst
+    }
+    let (keeps, does_not) = (
+        worst(DiscreteGradient::default()),
+        worst(ImplicitMidpoint::default()),
+    );
+    println!("|ΔH/H| over 10⁴ steps: {keeps:.1e}, implicit midpoint {does_not:.1e}");
+    assert!(keeps <= 10.0 * f64::EPSILON * 100.0, "{keeps:e}");
+    assert!(does_not > 1e-6, "{does_not:e}");
+}
+
+/// Steps ten times as long as the fastest motion: the fixed point is none, Newton's method is.
+#[test]
+fn gauss_solves_long_steps_by_newtons_method() {
+    let stiff = || {
+        Hand(Pendulum {
+            m: 1.0,
+            l: 1.0,
+            g: 1e4,
+            from_bottom: true,
+        })
+    };
+    let start = || State::new([0.2], [0.0]);
+    let system = stiff();
+    let energy = system.energy(&start());
+    let mut run =
+        Integrator::new(&system, Gauss::<3>::default(), start(), 0.1).expect("a good start");
+    let mut worst = 0.0_f64;
+    for _ in 0..1_000 {
+        let state = run.advance(1).expect("a step that Newton's method solves");
+        worst = worst.max((system.energy(state) / energy - 1.0).abs());
+    }
+    println!("ωh = 10: |ΔH/H| stays at {worst:.1e}");
+    assert!(worst < 0.2, "{worst}");
+    let system = stiff();
+    let mut run =
+        Integrator::new(&system, ImplicitMidpoint::default(), start(), 0.1).expect("a good start");
+    let error = run.advance(10).expect_err("no fixed point").to_string();
+    assert!(error.contains("was not solved"), "{error}");
+}
+
+/// Kepler's problem in the plane.
+#[derive(Debug, Clone)]
+struct Kepler;
+
+impl Formula<2> for Kepler {
+    const NAME: &'static str = "Kepler";
+    const GROUPS: &'static [Group] = &[scalar("x", "p_x", 0), scalar("y", "p_y", 1)];
+    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
+        let half = T::constant(0.5, 0.0);
+        half * (*px * *px + *py * *py) - T::one() / (*x * *x + *y * *y).sqrt()
+    }
+}
+
+impl Halves<2> for Kepler {
+    fn force<T: Real>(&self, _: T, [x, y]: &[T; 2]) -> [T; 2] {
+        let square = *x * *x + *y * *y;
+        let cube = square * square.sqrt();
+        [*x / cube, *y / cube]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 2]) -> [T; 2] {
+        *p
+    }
+}
+
+/// Q = r^(−3/2).
+#[derive(Debug, Clone, Copy)]
+struct Close;
+
+impl<V: Vector> Density<V> for Close {
+    fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {
+        let (mut along, mut square) = (V::Scalar::zero(), V::Scalar::zero());
+        for (q, dq) in q.components().zip(dq.components()) {
+            along += q * dq;
+            square += q * q;
+        }
+        V::Scalar::constant(-1.5, 0.0) * along / square
+    }
+}
+
+/// e = 0.9 from the pericentre.
+fn kepler_start() -> State<<Hand<Kepler, 2> as System<f64>>::Vector> {
+    State::new([0.1, 0.0], [0.0, 19.0_f64.sqrt()])
+}
+
+#[test]
+fn variable_steps_of_keplers_problem_do_not_drift() {
+    let periods = if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
+        100_000
+    } else {
+        1_000
+    };
+    // The largest |ΔH/H| of each tenth of the run, and the number of steps made.
+    fn tenths<M: Scheme<f64, Hand<Kepler, 2>>>(scheme: M, h: f64, end: f64) -> (Vec<f64>, u64) {
+        let system = Hand(Kepler);
+        let start = kepler_start();
+        let energy = system.energy(&start);
+        let mut run = Integrator::new(&system, scheme, start, h).expect("a good start");
+        let mut worst = vec![0.0_f64; 10];
+        loop {
+            let state = run.advance(1).expect("a good step");
+            let tenth = (10.0 * state.t / end) as usize;
+            let error = (system.energy(state) / energy - 1.0).abs();
+            match worst.get_mut(tenth) {
+                Some(worst) => *worst = worst.max(error),
+                None => return (worst, run.steps()),
+            }
+        }
+    }
+    let end = f64::from(periods) * std::f64::consts::TAU;
+    let paced = Paced {
+        scheme: StormerVerlet::default(),
+        density: Close,
+    };
+    let (errors, steps) = tenths(paced, 1e-3, end);
+    println!("{errors:?} with {} steps a period", steps / periods as u64);
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    // No drift.
+    assert!(largest <= 1.02 * errors[0], "{errors:?}");
+    // Fixed steps of the same number are worse.
+    let (fixed, _) = tenths(StormerVerlet::default(), end / steps as f64, end / 100.0);
+    println!("fixed steps: {:.3e}", fixed[0]);
+    assert!(fixed[0] > 20.0 * largest, "{fixed:?}");
+}
+
+#[test]
+fn variable_steps_return() {
+    let system = Hand(Kepler);
+    let prepared = System::<f64>::prepare(&system);
+    let scheme = Paced {
+        scheme: Suzuki4,
+        density: Close,
+    };
+    let mut carried =
+        Scheme::<f64, Hand<Kepler, 2>>::start(&scheme, &prepared, &kepler_start(), 2e-3);
+    let begin = carried.clone();
+    for h in [2e-3, -2e-3] {
+        let map = Scheme::<f64, Hand<Kepler, 2>>::prepare(&scheme, &prepared, Step::of(h));
+        let mut work = map.work(&carried);
+        for _ in 0..2_000 {
+            map.step(0.0, h, &mut carried, &mut work);
+        }
+        let away = carried.distance(&begin);
+        println!("after steps of {h}: {away:.1e}");
+        assert_eq!(away < 1e-9, h < 0.0, "{away:e}");
+    }
+}
+
+/// Rounding errors of `scheme` on Hénon–Heiles, root mean square over the trajectories: of H relative,
+/// and of the point, f64 less double-double of the same steps.
+fn rounding<M>(scheme: &M, trajectories: u32, steps: u64) -> (f64, f64)
+where
+    M: Scheme<f64, Hand<HenonHeiles, 2>> + Scheme<DoubleDouble, Hand<HenonHeiles, 2>>,
+{
+    let system = Hand(HenonHeiles);
+    let (mut energies, mut points) = (0.0, 0.0);
+    for k in 0..trajectories {
+        let x = 0.01 * f64::from(k) / f64::from(trajectories);
+        let (q, p) = ([x, 0.1], [0.3, 0.1 + x]);
+        let h = 0.05;
+        let start_f64: State<_> = start(&system, &q, &p);
+        let run = Integrator::new(&system, scheme.clone(), start_f64.clone(), h);
+        let rounded = run
+            .expect("a good start")
+            .advance(steps)
+            .expect("good steps")
+            .clone();
+        let start_double: State<_> = start(&system, &q, &p);
+        let run = Integrator::new(&system, scheme.clone(), start_double, DoubleDouble::from(h));
+        let exact = run
+            .expect("a good start")
+            .advance(steps)
+            .expect("good steps")
+            .clone();
+        let near = State {
+            t: rounded.t,
+            q: exact.q.map(Real::to_f64),
+            p: exact.p.map(Real::to_f64),
+        };
+        // H at the ends, in double-double, so that evaluating it adds no rounding.
+        let lifted = State {
+            t: exact.t,
+            q: rounded.q.map(DoubleDouble::from),
+            p: rounded.p.map(DoubleDouble::from),
+        };
+        let energy = system.energy(&exact);
+        let error = ((system.energy(&lifted) - energy) / energy).to_f64();
+        energies += error * error;
+        points += difference(&near, &rounded).powi(2);
+    }
+    let mean = |sum: f64| (sum / f64::from(trajectories)).sqrt();
+    (mean(energies), mean(points))
+}
+
+#[test]
+fn low_words_keep_rounding_from_growing() {
+    let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some();
+    let (trajectories, longest) = if heavy { (32, 1_000_000) } else { (8, 4_000) };
+    let counts: Vec<u64> = (0..4).map(|k| longest / [1000, 100, 10, 1][k]).collect();
+    let mut compensated = vec![];
+    for steps in &counts {
+        let errors = rounding(&Compensated(KahanLi8), trajectories, *steps);
+        println!(
+            "{steps} steps, compensated: H {:.2e}, point {:.2e}",
+            errors.0, errors.1
+        );
+        compensated.push(errors);
+    }
+    let plain = rounding(&KahanLi8, trajectories, longest);
+    let last = compensated[3];
+    println!(
+        "{longest} steps, plain: H {:.2e}, point {:.2e}",
+        plain.0, plain.1
+    );
+    let bound = if heavy { 20.0 } else { 5.0 };
+    assert!(plain.0 > bound * last.0, "H: {} and {}", plain.0, last.0);
+    if heavy {
+        let slope = |of: fn(&(f64, f64)) -> f64| (of(&last) / of(&compensated[0])).log10() / 3.0;
+        let (energy, point) = (slope(|e| e.0), slope(|e| e.1));
+        println!("slopes: H {energy:.3}, point {point:.3}");
+        assert!((energy - 0.5).abs() <= 0.1, "{energy}");
+        assert!((point - 1.5).abs() <= 0.15, "{point}");
+        assert!(
+            plain.1 > bound * last.1,
+            "point: {} and {}",
+            plain.1,
+            last.1
+        );
+    }
+}
+
+/// A large potential and a small kinetic energy: H = −cos q − sin 2q + ε√(1 + p²).
+#[derive(Debug, Clone)]
+struct Small(f64);
+
+impl Formula<1> for Small {
+    const NAME: &'static str = "Small";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let epsilon = T::constant(self.0, 0.0);
+        let two = T::constant(2.0, 0.0);
+        epsilon * (T::one() + p[0] * p[0]).sqrt() - q[0].cos() - (two * q[0]).sin()
+    }
+}
+
+impl Halves<1> for Small {
+    fn force<T: Real>(&self, _: T, q: &[T; 1]) -> [T; 1] {
+        let two = T::constant(2.0, 0.0);
+        [q[0].sin() - two * (two * q[0]).cos()]
+    }
+    fn velocity<T: Real>(&self, _: T, p: &[T; 1]) -> [T; 1] {
+        [T::constant(self.0, 0.0) * p[0] / (T::one() + p[0] * p[0]).sqrt()]
+    }
+}
+
+/// SABA's error falls with ε², Strang's with ε.
+#[test]
+fn errors_scale_with_the_small_piece() {
+    fn error<M: Scheme<DoubleDouble, Hand<Small, 1>>>(scheme: M, epsilon: f64) -> f64 {
+        let system = Hand(Small(epsilon));
+        let end = |steps: u64, scheme: &dyn Fn(DoubleDouble) -> State<_>| {
+            scheme(DoubleDouble::from(1.0) / DoubleDouble::from(steps as f64))
+        };
+        let begin: State<_> = start(&system, &[0.4], &[0.3]);
+        let coarse = end(10, &|h| {
+            let run = Integrator::new(&system, scheme.clone(), begin.clone(), h);
+            run.expect("a good start")
+                .advance(10)
+                .expect("good steps")
+                .clone()
+        });
+        let exact = end(40, &|h| {
+            let run = Integrator::new(&system, SofroniouSpaletta10, begin.clone(), h);
+            run.expect("a good start")
+                .advance(40)
+                .expect("good steps")
+                .clone()
+        });
+        difference(&coarse, &exact)
+    }
+    fn exponent<M: Scheme<DoubleDouble, Hand<Small, 1>>>(scheme: M) -> f64 {
+        let exponent = (error(scheme.clone(), 1e-3) / error(scheme.clone(), 1e-4)).log10();
+        println!("{}: error ~ ε^{exponent:.3}", scheme.entry().name);
+        exponent
+    }
+    assert!((exponent(Strang) - 1.0).abs() < 0.1);
+    for exponent in [exponent(Saba3), exponent(Saba4), exponent(Aba104)] {
+        assert!((exponent - 2.0).abs() < 0.1, "{exponent}");
+    }
+}
+
+/// Five sites of the discrete nonlinear Schrödinger equation, ψ = (q + ip)/√2.
+#[derive(Debug, Clone)]
+struct Dnls;
+
+impl Formula<5> for Dnls {
+    const NAME: &'static str = "Dnls";
+    const GROUPS: &'static [Group] = &[
+        scalar("q0", "p0", 0),
+        scalar("q1", "p1", 1),
+        scalar("q2", "p2", 2),
+        scalar("q3", "p3", 3),
+        scalar("q4", "p4", 4),
+    ];
+    fn energy<T: Real>(&self, _: T, q: &[T; 5], p: &[T; 5]) -> T {
+        let mut sum = T::zero();
+        for i in 0..5 {
+            let next = (i + 1) % 5;
+            let square = q[i] * q[i] + p[i] * p[i];
+            sum += T::constant(0.25, 0.0) * square * square - q[i] * q[next] - p[i] * p[next];
+        }
+        sum
+    }
+}
+
+/// Σ(q² + p²) is quadratic, and so kept by the semiexplicit method.
+#[test]
+fn semiexplicit_keeps_quadratic_invariants() {
+    fn change<M: Scheme<f64, Hand<Dnls, 5>>>(scheme: M) -> f64 {
+        let system = Hand(Dnls);
+        let start = start(
+            &system,
+            &[0.9, 0.1, -0.4, 0.2, 0.3],
+            &[0.1, 0.5, 0.2, -0.3, 0.0],
+        );
+        let norm = |state: &State<<Hand<Dnls, 5> as System<f64>>::Vector>| {
+            state.q.norm_squared() + state.p.norm_squared()
+        };
+        let begin = norm(&start);
+        let mut run = Integrator::new(&system, scheme, start, 0.05).expect("a good start");
+        let mut worst = 0.0_f64;
+        for _ in 0..5_000 {
+            worst = worst.max((norm(run.advance(1).expect("a good step")) / begin - 1.0).abs());
+        }
+        worst
+    }
+    let kept = change(Semiexplicit::<Suzuki4>::default());
+    let control = change(MidpointProjected::<Suzuki4>::default());
+    println!("Σ(q² + p²) over 5000 steps: {kept:.1e}, midpoint-projected {control:.1e}");
+    assert!(kept < 1e-13, "{kept:e}");
+    assert!(control > 100.0 * kept, "{control:e}");
+}

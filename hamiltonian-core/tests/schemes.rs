@@ -1,0 +1,326 @@
+//! Orders, forms and figures of the schemes of higher order, on systems written by hand.
+//!
+//! Input: the schemes. Output: slopes in double-double, defects of forms by exact tangents, and
+//! figures of long runs. Invariant: a scheme has the order and preserves the form in its entry, and
+//! schemes that should not have them fail the same checks.
+
+use super::common::systems::{DoublePendulum, Hand, HenonHeiles, Paper34, Pumped, Relativistic};
+use super::common::{difference, start};
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{
+    DoubleDouble, Dual, Integrator, QuadraticKinetic, Real, Scheme, State, System, Vector,
+};
+
+/// The slopes between successive halvings of the step, from differences of successive results, with
+/// the largest over `parts` times up to the span.
+fn slopes<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64) -> Vec<f64>
+where
+    S: System<DoubleDouble>,
+    M: Scheme<DoubleDouble, S>,
+{
+    const PARTS: u64 = 4;
+    let states: Vec<Vec<_>> = (0..6)
+        .map(|halving| {
+            let steps = steps << halving;
+            let h = DoubleDouble::from(span) / DoubleDouble::from((PARTS * steps) as f64);
+            let run = Integrator::new(system, scheme.clone(), start.clone(), h);
+            let mut run = run.expect("a good start");
+            (0..PARTS)
+                .map(|_| run.advance(steps).expect("good steps").clone())
+                .collect()
+        })
+        .collect();
+    let errors: Vec<_> = (states.windows(2))
+        .map(|pair| {
+            (pair[0].iter().zip(&pair[1]))
+                .map(|(coarse, fine)| difference(coarse, fine))
+                .fold(0.0, f64::max)
+        })
+        .collect();
+    errors
+        .windows(2)
+        .map(|pair| (pair[0] / pair[1]).log2())
+        .collect()
+}
+
+/// The slope of the entry's order, within 0.1 over the last three of four pairs.
+fn assert_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64)
+where
+    S: System<DoubleDouble>,
+    M: Scheme<DoubleDouble, S>,
+{
+    let entry = scheme.entry();
+    let slopes = slopes(system, scheme, start, span, steps);
+    println!(
+        "{} {} on {}: {slopes:.3?}",
+        entry.name,
+        entry.variant,
+        S::NAME
+    );
+    let mean = slopes[1..].iter().sum::<f64>() / (slopes.len() - 1) as f64;
+    assert!(
+        (mean - f64::from(entry.order)).abs() <= 0.1,
+        "{} {} on {}: {slopes:?}",
+        entry.name,
+        entry.variant,
+        S::NAME
+    );
+}
+
+/// Every scheme that asks for pieces, from coarse steps for those of high order.
+struct Orders<S: System<DoubleDouble>> {
+    system: S,
+    start: State<S::Vector>,
+    met: usize,
+}
+
+impl<S: System<DoubleDouble>> Visitor<DoubleDouble, S> for Orders<S> {
+    fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
+        let steps = match scheme.entry().order {
+            0..=4 => 32,
+            5..=6 => 16,
+            7..=8 => 8,
+            _ => 4,
+        };
+        assert_order(&self.system, &scheme, &self.start, 2.0, steps);
+        self.met += 1;
+    }
+}
+
+#[test]
+fn splittings_have_their_order() {
+    let system = Hand(Relativistic);
+    let mut orders = Orders {
+        start: start(&system, &[0.9], &[0.4]),
+        system,
+        met: 0,
+    };
+    visit_exact(&mut orders);
+    assert!(orders.met >= 17);
+}
+
+#[test]
+fn splittings_have_their_order_where_both_pieces_depend_on_time() {
+    let system = Hand(Pumped);
+    let start = start(&system, &[0.9], &[0.4]);
+    assert_order(&system, &Ruth3, &start, 2.0, 32);
+    assert_order(&system, &BlanesMoan6, &start, 2.0, 16);
+    assert_order(&system, &KahanLi8, &start, 2.0, 8);
+    assert_order(&system, &Gauss::<3>::default(), &start, 2.0, 8);
+    let semiexplicit = Semiexplicit::<KahanLi6>::default();
+    assert_order(&system, &semiexplicit, &start, 2.0, 8);
+    let projected = MidpointProjected::<KahanLi6>::default();
+    assert_order(&system, &projected, &start, 2.0, 8);
+}
+
+/// T of Hénon–Heiles is quadratic; that of the other is not, and Nyström tables on it are the
+/// negative control.
+impl QuadraticKinetic for Hand<HenonHeiles, 2> {}
+impl QuadraticKinetic for Hand<Relativistic, 1> {}
+
+#[test]
+fn nystrom_schemes_have_their_order_on_quadratic_kinetic_energies_alone() {
+    let system = Hand(HenonHeiles);
+    let mut orders = Orders {
+        start: start(&system, &[0.12, 0.23], &[0.31, -0.17]),
+        system,
+        met: 0,
+    };
+    visit_quadratic(&mut orders);
+    assert_eq!(orders.met, 4);
+
+    fn control<M: Scheme<DoubleDouble, Hand<Relativistic, 1>>>(scheme: M) {
+        let system = Hand(Relativistic);
+        let start = start(&system, &[0.9], &[0.4]);
+        let slopes = slopes(&system, &scheme, &start, 2.0, 32);
+        println!(
+            "{} where it has no right to be: {slopes:.3?}",
+            scheme.entry().name
+        );
+        assert!((slopes[3] - 4.0).abs() <= 0.1, "{slopes:?}");
+    }
+    control(Srkn11b);
+    control(Srkn14a);
+    control(BlanesCasasEscorihuela8);
+}
+
+/// A scheme for any H on the paper's (34).
+fn on_34(scheme: impl Scheme<DoubleDouble, Hand<Paper34, 1>>, steps: u64) {
+    let system = Hand(Paper34);
+    let start = start(&system, &[-1.5], &[0.3]);
+    assert_order(&system, &scheme, &start, 1.0, steps);
+}
+
+/// And on the double pendulum.
+fn on_the_double_pendulum(scheme: impl Scheme<DoubleDouble, Hand<DoublePendulum, 2>>, steps: u64) {
+    let system = Hand(DoublePendulum);
+    let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
+    assert_order(&system, &scheme, &start, 1.0, steps);
+}
+
+#[test]
+fn doubled_schemes_have_their_order() {
+    on_34(Tao { omega: 10.0 }, 32);
+    on_34(Yoshida6.of(Tao { omega: 3.0 }), 32);
+    on_34(MidpointProjected::<Suzuki4>::default(), 16);
+    on_34(MidpointProjected::<BlanesMoan6>::default(), 8);
+    on_34(MidpointProjected::<SofroniouSpaletta10>::default(), 4);
+    on_34(Semiexplicit::<Strang>::default(), 16);
+    on_34(Semiexplicit::<BlanesMoan4>::default(), 16);
+    on_34(Semiexplicit::<KahanLi8>::default(), 8);
+    on_the_double_pendulum(Tao { omega: 10.0 }, 32);
+    on_the_double_pendulum(MidpointProjected::<KahanLi8>::default(), 8);
+    on_the_double_pendulum(Semiexplicit::<KahanLi6>::default(), 8);
+}
+
+#[test]
+fn gauss_has_its_order() {
+    on_34(Gauss::<1>::default(), 16);
+    on_34(Gauss::<2>::default(), 8);
+    on_34(Gauss::<4>::default(), 4);
+    on_34(Yoshida6.of(Gauss::<1>::default()), 8);
+    on_the_double_pendulum(Gauss::<3>::default(), 8);
+}
+
+/// max |ΔH/H| of the paper's (34) from (−3, 0) to T = 1000.
+fn drift_34<M: Scheme<f64, Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
+    let system = Hand(Paper34);
+    let start = State::new([-3.0], [0.0]);
+    let mut run = Integrator::new(&system, scheme.clone(), start, h).expect("a good start");
+    let mut worst = 0.0_f64;
+    for _ in 0..(1000.0 / h).round() as u64 {
+        let state = run.advance(1).expect("a good step").clone();
+        worst = worst.max((system.energy(&state) / 5.0 - 1.0).abs());
+    }
+    let entry = scheme.entry();
+    println!("{} {} h = {h}: {worst:.3e}", entry.name, entry.variant);
+    worst
+}
+
+#[test]
+fn figures_of_the_papers_34() {
+    assert!(drift_34(Semiexplicit::<Strang>::default(), 0.1) <= 6.0e-3);
+    assert!(drift_34(Semiexplicit::<Suzuki4>::default(), 0.1) <= 1.9e-5);
+    assert!(drift_34(Semiexplicit::<Yoshida6>::default(), 0.1) <= 3.7e-6);
+    assert!(drift_34(Semiexplicit::<KahanLi6>::default(), 0.1) <= 1.4e-7);
+    assert!(drift_34(Gauss::<2>::default(), 0.1) <= 4.7e-5);
+    assert!((drift_34(Tao { omega: 20.0 }, 0.1) - 0.079).abs() <= 0.0005);
+    assert!(drift_34(Tao { omega: 20.0 }, 0.01) <= 6.3e-4);
+}
+
+/// The tangent of what is seen after `steps` steps, by dual numbers over any scalar.
+fn tangent<T, S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<S::Vector>,
+    h: f64,
+    steps: u64,
+) -> Vec<Vec<T>>
+where
+    T: Real,
+    S: System<Dual<T>>,
+    M: Scheme<Dual<T>, S>,
+{
+    let n = start.q.len();
+    let column = |seed: usize| {
+        let mut start = start.clone();
+        let moved = if seed < n { &mut start.q } else { &mut start.p };
+        moved.component_mut(seed % n).eps = T::one();
+        let h = Dual::fixed(T::constant(h, 0.0));
+        let run = Integrator::new(system, scheme.clone(), start, h);
+        let mut run = run.expect("a good start");
+        let end = run.advance(steps).expect("good steps");
+        (end.q.components().chain(end.p.components()))
+            .map(|x| x.eps)
+            .collect()
+    };
+    (0..2 * n).map(column).collect()
+}
+
+/// The largest entry of MᵀJM − J over ‖M‖².
+fn defect<T: Real>(columns: &[Vec<T>]) -> f64 {
+    let n = columns.len() / 2;
+    let (mut defect, mut size) = (0.0_f64, 0.0_f64);
+    for (i, a) in columns.iter().enumerate() {
+        for (j, b) in columns.iter().enumerate() {
+            let mut sum = T::constant(f64::from(i8::from(i == j + n) - i8::from(j == i + n)), 0.0);
+            for k in 0..n {
+                sum += a[k] * b[k + n] - a[k + n] * b[k];
+            }
+            defect = defect.max(sum.magnitude());
+            size = size.max(a[j].magnitude());
+        }
+    }
+    defect / (size * size)
+}
+
+fn symplectic<M>(scheme: M)
+where
+    M: Scheme<Dual<f64>, Hand<Paper34, 1>> + Scheme<Dual<f64>, Hand<DoublePendulum, 2>>,
+{
+    let entry = scheme.entry();
+    let system = Hand(Paper34);
+    let of_34 = defect(&tangent(
+        &system,
+        &scheme,
+        &start(&system, &[-3.0], &[0.5]),
+        0.05,
+        3,
+    ));
+    let system = Hand(DoublePendulum);
+    let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
+    let of_pendulum = defect(&tangent(&system, &scheme, &start, 0.05, 3));
+    println!(
+        "{} {}: {of_34:.1e} {of_pendulum:.1e}",
+        entry.name, entry.variant
+    );
+    // Over three steps.
+    assert!(
+        of_34 <= 3e-13 && of_pendulum <= 3e-13,
+        "{of_34:e} {of_pendulum:e}"
+    );
+}
+
+#[test]
+fn schemes_for_any_h_are_symplectic() {
+    symplectic(Gauss::<1>::default());
+    symplectic(Gauss::<2>::default());
+    symplectic(Gauss::<6>::default());
+    symplectic(Semiexplicit::<Strang>::default());
+    symplectic(Semiexplicit::<KahanLi6>::default());
+}
+
+/// One step of midpoint projection violates dq∧dp by O(h^(2p+2)).
+#[test]
+fn midpoint_projection_is_pseudo_symplectic() {
+    fn slope<M: Scheme<Dual<DoubleDouble>, Hand<Paper34, 1>>>(scheme: M, h: f64) -> f64 {
+        let system = Hand(Paper34);
+        let start = start(&system, &[-1.5], &[0.3]);
+        let of = |h: f64| defect(&tangent(&system, &scheme, &start, h, 1));
+        let slopes: Vec<_> = (0..4)
+            .map(|k| h / f64::from(1 << k))
+            .map(|h| (of(h) / of(h / 2.0)).log2())
+            .collect();
+        println!(
+            "{} {}: {slopes:.3?}",
+            scheme.entry().name,
+            scheme.entry().variant
+        );
+        slopes.iter().sum::<f64>() / 4.0
+    }
+    let second = slope(MidpointProjected::<Strang>::default(), 0.02);
+    assert!((second - 6.0).abs() <= 0.1, "{second}");
+    let fourth = slope(MidpointProjected::<BlanesMoan4>::default(), 0.05);
+    assert!((fourth - 10.0).abs() <= 0.1, "{fourth}");
+    // It is not symplectic, so the check of those that are can fail.
+    let system = Hand(Paper34);
+    let start = start(&system, &[-3.0], &[0.5]);
+    let control = defect(&tangent::<f64, _, _>(
+        &system,
+        &MidpointProjected::<Strang>::default(),
+        &start,
+        0.05,
+        3,
+    ));
+    assert!(control > 1e-10, "{control:e}");
+}

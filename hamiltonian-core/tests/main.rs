@@ -8,9 +8,9 @@ mod composition;
 mod lanes;
 mod observers;
 mod own;
+mod preserving;
 #[cfg(feature = "progress")]
 mod progress;
-mod preserving;
 mod reach;
 mod run;
 mod schemes;

@@ -150,7 +150,7 @@ impl Real for Four {
         (self.sin(), self.cos())
     }
     functions! {
-        sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp exp_m1
+        sqrt cbrt abs sign sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp erf erfc exp_m1
         ln ln_1p;
         atan2 hypot pow
     }

@@ -106,11 +106,11 @@ fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
 /// # Errors
 /// The entry of the force whose flow at frozen q is not known: it is not affine in its own momentum, or
 /// its rate is that of a row and other rows are pushed in the same loop.
-pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, VectorEntry> {
+pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<VectorEntry>> {
     let forces = model.force.clone();
     let mut weights = Vec::with_capacity(forces.len());
     for force in &forces {
-        let rate = rate(&mut model.dag, force).map_err(|()| force.clone())?;
+        let rate = rate(&mut model.dag, force).map_err(|()| Box::new(force.clone()))?;
         let damps = !model.dag.is_zero(rate);
         weights.push((weight(&mut model.dag, rate), damps));
     }
@@ -128,7 +128,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, VectorE
             (None, Some(at)) => {
                 let (weight, _) = weights[at];
                 if model.dag.variables(weight) != 0 || !is_whole(model, &forces[at]) {
-                    return Err(forces[at].clone());
+                    return Err(Box::new(forces[at].clone()));
                 }
                 (weight, false)
             }
@@ -147,7 +147,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, VectorE
 ///
 /// # Errors
 /// Those of [`kick`].
-pub fn kick_of(model: &mut Model) -> Result<Kick, VectorEntry> {
+pub fn kick_of(model: &mut Model) -> Result<Kick, Box<VectorEntry>> {
     let h = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let gradient = gradient_of(model, String::new(), h).entries;
     let gradient: Vec<_> = gradient

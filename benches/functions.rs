@@ -11,6 +11,8 @@
 //! The last line is W1, the pendulum by Störmer–Verlet with one state: the same loop with the sine
 //! of this library and with that of the standard library.
 
+#![allow(clippy::type_complexity, clippy::redundant_closure)]
+
 use std::hint::black_box;
 use std::marker::PhantomData;
 use std::time::Instant;

@@ -140,7 +140,7 @@ pub trait System<T: Real> {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{State, System};
+    /// use hamiltonian_core::State;
     ///
     /// let state = State::new([1.0], [0.0]);
     /// // The oscillator declares none.

@@ -4,7 +4,10 @@
 //! and the largest error of that formula relative to the function. Invariant: written by
 //! `scripts/fit_functions.py` and by nothing else.
 
-#![allow(clippy::approx_constant, reason = "printed with all others by the fitting script")]
+#![allow(
+    clippy::approx_constant,
+    reason = "printed with all others by the fitting script"
+)]
 
 /// In units of 2^−40: the guess for x^(−1/3) has errors of at most 0.034.
 pub(crate) const CUBE_ROOT_OFFSET: f64 = 1499661097346338.0;

@@ -465,7 +465,8 @@ impl<'a> Emission<'a> {
                  impl{declaration} __h::Piece<T, __Prepared{arguments}> for {piece} {{\n\
                  type Point = __h::Point<{vector}>;\ntype Flow = {ty};\n\
                  #[inline(always)]\n\
-                 fn flow(&self, _self: &__Prepared{arguments}, _c: T) -> {ty} {{",
+                 fn flow(&self, _prepared: &__Prepared{arguments}, _c: T) -> {ty} {{\n\
+                 let _self = _prepared;",
                 visibility = generics.visibility,
                 vector = self.vector,
             );

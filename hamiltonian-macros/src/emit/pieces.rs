@@ -70,7 +70,8 @@ impl Emission<'_> {
              impl{declaration} __h::Piece<T, __Prepared{arguments}> for {name} {{\n\
              type Point = __h::Point<{vector}>;\ntype Flow = {flow}{arguments};\n\
              #[inline(always)]\n\
-             fn flow(&self, _self: &__Prepared{arguments}, _c: T) -> {flow}{arguments} {{",
+             fn flow(&self, _prepared: &__Prepared{arguments}, _c: T) -> {flow}{arguments} {{\n\
+             let _self = _prepared;",
             visibility = generics.visibility,
             vector = self.vector,
         );

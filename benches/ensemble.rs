@@ -59,6 +59,8 @@ fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
     for (some_q, some_p) in states.q.chunks_mut(lanes).zip(states.p.chunks_mut(lanes)) {
         let start = State::new([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
         let mut carried = Scheme::<T, Pendulum>::start(&scheme, &prepared, &start, h);
+        // The scratch of a splitting is nothing.
+        #[allow(clippy::let_unit_value)]
         let mut work = map.work(&carried);
         map.run(clock, 0, n, &mut carried, &mut work);
         map.close(clock.at(n), &mut carried);

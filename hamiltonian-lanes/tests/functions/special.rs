@@ -1,6 +1,8 @@
 //! Values where a function has a rule of its own: zeros, infinities, NaN, poles, ends of domains.
 //! Those of the C library, C17 annex F.10.
 
+#![allow(clippy::approx_constant, clippy::type_complexity)]
+
 use hamiltonian_lanes::{Cpu, Real};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 

@@ -1,5 +1,7 @@
 //! Exact flows that the macro finds: what types split into, runs of them, and how they end.
 
+#![allow(clippy::needless_borrow)]
+
 use crate::common::systems::Paper34;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Composition, ImplicitMidpoint, Strang};

@@ -1,6 +1,6 @@
 //! Long products as balanced trees of products of two.
 //!
-//! Input: roots. Output: the same functions in which a product of more than [`SHORT`] factors that
+//! Input: roots. Output: the same functions in which a product of more than `SHORT` factors that
 //! are not prepared is a tree. Invariant: a gradient through a tree costs two multiplications a
 //! factor (Speelpenning 1980), and so does every later pass; the factors keep their order.
 

@@ -20,8 +20,8 @@ const LARGE: f64 = (1u64 << 20) as f64;
 #[inline(always)]
 fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
     if W::LANES == 1 {
-        // Up to 3π/4 with room for rounding, where `n` would come to the same, and where the
-        // chain of operations that finds it is the longer half of a single sine.
+        // Up to 3π/4, where the chain of operations that finds `n` is the longer half of a single
+        // sine.
         if angle.le(W::splat(0.78)).all() {
             return (W::Bits::splat(0), angle, W::zero());
         }
@@ -107,15 +107,24 @@ fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     flip(high + low, n.shl::<63>() ^ sign)
 }
 
-/// [`turn`]'s sine, bit by bit: where sine and cosine do the same operations, their operands are
-/// told apart before and the operations done once. A cosine is the sine a quadrant on.
+/// [`turn`]'s sine, bit by bit. In lanes, where sine and cosine do the same operations, their
+/// operands are told apart before and the operations done once. A cosine is the sine a quadrant on.
 #[inline(always)]
 fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
-    if W::LANES == 1 {
-        return turn(n, r, tail, sign).0;
-    }
     let swapped = W::odd(n);
+    let sign = (n & W::Bits::splat(2)).shl::<62>() ^ sign;
     let z = r * r;
+    if W::LANES == 1 {
+        // One of the two series, by a branch; −w is had without a constant in a register.
+        let minus_w = z.fma(W::splat(0.5), W::splat(-1.0));
+        let y = if swapped.all() {
+            let cut = z.fma(W::splat(-0.5), W::one() + minus_w);
+            (z * z).fma(polynomial(z, &COSINE), (-r).fma(tail, cut)) - minus_w
+        } else {
+            r + (r * z).fma(polynomial(z, &SINE), -(tail * minus_w))
+        };
+        return flip(y, sign);
+    }
     let (w, cut) = cosine_head(z);
     let rest = W::select(swapped, (-r).fma(tail, cut), tail * w);
     let factor = W::select(swapped, z, r) * z;
@@ -128,7 +137,7 @@ fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     );
     let series = third.fma(square, second).fma(square, first);
     let y = W::select(swapped, w, r) + factor.fma(series, rest);
-    flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
+    flip(y, sign)
 }
 
 /// Number `K` of [`COSINE`] where `swapped` is set, of [`SINE`] elsewhere.
@@ -141,10 +150,13 @@ fn coefficient<W: Word, const K: usize>(swapped: W::Mask) -> W {
 #[inline(always)]
 pub(crate) fn sin<W: Word>(x: W) -> W {
     let angle = x.abs();
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES == 1 && rare.any() {
+        return x.replace(rare, x, sin_of_large);
+    }
     let (n, r, tail) = reduce(angle);
     let y = sine_in(n, r, tail, sign_bit(x));
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
+    if W::LANES > 1 && rare.any() {
         return y.replace(rare, x, sin_of_large);
     }
     y
@@ -154,11 +166,14 @@ pub(crate) fn sin<W: Word>(x: W) -> W {
 #[inline(always)]
 pub(crate) fn cos<W: Word>(x: W) -> W {
     let angle = x.abs();
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES == 1 && rare.any() {
+        return x.replace(rare, x, cos_of_large);
+    }
     let (n, r, tail) = reduce(angle);
     let next = n.plus(W::Bits::splat(1));
     let y = sine_in(next, r, tail, W::Bits::splat(0));
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
+    if W::LANES > 1 && rare.any() {
         return y.replace(rare, x, cos_of_large);
     }
     y

@@ -1,5 +1,5 @@
 //! Plots as SVG: curves with names, axes with labels, a legend; on request points instead of lines,
-//! a logarithmic axis, one scale for both axes.
+//! logarithmic axes, one scale for both axes.
 
 use plotters::coord::ranged1d::ValueFormatter;
 use plotters::prelude::*;
@@ -25,6 +25,8 @@ pub struct Figure<'a> {
     pub equal: bool,
     /// Whether y is |y| on a logarithmic axis.
     pub logarithmic: bool,
+    /// Whether x is on a logarithmic axis too.
+    pub decades: bool,
     /// The range of y; of all curves if `None`.
     pub range: Option<Range<f64>>,
     pub curves: Vec<Curve>,
@@ -45,6 +47,11 @@ fn tick(x: &f64) -> String {
     } else {
         format!("{x:.1e}")
     }
+}
+
+/// A number on a logarithmic axis.
+fn decade(x: f64) -> String {
+    format!("{x:.0e}")
 }
 
 /// Told apart by people who see colours differently too (Okabe and Ito).
@@ -103,15 +110,22 @@ impl Figure<'_> {
             let shown = || all().map(|(_, y)| y.abs()).filter(|y| *y > 0.0);
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
             let largest = shown().fold(f64::NEG_INFINITY, f64::max);
-            // Room for the legend above the curves.
+            // Room for the legend above the curves, a line of it each.
+            let room = (0.05 * (1 + self.curves.len()) as f64).max(0.2);
             let y = self
                 .range
                 .clone()
-                .unwrap_or(smallest..largest * (largest / smallest).powf(0.25));
-            let mut chart = builder.build_cartesian_2d(x, y.clone().log_scale())?;
-            self.draw(&mut chart, |y_value| {
+                .unwrap_or(smallest..largest * (largest / smallest).powf(room / (1.0 - room)));
+            let visible = |y_value: f64| {
                 (y_value.abs() >= y.start && y_value.abs() <= y.end).then_some(y_value.abs())
-            })
+            };
+            if self.decades {
+                let (x, y) = (x.log_scale(), y.clone().log_scale());
+                self.draw(&mut builder.build_cartesian_2d(x, y)?, visible)
+            } else {
+                let y = y.clone().log_scale();
+                self.draw(&mut builder.build_cartesian_2d(x, y)?, visible)
+            }
         } else {
             let y = self.range.clone().unwrap_or_else(|| {
                 let y = range(&mut all().map(|(_, y)| *y));
@@ -135,26 +149,23 @@ impl Figure<'_> {
         Ok(())
     }
 
-    fn draw<'a, 'b: 'a, Y>(
+    fn draw<'a, 'b: 'a, X, Y>(
         &self,
-        chart: &mut ChartContext<
-            'a,
-            SVGBackend<'b>,
-            Cartesian2d<plotters::coord::types::RangedCoordf64, Y>,
-        >,
+        chart: &mut ChartContext<'a, SVGBackend<'b>, Cartesian2d<X, Y>>,
         visible: impl Fn(f64) -> Option<f64>,
     ) -> Result<(), Box<dyn Error>>
     where
+        X: Ranged<ValueType = f64> + ValueFormatter<f64>,
         Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
     {
         chart
             .configure_mesh()
             .x_desc(self.x)
             .y_desc(self.y)
-            .x_label_formatter(&tick)
+            .x_label_formatter(&|x| if self.decades { decade(*x) } else { tick(x) })
             .y_label_formatter(&|y| {
                 if self.logarithmic {
-                    format!("{y:.0e}")
+                    decade(*y)
                 } else {
                     tick(y)
                 }

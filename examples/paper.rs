@@ -9,12 +9,12 @@
 //! of the potential, and that "uncertainty" means the deviation of the run's mean H from H₀.
 
 use checks::Checks;
-use energy::Contest;
+use energy::{Contest, print_pieces};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};
 use plot::{Curve, Figure};
-use std::fmt::Write as _;
+use std::fmt::{Display, Write as _};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
@@ -203,16 +203,14 @@ fn split_on<S: Split<f64> + Exact + Unforced>(
 
 /// The run that the paper was after: its schemes part from the orbit, the others stay, and those by
 /// exact flows need neither copies nor iterations.
-fn far<S: Split<f64> + Exact + Unforced>(
+fn far<S: Split<f64> + Exact + Unforced + Display>(
     system: &S,
     start: State<S::Vector>,
     checks: &mut Checks,
 ) -> Result<(), Box<dyn std::error::Error>> {
     let energy = system.energy(&start);
-    println!(
-        "H = ½(q² + 1)(p² + 1) to t = {FAR_END:e}, Δt = {FAR_STEP}, in the pieces {}",
-        S::NAMES.join(" | ")
-    );
+    println!("To t = {FAR_END:e}, Δt = {FAR_STEP}:");
+    print_pieces(system);
     let mut contest = Contest::new(system, start, FAR_STEP, FAR_END);
     let start = Start::Equal;
     contest.every = 7;

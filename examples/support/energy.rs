@@ -3,9 +3,18 @@
 
 use crate::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::{Scheme, Unforced, View};
+use hamiltonian::{Scheme, Split, Unforced, View};
+use std::fmt::Display;
 use std::path::Path;
 use std::time::Instant;
+
+/// Prints a system with the pieces of H that have exact flows, the outermost first.
+pub fn print_pieces<S: Split<f64> + Display>(system: &S) {
+    println!("{system}\nin the pieces");
+    for name in S::NAMES {
+        println!("    {name}");
+    }
+}
 
 /// Runs of one system from one start.
 pub struct Contest<'a, S: System<f64>> {

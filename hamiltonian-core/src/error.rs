@@ -106,6 +106,21 @@ pub enum Error {
         /// The number of iterations made.
         iterations: u32,
     },
+    /// No stationary path of a variational integrator was found between the ends given.
+    #[error(
+        "no stationary path of a step of {step} from t = {time} was found: residual {residual:e} after \
+         {iterations} iterations; ends nearer to each other, or a shorter step, may have one"
+    )]
+    Stationary {
+        /// The time at its beginning.
+        time: f64,
+        /// Its length.
+        step: f64,
+        /// The last change of the iterate, in the sum norm.
+        residual: f64,
+        /// The number of iterations made.
+        iterations: u32,
+    },
     /// A time that whole steps from the present one do not meet (or that lies behind).
     #[error(
         "t = {target} is no whole number of steps ahead: the nearest times are {before} and {after}"

@@ -105,7 +105,8 @@ pub mod prelude {
         ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
         MidpointProjected, Mixed, Paced, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4,
         Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start,
-        StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Yoshida4, Yoshida6,
+        StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Variational,
+        Yoshida4, Yoshida6,
     };
     pub use crate::{
         AnyRun, Checkpoint, Dual, EnergyDrift, Error, Gradient, Integrator, Monitors, Observer,

@@ -16,3 +16,4 @@ mod run;
 mod schemes;
 mod start;
 mod tables;
+mod variational;

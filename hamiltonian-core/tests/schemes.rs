@@ -13,7 +13,13 @@ use hamiltonian_core::{
 
 /// The slopes between successive halvings of the step, from differences of successive results, with
 /// the largest over `parts` times up to the span.
-fn slopes<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64) -> Vec<f64>
+pub fn slopes<S, M>(
+    system: &S,
+    scheme: &M,
+    start: &State<S::Vector>,
+    span: f64,
+    steps: u64,
+) -> Vec<f64>
 where
     S: System<DoubleDouble>,
     M: Scheme<DoubleDouble, S>,
@@ -44,7 +50,7 @@ where
 }
 
 /// The slope of the entry's order, within 0.1 over the last three of four pairs.
-fn assert_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64)
+pub fn assert_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64)
 where
     S: System<DoubleDouble>,
     M: Scheme<DoubleDouble, S>,
@@ -145,14 +151,17 @@ fn nystrom_schemes_have_their_order_on_quadratic_kinetic_energies_alone() {
 }
 
 /// A scheme for any H on the paper's (34).
-fn on_34(scheme: impl Scheme<DoubleDouble, Hand<Paper34, 1>>, steps: u64) {
+pub fn on_34(scheme: impl Scheme<DoubleDouble, Hand<Paper34, 1>>, steps: u64) {
     let system = Hand(Paper34);
     let start = start(&system, &[-1.5], &[0.3]);
     assert_order(&system, &scheme, &start, 1.0, steps);
 }
 
 /// And on the double pendulum.
-fn on_the_double_pendulum(scheme: impl Scheme<DoubleDouble, Hand<DoublePendulum, 2>>, steps: u64) {
+pub fn on_the_double_pendulum(
+    scheme: impl Scheme<DoubleDouble, Hand<DoublePendulum, 2>>,
+    steps: u64,
+) {
     let system = Hand(DoublePendulum);
     let start = start(&system, &[0.8, -0.4], &[0.3, 0.2]);
     assert_order(&system, &scheme, &start, 1.0, steps);
@@ -254,7 +263,7 @@ fn defect<T: Real>(columns: &[Vec<T>]) -> f64 {
     defect / (size * size)
 }
 
-fn symplectic<M>(scheme: M)
+pub fn symplectic<M>(scheme: M)
 where
     M: Scheme<Dual<f64>, Hand<Paper34, 1>> + Scheme<Dual<f64>, Hand<DoublePendulum, 2>>,
 {

@@ -10,7 +10,7 @@ use super::{
     IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
     Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
     SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
-    SymplecticEuler, Tao, TwoStepMidpoint, Yoshida4, Yoshida6,
+    SymplecticEuler, Tao, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, Scheme};
 use crate::system::{Exact, QuadraticKinetic, Separable, Split, System, Unforced};
@@ -145,6 +145,10 @@ quadratic {
 }
 implicit {
     Gauss::<2>::default(),
+    Variational::<1, 2>::lobatto(),
+    Variational::<2, 2>::lobatto(),
+    Variational::<2, 3>::lobatto(),
+    Variational::<3, 3>::lobatto(),
     DiscreteGradient::default(),
     Semiexplicit::<Strang>::default(),
 }

@@ -37,6 +37,8 @@ pub struct Collocation<const S: usize> {
     pub weights: [DoubleDouble; S],
     /// `integrals[i][j] = aᵢⱼ/bⱼ`, where `aᵢⱼ` is the integral of ℓⱼ from 0 to cᵢ.
     pub integrals: [[DoubleDouble; S]; S],
+    /// What the quadrature makes of 1/⟨Pₛ₋₁, Pₛ₋₁⟩, in units of 2s − 1.
+    last: DoubleDouble,
 }
 
 impl<const S: usize> Collocation<S> {
@@ -111,7 +113,72 @@ impl<const S: usize> Collocation<S> {
             nodes,
             weights,
             integrals,
+            last,
         }
+    }
+
+    /// 1/⟨Pₖ, Pₖ⟩ by the quadrature: 2k + 1, but for Lobatto's nodes and k = s − 1.
+    pub(super) fn norm(&self, k: usize) -> DoubleDouble {
+        let odd = number((2 * k + 1) as f64);
+        if k + 1 == S { odd * self.last } else { odd }
+    }
+
+    /// `polynomials[i][k]`: Pₖ at node i, and its integral from 0 to there.
+    pub(super) fn polynomials(&self) -> [[(DoubleDouble, DoubleDouble); S]; S] {
+        self.nodes.map(|c| {
+            let mut polynomial = Legendre::new(c + c - number(1.0));
+            let mut k = 0;
+            [(); S].map(|()| {
+                let here = polynomial;
+                polynomial = here.next();
+                let integral = if k == 0 {
+                    c
+                } else {
+                    (polynomial.here.0 - here.before.0) / number((4 * k + 2) as f64)
+                };
+                k += 1;
+                (here.here.0, integral)
+            })
+        })
+    }
+
+    /// `μᵢⱼ` where the slopes' polynomial has the degree `degree` − 1 and is the one nearest to the
+    /// slopes in the sense of the quadrature: `Σ Pₖ(cⱼ) ∫₀^cᵢ Pₖ / ⟨Pₖ, Pₖ⟩`, k < `degree`. With `degree`
+    /// = s that is [`integrals`](Self::integrals).
+    pub(super) fn integrals_of(&self, degree: usize) -> [[DoubleDouble; S]; S] {
+        if degree == S {
+            return self.integrals;
+        }
+        let polynomials = self.polynomials();
+        polynomials.map(|at_i| {
+            polynomials.map(|at_j| {
+                let mut sum = number(0.0);
+                for k in 0..degree {
+                    sum += self.norm(k) * at_j[k].0 * at_i[k].1;
+                }
+                sum
+            })
+        })
+    }
+
+    /// The same in another scalar, `μᵢⱼ`, and `1 − μⱼᵢ` for the momenta, with 1 as their sum exactly.
+    pub(super) fn pair<T: Real>(&self, degree: usize) -> ([[T; S]; S], [[T; S]; S]) {
+        let integrals = self.integrals_of(degree);
+        let mut coordinates = integrals.map(|row| row.map(constant::<T>));
+        let mut momenta = coordinates;
+        for (j, row) in coordinates.iter_mut().enumerate() {
+            for (i, here) in row.iter_mut().enumerate() {
+                let there = number(1.0) - integrals[j][i];
+                // One less the larger of the two is exact.
+                if integrals[j][i].hi().abs() > there.hi().abs() {
+                    momenta[i][j] = T::one() - *here;
+                } else {
+                    momenta[i][j] = constant(there);
+                    *here = T::one() - momenta[i][j];
+                }
+            }
+        }
+        (coordinates, momenta)
     }
 
     /// `aᵢⱼ`.
@@ -130,7 +197,6 @@ impl<const S: usize> Collocation<S> {
     /// So rounded, the method is symplectic in the arithmetic of the scalar too: M. Antoñana,
     /// J. Makazaga, A. Murua, Numer. Algorithms 76, 861 (2017), section 3, doi:10.1007/s11075-017-0287-z.
     pub fn symplectic<T: Real>(&self) -> [[T; S]; S] {
-        let constant = |x: DoubleDouble| T::constant(x.hi(), x.lo());
         let mu = |i: usize, j: usize| {
             let (here, there) = (self.integrals[i][j], self.integrals[j][i]);
             let (size, other) = (here.hi().abs(), there.hi().abs());
@@ -140,7 +206,7 @@ impl<const S: usize> Collocation<S> {
             } else if size > other || (size == other && i < j) {
                 constant(here)
             } else {
-                T::one() - constant(there)
+                T::one() - constant::<T>(there)
             }
         };
         core::array::from_fn(|i| core::array::from_fn(|j| mu(i, j)))
@@ -153,6 +219,12 @@ const NEWTON: usize = 7;
 
 fn number(value: f64) -> DoubleDouble {
     DoubleDouble::from(value)
+}
+
+/// The number in another scalar.
+#[inline(always)]
+pub(super) fn constant<T: Real>(x: DoubleDouble) -> T {
+    T::constant(x.hi(), x.lo())
 }
 
 /// Legendre's polynomials at a point of [−1, 1] with their derivatives, one degree after another.

@@ -25,6 +25,7 @@
 //! | [`IntersectingSubTrajectories`] | (33) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients |
 //! | [`ImplicitMidpoint`] | | 2 | | dq∧dp | 1 gradient an iteration |
 //! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
+//! | [`Variational`] | (35) | min(2·degree, quadrature's) | | dq∧dp | a gradient a point and iteration |
 //! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
 //!
@@ -58,6 +59,8 @@ mod gauss;
 mod iterate;
 mod midpoint;
 mod newton;
+mod stages;
+mod variational;
 
 mod discrete_gradient;
 mod runge_kutta;
@@ -75,7 +78,7 @@ pub use compensated::{Carrying, Compensated};
 pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};
 pub use discrete_gradient::{DiscreteGradient, EnergyKeeping, EnergyWork};
 pub use extended::{Copies, Cross, Crossed, Pihajoki};
-pub use gauss::{Carries, Collocated, CollocatedWork, Gauss, Stages};
+pub use gauss::Gauss;
 pub use iterate::{Contraction, Outcome, iterate};
 pub use midpoint::{ImplicitMidpoint, Midpoint, MidpointWork};
 pub use paced::{Density, Pace, Paced, Pacing, PacingWork};
@@ -85,6 +88,7 @@ pub use projection::{
 pub use runge_kutta::{Classical, ClassicalWork, RungeKutta4};
 pub use separable::{StormerVerlet, SymplecticEuler};
 pub use splittings::Strang;
+pub use stages::{Carries, Collocated, CollocatedWork, Stages};
 pub use table::{Durations, Reversed, Table, Weight};
 pub use tabulated::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, KahanLi6, KahanLi8,
@@ -96,4 +100,5 @@ pub use trajectories::{
     ConsecutiveSubTrajectories, Interleaved, IntersectingSubTrajectories, Start, TwoStep,
     TwoStepMidpoint,
 };
+pub use variational::{Ends, Extremal, Variational};
 pub use zigzag::{Zigzag, ZigzagOf};

@@ -3,7 +3,7 @@
 //! Input: a prepared system, the stages' points, their equations. Output: the slopes one Newton step
 //! further. Invariant: lanes do not mix; rows are exchanged lane by lane.
 
-use super::gauss::Stages;
+use super::stages::Stages;
 use crate::state::Point;
 use crate::system::Dynamics;
 use crate::vector::Vector;
@@ -13,6 +13,19 @@ use hamiltonian_lanes::Real;
 /// More unknowns than these, the components of all stages together, are not solved for: the matrix
 /// has their square.
 const LARGEST: usize = 256;
+
+/// How the point of one stage depends on the unknowns (x, y) of another, or on its own.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entries<T> {
+    /// ∂Q/∂x.
+    pub(super) coordinate: T,
+    /// ∂P/∂y.
+    pub(super) momentum: T,
+    /// ∂P/∂x.
+    pub(super) across: T,
+    /// ∂(dq/dt)/∂x.
+    pub(super) velocity: T,
+}
 
 /// The matrix of the linear equations, its right-hand side, and vectors of the system's shape.
 #[derive(Debug, Clone)]
@@ -43,8 +56,8 @@ impl<V: Vector> Linear<V> {
         self.matrix.is_some()
     }
 
-    /// Puts −a·J∇²H(z) into the rows of stage `i`, where `a(j)` is the coefficient of stage j, and adds
-    /// the unit matrix.
+    /// Puts the derivative of `(dq/dt, dp/dt) − J∇H(z)` at stage `i` into its rows, where `entries(j)`
+    /// says how both depend on the unknowns of stage j; dp/dt is the unknown y itself.
     pub(super) fn linearise<P: Dynamics<V::Scalar, Vector = V>>(
         &mut self,
         dynamics: &P,
@@ -52,13 +65,14 @@ impl<V: Vector> Linear<V> {
         z: &Point<V>,
         i: usize,
         stages: usize,
-        a: impl Fn(usize) -> V::Scalar,
+        entries: impl Fn(usize) -> Entries<V::Scalar>,
     ) {
         let Some(matrix) = &mut self.matrix else {
             return;
         };
         let n = z.len();
-        let size = stages * n;
+        let (half, size) = (n / 2, stages * n);
+        // Coordinates first: what of P depends on x is added to their columns.
         for k in 0..n {
             self.unit.set_zero();
             *self.unit.component_mut(k) = V::Scalar::one();
@@ -66,15 +80,26 @@ impl<V: Vector> Linear<V> {
             dynamics.hessian_vector(t, &z.q, &z.p, &self.unit.q, &self.unit.p, q, p);
             for row in 0..n {
                 // J: (∂/∂p, −∂/∂q).
-                let entry = if 2 * row < n {
-                    self.column.component(row + n / 2)
+                let entry = if row < half {
+                    self.column.component(row + half)
                 } else {
-                    -self.column.component(row - n / 2)
+                    -self.column.component(row - half)
                 };
                 for j in 0..stages {
-                    let unit = i == j && row == k;
-                    let one = V::Scalar::constant(f64::from(u8::from(unit)), 0.0);
-                    matrix[(i * n + row) * size + j * n + k] = one - a(j) * entry;
+                    let of = entries(j);
+                    let at = (i * n + row) * size + j * n + k;
+                    if k < half {
+                        let own = if row == k {
+                            of.velocity
+                        } else {
+                            V::Scalar::zero()
+                        };
+                        matrix[at] = own - of.coordinate * entry;
+                    } else {
+                        let own = f64::from(u8::from(i == j && row == k));
+                        matrix[at] = V::Scalar::constant(own, 0.0) - of.momentum * entry;
+                        matrix[at - half] -= of.across * entry;
+                    }
                 }
             }
         }

@@ -5,7 +5,7 @@
 //! displaced from it) and ends with one point; in between is the splitting of H(q, p̃) + H(q̃, p).
 
 use super::extended::{Copies, Cross, Doubled};
-use super::gauss::Stages;
+use super::stages::Stages;
 use super::table::Table;
 use super::zigzag::Zigzag;
 use crate::map::{Cause, Map, Step};

@@ -1,0 +1,440 @@
+//! The stages of an implicit step: points at the nodes of a quadrature, coupled by the polynomial
+//! through them.
+//!
+//! Input: nodes, weights, matrices. Output: [`Collocated`], the map of [`Gauss`](super::Gauss) and
+//! [`Variational`](super::Variational). Invariant: a step is finished only when its equations hold to
+//! rounding; otherwise it is an error.
+//!
+//! The points are `Qᵢ = q + Σ αᵢⱼΔqⱼ` and `Pᵢ = p + Σ βᵢⱼΔpⱼ`. Where the polynomial passes through as many
+//! nodes as it has coefficients, the unknowns are the slopes J∇H at the points, Δ their integrals by the
+//! quadrature, and the equations are a fixed point. Otherwise ([`Modes`]) the unknowns in place of the
+//! slopes of q are the coefficients of the polynomial dq/dt and of the part of Pᵢ that no such
+//! polynomial sees, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
+
+use super::collocation::{Collocation, constant};
+use super::compensated::carry;
+use super::iterate::{Contraction, Outcome, iterate};
+use super::newton::{Entries, Linear};
+use crate::flow::VectorField;
+use crate::map::{Cause, Map, Step};
+use crate::state::{Pair, Point, State};
+use crate::system::Dynamics;
+use crate::vector::Vector;
+use core::ops::Range;
+use hamiltonian_lanes::{Mask, Real};
+
+/// One vector a stage, as one vector.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stages<X, const S: usize>(pub [X; S]);
+
+impl<X: Vector, const S: usize> Vector for Stages<X, S> {
+    type Scalar = X::Scalar;
+    const PARTS: usize = S * X::PARTS;
+    #[inline(always)]
+    fn part(&self, k: usize) -> &[X::Scalar] {
+        self.0[k / X::PARTS].part(k % X::PARTS)
+    }
+    #[inline(always)]
+    fn part_mut(&mut self, k: usize) -> &mut [X::Scalar] {
+        self.0[k / X::PARTS].part_mut(k % X::PARTS)
+    }
+    fn zeros_like(&self) -> Self {
+        Stages(core::array::from_fn(|i| self.0[i].zeros_like()))
+    }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        Stages(core::array::from_fn(|i| self.0[i].take()))
+    }
+}
+
+/// The matrix that takes the slopes at the stages of the step before to guesses for this one's: the
+/// slopes' polynomial, without its terms of degree 8 and more, whose extrapolation would be rounding;
+/// their mean where the steps are too different.
+pub(super) fn extrapolation<T: Real, const S: usize>(
+    method: &Collocation<S>,
+    step: Step<T>,
+) -> [[T; S]; S] {
+    const TERMS: usize = 8;
+    const FAR: f64 = 1.5;
+    let number = |x: usize| T::constant(x as f64, 0.0);
+    let ratio = step.h / step.before;
+    let terms = if ratio.magnitude() <= FAR {
+        TERMS.min(S)
+    } else {
+        1
+    };
+    // Legendre's polynomials of x on [−1, 1]: Pₖ and Pₖ₋₁.
+    let next = |k: usize, x: T, (value, before): (T, T)| {
+        let next = (number(2 * k + 1) * x * value - number(k) * before) / number(k + 1);
+        (next, value)
+    };
+    let two = number(2);
+    core::array::from_fn(|i| {
+        core::array::from_fn(|j| {
+            let there = two * constant(method.nodes[j]) - T::one();
+            // One step on, in units of the step before.
+            let here = T::one() + two * constant(method.nodes[i]) * ratio;
+            let (mut at_j, mut at_i) = ((T::one(), T::zero()), (T::one(), T::zero()));
+            let mut sum = T::zero();
+            for k in 0..terms {
+                sum += constant::<T>(method.norm(k)) * at_j.0 * at_i.0;
+                at_j = next(k, there, at_j);
+                at_i = next(k, here, at_i);
+            }
+            constant::<T>(method.weights[j]) * sum
+        })
+    })
+}
+
+/// What a step with stages carries: the point; the unknowns of the last step, for
+/// [`Gauss`](super::Gauss) the slopes J∇H at the stages, which make a guess for a step of any size; the
+/// low words of the point.
+pub type Carries<V, const S: usize> = Pair<Point<V>, Pair<Stages<Point<V>, S>, Point<V>>>;
+
+/// What is carried from a start on.
+pub(super) fn at_rest<V: Vector, const S: usize>(state: &State<V>) -> Carries<V, S> {
+    let point = state.point();
+    let slope = point.zeros_like();
+    Pair {
+        x: point,
+        y: Pair {
+            y: slope.clone(),
+            x: Stages(core::array::from_fn(|_| slope.clone())),
+        },
+    }
+}
+
+/// The unknowns of q where they are no slopes: coefficients of polynomials.
+#[derive(Debug, Clone)]
+pub(super) struct Modes<T, const S: usize> {
+    /// `values[i][j]`: polynomial j at node i.
+    pub(super) values: [[T; S]; S],
+    /// Those that dq/dt is a sum of; the others are parts of the momenta.
+    pub(super) velocities: Range<usize>,
+}
+
+/// The map of [`Gauss`](super::Gauss) and of [`Variational`](super::Variational).
+#[derive(Debug, Clone)]
+pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
+    pub(super) field: P::Field,
+    pub(super) dynamics: P,
+    pub(super) h: T,
+    /// cᵢh.
+    pub(super) times: [T; S],
+    /// bᵢh, with which Δp is made of slopes.
+    pub(super) weights: [T; S],
+    /// The same for Δq: h alone where the unknowns are modes.
+    pub(super) spans: [T; S],
+    /// α.
+    pub(super) coordinates: [[T; S]; S],
+    /// β.
+    pub(super) momenta: [[T; S]; S],
+    pub(super) modes: Option<Modes<T, S>>,
+    pub(super) guess: [[T; S]; S],
+    pub(super) limit: u32,
+}
+
+/// The scratch of [`Collocated`].
+#[derive(Debug, Clone)]
+pub struct CollocatedWork<V: Vector, const S: usize> {
+    stage: Point<V>,
+    pub(super) increments: Stages<Point<V>, S>,
+    next: Stages<Point<V>, S>,
+    guess: Stages<Point<V>, S>,
+    linear: Linear<V>,
+}
+
+impl<V: Vector, const S: usize> CollocatedWork<V, S> {
+    pub(super) fn new(point: &Point<V>, stages: &Stages<Point<V>, S>) -> Self {
+        CollocatedWork {
+            stage: point.clone(),
+            increments: stages.clone(),
+            next: stages.clone(),
+            guess: stages.clone(),
+            linear: Linear::new(point, S),
+        }
+    }
+}
+
+/// Unknowns ↦ J∇H at the stages.
+pub(super) struct Slopes<'a, T: Real, P: Dynamics<T>, const S: usize> {
+    map: &'a Collocated<T, P, S>,
+    t: T,
+    point: &'a Point<P::Vector>,
+    /// The velocity along the straight line between two coordinates that are given.
+    line: Option<&'a P::Vector>,
+    pub(super) stage: &'a mut Point<P::Vector>,
+    increments: &'a mut Stages<Point<P::Vector>, S>,
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
+    /// The point at stage `i`, from the increments and the unknowns they were made of.
+    #[inline(always)]
+    pub(super) fn stage(&mut self, i: usize, unknowns: &Stages<Point<P::Vector>, S>) {
+        // The small numbers first.
+        self.stage.set_zero();
+        for (j, increment) in self.increments.0.iter().enumerate() {
+            let (a, b) = (self.map.coordinates[i][j], self.map.momenta[i][j]);
+            self.stage.q.accumulate(a, &increment.q);
+            self.stage.p.accumulate(b, &increment.p);
+        }
+        if let Some(modes) = &self.map.modes {
+            for j in (0..S).filter(|j| !modes.velocities.contains(j)) {
+                let value = modes.values[i][j];
+                self.stage.p.accumulate(value, &unknowns.0[j].q);
+            }
+        }
+        if let Some(line) = self.line {
+            self.stage.q.accumulate(self.map.times[i], line);
+        }
+        self.stage.accumulate(T::one(), self.point);
+    }
+
+    /// `into −=` dq/dt of the polynomial at stage `i`.
+    pub(super) fn less_velocity(
+        &self,
+        i: usize,
+        unknowns: &Stages<Point<P::Vector>, S>,
+        into: &mut P::Vector,
+    ) {
+        match &self.map.modes {
+            None => into.accumulate(-T::one(), &unknowns.0[i].q),
+            Some(modes) => {
+                for j in modes.velocities.clone() {
+                    into.accumulate(-modes.values[i][j], &unknowns.0[j].q);
+                }
+            }
+        }
+        if let Some(line) = self.line {
+            into.accumulate(-T::one(), line);
+        }
+    }
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
+    for Slopes<'_, T, P, S>
+{
+    #[inline(always)]
+    fn map(
+        &mut self,
+        unknowns: &Stages<Point<P::Vector>, S>,
+        next: &mut Stages<Point<P::Vector>, S>,
+    ) {
+        self.map.increments(unknowns, self.increments);
+        for i in 0..S {
+            self.stage(i, unknowns);
+            let Point { q, p } = &mut next.0[i];
+            q.set_zero();
+            p.set_zero();
+            let t = self.t + self.map.times[i];
+            self.map.field.add(t, &self.stage.q, &self.stage.p, q, p);
+        }
+    }
+    #[inline(always)]
+    fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
+        // The unknowns count too: a point at the origin has no size of its own.
+        let stages = T::Size::constant(S as f64, 0.0);
+        stages * self.point.size() / self.map.h.size() + unknowns.size()
+    }
+}
+
+/// A step of Newton's method for the equations `J∇H(Qᵢ, Pᵢ, tᵢ) = (dq/dt, dp/dt)ᵢ`. Of a force the
+/// derivative is left out.
+struct Newton<'a, 'b, T: Real, P: Dynamics<T>, const S: usize> {
+    slopes: Slopes<'a, T, P, S>,
+    linear: &'b mut Linear<P::Vector>,
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
+    for Newton<'_, '_, T, P, S>
+{
+    fn map(
+        &mut self,
+        unknowns: &Stages<Point<P::Vector>, S>,
+        next: &mut Stages<Point<P::Vector>, S>,
+    ) {
+        self.slopes.map(unknowns, next);
+        let map = self.slopes.map;
+        for (i, residual) in next.0.iter_mut().enumerate() {
+            self.slopes.less_velocity(i, unknowns, &mut residual.q);
+            residual.p.accumulate(-T::one(), &unknowns.0[i].p);
+        }
+        for i in 0..S {
+            self.slopes.stage(i, unknowns);
+            let t = self.slopes.t + map.times[i];
+            let entries = |j: usize| map.entries(i, j);
+            self.linear
+                .linearise(&map.dynamics, t, self.slopes.stage, i, S, entries);
+        }
+        self.linear.solve(next);
+        next.accumulate(T::one(), unknowns);
+    }
+    fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
+        self.slopes.scale(unknowns)
+    }
+}
+
+/// Newton's method doubles digits: so many steps are enough, or none, where it comes second.
+const NEWTON: u32 = 30;
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
+    /// Δq and Δp of the unknowns.
+    #[inline(always)]
+    fn increments(
+        &self,
+        unknowns: &Stages<Point<P::Vector>, S>,
+        increments: &mut Stages<Point<P::Vector>, S>,
+    ) {
+        for j in 0..S {
+            increments.0[j].copy_from(&unknowns.0[j]);
+            increments.0[j].q.scale(self.spans[j]);
+            increments.0[j].p.scale(self.weights[j]);
+        }
+    }
+
+    /// How the point at stage `i`, and dq/dt there, depend on the unknowns of stage `j`.
+    fn entries(&self, i: usize, j: usize) -> Entries<T> {
+        let (zero, one) = (T::zero(), T::one());
+        let (across, velocity) = match &self.modes {
+            None => (zero, if i == j { one } else { zero }),
+            Some(modes) if modes.velocities.contains(&j) => (zero, modes.values[i][j]),
+            Some(modes) => (modes.values[i][j], zero),
+        };
+        Entries {
+            coordinate: self.coordinates[i][j] * self.spans[j],
+            momentum: self.momenta[i][j] * self.weights[j],
+            across,
+            velocity,
+        }
+    }
+
+    /// Solves for the unknowns by Newton's method alone, from where they are, and leaves their
+    /// increments in the scratch. `look` is shown the equations, solved.
+    pub(super) fn solve_between(
+        &self,
+        t: T,
+        point: &Point<P::Vector>,
+        line: Option<&P::Vector>,
+        unknowns: &mut Stages<Point<P::Vector>, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+        look: impl FnOnce(&mut Slopes<'_, T, P, S>, &Stages<Point<P::Vector>, S>),
+    ) -> Outcome<T> {
+        let slopes = Slopes {
+            map: self,
+            t,
+            point,
+            line,
+            stage: &mut work.stage,
+            increments: &mut work.increments,
+        };
+        let mut newton = Newton {
+            slopes,
+            linear: &mut work.linear,
+        };
+        let outcome = iterate(self.limit, &mut newton, unknowns, &mut work.next);
+        self.increments(unknowns, newton.slopes.increments);
+        look(&mut newton.slopes, unknowns);
+        outcome
+    }
+
+    #[inline]
+    fn solve(
+        &self,
+        t: T,
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> Cause {
+        let Pair {
+            x: point,
+            y: Pair {
+                x: unknowns,
+                y: low,
+            },
+        } = z;
+        let outcome = if self.modes.is_some() {
+            self.solve_between(t, point, None, unknowns, work, |_, _| {})
+        } else {
+            self.solve_slopes(t, point, unknowns, work)
+        };
+        let solved = outcome.solved.all();
+        if !solved {
+            unknowns.poison(!outcome.solved);
+        }
+        self.increments(unknowns, &mut work.increments);
+        // The integrals over the step of all polynomials but the first vanish.
+        let terms = if self.modes.is_some() { 1 } else { S };
+        for (j, increment) in work.increments.0.iter().enumerate() {
+            if j < terms {
+                low.q.accumulate(T::one(), &increment.q);
+            }
+            low.p.accumulate(T::one(), &increment.p);
+        }
+        carry(point, low);
+        if solved {
+            Cause::Overflow
+        } else {
+            outcome.cause()
+        }
+    }
+
+    /// Solves for slopes: the fixed point from extrapolated ones, and Newton's method where that
+    /// fails.
+    #[inline(always)]
+    fn solve_slopes(
+        &self,
+        t: T,
+        point: &Point<P::Vector>,
+        slopes: &mut Stages<Point<P::Vector>, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> Outcome<T> {
+        for (guess, row) in work.guess.0.iter_mut().zip(&self.guess) {
+            guess.set_zero();
+            for (factor, slope) in row.iter().zip(&slopes.0) {
+                guess.accumulate(*factor, slope);
+            }
+        }
+        slopes.copy_from(&work.guess);
+        let mut equations = Slopes {
+            map: self,
+            t,
+            point,
+            line: None,
+            stage: &mut work.stage,
+            increments: &mut work.increments,
+        };
+        let mut outcome = iterate(self.limit, &mut equations, slopes, &mut work.next);
+        if !outcome.solved.all() && work.linear.fits() {
+            let fixed = outcome.solved;
+            // Over so long a step the last one's slopes say nothing: all stages at the point.
+            work.guess.set_zero();
+            let mut newton = Newton {
+                slopes: equations,
+                linear: &mut work.linear,
+            };
+            outcome = iterate(NEWTON, &mut newton, &mut work.guess, &mut work.next);
+            // Lanes that were solved know nothing of those that were not.
+            slopes.copy_where(!fixed, &work.guess);
+            outcome.solved = outcome.solved | fixed;
+        }
+        outcome
+    }
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
+    type Carried = Carries<P::Vector, S>;
+    type Work = CollocatedWork<P::Vector, S>;
+
+    fn work(&self, like: &Self::Carried) -> Self::Work {
+        CollocatedWork::new(&like.x, &like.y.x)
+    }
+
+    #[inline(always)]
+    fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.solve(t, z, work);
+    }
+
+    #[cold]
+    fn explain(&self, t: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
+        self.solve(t, z, work)
+    }
+}

@@ -1,0 +1,436 @@
+//! Variational integrators: an action, a polynomial, a quadrature.
+//!
+//! Input: any system, the degree of the polynomial, a quadrature. Output: [`Variational`], and
+//! [`Extremal`], the discrete action with its boundary momenta. Invariant: fewer points than the degree
+//! do not compile.
+
+use super::collocation::{Collocation, constant};
+use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, extrapolation};
+use crate::error::Error;
+use crate::map::Step;
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Point, State};
+use crate::system::{Dynamics, System};
+use crate::vector::Vector;
+use core::fmt;
+use core::ops::Range;
+use hamiltonian_lanes::{DoubleDouble, Mask, Real};
+
+/// The variational integrator of a polynomial path and a quadrature: symplectic for every H,
+/// time-reversible.
+///
+/// The path of a step is a polynomial q(t) of degree `DEGREE`, and the action ∫ p·dq − H dt the sum
+/// over the nodes cᵢ with the weights bᵢ,
+///
+/// ```text
+/// S = h Σ bᵢ (Pᵢ·q̇(tᵢ) − H(Qᵢ, Pᵢ, tᵢ)),   Qᵢ = q(tᵢ),   tᵢ = t + cᵢh
+/// ```
+///
+/// stationary in the coefficients of q and in the momenta Pᵢ. Its discrete Hamilton equations are
+///
+/// ```text
+/// q̇(tᵢ) = ∂H/∂p(Qᵢ, Pᵢ, tᵢ)                                              for each node
+/// Σ bᵢ φ(cᵢ) Pᵢ = p[n] ∫φ − h Σ bᵢ (∫φ − Φ(cᵢ)) ∂H/∂q(Qᵢ, Pᵢ, tᵢ)        for each φ
+/// q[n+1] = q[n] + h ∫q̇,   p[n+1] = p[n] − h Σ bᵢ ∂H/∂q(Qᵢ, Pᵢ, tᵢ)
+/// ```
+///
+/// with φ the polynomials of degree < `DEGREE` on [0, 1] and Φ = ∫₀φ: here ∂Qᵢ/∂(coefficient) = hΦ(cᵢ) is the
+/// chain rule that (35) of the paper asks for. The order is the least of 2·`DEGREE` and the
+/// quadrature's:
+///
+/// | degree | quadrature | | order |
+/// |---|---|---|---|
+/// | 1 | midpoint | `<1, 1>::gauss()` | 2: [`ImplicitMidpoint`](super::ImplicitMidpoint) |
+/// | 1 | trapezoid | `<1, 2>::lobatto()` | 2 |
+/// | 2 | trapezoid | `<2, 2>::lobatto()` | 2: the generalised Störmer–Verlet method, Lobatto IIIA–IIIB |
+/// | 2 | Simpson | `<2, 3>::lobatto()` | 4 |
+/// | 3 | Simpson | `<3, 3>::lobatto()` | 4: Lobatto IIIA–IIIB with 3 stages |
+/// | s | Gauss | `<s, s>::gauss()` | 2s: [`Gauss`](super::Gauss) |
+/// | s | Lobatto, s + 1 points | `<s, {s + 1}>::lobatto()` | 2s |
+///
+/// With as many points as the degree every H has these equations, and they are solved as
+/// [`Gauss`](super::Gauss)' are. With more points ∂H/∂p must determine p: then Pᵢ is the momentum of the
+/// velocity q̇(tᵢ), the integrand the Lagrangian (type I), and the equations are solved by Newton's method
+/// with the Hessian of H, for which all components of all points must not be more than 256. With fewer
+/// points the action does not see a part of the path: that does not compile.
+///
+/// ```compile_fail
+/// // A parabola sampled at one point.
+/// let _ = hamiltonian_core::schemes::Variational::<2, 1>::gauss();
+/// ```
+///
+/// A force enters by the discrete Lagrange–d'Alembert principle, `δS + h Σ bᵢ f(Qᵢ, Pᵢ, tᵢ)·δQᵢ = 0`: f stands
+/// beside −∂H/∂q in all equations.
+///
+/// The same map follows from the action as a function of `(q[n], q[n+1])`, type I, of `(q[n], p[n+1])`,
+/// type II, and of `(q[n+1], p[n])`, type III, for they are Legendre transforms of each other:
+/// [`Variational::extremal`] computes each.
+///
+/// Source: J. E. Marsden, M. West, Acta Numer. 10 (2001) 357, sections 2.2 and 3.2,
+/// doi:10.1017/S096249290100006X; M. Leok, J. Zhang, IMA J. Numer. Anal. 31 (2011) 1497, section 3,
+/// doi:10.1093/imanum/drq027; S. Ober-Blöbaum, N. Saake, Adv. Comput. Math. 41 (2015) 955,
+/// doi:10.1007/s10444-014-9394-8.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::Variational};
+///
+/// // A parabola and Simpson's rule: order 4.
+/// let start = State::new([1.0], [0.0]);
+/// let scheme = Variational::<2, 3>::lobatto();
+/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.05)?;
+/// assert!((run.advance(200)?.q[0] - 10.0_f64.cos()).abs() < 1e-6);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Clone, Copy, PartialEq)]
+pub struct Variational<const DEGREE: usize, const POINTS: usize> {
+    coefficients: Collocation<POINTS>,
+    quadrature: Quadrature,
+    max_iterations: u32,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Quadrature {
+    Gauss,
+    Lobatto,
+}
+
+impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
+    const DETERMINED: () = {
+        assert!(DEGREE > 0, "a path needs a degree of 1 at least");
+        assert!(
+            POINTS >= DEGREE,
+            "the quadrature has fewer points than the degree of the path: the action does not see all of it"
+        );
+    };
+
+    /// Gauss' quadrature: one point is the midpoint rule. Exact to degree 2·`POINTS` − 1.
+    pub fn gauss() -> Self {
+        let () = Self::DETERMINED;
+        Variational {
+            coefficients: Collocation::gauss(),
+            quadrature: Quadrature::Gauss,
+            max_iterations: 100,
+        }
+    }
+
+    /// Lobatto's quadrature, with both ends: two points are the trapezoid rule, three Simpson's. Exact
+    /// to degree 2·`POINTS` − 3.
+    pub fn lobatto() -> Self {
+        let () = Self::DETERMINED;
+        Variational {
+            coefficients: Collocation::lobatto(),
+            quadrature: Quadrature::Lobatto,
+            max_iterations: 100,
+        }
+    }
+
+    /// A step that is not solved after so many iterations is an error; 100 unless said here.
+    #[must_use]
+    pub fn at_most(self, max_iterations: u32) -> Self {
+        Variational {
+            max_iterations,
+            ..self
+        }
+    }
+}
+
+/// The coefficients follow from the degree and the quadrature.
+impl<const DEGREE: usize, const POINTS: usize> fmt::Debug for Variational<DEGREE, POINTS> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Variational")
+            .field("degree", &DEGREE)
+            .field("quadrature", &self.quadrature)
+            .field("points", &POINTS)
+            .field("max_iterations", &self.max_iterations)
+            .finish()
+    }
+}
+
+impl<const DEGREE: usize, const POINTS: usize> Listed for Variational<DEGREE, POINTS> {
+    fn entry(&self) -> Entry {
+        let (variant, exact) = match (DEGREE, POINTS, self.quadrature) {
+            (1, 1, Quadrature::Gauss) => ("line, midpoint", 2),
+            (1, 2, Quadrature::Lobatto) => ("line, trapezoid", 2),
+            (2, 2, Quadrature::Lobatto) => ("parabola, trapezoid", 2),
+            (2, 3, Quadrature::Lobatto) => ("parabola, Simpson", 4),
+            (3, 3, Quadrature::Lobatto) => ("cubic, Simpson", 4),
+            (_, _, Quadrature::Gauss) => ("Gauss' quadrature", 2 * POINTS),
+            (_, _, Quadrature::Lobatto) => ("Lobatto's quadrature", 2 * POINTS - 2),
+        };
+        Entry {
+            name: "Variational",
+            variant,
+            equations: "(35)",
+            order: exact.min(2 * DEGREE) as u32,
+            duration: 1,
+            needs: Needs::Any,
+            preserves: Form::OnePoint,
+            source: "Leok, Zhang 2011, section 3, doi:10.1093/imanum/drq027",
+        }
+    }
+}
+
+impl<const DEGREE: usize, const POINTS: usize> OneStep for Variational<DEGREE, POINTS> {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, S>
+    for Variational<DEGREE, POINTS>
+{
+    type Map = Collocated<T, S::Prepared, POINTS>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let (nodal, momenta) = self.coefficients.pair(DEGREE);
+        let map = Collocated {
+            momenta,
+            guess: extrapolation(&self.coefficients, step),
+            ..self.with_modes(prepared, step.h, 0..DEGREE)
+        };
+        if DEGREE < POINTS {
+            map
+        } else {
+            Collocated {
+                spans: map.weights,
+                coordinates: nodal,
+                modes: None,
+                ..map
+            }
+        }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Carries<S::Vector, POINTS> {
+        at_rest(state)
+    }
+}
+
+impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
+    /// The equations in the coefficients of Legendre's polynomials, `velocities` of which make dq/dt; the
+    /// matrix of the momenta is left to the caller.
+    fn with_modes<T: Real, P: Dynamics<T>>(
+        &self,
+        prepared: &P,
+        h: T,
+        velocities: Range<usize>,
+    ) -> Collocated<T, P, POINTS> {
+        let polynomials = self.coefficients.polynomials();
+        let zero = [[T::zero(); POINTS]; POINTS];
+        let (mut coordinates, mut values) = (zero, zero);
+        for (i, row) in polynomials.iter().enumerate() {
+            for (j, (value, integral)) in row.iter().enumerate() {
+                values[i][j] = constant(*value);
+                if velocities.contains(&j) {
+                    coordinates[i][j] = constant(*integral);
+                }
+            }
+        }
+        Collocated {
+            field: prepared.field(T::one()),
+            dynamics: prepared.clone(),
+            h,
+            times: self.coefficients.nodes.map(|c| constant::<T>(c) * h),
+            weights: self.coefficients.weights.map(|b| constant::<T>(b) * h),
+            spans: [h; POINTS],
+            coordinates,
+            momenta: zero,
+            modes: Some(Modes { values, velocities }),
+            guess: zero,
+            limit: self.max_iterations,
+        }
+    }
+
+    /// The stationary path of a step from time `t` to `t + h` between given ends, with its action and both
+    /// its ends.
+    ///
+    /// Of the action as a function of the ends, the derivatives are what is not given there: the
+    /// discrete form of the paper's (4), (5) and (18) to (21).
+    ///
+    /// ```text
+    /// type I    S(q₀, q₁):              p₀ = −∂S/∂q₀,  p₁ = ∂S/∂q₁
+    /// type II   S⁺(q₀, p₁) = p₁·q₁ − S:   q₁ = ∂S⁺/∂p₁,  p₀ = ∂S⁺/∂q₀
+    /// type III  S⁻(q₁, p₀) = −p₀·q₀ − S:  q₀ = −∂S⁻/∂p₀, p₁ = −∂S⁻/∂q₁
+    /// ```
+    ///
+    /// Two steps make one path where the momentum at the end of the first is that at the beginning of
+    /// the second, (6). Where a symmetry moves q and leaves H as it is, S is as it was too, and so its
+    /// momentum map is the same at both ends, for any ends: discrete Noether conservation. With a force
+    /// the momenta are those of the Lagrange–d'Alembert principle and no derivatives of S.
+    ///
+    /// For [`Ends::Coordinates`] ∂H/∂p must determine p. Newton's method begins at rest, p = 0 or the
+    /// momentum given.
+    ///
+    /// # Errors
+    /// [`Error::Step`] where h is zero or not finite, [`Error::Shape`] where an end has not the system's
+    /// shape, [`Error::Stationary`] where no path was found.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    /// use hamiltonian_core::{State, schemes::{Ends, Variational}};
+    ///
+    /// // From 0 to 1 in a quarter of a period, S = (p₁q₁ − p₀q₀)/2 = 0; in an eighth it is ½.
+    /// let scheme = Variational::<4, 4>::gauss();
+    /// let State { q, p, .. } = State::new([0.0], [1.0]);
+    /// let eighth = core::f64::consts::FRAC_PI_4;
+    /// let path = scheme.extremal(&Oscillator, 0.0, eighth, Ends::Coordinates(q, p))?;
+    /// assert!((path.action - 0.5).abs() < 1e-7);
+    /// assert!((path.start.p[0] - 2.0_f64.sqrt()).abs() < 1e-7);
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    pub fn extremal<T: Real, S: System<T>>(
+        &self,
+        system: &S,
+        t: T,
+        h: T,
+        ends: Ends<S::Vector>,
+    ) -> Result<Extremal<S::Vector>, Error> {
+        let step = h.to_f64();
+        if !h.is_finite() || step == 0.0 {
+            return Err(Error::Step { step });
+        }
+        let shape = |q: &S::Vector, p: &S::Vector| {
+            let (q, p) = (q.clone(), p.clone());
+            system.check_shape(&State { t, q, p })
+        };
+        // The point the stages are counted from.
+        let (point, line) = match &ends {
+            Ends::Coordinates(q0, q1) => {
+                shape(q0, q0)?;
+                shape(q1, q1)?;
+                let (q, p) = (q0.clone(), q0.zeros_like());
+                let mut line = q1.clone();
+                line.accumulate(-T::one(), q0);
+                line.scale(h.recip());
+                (Point { q, p }, Some(line))
+            }
+            Ends::Right(q, p) | Ends::Left(p, q) => {
+                shape(q, p)?;
+                let (q, p) = (q.clone(), p.clone());
+                (Point { q, p }, None)
+            }
+        };
+        let prepared = system.prepare();
+        let first = usize::from(line.is_some());
+        let mut map = self.with_modes(&prepared, h, first..DEGREE);
+        let integrals = self.coefficients.integrals_of(DEGREE);
+        for (i, row) in map.momenta.iter_mut().enumerate() {
+            for (j, momentum) in row.iter_mut().enumerate() {
+                let of_start = match ends {
+                    Ends::Coordinates(..) => self.coefficients.nodes[j],
+                    Ends::Right(..) => DoubleDouble::from(0.0),
+                    Ends::Left(..) => DoubleDouble::from(1.0),
+                };
+                *momentum = constant(of_start - integrals[j][i]);
+            }
+        }
+        if matches!(ends, Ends::Left(..)) {
+            // From the other end the first polynomial, 1, is integrated backwards.
+            for row in &mut map.coordinates {
+                row[0] -= T::one();
+            }
+        }
+        let mut unknowns = Stages(core::array::from_fn(|_| point.zeros_like()));
+        let mut work = CollocatedWork::new(&point, &unknowns);
+        let mut action = T::zero();
+        let mut velocity = point.q.zeros_like();
+        let outcome = map.solve_between(
+            t,
+            &point,
+            line.as_ref(),
+            &mut unknowns,
+            &mut work,
+            |equations, unknowns| {
+                for i in 0..POINTS {
+                    equations.stage(i, unknowns);
+                    velocity.set_zero();
+                    equations.less_velocity(i, unknowns, &mut velocity);
+                    let Point { q, p } = &*equations.stage;
+                    let energy = prepared.energy(t + map.times[i], q, p);
+                    action -= map.weights[i] * (dot(p, &velocity) + energy);
+                }
+            },
+        );
+        if !outcome.solved.all() {
+            let lane = (!outcome.solved).first().unwrap_or(0);
+            return Err(Error::Stationary {
+                time: t.to_f64(),
+                step,
+                residual: outcome.residual.lane(lane),
+                iterations: outcome.iterations,
+            });
+        }
+        let increments = &work.increments.0;
+        let (one, change) = (T::one(), &increments[0].q);
+        let mut impulse = point.p.zeros_like();
+        for increment in increments {
+            impulse.accumulate(one, &increment.p);
+        }
+        let (mut start, mut end) = (point.clone(), point);
+        match ends {
+            Ends::Coordinates(_, q1) => {
+                // The mean of the momentum, less its changes to there.
+                start.p.copy_from(&unknowns.0[0].q);
+                for (increment, c) in increments.iter().zip(self.coefficients.nodes) {
+                    start.p.accumulate(constant::<T>(c) - one, &increment.p);
+                }
+                end.q = q1;
+                end.p.copy_from(&start.p);
+                end.p.accumulate(one, &impulse);
+            }
+            Ends::Right(..) => {
+                end.q.accumulate(one, change);
+                start.p.accumulate(-one, &impulse);
+            }
+            Ends::Left(..) => {
+                start.q.accumulate(-one, change);
+                end.p.accumulate(one, &impulse);
+            }
+        }
+        Ok(Extremal { action, start, end })
+    }
+}
+
+/// What is given of the ends of a path.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Ends<V> {
+    /// q₀ and q₁, type I.
+    Coordinates(V, V),
+    /// q₀ and p₁, type II.
+    Right(V, V),
+    /// p₀ and q₁, type III.
+    Left(V, V),
+}
+
+/// A stationary path of one step: its discrete action and its ends.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Extremal<V: Vector> {
+    /// S = h Σ bᵢ (Pᵢ·q̇(tᵢ) − H(Qᵢ, Pᵢ, tᵢ)), the discrete Lagrangian, of q₀ and q₁.
+    pub action: V::Scalar,
+    /// (q₀, p₀).
+    pub start: Point<V>,
+    /// (q₁, p₁).
+    pub end: Point<V>,
+}
+
+impl<V: Vector> Extremal<V> {
+    /// S⁺ = p₁·q₁ − S, the right discrete Hamiltonian, of q₀ and p₁.
+    pub fn right(&self) -> V::Scalar {
+        dot(&self.end.p, &self.end.q) - self.action
+    }
+
+    /// S⁻ = −p₀·q₀ − S, the left discrete Hamiltonian, of p₀ and q₁.
+    pub fn left(&self) -> V::Scalar {
+        -dot(&self.start.p, &self.start.q) - self.action
+    }
+}
+
+/// a·b.
+fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
+    let mut sum = V::Scalar::zero();
+    for k in 0..V::PARTS {
+        for (a, b) in a.part(k).iter().zip(b.part(k)) {
+            sum = a.fma(*b, sum);
+        }
+    }
+    sum
+}

@@ -440,22 +440,20 @@ impl Dag {
         let Some(top) = roots.iter().max() else {
             return Vec::new();
         };
-        let mut seen = vec![false; top.0 as usize + 1];
-        // How many nodes are seen but not visited: below the last of them there is nothing.
-        let mut ahead = 0usize;
+        // A bit for each node that is seen but not visited; parents have larger numbers.
+        let mut ahead = vec![0u64; top.0 as usize / 64 + 1];
         let mut order = Vec::new();
         for root in roots {
-            ahead += usize::from(!std::mem::replace(&mut seen[root.0 as usize], true));
+            ahead[root.0 as usize / 64] |= 1 << (root.0 % 64);
         }
-        for number in (0..=top.0).rev() {
-            if ahead == 0 {
-                break;
-            }
-            if seen[number as usize] {
-                ahead -= 1;
-                order.push(Node(number));
-                self.for_children(Node(number), |child| {
-                    ahead += usize::from(!std::mem::replace(&mut seen[child.0 as usize], true));
+        for word in (0..ahead.len()).rev() {
+            while ahead[word] != 0 {
+                let bit = 63 - ahead[word].leading_zeros();
+                ahead[word] ^= 1 << bit;
+                let node = Node(word as u32 * 64 + bit);
+                order.push(node);
+                self.for_children(node, |child| {
+                    ahead[child.0 as usize / 64] |= 1 << (child.0 % 64);
                 });
             }
         }

@@ -13,6 +13,7 @@ mod rows;
 mod solve;
 mod space;
 mod sweep;
+mod table;
 mod tape;
 mod units;
 

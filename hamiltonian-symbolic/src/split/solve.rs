@@ -6,8 +6,8 @@
 
 use super::motion::Motion;
 use super::rows::{Axes, Moved, ROWS, Row, Solve};
-use super::space::{Set, Space, bits};
-use crate::dag::{Kind, Node};
+use super::space::{Set, Space, bits, differ};
+use crate::dag::{Kind, Map, Node};
 use crate::rational::Rational;
 
 /// An exact flow with the rows it is made of.
@@ -40,10 +40,15 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if space.active(h).is_empty() {
         return Some(shear(space, h, s));
     }
-    whole(space, h, s)
+    if let Some(known) = space.flows.get(&(h, s)) {
+        return known.clone();
+    }
+    let found = whole(space, h, s)
         .or_else(|| function(space, h, s))
         .or_else(|| separated(space, h, s))
-        .or_else(|| commuting(space, h, s))
+        .or_else(|| commuting(space, h, s));
+    space.flows.insert((h, s), found.clone());
+    found
 }
 
 /// No conjugate pair meets: everything moves at a constant rate.
@@ -121,11 +126,22 @@ fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
 
 /// The variables of h outside u.
 fn beside(space: &mut Space, h: Node, u: Node) -> Set {
-    let place = space.dag().parameter(crate::dag::Parameter(u16::MAX));
-    let over = space
-        .dag()
-        .substitute(h, |_, node| (node == u).then_some(place));
-    space.set(over)
+    let mut set = 0;
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut left = vec![h];
+    while let Some(node) = left.pop() {
+        let own = space.set(node);
+        if node == u || own & !set == 0 || seen.insert(node, ()).is_some() {
+            continue;
+        }
+        let dag = space.dag();
+        let before = left.len();
+        dag.for_children(node, |child| left.push(child));
+        if left.len() == before {
+            set |= own;
+        }
+    }
+    set
 }
 
 /// The deepest node other than h through which alone h depends on some variables.
@@ -251,6 +267,19 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
     }
     // Other variables inside: held at numbers, if u is a multiple of what that gives.
     let others = space.set(k) & !own;
+    let mut rise = |x: f64, y: f64| {
+        let [from, to] = [0.0, x].map(|x| {
+            let point = space.point_off(&[(own, x), (others, y)]);
+            space.value_at(k, &point)
+        });
+        to - from
+    };
+    if differ(
+        rise(1.0, 0.0) * rise(2.0, 1.0),
+        rise(2.0, 0.0) * rise(1.0, 1.0),
+    ) {
+        return None;
+    }
     let held = space.section(k, others);
     let bit = bits(own).find(|bit| space.set(held) >> bit & 1 == 1)?;
     let variable = space.variable(bit);

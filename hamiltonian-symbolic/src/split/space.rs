@@ -6,12 +6,16 @@
 //! after [`TESTS`] questions every answer is no.
 
 use super::motion::Motion;
+use super::solve::Flow;
+use super::table::{Near, POINTS, Table};
+use super::tape::Tape;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
-use crate::loops::{Sample, sample};
+use crate::loops::Sample;
 use crate::model::Model;
 use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes, witness};
 use crate::rational::Rational;
+use std::rc::Rc;
 
 /// The most questions whether an expression is zero.
 pub(crate) const TESTS: usize = 1500;
@@ -28,9 +32,16 @@ pub(crate) struct Space {
     pub(crate) model: Model,
     /// Coordinates with their momenta, in the order of the model.
     pub(crate) pairs: Vec<(Node, Node)>,
-    sets: Map<Node, Set>,
+    /// Of every node so far, the variables it is written with.
+    sets: Vec<Set>,
     derivatives: Map<Node, Map<Node, Node>>,
     zeros: Map<Node, bool>,
+    table: Table,
+    sections: Map<(Node, Set), Node>,
+    /// Expressions that were evaluated, as tapes.
+    tapes: Map<Node, Option<Rc<Tape>>>,
+    /// The flows that were sought, by what acts and the time it acts for.
+    pub(super) flows: Map<(Node, Node), Option<Flow>>,
     /// How many questions were asked.
     pub(crate) tests: usize,
 }
@@ -72,9 +83,13 @@ impl Space {
         Some(Space {
             model,
             pairs,
-            sets: Map::default(),
+            sets: Vec::new(),
             derivatives: Map::default(),
             zeros: Map::default(),
+            table: Table::default(),
+            sections: Map::default(),
+            tapes: Map::default(),
+            flows: Map::default(),
             tests: 0,
         })
     }
@@ -91,20 +106,22 @@ impl Space {
 
     /// The variables an expression is written with.
     pub(crate) fn set(&mut self, root: Node) -> Set {
-        if let Some(&set) = self.sets.get(&root) {
-            return set;
-        }
-        let mut set = 0;
-        for node in self.model.dag.reachable(&[root]) {
+        // Children have smaller numbers, so that each node is asked once.
+        for number in self.sets.len()..=root.0 as usize {
+            let node = Node(number as u32);
+            let mut set = 0;
             if let Kind::Element(Array::Phase { .. }, ..) = self.model.dag.kind(node) {
                 let at = |(q, p): &(Node, Node)| *q == node || *p == node;
                 if let Some(pair) = self.pairs.iter().position(at) {
                     set |= 1 << (2 * pair + usize::from(self.pairs[pair].1 == node));
                 }
             }
+            let sets = &self.sets;
+            let dag = &self.model.dag;
+            dag.for_children(node, |child| set |= sets[child.0 as usize]);
+            self.sets.push(set);
         }
-        self.sets.insert(root, set);
-        set
+        self.sets[root.0 as usize]
     }
     /// The pairs both of whose variables stand in an expression.
     pub(crate) fn active(&mut self, root: Node) -> Vec<usize> {
@@ -114,8 +131,20 @@ impl Space {
             .collect()
     }
 
-    /// ∂h/∂v of a variable v.
+    /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
+        if self.set(h) & self.set(variable) == 0 {
+            return self.model.dag.integer(0);
+        }
+        if let Kind::Sum(_, terms) = self.model.dag.kind(h)
+            && terms.len() > 1
+        {
+            let mut slopes = terms.clone();
+            for (_, term) in &mut slopes {
+                *term = self.d(*term, variable);
+            }
+            return self.model.dag.linear(&Rational::ZERO, &slopes);
+        }
         if !self.derivatives.contains_key(&h) {
             let both = Dependence(Dependence::Q.0 | Dependence::P.0);
             let gradient = diff::gradient(&mut self.model.dag, h, both);
@@ -173,6 +202,10 @@ impl Space {
         if let Some(&known) = self.zeros.get(&node) {
             return known;
         }
+        // Numbers of every node are at hand: most of what is not 0 ends here.
+        if self.near(node).iter().any(|near| near.is_nonzero()) {
+            return false;
+        }
         self.tests += 1;
         let answer = self.tests <= TESTS
             && witness(&self.model, node, Effort::Glance, &[]).is_none()
@@ -195,21 +228,34 @@ impl Space {
 
     /// An expression with numbers in place of some variables.
     pub(crate) fn section(&mut self, node: Node, set: Set) -> Node {
-        if self.set(node) & set == 0 {
+        let set = self.set(node) & set;
+        if set == 0 {
             return node;
+        }
+        if let Some(&known) = self.sections.get(&(node, set)) {
+            return known;
         }
         let values: Map<Node, Rational> = bits(set)
             .map(|bit| (self.variable(bit), place_of(bit)))
             .collect();
-        self.model.dag.substitute(node, |dag, node| {
-            let value = values.get(&node)?.clone();
-            Some(dag.constant(value))
-        })
+        let sets = &self.sets;
+        let section = self.model.dag.substitute(node, |dag, node| {
+            if let Some(value) = values.get(&node) {
+                return Some(dag.constant(value.clone()));
+            }
+            (sets[node.0 as usize] & set == 0).then_some(node)
+        });
+        self.sections.insert((node, set), section);
+        section
     }
     /// The expression written without some variables, if it is proven not to depend on them.
     pub(crate) fn free(&mut self, node: Node, set: Set) -> Option<Node> {
         if self.set(node) & set == 0 {
             return Some(node);
+        }
+        let [here, there] = [0.0, 1.0].map(|step| self.point_off(&[(set, step)]));
+        if differ(self.value_at(node, &here), self.value_at(node, &there)) {
+            return None;
         }
         let section = self.section(node, set);
         if !self.same(node, section) {
@@ -242,14 +288,74 @@ impl Space {
     }
 
     /// The value at a point where all is positive.
-    pub(crate) fn value(&self, node: Node) -> f64 {
-        let sizes = vec![3; self.model.sizes.len()];
-        let found = sample(&self.model, &[node], &sizes, Sample::default(), &[]);
-        found.map_or(f64::NAN, |(values, _)| values[0].value)
+    pub(crate) fn value(&mut self, node: Node) -> f64 {
+        self.near(node)[0].value
     }
+    /// The values at two points: all leaves positive, and of both signs.
+    fn near(&mut self, node: Node) -> [Near; POINTS] {
+        let model = &self.model;
+        let leaf = |leaf: Node| {
+            let has_value = match model.dag.kind(leaf) {
+                Kind::Scalar(parameter) => usize::from(parameter.0) < model.parameters.len(),
+                Kind::Element(_, row, column) => [Some(row), column.as_ref()]
+                    .into_iter()
+                    .flatten()
+                    .all(|index| index.modulo.is_none() && index.affine.as_constant().is_some()),
+                _ => true,
+            };
+            if !has_value {
+                return [Near::rounded(f64::NAN); POINTS];
+            }
+            let sizes = vec![3; model.sizes.len()];
+            let value = |signed: bool| {
+                let sample = Sample {
+                    seed: u64::from(signed),
+                    signed,
+                    ..Sample::default()
+                };
+                let found = crate::loops::sample(model, &[leaf], &sizes, sample, &[]);
+                Near::rounded(found.map_or(f64::NAN, |(values, _)| values[0].value))
+            };
+            [value(false), value(true)]
+        };
+        self.table.at(&model.dag, node, leaf)
+    }
+    /// A point, by variables' numbers, from which others are taken by changing some.
+    pub(crate) fn point(&self) -> Vec<f64> {
+        let start = |bit: usize| 0.9 + ((bit * 5 + 3) % 7) as f64 / 16.0;
+        (0..2 * self.pairs.len()).map(start).collect()
+    }
+    /// The same with some variables moved by steps.
+    pub(crate) fn point_off(&self, moved: &[(Set, f64)]) -> Vec<f64> {
+        let mut point = self.point();
+        for (set, step) in moved {
+            for bit in bits(*set) {
+                point[bit] += step * ((bit * 3 + 1) % 5 + 1) as f64 / 16.0;
+            }
+        }
+        point
+    }
+    /// The value at a point; NaN where there is none.
+    pub(crate) fn value_at(&mut self, node: Node, point: &[f64]) -> f64 {
+        if !self.tapes.contains_key(&node) {
+            let tape = Tape::of(self, &[node]).map(Rc::new);
+            self.tapes.insert(node, tape);
+        }
+        let Some(Some(tape)) = self.tapes.get(&node).cloned() else {
+            return f64::NAN;
+        };
+        let (mut numbers, mut results) = (Vec::new(), Vec::new());
+        tape.run(point, 0.5, &mut numbers, &mut results);
+        results[0]
+    }
+
     /// The integer n with a = n·b, if that is proven.
     pub(crate) fn ratio(&mut self, a: Node, b: Node) -> Option<i32> {
-        let guess = (self.value(a) / self.value(b)).round();
+        let ratio = self.value(a) / self.value(b);
+        let guess = ratio.round();
+        if differ(guess, ratio) {
+            return None;
+        }
         let n = (guess.abs() <= 64.0).then_some(guess as i32)?;
         let multiple = self.model.dag.scale(&Rational::integer(i64::from(n)), b);
         self.same(a, multiple).then_some(n)
@@ -307,6 +413,12 @@ fn tidy(dag: &mut Dag, node: Node) -> Option<Node> {
     let poly = algebra.convert(dag, node).ok()?;
     let poly = algebra.canonical(&poly).ok()?;
     Some(algebra.node(dag, &poly))
+}
+
+/// Whether two values of size 1 or so are certainly not of the same number: their difference is far
+/// beyond rounding.
+pub(crate) fn differ(a: f64, b: f64) -> bool {
+    (a - b).abs() > 1e-7 * (1.0 + a.abs() + b.abs())
 }
 
 /// The bits of a set.

@@ -217,7 +217,7 @@ fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
 }
 
 /// Σ|parts|/|whole|, at a point.
-fn loss(space: &Space, parts: &[Node], whole: Node) -> f64 {
+fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
     let sum: f64 = parts.iter().map(|part| space.value(*part).abs()).sum();
     let loss = sum / space.value(whole).abs();
     if loss.is_finite() { loss } else { 1.0 }

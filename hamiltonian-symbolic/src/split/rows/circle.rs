@@ -3,6 +3,7 @@
 //! Input: h and s. Output: [`Motion`]. Invariant: Λ is proven free of θ and p and meets no pair
 //! of its own; its conjugates move by the angle of the turn seen from the pole.
 
+use super::flight::is_not_central;
 use crate::dag::Node;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -20,6 +21,9 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let [pair] = active.as_slice() else {
         return None;
     };
+    if is_not_central(space, h, *pair, |theta| theta.sin().powi(2)) {
+        return None;
+    }
     let (theta, p) = space.pairs[*pair];
     let (own, set) = (3 << (2 * pair), space.set(h));
     let slope = space.d(h, p);

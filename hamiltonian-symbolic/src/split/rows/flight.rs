@@ -7,7 +7,7 @@ use crate::rational::Rational;
 use crate::split::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::solve::flow;
-use crate::split::space::Space;
+use crate::split::space::{Space, differ};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
@@ -16,6 +16,9 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
 
 fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     let (r, p) = space.pairs[pair];
+    if is_not_central(space, h, pair, |r| r * r) {
+        return None;
+    }
     let own = 3 << (2 * pair);
     let set = space.set(h);
     let half = Rational::new(1, 2);
@@ -66,6 +69,21 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     let either = dag.or(turns, ahead);
     motion.domain.push(either);
     Some(motion)
+}
+
+/// Whether numbers say that h is not a·(p² + Λ/f(x)).
+pub(super) fn is_not_central(space: &mut Space, h: Node, pair: usize, f: fn(f64) -> f64) -> bool {
+    let mut at = |x: f64, p: f64| {
+        let mut point = space.point();
+        (point[2 * pair], point[2 * pair + 1]) = (x, p);
+        space.value_at(h, &point)
+    };
+    let (x, y) = (0.8, 1.3);
+    let (here, there) = (at(x, 0.0), at(y, 0.0));
+    let (kinetic, far) = (at(x, 1.0) - here, at(y, 1.0) - there);
+    differ(kinetic, far)
+        || differ(4.0 * kinetic, at(x, 2.0) - here)
+        || differ(here * f(x), there * f(y))
 }
 
 /// A sum without one of its terms, which must not be computed as a difference.

@@ -7,7 +7,7 @@ use crate::dag::Node;
 use crate::rational::Rational;
 use crate::split::growth::Growth;
 use crate::split::motion::Motion;
-use crate::split::space::{Set, Space};
+use crate::split::space::{Set, Space, differ};
 
 /// The most pairs of one form.
 const PAIRS: usize = 4;
@@ -64,8 +64,21 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     Some(motion)
 }
 
+/// Whether numbers along a line say that h is no polynomial of second degree.
+fn is_steeper(space: &mut Space, h: Node) -> bool {
+    let set = space.set(h);
+    let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|step| {
+        let point = space.point_off(&[(set, step)]);
+        space.value_at(h, &point)
+    });
+    differ(d + 3.0 * b, a + 3.0 * c)
+}
+
 /// A and g, if h is the form they make with a constant.
 fn coefficients(space: &mut Space, h: Node, set: Set, z: &[Node]) -> Option<(Matrix, Vec<Node>)> {
+    if is_steeper(space, h) {
+        return None;
+    }
     let mut a: Matrix = Vec::new();
     for &x in z {
         let slope = space.d(h, x);
@@ -119,11 +132,12 @@ fn product(space: &mut Space, a: &Matrix, b: &Matrix) -> Matrix {
 fn multiple(space: &mut Space, a: &Matrix, b: &Matrix) -> Option<Node> {
     let n = a.len();
     let places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
-    let size = |(i, j): &(usize, usize)| space.value(b[*i][*j]).abs();
-    let (i, j) = places
+    let sizes = places
         .clone()
-        .filter(|place| size(place) > 0.0)
-        .max_by(|x, y| size(x).total_cmp(&size(y)))?;
+        .map(|(i, j)| (space.value(b[i][j]).abs(), (i, j)));
+    let (_, (i, j)) = sizes
+        .filter(|(size, _)| *size > 0.0)
+        .max_by(|(x, _), (y, _)| x.total_cmp(y))?;
     let lambda = space.dag().div(a[i][j], b[i][j]);
     places
         .into_iter()

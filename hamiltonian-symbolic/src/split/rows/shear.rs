@@ -24,6 +24,22 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         .find_map(|axes| along(space, axes, h, s))
 }
 
+/// Whether differences say that A′ is no polynomial of a degree below that of A.
+fn is_no_polynomial(space: &mut Space, slope: Node, axes: Axes) -> bool {
+    let bit = space.set(axes.x).trailing_zeros() as usize;
+    let mut point = space.point();
+    let (mut sum, mut size, mut weight) = (0.0, 0.0_f64, 1.0);
+    for k in 0..=DEGREE {
+        point[bit] = 0.375 + f64::from(k) / 4.0;
+        let value = weight * space.value_at(slope, &point);
+        sum += value;
+        size += value.abs();
+        weight *= -f64::from(DEGREE - k) / f64::from(k + 1);
+    }
+    // Rounding is some 10⁻¹⁶ of the size.
+    sum.abs() > 1e-12 * size && size.is_finite()
+}
+
 fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     let y = axes.y(space);
     let (x_set, y_set) = (space.set(axes.x), space.set(y));
@@ -34,6 +50,9 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     let ratio = space.dag().div(hx, hy);
     let slope = space.dag().neg(ratio);
     let slope = space.free(slope, y_set)?;
+    if is_no_polynomial(space, slope, axes) {
+        return None;
+    }
     // A′ as a polynomial: Taylor's coefficients at 0.
     let zero = space.dag().integer(0);
     let (mut derivative, mut factorial) = (slope, Rational::ONE);

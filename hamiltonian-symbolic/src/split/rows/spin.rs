@@ -11,7 +11,7 @@ use crate::op::Op;
 use crate::rational::Rational;
 use crate::split::formula::Names;
 use crate::split::motion::Motion;
-use crate::split::space::{Space, bits};
+use crate::split::space::{Space, bits, differ};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
@@ -67,6 +67,13 @@ fn square_root(space: &mut Space, h: Node) -> Option<Node> {
 fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) -> Option<Motion> {
     let y = axes.y(space);
     let l = axes.x;
+    // K_ll = −K changes its sign in half a turn.
+    let (mut here, bit) = (space.point(), space.set(l).trailing_zeros() as usize);
+    let before = space.value_at(k, &here);
+    here[bit] += std::f64::consts::PI;
+    if differ(before, -space.value_at(k, &here)) {
+        return None;
+    }
     let own = space.set(l) | space.set(y);
     let n = space.d(k, l);
     let nl = space.d(n, l);

@@ -14,6 +14,7 @@ pub mod coordinates;
 mod counting;
 mod crates;
 mod examples;
+pub mod flows;
 mod forces;
 pub mod geometry;
 pub mod hygiene;

@@ -1,0 +1,151 @@
+//! Exact flows as they are emitted: each piece of each system against a solution of its own equations
+//! in 32 digits, at random points and for times of both signs.
+//!
+//! The equations are derived from the piece's name, `Split::NAMES`, by the reader of the engine's
+//! tests: the flow and what it is compared with share the text alone.
+
+#[path = "flows/pieces.rs"]
+mod pieces;
+
+use crate::common::systems::Paper34;
+use crate::splits::{Body, Dipole, Explodes, Ring, Saddle, Schwarzschild, Vortices};
+use hamiltonian::prelude::*;
+use pieces::{Case, check};
+
+hamiltonian! {
+    /// Orbits of a charge about a black hole in a magnetic field.
+    pub struct Magnetised { E = 0.995, L = 4.6, B = 8.9e-4 }
+    H(r, th; pr, pt) = (1 - 2/r)*pr^2/2 + pt^2/(2*r^2) - E^2/(2*(1 - 2/r))
+        + (L - B*r^2*sin(th)^2/2)^2/(2*r^2*sin(th)^2)
+}
+
+hamiltonian! {
+    /// Orbits about a rotating black hole in Mino's time.
+    pub struct Mino { a = 0.9, E = 0.95, L = 2.5 }
+    H(r, th; pr, pt) = (r^2 - 2*r + a^2)*pr^2/2 + pt^2/2 + (a*E*sin(th) - L/sin(th))^2/2
+        - ((r^2 + a^2)*E - a*L)^2/(2*(r^2 - 2*r + a^2)) + (r^2 + a^2*cos(th)^2)/2
+}
+
+hamiltonian! {
+    /// A charge in a uniform field.
+    pub struct Gyrating { B = 1.3 }
+    H(x, y; px, py) = (px + B*y/2)^2/2 + (py - B*x/2)^2/2
+}
+
+hamiltonian! {
+    /// A charge in a uniform field, and a potential.
+    pub struct Trapped { B = 1.3 }
+    H(x, y; px, py) = (px + B*y/2)^2/2 + (py - B*x/2)^2/2 + x^4
+}
+
+hamiltonian! {
+    /// A charge in a dipole, in cylindrical coordinates.
+    pub struct Cylindrical {}
+    H(r, z, f; pr, pz, pf) = (pr^2 + pz^2)/2 + (pf/r - r/sqrt(r^2 + z^2)^3)^2/2
+}
+
+hamiltonian! {
+    /// A heavy top without symmetry.
+    pub struct Top { A = 1.0, B = 1.4, C = 2.1, m = 0.8 }
+    H(f, th, ps; pf, pt, pp) = ((pf - pp*cos(th))*sin(ps)/sin(th) + pt*cos(ps))^2/(2*A)
+        + ((pf - pp*cos(th))*cos(ps)/sin(th) - pt*sin(ps))^2/(2*B) + pp^2/(2*C)
+        + m*sin(th)*sin(ps)
+}
+
+hamiltonian! {
+    /// The restricted problem of three bodies in the frame that turns.
+    pub struct ThreeBody { m = 0.0121505856 }
+    H(x, y; px, py) = (px^2 + py^2)/2 - x*py + y*px - (1 - m)/sqrt((x + m)^2 + y^2)
+        - m/sqrt((x - 1 + m)^2 + y^2)
+}
+
+hamiltonian! {
+    /// Hénon and Heiles's system in polar coordinates.
+    pub struct Polar { a = 1.0 }
+    H(r, th; pr, pt) = pr^2/2 + pt^2/(2*r^2) + r^2/2 + a*r^3*sin(3*th)/3
+}
+
+hamiltonian! {
+    /// A hydrogen atom in a magnetic field.
+    pub struct Zeeman { B = 0.7 }
+    H(x, y, z; px, py, pz) = (px^2 + py^2 + pz^2)/2 + B*(x*py - y*px)/2 + 1/sqrt(x^2 + y^2 + z^2)
+}
+
+hamiltonian! {
+    /// A fast charge in a uniform field, and a potential.
+    pub struct Fast { B = 1.3 }
+    H(x, y; px, py) = sqrt(1 + (px + B*y/2)^2 + (py - B*x/2)^2) + x^3*y
+}
+
+hamiltonian! {
+    /// Two spins.
+    pub struct Spins { J = 1.0, D = 0.6 }
+    H(a, b; z, w) = J*sqrt(1 - z^2)*sqrt(1 - w^2)*cos(a)*cos(b)
+        + J*sqrt(1 - z^2)*sqrt(1 - w^2)*sin(a)*sin(b) + D*z*w
+}
+
+hamiltonian! {
+    /// A charge in a field whose potential is a polynomial.
+    pub struct Sheared {}
+    H(x, y, z; px, py, pz) = (px - y^2*z)^2/2 + (py - x*z^2)^2/2 + (pz - x^2*y)^2/2
+}
+
+hamiltonian! {
+    /// A symmetric heavy top.
+    pub struct Lagrange { A = 1.0, C = 0.6, m = 0.8 }
+    H(th, f, s; pt, pf, ps) = pt^2/(2*A) + (pf - ps*cos(th))^2/(2*A*sin(th)^2) + ps^2/(2*C)
+        + m*cos(th)
+}
+
+const ANY: (f64, f64) = (-2.0, 2.0);
+/// Radii, outside of what they must stay out of.
+const FAR: (f64, f64) = (2.5, 12.0);
+const NEAR: (f64, f64) = (0.4, 2.5);
+/// Between the poles.
+const POLAR: (f64, f64) = (0.3, 2.8);
+
+macro_rules! flows {
+    ($($test:ident: $system:expr, $signature:literal, [$($name:ident = $value:expr),*], $ranges:expr;)*) => {$(
+        #[test]
+        fn $test() {
+            let parameters: &[(&str, &[f64])] = &[$((stringify!($name), &$value)),*];
+            check(&$system, &Case { signature: $signature, parameters, ranges: &$ranges });
+        }
+    )*};
+}
+
+flows! {
+    paper_34: Paper34::default(), "q; p", [], [ANY, ANY];
+    schwarzschild: Schwarzschild::default(), "r, theta; p_r, p_theta", [E = [0.995], L = [4.6]],
+        [FAR, POLAR, (-0.5, 0.5), (-4.0, 4.0)];
+    magnetised: Magnetised::default(), "r, th; pr, pt", [E = [0.995], L = [4.6], B = [8.9e-4]],
+        [FAR, POLAR, (-0.5, 0.5), (-4.0, 4.0)];
+    mino: Mino::default(), "r, th; pr, pt", [a = [0.9], E = [0.95], L = [2.5]],
+        [FAR, POLAR, (-0.2, 0.2), (-4.0, 4.0)];
+    gyrating: Gyrating::default(), "x, y; px, py", [B = [1.3]], [ANY; 4];
+    trapped: Trapped::default(), "x, y; px, py", [B = [1.3]], [ANY; 4];
+    dipole: Dipole::default(), "x, y, z; p_x, p_y, p_z", [],
+        [NEAR, ANY, NEAR, ANY, ANY, ANY];
+    cylindrical: Cylindrical::default(), "r, z, f; pr, pz, pf", [],
+        [NEAR, ANY, ANY, ANY, ANY, ANY];
+    body: Body::default(), "l, g; p_l, p_g", [A = [1.0], B = [2.0], C = [3.0]],
+        [(-7.0, 7.0), (-7.0, 7.0), (-1.2, 1.2), (1.3, 2.5)];
+    top: Top::default(), "f, th, ps; pf, pt, pp", [A = [1.0], B = [1.4], C = [2.1], m = [0.8]],
+        [(-7.0, 7.0), POLAR, (-7.0, 7.0), ANY, ANY, ANY];
+    lagrange: Lagrange::default(), "th, f, s; pt, pf, ps", [A = [1.0], C = [0.6], m = [0.8]],
+        [POLAR, ANY, ANY, ANY, ANY, ANY];
+    three_body: ThreeBody::default(), "x, y; px, py", [m = [0.0121505856]], [ANY, NEAR, ANY, ANY];
+    polar: Polar::default(), "r, th; pr, pt", [a = [1.0]], [NEAR, (-7.0, 7.0), ANY, ANY];
+    zeeman: Zeeman::default(), "x, y, z; px, py, pz", [B = [0.7]],
+        [NEAR, ANY, ANY, ANY, ANY, ANY];
+    fast: Fast::default(), "x, y; px, py", [B = [1.3]], [ANY; 4];
+    spins: Spins::default(), "a, b; z, w", [J = [1.0], D = [0.6]],
+        [(-7.0, 7.0), (-7.0, 7.0), (-0.9, 0.9), (-0.9, 0.9)];
+    sheared: Sheared::default(), "x, y, z; px, py, pz", [], [(-1.2, 1.2); 6];
+    explodes: Explodes::default(), "q; p", [], [ANY; 2];
+    saddle: Saddle::default(), "q; p", [], [(-7.0, 7.0), ANY];
+    // Two sites are one bond, two vortices one pair: a loop of flows that is a flow.
+    ring: Ring::<2>::default(), "q[2]; p[2]", [g = [1.0]], [ANY; 4];
+    vortices: Vortices::new(2, vec![1.0, 1.5]).expect("two strengths"), "x[2]; y[2]",
+        [k = [1.0, 1.5]], [ANY; 4];
+}

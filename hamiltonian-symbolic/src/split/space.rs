@@ -11,6 +11,7 @@ use super::table::{Near, POINTS, Table};
 use super::tape::Tape;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
+use crate::index::Index;
 use crate::loops::Sample;
 use crate::model::Model;
 use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes, witness};
@@ -75,7 +76,7 @@ impl Space {
                     group,
                     column,
                 };
-                let row = crate::index::Index::constant(row);
+                let row = Index::constant(row);
                 model.dag.element(array, row, None)
             };
             pairs.push((leaf(Side::Q), leaf(Side::P)));
@@ -297,10 +298,18 @@ impl Space {
         let leaf = |leaf: Node| {
             let has_value = match model.dag.kind(leaf) {
                 Kind::Scalar(parameter) => usize::from(parameter.0) < model.parameters.len(),
-                Kind::Element(_, row, column) => [Some(row), column.as_ref()]
-                    .into_iter()
-                    .flatten()
-                    .all(|index| index.modulo.is_none() && index.affine.as_constant().is_some()),
+                Kind::Element(array, row, column) => {
+                    // The arena has seen other models, with more groups.
+                    let is_declared = match array {
+                        Array::Phase { group, .. } => usize::from(*group) < model.groups.len(),
+                        Array::Parameter(p) => usize::from(p.0) < model.parameters.len(),
+                        _ => false,
+                    };
+                    let is_given = |index: &Index| {
+                        index.modulo.is_none() && index.affine.as_constant().is_some()
+                    };
+                    is_declared && is_given(row) && column.as_ref().is_none_or(is_given)
+                }
                 _ => true,
             };
             if !has_value {

@@ -13,6 +13,7 @@ pub mod compiled;
 pub mod coordinates;
 mod counting;
 mod crates;
+pub mod dynamics;
 mod examples;
 pub mod flows;
 mod forces;

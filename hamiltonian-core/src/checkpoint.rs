@@ -9,8 +9,10 @@
 //! last word is a checksum of all before it.
 
 use crate::error::{CheckpointError, Error};
+use crate::state::State;
+use crate::vector::Vector;
 use alloc::borrow::ToOwned;
-use alloc::string::String;
+use alloc::string::{String, ToString};
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
@@ -228,6 +230,15 @@ impl Memory {
         Checkpoint::same("observer", &saved, name)
     }
 
+    /// Reads a count that must be `given`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Other`] with `name` if it is another one.
+    pub(crate) fn expect_count(&mut self, name: &'static str, given: usize) -> Result<(), Error> {
+        let saved = self.read_count()?;
+        Checkpoint::same(name, &saved.to_string(), &given.to_string())
+    }
+
     /// Whether all was read.
     pub fn is_empty(&self) -> bool {
         self.read == self.words.len()
@@ -246,6 +257,20 @@ impl Memory {
     /// Writes a scalar, word by word.
     pub fn scalar<T: Real>(&mut self, scalar: T) {
         scalar.write_words(&mut |word| self.number(word));
+    }
+
+    /// Writes a state.
+    pub fn state<V: Vector>(&mut self, state: &State<V>) {
+        self.scalar(state.t);
+        for component in state.q.components().chain(state.p.components()) {
+            self.scalar(component);
+        }
+    }
+
+    /// Writes whether there is a state, and it.
+    pub(crate) fn option<V: Vector>(&mut self, state: Option<&State<V>>) {
+        self.count(u64::from(state.is_some()));
+        state.into_iter().for_each(|state| self.state(state));
     }
 
     /// Writes a text.
@@ -295,6 +320,44 @@ impl Memory {
             }
         });
         outcome.map(|()| scalar)
+    }
+
+    /// Reads a state of the shape of another.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] where nothing is left.
+    pub fn read_state<V: Vector>(&mut self, like: &State<V>) -> Result<State<V>, Error> {
+        let mut state = like.clone();
+        state.t = self.read_scalar()?;
+        for vector in [&mut state.q, &mut state.p] {
+            for index in 0..vector.len() {
+                *vector.component_mut(index) = self.read_scalar()?;
+            }
+        }
+        Ok(state)
+    }
+
+    /// Reads a state, if there is one.
+    pub(crate) fn read_option<V: Vector>(
+        &mut self,
+        like: &State<V>,
+    ) -> Result<Option<State<V>>, Error> {
+        match self.read_count()? {
+            0 => Ok(None),
+            _ => self.read_state(like).map(Some),
+        }
+    }
+
+    /// Reads an index below `len`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`] if it is not below.
+    pub(crate) fn read_index(&mut self, len: usize) -> Result<usize, Error> {
+        let index = usize::try_from(self.read_count()?).ok();
+        let damaged = CheckpointError::Damaged {
+            reason: "an index is out of range",
+        };
+        (index.filter(|index| *index < len)).ok_or(damaged.into())
     }
 
     /// Reads a text.

@@ -145,6 +145,14 @@ pub enum Error {
         /// One step on.
         to: f64,
     },
+    /// An event that a run cannot locate.
+    #[error("the event `{name}` cannot be located: {reason}")]
+    Event {
+        /// Its name.
+        name: String,
+        /// Why it cannot.
+        reason: &'static str,
+    },
     /// A saved run that cannot be read, or does not fit.
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),

@@ -71,7 +71,7 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     pub(crate) ended: bool,
     /// What the observers of a saved run remember, until they are attached.
     pub(crate) memory: Memory,
-    /// That an attached observer is not the one that was saved.
+    /// Why no step can be made: an attached observer is not the one that was saved, or cannot go on.
     pub(crate) refused: Option<Error>,
     /// The text of H, the parameters: by them a saved run is recognised.
     pub(crate) system: SystemText,
@@ -246,7 +246,13 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                     prepared: &self.prepared,
                     between: &part,
                 };
-                self.ended = self.observer.observe(&view).is_break();
+                if self.observer.observe(&view).is_break() {
+                    let end = self.observer.end().map(Option::<&_>::cloned);
+                    self.end(end);
+                    if let Some(error) = &self.refused {
+                        return Err(error.clone());
+                    }
+                }
             }
         }
         Ok(&self.state)
@@ -377,9 +383,28 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// Shows a new observer the present state, or gives it back what it remembers.
     fn attach<N: Observer<T, S>>(&mut self, observer: &mut N) {
         if self.memory.is_empty() {
-            self.ended |= observer.attach(&self.view(&self.part())).is_break();
-        } else if let Err(error) = observer.restore(&mut self.memory) {
-            self.refused = Some(error);
+            if observer.attach(&self.view(&self.part())).is_break() {
+                self.end(observer.end().map(Option::<&_>::cloned));
+            }
+            return;
+        }
+        let mut memory = core::mem::take(&mut self.memory);
+        let restored = observer.restore(&self.view(&self.part()), &mut memory);
+        self.memory = memory;
+        match restored {
+            Ok(()) if self.ended => self.end(observer.end().map(Option::<&_>::cloned)),
+            Ok(()) => {}
+            Err(error) => self.refused = Some(error),
+        }
+    }
+
+    /// Ends the run at a state between two steps, or at the present one.
+    fn end(&mut self, end: Result<Option<State<S::Vector>>, Error>) {
+        self.ended = true;
+        match end {
+            Ok(Some(state)) => self.state = state,
+            Ok(None) => {}
+            Err(error) => self.refused = Some(error),
         }
     }
 
@@ -389,9 +414,11 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.ended
     }
 
-    /// Lets a run that an observer has ended go on.
+    /// Lets a run that an observer has ended go on: from the step it has made, where the end lies
+    /// before that.
     pub fn go_on(&mut self) {
         self.ended = false;
+        self.arrives(self.steps);
     }
 
     /// The present state: time, coordinates and momenta, all at the same time.
@@ -577,7 +604,7 @@ fn part<'a, T: Real, S: System<T>, R: MapOf<T, S>>(
         recipe,
         state,
         step,
-        interval: clock.interval,
+        clock,
     }
 }
 

@@ -43,10 +43,13 @@ pub mod schemes;
 mod integrator;
 mod part;
 
+mod events;
 mod observe;
 mod output;
 #[cfg(feature = "progress")]
 mod progress;
+mod root;
+mod times;
 
 mod checkpoint;
 mod resume;
@@ -70,6 +73,7 @@ pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
 pub use derivatives::{WrongDerivative, check_derivatives};
 pub use error::{CheckpointError, Error};
+pub use events::{Event, Events, Located};
 pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Turn, VectorField};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
 pub use integrator::{Integrator, MapOf, Run, States};
@@ -87,6 +91,7 @@ pub use system::{
     Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
     Separable, Split, System, Unforced,
 };
+pub use times::{AtTimes, at_times};
 pub use vector::{IntoVector, Vector, shape};
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
@@ -109,7 +114,8 @@ pub mod prelude {
         Yoshida4, Yoshida6,
     };
     pub use crate::{
-        AnyRun, Checkpoint, Dual, EnergyDrift, Error, Gradient, Integrator, Monitors, Observer,
-        Real, Recorder, Run, Split, State, StateOf, System, every, watch,
+        AnyRun, Checkpoint, Dual, EnergyDrift, Error, Event, Events, Gradient, Integrator,
+        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, at_times, every,
+        watch,
     };
 }

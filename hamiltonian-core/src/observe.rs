@@ -28,6 +28,15 @@ pub struct View<'a, T: Real, S: System<T>> {
 /// The state near the present one at another time, by a part of a step.
 pub(crate) trait Between<V: Vector> {
     fn state_at(&self, t: V::Scalar) -> Result<State<V>, Error>;
+    /// The state so much time after `from`, a state of the run, on the way to the next.
+    fn part(&self, from: &State<V>, time: V::Scalar) -> Result<State<V>, Error>;
+    /// The time between two states, one step apart: the interval itself, without the rounding of times,
+    /// unless the time is carried.
+    fn between(&self, from: V::Scalar, to: V::Scalar) -> V::Scalar;
+    /// The time one step advances.
+    fn interval(&self) -> V::Scalar;
+    /// The time at which the run began, or was given another step.
+    fn start(&self) -> V::Scalar;
 }
 
 impl<T: Real, S: System<T>> View<'_, T, S> {
@@ -79,13 +88,21 @@ pub trait Observer<T: Real, S: System<T>> {
     fn save(&self, to: &mut Memory) {
         to.begin("");
     }
-    /// Reads what it wrote, instead of being attached.
+    /// Reads what it wrote, instead of being attached to the run whose present state it is shown.
     ///
     /// # Errors
     /// [`CheckpointError::Other`](crate::CheckpointError::Other) where another observer wrote it,
     /// [`CheckpointError::Damaged`](crate::CheckpointError::Damaged).
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("")
+    }
+    /// How it ended the run, after a `Break`: at a state between two steps, which the run then shows
+    /// as its own, or (none) at the state it was shown.
+    ///
+    /// # Errors
+    /// Where it could not go on observing; the run returns the error.
+    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+        Ok(None)
     }
 }
 
@@ -189,8 +206,11 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn save(&self, to: &mut Memory) {
         self.inner.save(to);
     }
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
-        self.inner.restore(from)
+    fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+        self.inner.restore(view, from)
+    }
+    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+        self.inner.end()
     }
 }
 
@@ -207,8 +227,11 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn save(&self, to: &mut Memory) {
         (**self).save(to);
     }
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
-        (**self).restore(from)
+    fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+        (**self).restore(view, from)
+    }
+    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+        (**self).end()
     }
 }
 
@@ -220,7 +243,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for () {
         ControlFlow::Continue(())
     }
     fn save(&self, _: &mut Memory) {}
-    fn restore(&mut self, _: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _: &View<'_, T, S>, _: &mut Memory) -> Result<(), Error> {
         Ok(())
     }
 }
@@ -263,9 +286,14 @@ macro_rules! tuple {
             fn save(&self, to: &mut Memory) {
                 $(self.$index.save(to);)+
             }
-            fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
-                $(self.$index.restore(from)?;)+
+            fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+                $(self.$index.restore(view, from)?;)+
                 Ok(())
+            }
+            fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+                let mut end = None;
+                $(end = end.or(self.$index.end()?);)+
+                Ok(end)
             }
         }
     };
@@ -430,7 +458,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
             drift.save(to);
         }
     }
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("EnergyDrift")?;
         self.drift = match from.read_count()? {
             0 => None,
@@ -504,7 +532,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
             monitor.drift.save(to);
         }
     }
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Monitors")?;
         let count = from.read_count()?;
         self.monitors = (S::OBSERVABLES.iter())

@@ -175,7 +175,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
         }
     }
 
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Recorder")?;
         self.energy = from.read_count()? != 0;
         self.columns = from.read_list(Memory::read_text)?;

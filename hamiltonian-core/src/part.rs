@@ -5,7 +5,7 @@
 
 use crate::error::Error;
 use crate::integrator::{Integrator, MapOf, numbers};
-use crate::map::{Cause, Map, Step};
+use crate::map::{Cause, Clock, Map, Step};
 use crate::observe::{Between, Observer};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
@@ -56,51 +56,96 @@ pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
     pub(crate) recipe: &'a dyn Recipe<T, S, R>,
     pub(crate) state: &'a State<S::Vector>,
     pub(crate) step: T,
-    pub(crate) interval: T,
+    pub(crate) clock: Clock<T>,
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
     fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         let now = self.state.t;
-        let part = (t - now) / self.interval;
-        // Times are sums and products that were rounded.
-        let rounding =
-            4.0 * T::epsilon() * (now.magnitude() + t.magnitude()) / self.interval.magnitude();
+        let part = (t - now) / self.clock.interval;
         // False for NaN.
-        let is_near = part.magnitude() <= 1.0 + rounding;
+        let is_near = part.magnitude() <= 1.0 + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
                 target: t.to_f64(),
-                from: (now - self.interval).to_f64(),
-                to: (now + self.interval).to_f64(),
+                from: (now - self.clock.interval).to_f64(),
+                to: (now + self.clock.interval).to_f64(),
             });
         }
-        if part.equals(T::zero()).all() {
-            return Ok(self.state.clone());
-        }
-        let h = part * self.step;
-        let mut carried = self.recipe.start_alone(self.prepared, self.state, h);
-        let map = self.recipe.prepare(self.prepared, Step::of(h));
-        let mut work = map.work(&carried);
-        map.step(now, t, &mut carried, &mut work);
-        if !carried.is_finite() {
-            return Err(self.explain(&map, h, t));
-        }
-        let point = carried.point();
-        Ok(State {
-            t: carried.time(t),
-            q: point.q.clone(),
-            p: point.p.clone(),
-        })
+        self.at(self.state, t, part)
+    }
+
+    fn part(&self, from: &State<S::Vector>, time: T) -> Result<State<S::Vector>, Error> {
+        self.at(from, from.t + time, time / self.clock.interval)
+    }
+
+    fn between(&self, from: T, to: T) -> T {
+        let time = to - from;
+        let is_step = (time - self.clock.interval).magnitude()
+            <= self.rounding(from, to) * self.clock.interval.magnitude();
+        if is_step { self.clock.interval } else { time }
+    }
+
+    fn interval(&self) -> T {
+        self.clock.interval
+    }
+
+    fn start(&self) -> T {
+        self.clock.start
     }
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
+    /// The rounding of two times in units of the interval: they are sums and products.
+    fn rounding(&self, a: T, b: T) -> f64 {
+        4.0 * T::epsilon() * (a.magnitude() + b.magnitude()) / self.clock.interval.magnitude()
+    }
+
+    /// The state at `t` by a step of a copy that starts at `from`: by that `part` of the step, or, for a
+    /// scheme that carries the time, by the step that leads to `t`.
+    fn at(&self, from: &State<S::Vector>, t: T, mut part: T) -> Result<State<S::Vector>, Error> {
+        /// The time is nearly proportional to the step.
+        const MOST: u32 = 60;
+        if part.equals(T::zero()).all() {
+            return Ok(from.clone());
+        }
+        let rounding = self.rounding(from.t, t) * self.clock.interval.magnitude();
+        let mut missed = 0.0;
+        for _ in 0..MOST {
+            let h = part * self.step;
+            let mut carried = self.recipe.start_alone(self.prepared, from, h);
+            let map = self.recipe.prepare(self.prepared, Step::of(h));
+            let mut work = map.work(&carried);
+            map.step(from.t, t, &mut carried, &mut work);
+            let reached = carried.time(t);
+            if !(carried.is_finite() && reached.is_finite()) {
+                return Err(self.explain(&map, from, h, t));
+            }
+            missed = (reached - t).magnitude();
+            if missed <= rounding {
+                let point = carried.point();
+                return Ok(State {
+                    t: reached,
+                    q: point.q.clone(),
+                    p: point.p.clone(),
+                });
+            }
+            part *= (t - from.t) / (reached - from.t);
+        }
+        Err(Error::Solve {
+            step: 1,
+            lane: None,
+            time: from.t.to_f64(),
+            residual: missed,
+            iterations: MOST,
+        })
+    }
+
     #[cold]
-    fn explain(&self, map: &R, h: T, t: T) -> Error {
-        let mut carried = self.recipe.start_alone(self.prepared, self.state, h);
+    fn explain(&self, map: &R, from: &State<S::Vector>, h: T, t: T) -> Error {
+        let mut carried = self.recipe.start_alone(self.prepared, from, h);
         let mut work = map.work(&carried);
-        let cause = map.explain(self.state.t, t, true, &mut carried, &mut work);
+        let cause = map.explain(from.t, t, true, &mut carried, &mut work);
         let bad = !carried.finite();
         let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
         let point = carried.point();
@@ -111,7 +156,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
             } => Error::Solve {
                 step: 1,
                 lane,
-                time: self.state.t.to_f64(),
+                time: from.t.to_f64(),
                 residual,
                 iterations,
             },

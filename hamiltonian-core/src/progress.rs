@@ -87,7 +87,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Progress {
         to.begin("Progress");
         to.count(self.first);
     }
-    fn restore(&mut self, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Progress")?;
         self.first = from.read_count()?;
         Ok(())

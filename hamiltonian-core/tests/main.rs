@@ -5,6 +5,7 @@ mod between;
 mod checkpoint;
 mod common;
 mod composition;
+mod events;
 mod lanes;
 mod observers;
 mod own;

@@ -1,0 +1,533 @@
+//! Events: where functions of the state are 0, located by the run.
+//!
+//! Input: the states of a run, step by step, and [`Event`]s: declared ones by name, others as closures.
+//! Output: [`Located`] states in the order of the run, and its end where an event asks for that.
+//! Invariants: no bit of the run changes; an event is where the function changes its sign, so a run that
+//! starts on it has none there, and touching 0 is none.
+
+use crate::checkpoint::Memory;
+use crate::error::Error;
+use crate::observe::{Observer, View};
+use crate::root::{Sample, dip, root, side};
+use crate::state::State;
+use crate::system::{Dynamics, System};
+use crate::vector::Vector;
+use alloc::borrow::ToOwned;
+use alloc::collections::VecDeque;
+use alloc::string::String;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::cell::OnceCell;
+use core::fmt;
+use core::ops::ControlFlow;
+use hamiltonian_lanes::{Mask, Real};
+
+/// A function of the state whose roots a run locates, see [`Events`].
+///
+/// Both directions count and the run goes on, unless it is told otherwise:
+///
+/// ```
+/// use hamiltonian_core::{Event, State, private::SVector};
+///
+/// type Plane = State<SVector<f64, 2>>;
+/// let section = Event::named("meridian").rising();
+/// let ground = Event::of("ground", |state: &Plane| state.q[1]).falling().ending();
+/// let node = Event::of("node", |state: &Plane| state.q[0] - 0.5).modulo(std::f64::consts::TAU);
+/// # let _: [Event<SVector<f64, 2>>; 3] = [section, ground, node];
+/// ```
+pub struct Event<V: Vector> {
+    name: String,
+    function: Option<Function<V>>,
+    /// The sign of the slope that is asked for; 0 for both.
+    slope: i8,
+    period: Option<V::Scalar>,
+    ends_after: Option<u64>,
+}
+
+type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
+
+impl<V: Vector> Event<V> {
+    /// The event that the system declares under that name, or a monitor or an invariant of it.
+    pub fn named(name: &str) -> Self {
+        Event {
+            name: name.to_owned(),
+            function: None,
+            slope: 0,
+            period: None,
+            ends_after: None,
+        }
+    }
+
+    /// The roots of a function of the state, under a name of yours.
+    pub fn of(
+        name: &str,
+        function: impl Fn(&State<V>) -> V::Scalar + Send + Sync + 'static,
+    ) -> Self {
+        Event {
+            function: Some(Arc::new(function)),
+            ..Event::named(name)
+        }
+    }
+
+    /// Only where the function grows, in the direction of the run.
+    #[must_use]
+    pub fn rising(self) -> Self {
+        Event { slope: 1, ..self }
+    }
+
+    /// Only where the function falls, in the direction of the run.
+    #[must_use]
+    pub fn falling(self) -> Self {
+        Event { slope: -1, ..self }
+    }
+
+    /// Where the function is a multiple of `period`, which is positive: for angles, that grow or jump by
+    /// 2π. In a step it changes by less than half a period.
+    #[must_use]
+    pub fn modulo(self, period: V::Scalar) -> Self {
+        Event {
+            period: Some(period),
+            ..self
+        }
+    }
+
+    /// Ends the run where it happens for the first time.
+    #[must_use]
+    pub fn ending(self) -> Self {
+        self.ending_after(1)
+    }
+
+    /// Ends the run where it has happened `count` times.
+    #[must_use]
+    pub fn ending_after(self, count: u64) -> Self {
+        Event {
+            ends_after: Some(count),
+            ..self
+        }
+    }
+
+    /// The difference of two values, or of a value and 0, to the nearest of what is the same.
+    fn difference(&self, value: V::Scalar) -> V::Scalar {
+        let Some(period) = self.period else {
+            return value;
+        };
+        let turns = (value / period).to_f64();
+        let below = turns as i64 as f64;
+        // Halves go away from 0.
+        let turns = (2.0 * (turns - below)) as i64 as f64 + below;
+        value - V::Scalar::constant(turns, 0.0) * period
+    }
+}
+
+impl<V: Vector> Clone for Event<V> {
+    fn clone(&self) -> Self {
+        Event {
+            name: self.name.clone(),
+            function: self.function.clone(),
+            ..*self
+        }
+    }
+}
+
+impl<V: Vector> fmt::Debug for Event<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Event")
+            .field("name", &self.name)
+            .field("slope", &self.slope)
+            .field("period", &self.period)
+            .field("ends_after", &self.ends_after)
+            .finish_non_exhaustive()
+    }
+}
+
+/// A state at which an event happened.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Located<V: Vector> {
+    /// The number of the event, in the order they were given in.
+    pub event: usize,
+    /// Whether its function grows there, in the direction of the run.
+    pub rising: bool,
+    /// The state: the function is 0 to rounding.
+    pub state: State<V>,
+}
+
+/// Locates events of a run: an [`Observer`].
+///
+/// Where a function has different signs after two steps, its root is found by parts of a step of a copy,
+/// by the scheme itself and so of its own order: the state at the event is, to rounding, the one that
+/// [`advance_until`](crate::Integrator::advance_until) returns for its time, and the function is 0 there
+/// to rounding. (A scheme that carries a second point starts it anew in a part of a step; the state is
+/// then moved on to meet the run at the end of the step.)
+/// The run itself is not changed. Two roots within a step are found where the values of three steps
+/// tell that there can be two (the function falls towards 0 by more than half its value a step, and is
+/// convex); further ones are missed: take shorter steps. A change of sign at a pole or a jump is no event.
+/// Several events in one step come in the order of time.
+///
+/// An event that is [ending](Event::ending) ends the run, and the run's state is then the one at the
+/// event; after [`go_on`](crate::Integrator::go_on) it goes on from the step it has made.
+///
+/// A Poincaré section is an event that is rising or falling. Hénon's trick (M. Hénon, Physica D 5 (1982)
+/// 412, doi:10.1016/0167-2789(82)90034-3), which makes the function the independent variable
+/// for one step, would not help: parts of a step are of the same order, and exact in the function.
+///
+/// Over [`Dual`](crate::Dual)s derivative parts are those at the fixed time of the event.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+/// use hamiltonian_core::{Event, Events, Integrator, StateOf, schemes::StormerVerlet};
+/// use hamiltonian_core::schemes::Composition;
+/// use hamiltonian_core::State;
+///
+/// let events = Events::new([
+///     Event::of("q = 0", |state: &StateOf<Oscillator>| state.q[0]),
+///     Event::of("p = 0", |state: &StateOf<Oscillator>| state.p[0]).rising().ending_after(2),
+/// ]);
+/// let scheme = Composition::yoshida(StormerVerlet::default());
+/// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?.observe(events);
+/// run.advance(10_000)?;
+/// // p = −sin t rises at π, 3π, …; until then q is 0 at π/2, 3π/2, 5π/2.
+/// assert!(run.has_ended());
+/// assert!((run.time() - 3.0 * std::f64::consts::PI).abs() < 1e-7);
+/// assert_eq!((run.observer().count("q = 0"), run.observer().count("p = 0")), (3, 2));
+/// assert!(run.observer().states("q = 0").all(|state| state.q[0].abs() < 1e-15));
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+///
+/// # Errors
+/// The run returns [`Error::Event`] for a name that the system does not declare, for a period that is
+/// not positive, over packs of lanes, each of which has events of its own, and inside
+/// [`every`](crate::every), since every step must be seen; and the errors of parts of a step.
+#[derive(Debug, Clone)]
+pub struct Events<V: Vector> {
+    events: Vec<Event<V>>,
+    /// What is known of each function: as many as there are events, once attached.
+    tracks: Vec<Track<V::Scalar>>,
+    /// The last step and the state after it.
+    before: Option<(u64, State<V>)>,
+    located: Vec<Located<V>>,
+    /// Events of the last step after the one that ended the run.
+    left: VecDeque<Located<V>>,
+    end: Option<State<V>>,
+    failure: Option<Error>,
+}
+
+/// What is known of a function after a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Track<T> {
+    /// The index of an observable; none for a closure.
+    observable: Option<usize>,
+    /// Its value.
+    value: T,
+    /// Its change in the last step, or 0.
+    change: T,
+    /// Its last sign.
+    side: i8,
+    /// How often the event happened.
+    count: u64,
+}
+
+impl<V: Vector> Events<V> {
+    /// An observer of these events.
+    pub fn new(events: impl IntoIterator<Item = Event<V>>) -> Self {
+        Events {
+            events: events.into_iter().collect(),
+            tracks: Vec::new(),
+            before: None,
+            located: Vec::new(),
+            left: VecDeque::new(),
+            end: None,
+            failure: None,
+        }
+    }
+
+    /// All that happened, in the order of the run.
+    pub fn located(&self) -> &[Located<V>] {
+        &self.located
+    }
+
+    /// The states at the events of that name, in the order of the run.
+    pub fn states(&self, name: &str) -> impl Iterator<Item = &State<V>> {
+        let of_name = move |located: &&Located<V>| self.events[located.event].name == name;
+        (self.located.iter().filter(of_name)).map(|located| &located.state)
+    }
+
+    /// How often events of that name happened.
+    pub fn count(&self, name: &str) -> u64 {
+        let events = self.events.iter().zip(&self.tracks);
+        let of_name = events.filter(|(event, _)| event.name == name);
+        of_name.map(|(_, track)| track.count).sum()
+    }
+
+    /// The value of an event at a state.
+    fn value<S: System<V::Scalar, Vector = V>>(
+        event: &Event<V>,
+        observable: Option<usize>,
+        prepared: &S::Prepared,
+        state: &State<V>,
+    ) -> V::Scalar {
+        match (&event.function, observable) {
+            (Some(function), _) => function(state),
+            (None, Some(index)) => prepared.observable(index, state.t, &state.q, &state.p),
+            (None, None) => V::Scalar::zero(),
+        }
+    }
+
+    /// The functions at the first state.
+    fn begin<S: System<V::Scalar, Vector = V>>(
+        &mut self,
+        view: &View<'_, V::Scalar, S>,
+    ) -> Result<(), Error> {
+        // A step back tells where functions come from; a run may begin where there is none.
+        let back = V::Scalar::zero() - view.between.interval();
+        let before = view.between.part(view.state, back).ok();
+        self.tracks.clear();
+        for (number, event) in self.events.iter().enumerate() {
+            if V::Scalar::LANES > 1 {
+                return Err(self.refuse(number, "each lane has events of its own"));
+            }
+            let observable = S::observable_index(&event.name);
+            if event.function.is_none() && observable.is_none() {
+                return Err(self.refuse(number, "the system declares none of this name"));
+            }
+            if event
+                .period
+                .is_some_and(|period| side(period) <= 0 || !period.is_finite())
+            {
+                return Err(self.refuse(number, "its period is not positive and finite"));
+            }
+            let at = |state| Self::value::<S>(event, observable, view.prepared, state);
+            let value = event.difference(at(view.state));
+            let before = before
+                .as_ref()
+                .map(|before| event.difference(value - at(before)));
+            self.tracks.push(Track {
+                observable,
+                value,
+                change: (before.filter(|change| change.is_finite())).unwrap_or(V::Scalar::zero()),
+                side: side(value),
+                count: 0,
+            });
+        }
+        Ok(())
+    }
+
+    fn refuse(&self, event: usize, reason: &'static str) -> Error {
+        let name = self.events.get(event).map(|event| event.name.clone());
+        Error::Event {
+            name: name.unwrap_or_default(),
+            reason,
+        }
+    }
+
+    /// What happened in a step from `before` to the present state, in the order of time.
+    fn step<S: System<V::Scalar, Vector = V>>(
+        &mut self,
+        view: &View<'_, V::Scalar, S>,
+        before: &State<V>,
+    ) -> Result<(), Error> {
+        let time = view.between.between(before.t, view.state.t);
+        let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
+        // Parts of a step start anew. What a scheme carries besides the state is lost in them, so that the
+        // whole step misses the end; only rounding does elsewhere. In proportion, it ends there.
+        let missed = OnceCell::new();
+        let part = |theta: V::Scalar| -> Result<State<V>, Error> {
+            let mut state = view.between.part(before, theta * time)?;
+            if missed.get().is_none() {
+                let whole = view.between.part(before, time)?;
+                let _ = missed.set(whole);
+            }
+            let whole = missed.get().unwrap_or(view.state);
+            correct(&mut state.q, theta, &view.state.q, &whole.q);
+            correct(&mut state.p, theta, &view.state.p, &whole.p);
+            Ok(state)
+        };
+        let mut found: Vec<(V::Scalar, Located<V>)> = Vec::new();
+        for (number, (event, track)) in self.events.iter().zip(&mut self.tracks).enumerate() {
+            let at =
+                |state: &State<V>| Self::value::<S>(event, track.observable, view.prepared, state);
+            // Counted on from the value before, angles do not jump.
+            let from = track.value;
+            let counted = |value| from + event.difference(value - from);
+            let value = counted(at(view.state));
+            let mut function = |theta| Ok(counted(at(&part(theta)?)));
+            let start = Sample {
+                at: zero,
+                value: from,
+            };
+            let end = Sample { at: one, value };
+            let (now, was) = (side(value), track.side);
+            let falls = track.change * V::Scalar::constant(-2.0 * f64::from(was), 0.0);
+            let may_dip = was != 0 && now == was && from.abs().lt(falls).any();
+            let mut ends = Vec::new();
+            if was != 0 && now == -was {
+                ends.push((start, end));
+            } else if may_dip && let Some(middle) = dip(was, &mut function)? {
+                ends.extend([(start, middle), (middle, end)]);
+            }
+            for (left, right) in ends {
+                let rising = side(right.value) > 0;
+                let sample = match side(left.value) {
+                    0 => left,
+                    _ => root(left, right, &mut function)?,
+                };
+                // At poles and jumps values stay as large as they are at the ends.
+                let bound = left.value.magnitude().max(right.value.magnitude());
+                let is_end = [left, right]
+                    .iter()
+                    .any(|end| end.at.equals(sample.at).all());
+                let is_root = is_end || 2.0 * sample.value.magnitude() <= bound;
+                if !is_root || event.slope == -i8::from(rising) + i8::from(!rising) {
+                    continue;
+                }
+                let state = part(sample.at)?;
+                let located = Located {
+                    event: number,
+                    rising,
+                    state,
+                };
+                found.push((sample.at, located));
+            }
+            track.change = value - from;
+            track.value = event.difference(value);
+            match side(track.value) {
+                0 if value.is_finite() => {}
+                side => track.side = side,
+            }
+        }
+        // Stable: what happens at once comes in the order of the events.
+        found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
+        self.left
+            .extend(found.into_iter().map(|(_, located)| located));
+        Ok(())
+    }
+
+    /// Counts what happened, up to an event that ends the run.
+    fn count_up(&mut self) -> ControlFlow<()> {
+        while let Some(located) = self.left.pop_front() {
+            let number = located.event;
+            self.tracks[number].count += 1;
+            let ends = self.events[number].ends_after == Some(self.tracks[number].count);
+            self.end = ends.then(|| located.state.clone());
+            self.located.push(located);
+            if ends {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn fail(&mut self, error: Error) -> ControlFlow<()> {
+        self.failure = Some(error);
+        ControlFlow::Break(())
+    }
+}
+
+/// Adds `part` of the difference between an end and what was reached.
+fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
+    for index in 0..to.len() {
+        let missed = end.component(index) - reached.component(index);
+        let component = to.component_mut(index);
+        *component = part.fma(missed, *component);
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        self.before = Some((view.step, view.state.clone()));
+        match self.begin(view) {
+            Ok(()) => ControlFlow::Continue(()),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        let Some((step, mut before)) = self.before.take() else {
+            return <Self as Observer<T, S>>::attach(self, view);
+        };
+        // A run that ended between two steps may begin anew there, with another step.
+        let is_there = |end: &State<S::Vector>| end.t.equals(view.between.start()).all();
+        if let Some(end) = self.end.take().filter(is_there) {
+            self.left.clear();
+            let last = self.located.last().map(|located| located.event);
+            for (number, (event, track)) in self.events.iter().zip(&mut self.tracks).enumerate() {
+                let value = Self::value::<S>(event, track.observable, view.prepared, &end);
+                (track.value, track.change) = (event.difference(value), T::zero());
+                if last != Some(number) {
+                    track.side = side(track.value);
+                }
+            }
+            before = end;
+        }
+        let made = match view.step == step + 1 {
+            true => self.step(view, &before),
+            false => Err(self.refuse(0, "it is shown less than every step")),
+        };
+        before.clone_from(view.state);
+        self.before = Some((view.step, before));
+        match made {
+            Ok(()) => self.count_up(),
+            Err(error) => self.fail(error),
+        }
+    }
+
+    fn save(&self, to: &mut Memory) {
+        to.begin("Events");
+        to.count(self.tracks.len() as u64);
+        for (event, track) in self.events.iter().zip(&self.tracks) {
+            to.text(&event.name);
+            to.scalar(track.value);
+            to.scalar(track.change);
+            to.number(f64::from(track.side));
+            to.count(track.count);
+        }
+        let before = self.before.as_ref();
+        to.count(before.map_or(0, |(step, _)| *step));
+        to.option(before.map(|(_, state)| state));
+        to.option(self.end.as_ref());
+        for list in [self.located.len(), self.left.len()] {
+            to.count(list as u64);
+        }
+        for located in self.located.iter().chain(&self.left) {
+            to.count(located.event as u64);
+            to.count(u64::from(located.rising));
+            to.state(&located.state);
+        }
+    }
+
+    fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+        from.expect("Events")?;
+        self.begin(view)?;
+        from.expect_count("number of events", self.tracks.len())?;
+        for (event, track) in self.events.iter().zip(&mut self.tracks) {
+            from.expect(&event.name)?;
+            track.value = from.read_scalar()?;
+            track.change = from.read_scalar()?;
+            track.side = from.read_number()? as i8;
+            track.count = from.read_count()?;
+        }
+        let step = from.read_count()?;
+        self.before = from.read_option(view.state)?.map(|state| (step, state));
+        self.end = from.read_option(view.state)?;
+        let lists = [from.read_count()?, from.read_count()?];
+        let mut read = |count: u64| {
+            let one = |_| {
+                Ok(Located {
+                    event: from.read_index(self.events.len())?,
+                    rising: from.read_count()? != 0,
+                    state: from.read_state(view.state)?,
+                })
+            };
+            (0..count).map(one).collect::<Result<Vec<_>, Error>>()
+        };
+        self.located = read(lists[0])?;
+        self.left = read(lists[1])?.into();
+        Ok(())
+    }
+
+    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+        match &self.failure {
+            Some(error) => Err(error.clone()),
+            None => Ok(self.end.as_ref()),
+        }
+    }
+}

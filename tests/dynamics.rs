@@ -1,0 +1,74 @@
+//! Events of definitions, located by a run; how orbits depend on their starts and on parameters.
+
+use hamiltonian::prelude::*;
+
+hamiltonian! {
+    /// The Hénon–Heiles system.
+    pub struct HenonHeiles {}
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3;
+    event meridian = x
+}
+
+hamiltonian! {
+    /// The restricted problem of three bodies in the frame that turns, in two pieces: without bodies,
+    /// and what they pull.
+    pub struct Arenstorf { mu = 0.012277471 }
+    let r_earth = hypot(x + mu, y);
+    let r_moon = hypot(x - (1 - mu), y);
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + y*p_x - x*p_y - (1 - mu)/r_earth - mu/r_moon;
+    split {
+        free = (p_x^2 + p_y^2)/2 + y*p_x - x*p_y;
+        pull = -(1 - mu)/r_earth - mu/r_moon;
+    }
+    event axis = y
+}
+
+/// The regular orbit of which 306 upward crossings were confirmed in quadruple precision.
+fn regular() -> StateOf<HenonHeiles> {
+    State::new(
+        [0.0, 0.2587703282931232],
+        [-0.2525875586263492, -0.2178423952983717],
+    )
+}
+
+#[test]
+fn henon_heiles_crosses_the_meridian_306_times() {
+    let new = || Integrator::new(&HenonHeiles {}, BlanesMoan6, regular(), 0.1).unwrap();
+    let mut run = new().observe(Events::new([Event::named("meridian").rising()]));
+    run.advance_to(2000.0).unwrap();
+    let events = run.observer();
+    assert_eq!(events.count("meridian"), 306);
+    let mut plain = new();
+    for state in events.states("meridian") {
+        assert!(state.q[0].abs() <= 1e-15 && state.p[0] > 0.0, "{state:?}");
+        // The orbit of the scheme itself crosses within 1e-12 of that time.
+        let before = plain.advance_until(state.t - 1e-12).unwrap();
+        let after = plain.advance_until(state.t + 1e-12).unwrap();
+        assert!(before.q[0] < 0.0 && after.q[0] > 0.0, "{state:?}");
+    }
+    // Nobody asked, as far as the run is concerned.
+    assert_eq!(run.state(), plain.advance_to(2000.0).unwrap());
+}
+
+#[test]
+fn arenstorfs_orbit_closes() {
+    let period = 17.065_216_560_157_962;
+    let (x, v) = (0.994, -2.001_585_106_379_082_5);
+    let start: StateOf<Arenstorf> = State::new([x, 0.0], [0.0, v + x]);
+    let axis = Event::named("axis").falling();
+    let mut run = Integrator::new(
+        &Arenstorf::default(),
+        KahanLi8,
+        start.clone(),
+        period / 20_000.0,
+    )
+    .unwrap()
+    .observe(Events::new([axis]));
+    run.advance(20_010).unwrap();
+    let end = run.observer().states("axis").last().unwrap();
+    // κ = 2e6 and a pull of 340 on the spot: momenta are off by 340 times what the time is.
+    let off = (end.q - start.q).norm();
+    println!("off by {off:e} at {:e}", end.t - period);
+    assert!(off < 1e-8, "{off:e}");
+    assert!((end.t - period).abs() < 1e-8, "{:e}", end.t - period);
+}

@@ -1,23 +1,31 @@
 //! Størmer's problem: a charged particle in the field of a magnetic dipole, trapped as in the
-//! radiation belts of the Earth.
+//! radiation belts of the Earth; and one in a uniform field, trapped as in a laboratory.
+//!
+//! A field mixes q and p in H, so that no charge in one has T and V. But a uniform field alone is one
+//! piece with an exact flow, together with a uniform electric field too: one step goes as far as one
+//! likes. With any other potential it is one of two pieces, and a dipole is two pieces as well.
 //!
 //! The force does no work, so H is the kinetic energy; turning about the axis changes nothing, so
 //! the angular momentum about it is conserved, which is proven when this is compiled. The
 //! magnetic moment of the gyration, |v × B|²/(2|B|³), is conserved only nearly, as long as the
 //! orbit is narrow, and it is what mirrors the particle before the poles.
 //!
-//! Prints one orbit beside a solution in quadruple precision, and the period of the bounce between
+//! Prints an orbit in crossed fields and one in F. M. Penning's trap beside their closed forms, one in the
+//! dipole beside a solution in quadruple precision, and the period of the bounce between
 //! the mirrors beside the approximation 4R/v·(1.30 − 0.56 sin α) (W. N. Hess, The Radiation Belt and
 //! Magnetosphere, 1968). Look at `target/dipole/meridian.svg`: gyration, bounce and mirror in the
-//! plane that turns with the particle.
+//! plane that turns with the particle; at `energy.svg` and `trap.svg`, how far H moves.
 
 use checks::Checks;
+use energy::{Contest, print_pieces};
 use hamiltonian::prelude::*;
 use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
+#[path = "support/energy.rs"]
+mod energy;
 #[path = "support/plot.rs"]
 mod plot;
 
@@ -33,15 +41,84 @@ hamiltonian! {
     monitor magnetic_moment = norm_squared(cross([v_x, v_y, p_z], B))/(2*norm(B)^3)
 }
 
+hamiltonian! {
+    /// Charge and mass 1 in crossed fields: `B` along z, `E` along x.
+    pub struct Crossed { B = 2.0, E = 0.3 }
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + B*y/2)^2 + (p_y - B*x/2)^2 + p_z^2)/2 - E*x
+}
+
+hamiltonian! {
+    /// Charge and mass 1 in a field along z and the potential k(2z² − x² − y²)/2.
+    pub struct Trap { B = 2.0, k = 0.5 }
+    H(x, y, z; p_x, p_y, p_z) = ((p_x + B*y/2)^2 + (p_y - B*x/2)^2 + p_z^2)/2
+        + k*(2*z^2 - x^2 - y^2)/2;
+    split {
+        Gyration = ((p_x + B*y/2)^2 + (p_y - B*x/2)^2 + p_z^2)/2;
+        Potential = k*(2*z^2 - x^2 - y^2)/2;
+    }
+}
+
+/// The uniform field: in one step, and in a trap.
+fn in_uniform_field(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
+    let crossed = Crossed::default();
+    print_pieces(&crossed);
+    // From rest it rolls along −y on a cycloid of radius E/B².
+    let start = State::new([0.0; 3], [0.0; 3]);
+    let t = 1000.0;
+    let mut run = Integrator::new(&crossed, Strang, start, t)?;
+    let end = run.advance(1)?;
+    let (radius, turned) = (crossed.E / crossed.B.powi(2), crossed.B * t);
+    let (x, y) = (
+        radius * (1.0 - turned.cos()),
+        radius * (turned.sin() - turned),
+    );
+    checks.compare("crossed fields, one step of 1000: x", end.q[0], x, 1e-12);
+    checks.compare("crossed fields, one step of 1000: y", end.q[1], y, 1e-11);
+
+    let trap = Trap::default();
+    print_pieces(&trap);
+    let root = (trap.B.powi(2) - 4.0 * trap.k).sqrt();
+    let (fast, slow) = (0.5 * (trap.B + root), 0.5 * (trap.B - root));
+    let along = (2.0 * trap.k).sqrt();
+    // Two circles one on the other, and up and down: (x, y, z, ẋ, ẏ, ż).
+    let orbit = |t: f64| {
+        let circle = |radius: f64, omega: f64| {
+            let (sin, cos) = (omega * t).sin_cos();
+            let (x, y) = (radius * cos, -radius * sin);
+            [x, y, omega * y, -omega * x]
+        };
+        let ([a, b, c, d], [e, f, g, h]) = (circle(0.2, fast), circle(1.0, slow));
+        let (sin, cos) = (along * t).sin_cos();
+        let (x, y) = (a + e, b + f);
+        let p = [
+            c + g - trap.B * y / 2.0,
+            d + h + trap.B * x / 2.0,
+            -0.5 * along * sin,
+        ];
+        State::new([x, y, 0.5 * cos], p)
+    };
+    let mut run = Integrator::new(&trap, KahanLi8, orbit(0.0), 0.1)?;
+    let end = run.advance_to(100.0)?;
+    let known = orbit(100.0);
+    let off = (end.q - known.q).norm().max((end.p - known.p).norm());
+    checks.compare("trap, t = 100: off by", off, 0.0, 1e-10);
+    let mut contest = Contest::new(&trap, orbit(0.0), 0.1, 1e4);
+    contest.enter_others()?;
+    let second = contest.enter("gyration and kick, Strang", Strang)?;
+    contest.enter("the same, Blanes–Moan 4", BlanesMoan4)?;
+    contest.draw("Penning's trap, steps of 0.1", "target/dipole/trap.svg")?;
+    checks.compare("trap, Strang: max |H − H(0)|", second, 0.0, 1e-2);
+    Ok(())
+}
+
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let dipole = Dipole::default();
     let mut checks = Checks::default();
-    println!("{dipole}");
+    in_uniform_field(&mut checks)?;
 
-    // v mixes q and p, so H is not separable: Runge–Kutta where a short orbit is to be exact, the
-    // implicit midpoint rule, which is symplectic for every H, where the run is long.
+    print_pieces(&dipole);
     let start = State::new([1.2, 0.3, 0.2], [0.1, -0.2, 0.3]);
-    let mut run = Integrator::new(&dipole, RungeKutta4, start, 1e-3)?;
+    let mut run = Integrator::new(&dipole, KahanLi8, start, 0.01)?;
     let end = run.advance_to(20.0)?;
     let known = [
         ("x", end.q[0], 12.085803855002737),
@@ -52,7 +129,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("p_z", end.p[2], 0.5313978164539163),
     ];
     for (name, found, known) in known {
-        checks.compare(format!("{name} at t = 20"), found, known, 1e-9);
+        checks.compare(format!("dipole, t = 20: {name}"), found, known, 1e-11);
     }
 
     // At the equator, 45° to the field, slow enough to gyrate on 1/70 of the distance.
@@ -63,7 +140,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         [1.0, 0.0, 0.0],
         [speed * pitch.sin(), 1.0, speed * pitch.cos()],
     );
-    let mut run = Integrator::new(&dipole, ImplicitMidpoint::default(), start, 0.1)?
+    let mut contest = Contest::new(&dipole, start.clone(), 0.1, 2e4);
+    contest.enter_others()?;
+    contest.enter("exact flows, Strang", Strang)?;
+    contest.enter("exact flows, Blanes–Moan 4", BlanesMoan4)?;
+    contest.draw(
+        "Trapped by a dipole, steps of 0.1",
+        "target/dipole/energy.svg",
+    )?;
+
+    let mut run = Integrator::new(&dipole, BlanesMoan4, start, 0.1)?
         .observe((EnergyDrift::new(), Monitors::new()));
     let mut meridian = Vec::new();
     let mut crossings = Vec::new();

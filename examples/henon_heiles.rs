@@ -6,9 +6,11 @@
 //! they fill an area. At H = 1/8 there are both.
 //!
 //! Prints an orbit beside a solution in quadruple precision and its number of crossings; look at
-//! `target/henon_heiles/section.svg`: each orbit in one colour.
+//! `target/henon_heiles/section.svg`: each orbit in one colour. The same in polar coordinates, where the
+//! momentum of the angle stands beside r, falls into free flight and a kick: `polar.svg`.
 
 use checks::Checks;
+use energy::{Contest, print_pieces};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
 use plot::{Curve, Figure};
@@ -16,6 +18,8 @@ use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
+#[path = "support/energy.rs"]
+mod energy;
 #[path = "support/plot.rs"]
 mod plot;
 
@@ -24,6 +28,13 @@ hamiltonian! {
     pub struct HenonHeiles {}
     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3;
     event meridian = x
+}
+
+hamiltonian! {
+    /// The same in polar coordinates.
+    pub struct Polar {}
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3;
+    coordinates polar(x, y)
 }
 
 const STEP: f64 = 0.02;
@@ -75,6 +86,22 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         306.0,
         0.0,
     );
+
+    let start = Polar {}.from_declared(&State::new([regular.0, regular.1], [regular.2, regular.3]));
+    print_pieces(&Polar {});
+    let mut run = Integrator::new(&Polar {}, KahanLi8, start.clone(), 0.05)?;
+    let end = Polar {}.to_declared(run.advance_to(100.0)?);
+    checks.compare("polar, t = 100: x", end.q[0], -0.12050586173746139, 1e-12);
+    checks.compare("polar, t = 100: p_x", end.p[0], 0.0494084540741289, 1e-12);
+    let mut contest = Contest::new(&Polar {}, start, 0.05, 1e4);
+    contest.enter_others()?;
+    contest.enter("exact flows, Strang", Strang)?;
+    let fourth = contest.enter("exact flows, Blanes–Moan 4", BlanesMoan4)?;
+    contest.draw(
+        "Hénon–Heiles in polar coordinates, steps of 0.05",
+        "target/henon_heiles/polar.svg",
+    )?;
+    checks.compare("polar, Blanes–Moan 4: max |H − H(0)|", fourth, 0.0, 1e-8);
 
     let mut curves = Vec::new();
     for (y, p_y) in [

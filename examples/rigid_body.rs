@@ -58,7 +58,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     checks.compare("body, t = 20: g", end.q[1], 20.632_978_680_799_48, 1e-12);
     checks.compare("body, t = 20: L", end.p[0], -0.591_721_023_341_516_3, 1e-12);
     // L comes back after each period of the spin in the body, and l with it.
-    let period = 13.510_502_678_700_289;
+    let period = 13.510_502_678_700_29;
     let mut run = Integrator::new(&body, KahanLi8, start.clone(), period / 300.0)?;
     let end = run.advance(300)?;
     checks.compare("body, after a period: L", end.p[0], 0.5, 1e-12);

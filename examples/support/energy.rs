@@ -1,7 +1,7 @@
 //! How well schemes keep H, side by side: the largest |H − H(0)| since the last point of a curve,
 //! against time, both axes logarithmic.
 
-use crate::plot::{Curve, Figure};
+use super::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::{Scheme, Split, Unforced, View};
 use std::fmt::Display;
@@ -77,7 +77,11 @@ impl<'a, S: System<f64>> Contest<'a, S> {
             1e9 * each,
             if broken { " and no further" } else { "" }
         );
-        // The start has no place on a logarithmic axis.
+        // The start has no place on a logarithmic axis, and of a run that has lost H a hundred times
+        // over nothing is left to see.
+        let lost = 100.0 * energy.abs().max(1.0);
+        let until = points.iter().position(|(_, moved)| *moved > lost);
+        points.truncate(until.unwrap_or(points.len()));
         points.retain(|(t, _)| *t > 0.0);
         self.curves.push(Curve {
             name: name.into(),

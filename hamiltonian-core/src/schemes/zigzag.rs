@@ -9,14 +9,14 @@
 //! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 
-use super::table::Table;
+use super::table::{Table, Weight};
 use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Carried, Point};
 use crate::system::System;
 use crate::vector::Vector;
 use core::fmt;
-use hamiltonian_lanes::Real;
+use hamiltonian_lanes::{DoubleDouble, Real};
 
 /// The map of the table `W` on the pieces `K` of a system.
 pub type ZigzagOf<T, S, K, W> = Zigzag<
@@ -67,6 +67,45 @@ impl<F> Link<F> {
     }
 }
 
+/// Durations as differences of partial sums, each rounded to a multiple of an ulp of 4h at least: sums
+/// of them are exact, the last is h, and rounding of the weights makes no motion run fast or slow.
+struct PartialSums<T> {
+    h: T,
+    weights: DoubleDouble,
+    reached: T,
+}
+
+impl<T: Real> PartialSums<T> {
+    fn new(h: T) -> Self {
+        PartialSums {
+            h,
+            weights: DoubleDouble::from(0.0),
+            reached: T::zero(),
+        }
+    }
+
+    /// The duration of the weight after those before.
+    fn next(&mut self, weight: Weight) -> T {
+        // Of a table's last digits.
+        const ROUNDING: f64 = 1e-28;
+        if weight == Weight(0.0, 0.0) {
+            return T::zero();
+        }
+        self.weights += weight.to::<DoubleDouble>();
+        let before = self.reached;
+        let is_whole = (self.weights - DoubleDouble::from(1.0)).hi().abs() < ROUNDING;
+        self.reached = if is_whole {
+            self.h
+        } else {
+            // The sum, of a few h at most, loses the digits below those of 4h.
+            let far = T::constant(8.0, 0.0) * self.h;
+            let sum = T::constant(self.weights.hi(), self.weights.lo()) * self.h;
+            (sum + far) - far
+        };
+        self.reached - before
+    }
+}
+
 /// One stage with its weights folded into the flows.
 #[derive(Debug, Clone)]
 struct Stage<T, O, I> {
@@ -110,20 +149,55 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
     where
         K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
     {
-        let h = step.h;
         let before = before.stages();
-        let closing_before = (before.as_ref().last()).map_or(X::Scalar::zero(), |(_, up)| up.to());
+        let closing = (before.as_ref().last()).map_or(X::Scalar::zero(), |(_, up)| up.to());
+        let closing = closing * step.before;
+        let duration = |weight: Weight| weight.to::<X::Scalar>() * step.h;
+        Self::with(table, pieces, prepared, step.h, duration, closing)
+    }
+
+    /// The same with durations that add up to the step exactly.
+    #[inline(always)]
+    pub(super) fn exact<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
+    where
+        K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
+    {
+        let mut sums = PartialSums::new(step.before);
+        let mut closing = X::Scalar::zero();
+        for (down, up) in table.stages().as_ref() {
+            sums.next(*down);
+            closing = sums.next(*up);
+        }
+        let mut sums = PartialSums::new(step.h);
+        let duration = |weight: Weight| sums.next(weight);
+        Self::with(table, pieces, prepared, step.h, duration, closing)
+    }
+
+    /// With the duration of each weight, asked for in the order of the table.
+    #[inline(always)]
+    fn with<P, K>(
+        table: &W,
+        pieces: &K,
+        prepared: &P,
+        h: X::Scalar,
+        mut duration: impl FnMut(Weight) -> X::Scalar,
+        closing_before: X::Scalar,
+    ) -> Self
+    where
+        K: Pieces<X::Scalar, P, Point = X, Outer = O, Inner = I>,
+    {
         let zero = X::Scalar::zero();
         let outer = |c| pieces.outer(prepared, c);
+        let durations = W::map(table.stages(), |(down, up)| (duration(down), duration(up)));
+        let durations = durations.as_ref();
+        let opening = durations.first().map_or(zero, |(down, _)| *down);
+        let closing = durations.last().map_or(zero, |(_, up)| *up);
         let weights = table.stages();
-        let weights = weights.as_ref();
-        let opening = weights
-            .first()
-            .map_or(zero, |(down, _)| down.to::<X::Scalar>());
-        let closing = weights.last().map_or(zero, |(_, up)| up.to::<X::Scalar>());
-        let mut outer_time = opening;
+        let first = (weights.as_ref().first()).map_or(zero, |(down, _)| down.to::<X::Scalar>());
+        let mut outer_time = first;
         let mut inner_time = zero;
-        let mut following = weights.iter().skip(1);
+        let mut following = weights.as_ref().iter().skip(1);
+        let mut lasting = durations.iter();
         let stages = W::map(table.stages(), |(down, up)| {
             let (down, up) = (down.to::<X::Scalar>(), up.to::<X::Scalar>());
             let next = following
@@ -132,16 +206,18 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
             let inner_at = outer_time * h;
             inner_time += down + up;
             outer_time += up + next;
+            let (down, up) = lasting.next().map_or((zero, zero), |durations| *durations);
+            let next = lasting.as_slice().first().map_or(zero, |(down, _)| *down);
             Stage {
-                inner: pieces.inner(prepared, down * h, up * h),
+                inner: pieces.inner(prepared, down, up),
                 inner_at,
-                outer: Link::new::<X>(outer, up * h, next * h),
+                outer: Link::new::<X>(outer, up, next),
                 outer_at: inner_time * h,
             }
         });
         Zigzag {
-            opening: (opening != zero).then(|| outer(opening * h)),
-            joining: Link::new::<X>(outer, closing_before * step.before, opening * h),
+            opening: (opening != zero).then(|| outer(opening)),
+            joining: Link::new::<X>(outer, closing_before, opening),
             closes: closing != zero,
             stages,
         }

@@ -3,7 +3,7 @@
 
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Scheme, Vector};
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;
@@ -91,4 +91,8 @@ fn no_step_allocates() {
     visit_unforced::<f64, _>(&mut pendulum);
     visit_separable::<f64, _>(&mut pendulum);
     visit_split::<f64, _>(&mut pendulum);
+    visit_implicit::<f64, _>(&mut pendulum);
+    visit_doubled::<f64, _>(&mut pendulum);
+    visit_compensated::<f64, _>(&mut pendulum);
+    Visitor::<f64, _>::visit(&mut chain, Variational::<1, 2>::lobatto());
 }

@@ -5,7 +5,7 @@ use crate::common::{difference, start};
 use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Scheme, Vector, View};
 
 type Heiles = Hand<HenonHeiles, 2>;
@@ -129,6 +129,11 @@ fn every_scheme_makes_parts_of_its_step() {
     visit_unforced(&mut Parts);
     visit_separable(&mut Parts);
     visit_split(&mut Parts);
+    // Other tables are other numbers.
+    Parts.visit(KahanLi8);
+    visit_implicit(&mut Parts);
+    visit_doubled(&mut Parts);
+    visit_compensated(&mut Parts);
 }
 
 /// A part that fails says so; the run stands where it stood.
@@ -218,6 +223,7 @@ fn the_step_can_be_changed() {
     visit_unforced(&mut Changes);
     visit_separable(&mut Changes);
     visit_split(&mut Changes);
+    Changes.visit(Srkn6b);
     // The second copy is a new one too.
     let mut run = Integrator::new(
         &Hand(Paper34),

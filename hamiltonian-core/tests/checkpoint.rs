@@ -3,7 +3,7 @@
 use crate::common::start;
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::schemes::*;
 use hamiltonian_core::{CheckpointError, Deviation, DoubleDouble, Every, Listed, Scheme, Vector};
 use std::path::PathBuf;
 
@@ -60,6 +60,11 @@ fn every_scheme_goes_on_with_the_same_bits() {
     visit_unforced::<f64, _>(&mut pumped);
     visit_separable::<f64, _>(&mut pumped);
     visit_split::<f64, _>(&mut pumped);
+    // Other tables are other numbers.
+    Visitor::<f64, _>::visit(&mut pumped, KahanLi8);
+    visit_implicit::<f64, _>(&mut pumped);
+    visit_doubled::<f64, _>(&mut pumped);
+    visit_compensated::<f64, _>(&mut pumped);
     let mut pendulum = Resumes(pendulum(true));
     visit_any::<f64, _>(&mut pendulum);
     visit_unforced::<f64, _>(&mut pendulum);

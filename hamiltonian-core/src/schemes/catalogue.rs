@@ -147,8 +147,6 @@ implicit {
     Gauss::<2>::default(),
     Variational::<1, 2>::lobatto(),
     Variational::<2, 2>::lobatto(),
-    Variational::<2, 3>::lobatto(),
-    Variational::<3, 3>::lobatto(),
     DiscreteGradient::default(),
     Semiexplicit::<Strang>::default(),
 }

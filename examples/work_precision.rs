@@ -1,16 +1,25 @@
-//! Work against precision: what a digit costs with each scheme, on a separable system and on one that is
-//! not.
+//! Work against precision: what a digit costs with each scheme.
 //!
-//! Writes `target/work_precision/separable.svg` (Hénon–Heiles) and `any.svg` (the paper's (34)): the
-//! error of the end point against the time that the run took, for steps halved again and again; and
-//! prints, for some errors, which scheme was the fastest. Times are this machine's.
+//! Three races: Hénon–Heiles, which is separable; the paper's (34) and an orbit round a black hole, which
+//! are not, but fall into pieces with exact flows. There each order has its own race: compositions of
+//! exact flows beside the implicit midpoint rule and Gauss's schemes, M. Tao's doubled phase space and the
+//! symmetric projection of it.
+//!
+//! Writes to `target/work_precision/`, for each race, how far H moved (`…_energy.svg`) and how far the end
+//! point is off (`…_end.svg`) against the time that a unit of time takes, for steps halved again and again;
+//! numbers at curves are orders. Prints tables of it. Times are this machine's; that each error of H
+//! falls with its order is checked.
 
+use checks::Checks;
 use hamiltonian::prelude::*;
-use hamiltonian::{Scheme, hamiltonian};
+use hamiltonian::{Exact, Scheme, Split, Unforced, hamiltonian};
 use plot::{Curve, Figure};
+use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use std::time::Instant;
 
+#[path = "support/checks.rs"]
+mod checks;
 #[path = "support/plot.rs"]
 mod plot;
 
@@ -21,147 +30,283 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// The paper's equation (34).
+    /// The paper's equation (34), in pieces that take little time.
     pub struct NonSeparable {}
-    H(q; p) = 0.5*(q^2 + 1)*(p^2 + 1)
+    H(q; p) = 0.5*(q^2 + 1)*(p^2 + 1);
+    split {
+        Turning = (q^2 + p^2)/2 + 0.5;
+        Scaling = q^2*p^2/2;
+    }
 }
+
+hamiltonian! {
+    /// An orbit round a black hole in Schwarzschild's coordinates, in pieces that take little time.
+    pub struct Schwarzschild { E = 0.995, L = 4.6 }
+    H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2)
+        - E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
+    split {
+        Potential = -E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
+        Turning = p_theta^2/(2*r^2);
+        Radial = p_r^2/2;
+        Falling = -p_r^2/r;
+    }
+}
+
+/// The errors that are asked for.
+const GOALS: [f64; 4] = [1e-4, 1e-6, 1e-8, 1e-10];
 
 /// Runs to one time from one start, and how far their ends are from the exact one.
 struct Race<'a, S: System<f64>> {
+    name: &'a str,
     system: &'a S,
     start: State<S::Vector>,
     end: f64,
     exact: State<S::Vector>,
-    curves: Vec<Curve>,
+    /// Steps of the first run of a scheme with one stage.
+    steps: u64,
+    entries: Vec<Entered>,
 }
 
-impl<S: System<f64>> Race<'_, S> {
-    /// The end point with so many steps, and the seconds it took: the least of three.
-    fn run<M: Scheme<f64, S>>(&self, scheme: &M, steps: u64) -> Result<(f64, f64), Error> {
-        let h = self.end / steps as f64;
-        let mut seconds = f64::INFINITY;
-        let mut distance = f64::NAN;
-        for _ in 0..3 {
-            let mut run = Integrator::new(self.system, scheme.clone(), self.start.clone(), h)?;
-            let begin = Instant::now();
-            let end = run.advance(steps)?;
-            seconds = seconds.min(begin.elapsed().as_secs_f64());
-            let of_q = hamiltonian::Vector::distance(&end.q, &self.exact.q);
-            distance = of_q.max(hamiltonian::Vector::distance(&end.p, &self.exact.p));
-        }
-        Ok((distance, seconds))
+/// What came of a scheme.
+struct Entered {
+    kind: &'static str,
+    name: String,
+    order: u32,
+    runs: Vec<Ran>,
+}
+
+/// What came of a run.
+#[derive(Clone, Copy)]
+struct Ran {
+    /// Nanoseconds for a unit of time.
+    nanoseconds: f64,
+    /// max |H/H(0) − 1|
+    of_energy: f64,
+    /// How far the end point is from the exact one.
+    of_end: f64,
+}
+
+/// One of the errors of a run.
+type Measure = fn(&Ran) -> f64;
+/// The errors that a scheme is judged by.
+const MEASURES: [(&str, &str, Measure); 2] = [
+    ("max |H/H(0) − 1|", "energy", |ran| ran.of_energy),
+    ("error of the end point", "end", |ran| ran.of_end),
+];
+
+impl Entered {
+    /// The nanoseconds that an error takes, by the straight line between two runs.
+    fn nanoseconds(&self, error: Measure, goal: f64) -> Option<f64> {
+        let mut pairs = self.runs.windows(2);
+        let pair = pairs.find(|pair| error(&pair[0]) >= goal && error(&pair[1]) < goal)?;
+        let (a, b) = (pair[0], pair[1]);
+        let part = (goal / error(&a)).ln() / (error(&b) / error(&a)).ln();
+        Some(a.nanoseconds * (b.nanoseconds / a.nanoseconds).powf(part))
     }
 
-    /// One scheme from `steps` steps on, until its error is rounding or a run takes too long.
-    fn enter<M: Scheme<f64, S>>(&mut self, scheme: M, mut steps: u64) -> Result<(), Error> {
+    /// By which power of the step the error of H fell, over the last halvings that rounding is far from.
+    fn slope(&self) -> f64 {
+        let errors = self.runs.iter().map(|ran| ran.of_energy);
+        let clear: Vec<_> = errors.filter(|error| *error > 1e-11).collect();
+        match clear[..] {
+            [.., a, _, c] => 0.5 * (a / c).log2(),
+            [a, b] => (a / b).log2(),
+            _ => f64::NAN,
+        }
+    }
+}
+
+impl<'a, S: System<f64>> Race<'a, S> {
+    /// A run of so many steps: the least time of five, and its errors, which take no time of theirs.
+    fn run<M: Scheme<f64, S>>(&self, scheme: &M, steps: u64) -> Result<Ran, Error> {
+        let h = self.end / steps as f64;
+        let begin = || Integrator::new(self.system, scheme.clone(), self.start.clone(), h);
+        let mut run = begin()?.observe(EnergyDrift::new());
+        let end = run.advance(steps)?;
+        let of_q = hamiltonian::Vector::distance(&end.q, &self.exact.q);
+        let of_end = of_q.max(hamiltonian::Vector::distance(&end.p, &self.exact.p));
+        let of_energy = run.observer().max_relative();
+        let mut nanoseconds = f64::INFINITY;
+        for _ in 0..5 {
+            let mut run = begin()?;
+            let clock = Instant::now();
+            run.advance(steps)?;
+            nanoseconds = nanoseconds.min(1e9 * clock.elapsed().as_secs_f64() / self.end);
+        }
+        Ok(Ran {
+            nanoseconds,
+            of_energy,
+            of_end,
+        })
+    }
+
+    /// One scheme, its steps halved until its errors are rounding or a run takes too long.
+    fn enter<M: Scheme<f64, S>>(&mut self, kind: &'static str, scheme: M, stages: u64) {
         let entry = scheme.entry();
-        let mut points = Vec::new();
-        for _ in 0..8 {
+        let name = match entry.name {
+            name @ ("Semiexplicit" | "Gauss") => format!("{name}, {}", entry.variant),
+            name => name.to_string(),
+        };
+        let mut steps = (self.steps / stages).max(1);
+        let mut runs = Vec::new();
+        for _ in 0..14 {
             // A step too long to be solved is no point.
-            if let Ok((error, seconds)) = self.run(&scheme, steps) {
-                points.push((seconds.log10(), error.max(1e-16)));
-                if error < 1e-12 || seconds > 0.2 {
+            if let Ok(ran) = self.run(&scheme, steps) {
+                runs.push(ran);
+                let is_exact = ran.of_energy.max(ran.of_end) < 1e-11 || ran.of_energy < 1e-13;
+                if is_exact || ran.nanoseconds * self.end > 2e6 {
                     break;
                 }
             }
             steps *= 2;
         }
-        let name = match entry.name {
-            "Semiexplicit" | "MidpointProjected" | "Gauss" => {
-                format!("{}, {}", entry.name, entry.variant)
+        self.entries.push(Entered {
+            kind,
+            name,
+            order: entry.order,
+            runs,
+        });
+    }
+
+    /// Exact flows of pieces and what takes any H, order by order.
+    fn enter_all(&mut self)
+    where
+        S: Split<f64> + Exact + Unforced,
+    {
+        let flows = "exact flows";
+        self.enter(flows, Strang, 1);
+        self.enter(flows, BlanesMoan4, 6);
+        self.enter(flows, BlanesMoan6, 10);
+        self.enter(flows, KahanLi8, 17);
+        let gauss = "midpoint, Gauss";
+        self.enter(gauss, ImplicitMidpoint::default(), 1);
+        self.enter(gauss, Gauss::<2>::default(), 4);
+        self.enter(gauss, Gauss::<3>::default(), 8);
+        self.enter(gauss, Gauss::<4>::default(), 16);
+        let projected = "semiexplicit";
+        self.enter(projected, Semiexplicit::<Strang>::default(), 1);
+        self.enter(projected, Semiexplicit::<BlanesMoan4>::default(), 6);
+        self.enter(projected, Semiexplicit::<BlanesMoan6>::default(), 10);
+        self.enter(projected, Semiexplicit::<KahanLi8>::default(), 17);
+    }
+
+    /// The tables, for a README, and the figures; the error of H is to fall with its order or faster.
+    fn finish(self, checks: &mut Checks, file: &str) -> Result<(), Box<dyn std::error::Error>> {
+        let mut entries = self.entries;
+        for entry in &entries {
+            let (name, order) = (format!("{file}: {}", entry.name), f64::from(entry.order));
+            checks.compare(name, entry.slope().min(order), order, 0.3);
+        }
+        for (what, measure, error) in MEASURES {
+            entries.sort_by_key(|entry| entry.order);
+            println!("\n{}: nanoseconds for a unit of time, by {what}", self.name);
+            print!("| order | scheme |");
+            for goal in GOALS {
+                print!(" {goal:.0e} |");
             }
-            name => name.to_string(),
-        };
-        self.curves.push(Curve { name, points });
+            println!("\n|---|---|{}", "---|".repeat(GOALS.len()));
+            for entry in &entries {
+                print!("| {} | {} |", entry.order, entry.name);
+                for goal in GOALS {
+                    let cell = entry.nanoseconds(error, goal);
+                    print!(" {} |", cell.map_or("–".into(), |ns| format!("{ns:.0}")));
+                }
+                println!();
+            }
+            entries.sort_by_key(|entry| entry.kind);
+            let of_run = |ran: &Ran| (ran.nanoseconds, error(ran).max(1e-16));
+            let of_entry = |entry: &Entered| Curve {
+                name: entry.kind.into(),
+                points: entry.runs.iter().map(of_run).collect(),
+            };
+            let mark = |entry: &Entered| {
+                let last = entry.runs.last()?;
+                Some((of_run(last), entry.order.to_string()))
+            };
+            let path = format!("target/work_precision/{file}_{measure}.svg");
+            Figure {
+                title: self.name,
+                x: "nanoseconds for a unit of time",
+                y: what,
+                logarithmic: true,
+                decades: true,
+                legend_right: true,
+                marks: entries.iter().filter_map(mark).collect(),
+                curves: entries.iter().map(of_entry).collect(),
+                ..Default::default()
+            }
+            .write(Path::new(&path))?;
+            println!("Written to {path}");
+        }
         Ok(())
     }
-
-    /// Which scheme was the fastest to an error, by the straight line between two runs.
-    fn print(&self, title: &str) {
-        println!("{title}");
-        for goal in [1e-4, 1e-6, 1e-8, 1e-10] {
-            let time = |curve: &Curve| {
-                let pair =
-                    (curve.points.windows(2)).find(|pair| pair[0].1 >= goal && pair[1].1 < goal)?;
-                let (a, b) = (pair[0], pair[1]);
-                let part = (goal / a.1).ln() / (b.1 / a.1).ln();
-                Some(10_f64.powf(a.0 + part * (b.0 - a.0)))
-            };
-            let mut times: Vec<_> = (self.curves.iter())
-                .filter_map(|curve| Some((time(curve)?, &curve.name)))
-                .collect();
-            times.sort_by(|a, b| a.0.total_cmp(&b.0));
-            let best: Vec<_> = (times.iter().take(3))
-                .map(|(seconds, name)| format!("{name} {:.2} ms", 1e3 * seconds))
-                .collect();
-            println!("  error {goal:.0e}: {}", best.join("; "));
-        }
-    }
-
-    fn draw(self, title: &str, file: &str) -> Result<(), Box<dyn std::error::Error>> {
-        Figure {
-            title,
-            x: "log₁₀ of the seconds the run took",
-            y: "error of the end point",
-            logarithmic: true,
-            curves: self.curves,
-            ..Default::default()
-        }
-        .write(&Path::new("target/work_precision").join(file))
-    }
-}
-
-/// A race whose exact end is that of `scheme` with so many steps.
-fn race<'a, S: System<f64>, M: Scheme<f64, S>>(
-    system: &'a S,
-    start: State<S::Vector>,
-    end: f64,
-    scheme: M,
-    steps: u64,
-) -> Result<Race<'a, S>, Error> {
-    let mut run = Integrator::new(system, scheme, start.clone(), end / steps as f64)?;
-    let exact = run.advance(steps)?.clone();
-    Ok(Race {
-        system,
-        start,
-        end,
-        exact,
-        curves: Vec::new(),
-    })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let galaxy = Galaxy {};
+    let mut checks = Checks::default();
+
+    let system = Galaxy {};
     let start = State::new([0.12, 0.23], [0.31, -0.17]);
-    let mut separable = race(
-        &galaxy,
-        start,
-        100.0,
+    let mut run = Integrator::new(
+        &system,
         Compensated(SofroniouSpaletta10),
-        2_000,
+        start.clone(),
+        0.02,
     )?;
-    separable.enter(StormerVerlet::default(), 200)?;
-    separable.enter(BlanesMoan4, 50)?;
-    separable.enter(BlanesMoan6, 50)?;
-    separable.enter(Srkn11b, 50)?;
-    separable.enter(KahanLi8, 50)?;
-    separable.enter(BlanesCasasEscorihuela8, 25)?;
-    separable.enter(SofroniouSpaletta10, 25)?;
-    separable.print("Hénon–Heiles, to t = 100");
-    separable.draw("Hénon–Heiles: error against work", "separable.svg")?;
+    let mut race = Race {
+        name: "Hénon–Heiles, to t = 50",
+        system: &system,
+        start,
+        end: 50.0,
+        exact: run.advance_to(50.0)?.clone(),
+        steps: 100,
+        entries: Vec::new(),
+    };
+    let kicks = "compositions";
+    race.enter(kicks, StormerVerlet::default(), 1);
+    race.enter(kicks, BlanesMoan4, 6);
+    race.enter(kicks, BlanesMoan6, 10);
+    race.enter(kicks, KahanLi8, 17);
+    race.enter(kicks, SofroniouSpaletta10, 35);
+    let nystrom = "for T = ½pᵀM⁻¹p";
+    race.enter(nystrom, Srkn6b, 6);
+    race.enter(nystrom, Srkn11b, 11);
+    race.enter(nystrom, BlanesCasasEscorihuela8, 19);
+    race.finish(&mut checks, "henon_heiles")?;
 
     let system = NonSeparable {};
     let start = State::new([-3.0], [0.0]);
-    let mut any = race(&system, start, 20.0, Gauss::<8>::default(), 1_000)?;
-    any.enter(ImplicitMidpoint::default(), 400)?;
-    any.enter(Tao { omega: 20.0 }, 1_600)?;
-    any.enter(Gauss::<2>::default(), 100)?;
-    any.enter(Gauss::<4>::default(), 50)?;
-    any.enter(Semiexplicit::<BlanesMoan4>::default(), 100)?;
-    any.enter(Semiexplicit::<KahanLi8>::default(), 50)?;
-    any.enter(MidpointProjected::<KahanLi8>::default(), 50)?;
-    any.print("H = ½(q² + 1)(p² + 1), to t = 20");
-    any.draw("H = ½(q² + 1)(p² + 1): error against work", "any.svg")?;
-    println!("Written to target/work_precision: separable.svg, any.svg");
-    Ok(())
+    let mut race = Race {
+        name: "H = ½(q² + 1)(p² + 1), to t = 10",
+        system: &system,
+        start,
+        end: 10.0,
+        // −3·cn(√10·t | 0.9), and p = q̇/(q² + 1).
+        exact: State::new([-2.402_238_313_100_827], [0.690_609_507_457_253_5]),
+        steps: 400,
+        entries: Vec::new(),
+    };
+    race.enter_all();
+    race.enter("Tao, ω = 20", Tao { omega: 20.0 }, 1);
+    race.finish(&mut checks, "paper34")?;
+
+    let system = Schwarzschild::default();
+    let start = State::new([11.0, FRAC_PI_2], [0.0, 2.062_449_325_976_816]);
+    let mut race = Race {
+        name: "Round a black hole, to τ = 1000",
+        system: &system,
+        start,
+        end: 1000.0,
+        // From a solution in quadruple precision.
+        exact: State::new(
+            [122.486_719_036_045, 1.495_696_594_046_55],
+            [0.069_598_468_153_017_1, -2.033_200_752_273_33],
+        ),
+        steps: 400,
+        entries: Vec::new(),
+    };
+    race.enter_all();
+    race.enter("Tao, ω = 0.1", Tao { omega: 0.1 }, 1);
+    race.finish(&mut checks, "schwarzschild")?;
+    checks.finish()
 }

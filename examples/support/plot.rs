@@ -7,7 +7,7 @@ use std::error::Error;
 use std::ops::Range;
 use std::path::Path;
 
-/// A named curve.
+/// A named curve. Curves of one name have one colour and one line in the legend.
 pub struct Curve {
     pub name: String,
     pub points: Vec<(f64, f64)>,
@@ -27,6 +27,10 @@ pub struct Figure<'a> {
     pub logarithmic: bool,
     /// Whether x is on a logarithmic axis too.
     pub decades: bool,
+    /// Whether the legend stands on the right.
+    pub legend_right: bool,
+    /// Words at points.
+    pub marks: Vec<((f64, f64), String)>,
     /// The range of y; of all curves if `None`.
     pub range: Option<Range<f64>>,
     pub curves: Vec<Curve>,
@@ -83,6 +87,17 @@ impl Figure<'_> {
         Ok(())
     }
 
+    /// The names of the curves, each once; those without a name are all different.
+    fn names(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for curve in &self.curves {
+            if curve.name.is_empty() || !names.contains(&curve.name.as_str()) {
+                names.push(&curve.name);
+            }
+        }
+        names
+    }
+
     fn draw_all(&self, text: &mut String, size: (u32, u32)) -> Result<(), Box<dyn Error>> {
         let drawing = SVGBackend::with_string(text, size).into_drawing_area();
         drawing.fill(&WHITE)?;
@@ -111,7 +126,7 @@ impl Figure<'_> {
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
             let largest = shown().fold(f64::NEG_INFINITY, f64::max);
             // Room for the legend above the curves, a line of it each.
-            let room = (0.05 * (1 + self.curves.len()) as f64).max(0.2);
+            let room = (0.05 * (1 + self.names().len()) as f64).max(0.2);
             let y = self
                 .range
                 .clone()
@@ -177,8 +192,15 @@ impl Figure<'_> {
             .light_line_style(WHITE.mix(0.0))
             .bold_line_style(BLACK.mix(0.12).stroke_width(FINE))
             .draw()?;
-        for (curve, colour) in self.curves.iter().zip(COLOURS.iter().cycle()) {
-            let colour = *colour;
+        let names = self.names();
+        let mut legend = 0;
+        for (number, curve) in self.curves.iter().enumerate() {
+            let named = names
+                .iter()
+                .position(|name| *name == curve.name && !name.is_empty());
+            let colour = COLOURS[named.unwrap_or(number) % COLOURS.len()];
+            let is_first = named.is_none_or(|named| named == legend);
+            legend += usize::from(is_first);
             if self.dots {
                 let points = curve.points.iter();
                 let dots = points.filter_map(|(x, y)| {
@@ -202,7 +224,7 @@ impl Figure<'_> {
                     colour.stroke_width(2 * FINE),
                 );
                 let drawn = chart.draw_series(line)?;
-                if number == 0 {
+                if number == 0 && is_first {
                     drawn.label(&curve.name).legend(move |(x, y)| {
                         PathElement::new(
                             [(x, y), (x + 24 * FINE as i32, y)],
@@ -212,12 +234,27 @@ impl Figure<'_> {
                 }
             }
         }
+        let font = ("sans-serif", 14 * FINE).into_font();
+        chart.draw_series(self.marks.iter().filter_map(|((x, y), word)| {
+            visible(*y).map(|y| {
+                EmptyElement::at((*x, y))
+                    + Text::new(
+                        word.clone(),
+                        (4 * FINE as i32, -6 * FINE as i32),
+                        font.clone(),
+                    )
+            })
+        }))?;
         if self.curves.iter().all(|curve| curve.name.is_empty()) {
             return Ok(());
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperLeft)
+            .position(if self.legend_right {
+                SeriesLabelPosition::UpperRight
+            } else {
+                SeriesLabelPosition::UpperLeft
+            })
             .margin(10 * FINE)
             .legend_area_size(34 * FINE)
             .background_style(WHITE.mix(0.85))

@@ -72,3 +72,37 @@ fn arenstorfs_orbit_closes() {
     assert!(off < 1e-8, "{off:e}");
     assert!((end.t - period).abs() < 1e-8, "{:e}", end.t - period);
 }
+
+hamiltonian! {
+    /// A pendulum.
+    pub struct Swing { g = 1.0, l = 1.0 }
+    H(theta; p) = p^2/(2*l^2) - g*l*cos(theta)
+}
+
+/// With respect to a parameter: a run over dual numbers in which it is the variable.
+#[test]
+fn sensitivities_to_parameters() {
+    let end = |l: f64| {
+        let start = State::new([0.5], [0.1]);
+        let mut run = Integrator::new(&Swing { g: 9.81, l }, BlanesMoan6, start, 1e-2).unwrap();
+        run.advance(300).unwrap().q[0]
+    };
+    let swing = Swing {
+        g: Dual::fixed(9.81),
+        l: Dual::variable(2.0),
+    };
+    let start = State::new([Dual::fixed(0.5)], [Dual::fixed(0.1)]);
+    let mut run = Integrator::new(&swing, BlanesMoan6, start, Dual::fixed(1e-2)).unwrap();
+    let theta = run.advance(300).unwrap().q[0];
+    assert_eq!(theta.re, end(2.0));
+    let d = 1e-4;
+    let difference = (8.0 * (end(2.0 + d) - end(2.0 - d))
+        - (end(2.0 + 2.0 * d) - end(2.0 - 2.0 * d)))
+        / (12.0 * d);
+    assert!(
+        (theta.eps - difference).abs() < 1e-10,
+        "{} {difference}",
+        theta.eps
+    );
+    assert!(theta.eps.abs() > 0.1);
+}

@@ -352,6 +352,11 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.state.t.is_finite() && self.shown.is_finite() && self.carried.is_finite()
     }
 
+    /// Writes the state anew after what is carried was changed.
+    pub(crate) fn show_carried(&mut self) {
+        self.arrives(self.steps);
+    }
+
     /// Goes on from here with another step: the scheme starts anew at the present state. Whatever it
     /// carries besides is made again, and (25), (26), (33) make their second point again.
     ///

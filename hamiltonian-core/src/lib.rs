@@ -49,6 +49,7 @@ mod output;
 #[cfg(feature = "progress")]
 mod progress;
 mod root;
+mod tangent;
 mod times;
 
 mod checkpoint;
@@ -91,6 +92,9 @@ pub use system::{
     Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
     Separable, Split, System, Unforced,
 };
+#[cfg(feature = "std")]
+pub use tangent::multipliers;
+pub use tangent::{Tangent, monodromy, symplectic_defect};
 pub use times::{AtTimes, at_times};
 pub use vector::{IntoVector, Vector, shape};
 
@@ -104,6 +108,8 @@ pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 pub mod prelude {
     pub use crate::{Observer as _, System as _};
 
+    #[cfg(feature = "std")]
+    pub use crate::multipliers;
     pub use crate::schemes::{
         Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6,
         Compensated, Composition, ConsecutiveSubTrajectories, DiscreteGradient, Gauss,
@@ -115,7 +121,7 @@ pub mod prelude {
     };
     pub use crate::{
         AnyRun, Checkpoint, Dual, EnergyDrift, Error, Event, Events, Gradient, Integrator,
-        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, at_times, every,
-        watch,
+        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, Tangent, at_times,
+        every, monodromy, symplectic_defect, watch,
     };
 }

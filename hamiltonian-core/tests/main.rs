@@ -17,4 +17,5 @@ mod run;
 mod schemes;
 mod start;
 mod tables;
+mod tangent;
 mod variational;

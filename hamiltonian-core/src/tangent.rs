@@ -1,0 +1,382 @@
+//! How orbits near one move: the tangent of the numerical map, and what is read off it.
+//!
+//! Input: a system, a scheme, a start and a step. Output: [`Tangent`], the run with deviations from it;
+//! Lyapunov exponents, alignment indices, [`monodromy`] matrices. Invariants: deviations are exact
+//! derivatives of the scheme's map (runs over [`Dual`]s), not solutions of other equations; taking
+//! other deviations of the same span changes no bit of the orbit.
+
+use crate::error::Error;
+use crate::integrator::{Integrator, MapOf};
+use crate::scheme::Scheme;
+use crate::state::State;
+use crate::system::System;
+use crate::vector::Vector;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{Dual, Real};
+use nalgebra::DMatrix;
+
+/// A run with deviations from its orbit: solutions of the linearised map along it.
+///
+/// A deviation is a derivative of the state with respect to its start in some direction. Each belongs to
+/// a run over dual numbers, so it is the exact tangent of the map of whichever scheme, also of an
+/// implicit one; a symplectic scheme has a symplectic tangent. Each costs about three runs.
+///
+/// Deviations are the columns of [`matrix`](Tangent::matrix); its rows are the coordinates, then the
+/// momenta, as they are stored. In the beginning they are the first unit vectors.
+///
+/// ```
+#[doc = include_str!("doc/oscillator_any.md")]
+/// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4, symplectic_defect};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, start, 0.01, 2)?;
+/// tangent.advance(100)?;
+/// // A rotation by the angle t = 1.
+/// let matrix = tangent.matrix();
+/// assert!((matrix[(0, 1)] - 1f64.sin()).abs() < 1e-9);
+/// assert!(symplectic_defect(&matrix) < 1e-9);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+pub struct Tangent<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> {
+    /// One for each deviation; their values are those of the first.
+    runs: Vec<Integrator<Dual<T>, S, R>>,
+}
+
+impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
+    /// A run of `scheme` on `system` from `start` with the step size `step`, and so many deviations from
+    /// it: as many as there are coordinates and momenta for the whole tangent map.
+    ///
+    /// # Errors
+    /// Those of [`Integrator::new`]; [`Error::Component`] for no deviation, or more than there are
+    /// coordinates and momenta.
+    pub fn new<M>(
+        system: &S,
+        scheme: M,
+        start: State<<S as System<T>>::Vector>,
+        step: T,
+        deviations: usize,
+    ) -> Result<Self, Error>
+    where
+        S: System<T>,
+        M: Scheme<Dual<T>, S, Map = R>,
+    {
+        System::<T>::check_shape(system, &start)?;
+        let zeros = || System::<Dual<T>>::zeros(system);
+        let mut lifted = State {
+            t: Dual::fixed(start.t),
+            q: zeros(),
+            p: zeros(),
+        };
+        for (to, from) in [(&mut lifted.q, &start.q), (&mut lifted.p, &start.p)] {
+            for index in 0..from.len() {
+                *to.component_mut(index) = Dual::fixed(from.component(index));
+            }
+        }
+        let n = lifted.q.len();
+        if deviations == 0 || deviations > 2 * n {
+            return Err(Error::Component {
+                index: deviations,
+                count: 2 * n,
+            });
+        }
+        let run = |deviation: usize| {
+            let mut start = lifted.clone();
+            let (of, index) = match deviation < n {
+                true => (&mut start.q, deviation),
+                false => (&mut start.p, deviation - n),
+            };
+            of.component_mut(index).eps = T::one();
+            Integrator::new(system, scheme.clone(), start, Dual::fixed(step))
+        };
+        let runs = (0..deviations).map(run).collect::<Result<_, Error>>()?;
+        Ok(Tangent { runs })
+    }
+
+    /// Makes `n` steps.
+    ///
+    /// # Errors
+    /// Those of [`Integrator::advance`]. A deviation that has grown past the largest number is
+    /// [`Error::NotFinite`]; [`orthonormalise`](Tangent::orthonormalise) more often.
+    pub fn advance(&mut self, n: u64) -> Result<(), Error> {
+        self.runs
+            .iter_mut()
+            .try_for_each(|run| run.advance(n).map(|_| ()))
+    }
+
+    /// The number of steps made.
+    pub fn steps(&self) -> u64 {
+        self.runs.first().map_or(0, Integrator::steps)
+    }
+
+    /// The present time.
+    pub fn time(&self) -> T {
+        self.runs.first().map_or(T::zero(), |run| run.time().re)
+    }
+
+    /// The present state; derivative parts are those of the first deviation.
+    pub fn state(&self) -> &State<<S as System<Dual<T>>>::Vector> {
+        self.runs[0].state()
+    }
+
+    /// The deviations, one a column: coordinates, then momenta.
+    pub fn matrix(&self) -> DMatrix<T> {
+        let mut matrix =
+            DMatrix::from_element(2 * self.state().q.len(), self.runs.len(), T::zero());
+        for (mut column, run) in matrix.column_iter_mut().zip(&self.runs) {
+            let State { q, p, .. } = run.state();
+            for (to, from) in column.iter_mut().zip(q.components().chain(p.components())) {
+                *to = from.eps;
+            }
+        }
+        matrix
+    }
+
+    /// Replaces the deviations by orthonormal ones of the same span, column by column; the orbit goes on
+    /// unchanged. Returns what each had grown to, orthogonal to those before: the diagonal of R in QR.
+    pub fn orthonormalise(&mut self) -> Vec<T> {
+        let mut matrix = self.matrix();
+        let grown = gram_schmidt(&mut matrix, |to, scale, less| self.combine(to, scale, less));
+        self.show();
+        grown
+    }
+
+    /// Gives every deviation the length 1, in its own direction. Returns their lengths before.
+    pub fn normalise(&mut self) -> Vec<T> {
+        let matrix = self.matrix();
+        let lengths = (0..self.runs.len()).map(|j| dot(&matrix, j, j).sqrt());
+        let lengths: Vec<T> = lengths.collect();
+        for (j, length) in lengths.iter().enumerate() {
+            self.combine(j, length.recip(), None);
+        }
+        self.show();
+        lengths
+    }
+
+    /// The Lyapunov exponents over the next `steps`, greatest first: as many as there are deviations.
+    /// These are made orthonormal every so many steps: so often that they neither overflow nor
+    /// fall into one direction, every time unit or so.
+    ///
+    /// They are mean rates of growth of the finite stretch; of longer and longer ones they tend to the
+    /// exponents. (V. I. Oseledets, Trans. Moscow Math. Soc. 19 (1968) 197; G. Benettin, L. Galgani,
+    /// A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9, doi:10.1007/BF02128236; I. Shimada,
+    /// T. Nagashima, Prog. Theor. Phys. 61 (1979) 1605, doi:10.1143/PTP.61.1605.)
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator_any.md")]
+    /// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4};
+    ///
+    /// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), 0.1, 2)?;
+    /// // Neighbours of an oscillator stay where they are.
+    /// assert!(tangent.lyapunov(1_000, 10)?.iter().all(|rate| rate.abs() < 1e-5));
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`advance`](Tangent::advance).
+    pub fn lyapunov(&mut self, steps: u64, every: u64) -> Result<Vec<T>, Error> {
+        let mut sums = alloc::vec![T::zero(); self.runs.len()];
+        let begin = self.time();
+        let mut left = steps;
+        self.orthonormalise();
+        while left > 0 {
+            let n = every.clamp(1, left);
+            self.advance(n)?;
+            left -= n;
+            for (sum, grown) in sums.iter_mut().zip(self.orthonormalise()) {
+                *sum += grown.ln();
+            }
+        }
+        let time = self.time() - begin;
+        Ok(sums.into_iter().map(|sum| sum / time).collect())
+    }
+
+    /// GALI of all k deviations: the volume of the parallelepiped of their directions, between 0 and 1.
+    /// On a chaotic orbit it falls like exp(−Σ(λ₁ − λᵢ)t), on a regular one it stays, for k up to
+    /// the number of degrees of freedom. Keep deviations from overflowing by
+    /// [`normalise`](Tangent::normalise), never by [`orthonormalise`](Tangent::orthonormalise).
+    ///
+    /// Source: C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30, eq. 6,
+    /// doi:10.1016/j.physd.2007.04.004.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator_any.md")]
+    /// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4};
+    ///
+    /// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), 0.01, 2)?;
+    /// tangent.advance(100)?;
+    /// assert!((tangent.gali() - 1.0).abs() < 1e-9);
+    /// assert!((tangent.sali() - 2f64.sqrt()).abs() < 1e-9);
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    pub fn gali(&self) -> T {
+        let grown = gram_schmidt(&mut self.directions(), |_, _, _| {});
+        grown
+            .into_iter()
+            .fold(T::one(), |volume, length| volume * length)
+    }
+
+    /// SALI of the first two deviations, the smaller of |v̂₁ + v̂₂| and |v̂₁ − v̂₂|, between 0 and √2; GALI of
+    /// the two is half the product of both (C. Skokos, J. Phys. A 34 (2001) 10029,
+    /// doi:10.1088/0305-4470/34/47/309). With one deviation it is 0.
+    pub fn sali(&self) -> T {
+        let matrix = self.directions();
+        let other = matrix.ncols().min(2) - 1;
+        let length = |sign: f64| {
+            let (first, second) = (matrix.column(0), matrix.column(other));
+            let sum = first
+                .iter()
+                .zip(second.iter())
+                .fold(T::zero(), |sum, (a, b)| {
+                    let d = T::constant(sign, 0.0).fma(*b, *a);
+                    d.fma(d, sum)
+                });
+            sum.sqrt()
+        };
+        length(1.0).min(length(-1.0))
+    }
+
+    /// The deviations with length 1.
+    fn directions(&self) -> DMatrix<T> {
+        let mut matrix = self.matrix();
+        for j in 0..matrix.ncols() {
+            let scale = dot(&matrix, j, j).sqrt().recip();
+            matrix.column_mut(j).iter_mut().for_each(|to| *to *= scale);
+        }
+        matrix
+    }
+
+    /// Deviation `to` becomes `scale` times itself, less a multiple of another: in all that is carried,
+    /// whose derivative parts are linear in the deviation.
+    fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>) {
+        let other = less.map(|(from, along)| (self.runs[from].carried.clone(), along));
+        let carried = &mut self.runs[to].carried;
+        for index in 0..carried.len() {
+            let component = carried.component_mut(index);
+            component.eps *= scale;
+            if let Some((from, along)) = &other {
+                component.eps -= *along * from.component(index).eps;
+            }
+        }
+    }
+
+    /// Shows what is carried now. All values are made those of the first run: where a step is solved to
+    /// rounding, the solutions beside different deviations differ by that.
+    fn show(&mut self) {
+        let Some((first, others)) = self.runs.split_first_mut() else {
+            return;
+        };
+        first.show_carried();
+        for run in others {
+            for index in 0..run.carried.len() {
+                run.carried.component_mut(index).re = first.carried.component(index).re;
+            }
+            run.show_carried();
+        }
+    }
+}
+
+/// Makes columns orthonormal, each against those before it, twice, since once leaves what rounding
+/// did; returns their lengths before the last division. `done` is told every change of a column, which
+/// becomes a multiple of itself less one of another.
+fn gram_schmidt<T: Real>(
+    matrix: &mut DMatrix<T>,
+    mut done: impl FnMut(usize, T, Option<(usize, T)>),
+) -> Vec<T> {
+    let (rows, columns) = matrix.shape();
+    let mut lengths = Vec::with_capacity(columns);
+    for j in 0..columns {
+        for i in (0..j).chain(0..j) {
+            let along = dot(matrix, i, j);
+            for row in 0..rows {
+                let part = along * matrix[(row, i)];
+                matrix[(row, j)] -= part;
+            }
+            done(j, T::one(), Some((i, along)));
+        }
+        let length = dot(matrix, j, j).sqrt();
+        let scale = length.recip();
+        matrix.column_mut(j).iter_mut().for_each(|to| *to *= scale);
+        done(j, scale, None);
+        lengths.push(length);
+    }
+    lengths
+}
+
+/// The scalar product of two columns.
+fn dot<T: Real>(matrix: &DMatrix<T>, i: usize, j: usize) -> T {
+    let (a, b) = (matrix.column(i), matrix.column(j));
+    (a.iter().zip(b.iter())).fold(T::zero(), |sum, (a, b)| a.fma(*b, sum))
+}
+
+/// The derivative of the state after `time`, made in so many steps, with respect to the start: of a closed
+/// orbit of that period its monodromy matrix. Rows and columns are the coordinates, then the momenta.
+///
+/// ```
+#[doc = include_str!("doc/oscillator_any.md")]
+/// use hamiltonian_core::{State, monodromy, schemes::RungeKutta4};
+/// use std::f64::consts::TAU;
+///
+/// let matrix = monodromy(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), TAU, 1_000)?;
+/// assert!((matrix[(0, 0)] - 1.0).abs() < 1e-9 && matrix[(0, 1)].abs() < 1e-9);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+///
+/// # Errors
+/// Those of [`Tangent::new`] and [`Tangent::advance`].
+pub fn monodromy<T, S, M>(
+    system: &S,
+    scheme: M,
+    start: State<<S as System<T>>::Vector>,
+    time: T,
+    steps: u64,
+) -> Result<DMatrix<T>, Error>
+where
+    T: Real,
+    S: System<T> + System<Dual<T>>,
+    M: Scheme<Dual<T>, S>,
+{
+    let size = 2 * start.q.len();
+    let step = time / T::constant(steps as f64, 0.0);
+    let mut tangent = Tangent::new(system, scheme, start, step, size)?;
+    tangent.advance(steps)?;
+    Ok(tangent.matrix())
+}
+
+/// max |MᵀJM − J|, with J = (0, 1; −1, 0) for coordinates, then momenta: 0 where M is symplectic.
+///
+/// ```
+/// use hamiltonian_core::{private::nalgebra::DMatrix, symplectic_defect};
+///
+/// // A shear is symplectic, a stretching is not.
+/// assert_eq!(symplectic_defect(&DMatrix::from_row_slice(2, 2, &[1.0, 3.0, 0.0, 1.0])), 0.0);
+/// assert_eq!(symplectic_defect(&DMatrix::from_row_slice(2, 2, &[2.0, 0.0, 0.0, 1.0])), 1.0);
+/// ```
+pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
+    let n = matrix.nrows() / 2;
+    let mut worst = 0.0_f64;
+    for i in 0..matrix.ncols() {
+        for j in 0..i {
+            let (a, b) = (matrix.column(i), matrix.column(j));
+            let area = (0..n).fold(T::zero(), |sum, k| sum + b[k] * a[n + k] - b[n + k] * a[k]);
+            let expected = T::constant(f64::from(u8::from(i == j + n)), 0.0);
+            worst = worst.max((area - expected).magnitude());
+        }
+    }
+    worst
+}
+
+/// The Floquet multipliers of a closed orbit, the eigenvalues of its [`monodromy`] matrix: in a Hamiltonian
+/// system with each μ there are 1/μ and its conjugates. One pair is 1, of deviations along the orbit and
+/// across the energy; it is double, so it comes out to half the digits. The orbit is stable if all
+/// have modulus 1.
+///
+/// ```
+/// use hamiltonian_core::{multipliers, private::nalgebra::DMatrix};
+///
+/// let turn = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
+/// assert!(multipliers(&turn).iter().all(|mu| mu.re == 0.0 && mu.im.abs() == 1.0));
+/// ```
+#[cfg(feature = "std")]
+pub fn multipliers(matrix: &DMatrix<f64>) -> Vec<nalgebra::Complex<f64>> {
+    matrix.complex_eigenvalues().iter().copied().collect()
+}

@@ -1,0 +1,290 @@
+//! Deviations from orbits: exponents, alignment, monodromy.
+
+use crate::common::systems::*;
+use core::f64::consts::{FRAC_PI_2, TAU};
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::{Group, SVector};
+use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian_core::{Scheme, Vector, multipliers};
+
+type Heiles = Hand<HenonHeiles, 2>;
+type Plane = State<SVector<f64, 2>>;
+
+const HEILES: Heiles = Hand(HenonHeiles);
+
+fn is_heavy() -> bool {
+    std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1")
+}
+
+/// A regular orbit; its deviations grow 15 times in 100.
+fn regular() -> Plane {
+    State::new(
+        [0.0, 0.2587703282931232],
+        [-0.2525875586263492, -0.2178423952983717],
+    )
+}
+
+/// The chaotic orbit, displaced by 1e-9 in the k-th of many directions.
+fn chaotic(k: u32) -> Plane {
+    let (a, b) = (f64::from(k), 1.7 * f64::from(k) + 1.0);
+    let by = |x: f64| 1e-9 * x;
+    State::new(
+        [by(a.cos() * b.cos()), -0.25 + by(a.sin() * b.cos())],
+        [0.42081 + by(a.cos() * b.sin()), by(a.sin() * b.sin())],
+    )
+}
+
+#[test]
+fn lyapunov_exponents_of_henon_heiles() {
+    // Over 48 starts, mean and standard deviation: T = 10⁴ .0482 ± .0103, T = 10⁵ .0443 ± .0059.
+    let (end, expected, within) = match is_heavy() {
+        true => (100_000, 0.0449, 0.004),
+        false => (10_000, 0.0482, 0.008),
+    };
+    let mut sum = 0.0;
+    for k in 0..24 {
+        let mut tangent = Tangent::new(&HEILES, BlanesMoan4, chaotic(k), 0.125, 1).unwrap();
+        sum += tangent.lyapunov(8 * end, 8).unwrap()[0];
+    }
+    let mean = sum / 24.0;
+    println!("λ₁ = {mean} to T = {end}");
+    assert!((mean - expected).abs() <= within, "{mean}");
+
+    // Exponents come in pairs ±λ: two of them are those of the flow and of the energy, 0.
+    let new = |start| Tangent::new(&HEILES, BlanesMoan4, start, 0.125, 4).unwrap();
+    let spectrum = new(chaotic(0)).lyapunov(40_000, 8).unwrap();
+    println!("{spectrum:?}");
+    assert!((spectrum[0] + spectrum[3]).abs() < 1e-3, "{spectrum:?}");
+    assert!((spectrum[1] + spectrum[2]).abs() < 1e-3, "{spectrum:?}");
+    assert!(spectrum[0] > 0.03 && spectrum[1] < 0.01, "{spectrum:?}");
+    // On a regular orbit all tend to 0, like ln T/T.
+    let spectrum = new(regular()).lyapunov(40_000, 8).unwrap();
+    println!("{spectrum:?}");
+    assert!(
+        spectrum.iter().all(|rate| rate.abs() < 4e-3),
+        "{spectrum:?}"
+    );
+}
+
+#[test]
+fn alignment_tells_regular_orbits_from_chaotic_ones() {
+    // GALI₂ at t = 1000, and the time at which it falls below 1e-12.
+    let gali = |start: Plane| {
+        let mut tangent = Tangent::new(&HEILES, BlanesMoan4, start, 0.125, 2).unwrap();
+        let mut aligned = None;
+        for _ in 0..1000 {
+            tangent.advance(8).unwrap();
+            tangent.normalise();
+            // Half of SALI's two lengths' product; |a + b|² + |a − b|² = 4.
+            let (gali, sali) = (tangent.gali(), tangent.sali());
+            let other = (4.0 - sali * sali).sqrt();
+            assert!((gali - sali * other / 2.0).abs() < 1e-14, "{gali} {sali}");
+            if gali < 1e-12 {
+                aligned = aligned.or(Some(tangent.time()));
+            }
+        }
+        (tangent.gali(), aligned)
+    };
+    for start in [
+        State::new([0.0, 0.295456], [0.407308431, 0.0]),
+        State::new([0.0, 0.483], [0.27898039, 0.0]),
+    ] {
+        let (end, aligned) = gali(start);
+        println!("regular: GALI₂ = {end} at t = 1000");
+        assert!(end > 0.01 && aligned.is_none(), "{end} {aligned:?}");
+    }
+    let (_, aligned) = gali(State::new([0.0, -0.25], [0.42081, 0.0]));
+    println!("chaotic: GALI₂ < 1e-12 at t = {aligned:?}");
+    assert!(aligned.is_some());
+}
+
+/// The complete elliptic integrals K and E of parameter m, by the arithmetic-geometric mean.
+fn elliptic(m: f64) -> (f64, f64) {
+    let (mut a, mut b, mut sum, mut power) = (1.0_f64, (1.0 - m).sqrt(), 1.0 - m / 2.0, 1.0);
+    while (a - b).abs() > 1e-15 {
+        let c = (a - b) / 2.0;
+        (a, b) = ((a + b) / 2.0, (a * b).sqrt());
+        sum -= power * c * c;
+        power *= 2.0;
+    }
+    let k = FRAC_PI_2 / a;
+    (k, k * sum)
+}
+
+/// H = (p_x² + p_y² + x² + w²y²)/2.
+#[derive(Debug, Clone)]
+struct Springs {
+    w: f64,
+}
+
+impl Formula<2> for Springs {
+    const NAME: &'static str = "Springs";
+    const GROUPS: &'static [Group] = HenonHeiles::GROUPS;
+    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], [px, py]: &[T; 2]) -> T {
+        let wy = T::constant(self.w, 0.0) * *y;
+        T::constant(0.5, 0.0) * (*px * *px + *py * *py + *x * *x + wy * wy)
+    }
+}
+
+#[test]
+fn monodromy_is_that_of_closed_forms() {
+    // δz ↦ δz − T′(E) δE J∇H after a period T(E) = 4K(m), m = sin²(θ₀/2) = (E + 1)/2.
+    let amplitude = 1.2_f64;
+    let m = (amplitude / 2.0).sin().powi(2);
+    let (k, e) = elliptic(m);
+    let slope = 4.0 * (e - (1.0 - m) * k) / (2.0 * m * (1.0 - m)) / 2.0;
+    let (theta, steps) = (0.7_f64, 2_000);
+    let p = (2.0 * (theta.cos() - amplitude.cos())).sqrt();
+    let start = State::new([theta], [p]);
+    let swing = Hand(Pendulum {
+        m: 1.0,
+        l: 1.0,
+        g: 1.0,
+        from_bottom: false,
+    });
+    let matrix = monodromy(&swing, KahanLi8, start, 4.0 * k, steps).unwrap();
+    let (flow, gradient) = ([p, -theta.sin()], [theta.sin(), p]);
+    for i in 0..2 {
+        for j in 0..2 {
+            let expected = f64::from(u8::from(i == j)) - slope * flow[i] * gradient[j];
+            let off = (matrix[(i, j)] - expected).abs();
+            assert!(off < 1e-11, "{i} {j}: {matrix} {expected}");
+        }
+    }
+    assert!(symplectic_defect(&matrix) < 1e-12, "{matrix}");
+
+    // Once round in x: y has turned by w·2π. Floquet multipliers are 1, 1, exp(±2πiw).
+    let w = 2_f64.sqrt();
+    let start = State::new([1.0, 0.0], [0.0, 0.0]);
+    let matrix = monodromy(&Hand(Springs { w }), Gauss::<6>::default(), start, TAU, 200).unwrap();
+    let mut found = multipliers(&matrix);
+    found.sort_by(|a, b| a.im.total_cmp(&b.im));
+    let turn = (w * TAU).sin_cos();
+    for (mu, (im, re)) in found.iter().zip([
+        (-turn.0.abs(), turn.1),
+        (0.0, 1.0),
+        (0.0, 1.0),
+        (turn.0.abs(), turn.1),
+    ]) {
+        assert!(
+            (mu.re - re).abs() < 1e-6 && (mu.im - im).abs() < 1e-6,
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn tangents_of_symplectic_schemes_are_symplectic_and_others_are_not() {
+    fn defect<M>(scheme: M) -> f64
+    where
+        M: Scheme<Dual<f64>, Heiles>,
+    {
+        let mut tangent = Tangent::new(&HEILES, scheme, regular(), 0.1, 4).unwrap();
+        tangent.advance(1000).unwrap();
+        symplectic_defect(&tangent.matrix())
+    }
+    // To T = 100; κ = 15.
+    for (name, defect) in [
+        ("StormerVerlet", defect(StormerVerlet::default())),
+        ("BlanesMoan6", defect(BlanesMoan6)),
+        ("Gauss 2", defect(Gauss::<2>::default())),
+        ("ImplicitMidpoint", defect(ImplicitMidpoint::default())),
+    ] {
+        println!("{name}: {defect:e}");
+        assert!(defect < 1e-12, "{name}: {defect:e}");
+    }
+    let runge_kutta = defect(RungeKutta4);
+    println!("RungeKutta4: {runge_kutta:e}");
+    assert!(runge_kutta > 1e-6, "{runge_kutta:e}");
+}
+
+/// Orthonormal deviations are the same orbit's, and what they span is the same.
+#[test]
+fn renormalising_changes_neither_orbit_nor_span() {
+    let new = || Tangent::new(&HEILES, BlanesMoan4, chaotic(0), 0.1, 3).unwrap();
+    let (mut plain, mut often) = (new(), new());
+    let mut product = [1.0; 3];
+    for _ in 0..30 {
+        plain.advance(5).unwrap();
+        often.advance(5).unwrap();
+        for (product, grown) in product.iter_mut().zip(often.orthonormalise()) {
+            *product *= grown;
+        }
+        let (a, b) = (plain.state(), often.state());
+        for (a, b) in a.q.iter().chain(&a.p).zip(b.q.iter().chain(&b.p)) {
+            assert_eq!(a.re, b.re);
+        }
+    }
+    for (product, grown) in product.iter().zip(plain.orthonormalise()) {
+        assert!((product / grown - 1.0).abs() < 1e-10, "{product} {grown}");
+    }
+    let (a, b) = (plain.matrix(), often.matrix());
+    assert!((a - b).norm() < 1e-10);
+}
+
+#[test]
+fn deviations_that_there_are_not_are_refused() {
+    for deviations in [0, 5] {
+        let tangent = Tangent::new(&HEILES, BlanesMoan4, regular(), 0.1, deviations);
+        assert!(matches!(
+            tangent.err(),
+            Some(Error::Component { count: 4, .. })
+        ));
+    }
+}
+
+/// The tangent of every scheme is the derivative of its map, and other deviations of the same span may
+/// take the place of those it has.
+struct Exact;
+
+impl Visitor<Dual<f64>, Heiles> for Exact {
+    fn visit<M: Scheme<Dual<f64>, Heiles>>(&mut self, scheme: M) {
+        let name = scheme.entry().name;
+        let begin: Plane = State::new([0.1, -0.25], [0.42, 0.1]);
+        let new = |start| Tangent::new(&HEILES, scheme.clone(), start, 0.05, 4).unwrap();
+        let mut tangent = new(begin.clone());
+        tangent.advance(40).unwrap();
+        let matrix = tangent.matrix();
+        let end = |of: usize, by: f64| {
+            let mut start = begin.clone();
+            match of < 2 {
+                true => *start.q.component_mut(of) += by,
+                false => *start.p.component_mut(of - 2) += by,
+            }
+            let mut run = new(start);
+            run.advance(40).unwrap();
+            let state = run.state();
+            let all = state.q.components().chain(state.p.components());
+            all.map(|component| component.re).collect::<Vec<_>>()
+        };
+        let d = 1e-5;
+        for j in 0..4 {
+            let (above, below) = (end(j, d), end(j, -d));
+            for i in 0..4 {
+                let difference = (above[i] - below[i]) / (2.0 * d);
+                let off = (matrix[(i, j)] - difference).abs();
+                assert!(off < 1e-8, "{name}: {off:e} at ({i}, {j})");
+            }
+        }
+        // M = QR, and then M′Q of the rest of the way: in all M′M.
+        let mut often = new(begin.clone());
+        let mut volume = 1.0;
+        for _ in 0..8 {
+            often.advance(5).unwrap();
+            volume *= often.orthonormalise().iter().product::<f64>();
+        }
+        let expected = tangent.orthonormalise().iter().product::<f64>();
+        assert!(
+            (volume / expected - 1.0).abs() < 1e-8,
+            "{name}: {volume} {expected}"
+        );
+    }
+}
+
+#[test]
+fn tangents_of_all_schemes_are_their_derivatives() {
+    visit_any(&mut Exact);
+    visit_unforced(&mut Exact);
+    visit_separable(&mut Exact);
+    visit_split(&mut Exact);
+}

@@ -10,6 +10,7 @@ mod budgets;
 mod cargo;
 mod common;
 pub mod compiled;
+mod compositions;
 pub mod coordinates;
 mod counting;
 mod crates;

@@ -3,13 +3,16 @@
 
 use crate::common;
 use crate::flows::{Case, check};
+use crate::tree::{Random, grow};
 use hamiltonian_lanes::{DoubleDouble, Real};
 use hamiltonian_symbolic::dag::{Array, Parameter, Side};
 use hamiltonian_symbolic::eval::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
-use hamiltonian_symbolic::split::{Refusal, find};
+use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::split::{NODES, Refusal, find};
 use hamiltonian_symbolic::transform::check_split;
 
 #[test]
@@ -496,6 +499,31 @@ fn what_has_no_flow_is_refused_by_its_term() {
             other => panic!("{}: {other:?}", refused.h),
         }
     }
+}
+
+/// Whatever is asked, a search ends, and adds no more to the arena than it may (and what one step
+/// of it makes at once).
+#[test]
+fn searches_are_bounded() {
+    let mut random = Random(0xB0);
+    let (mut largest, mut found) = (0, 0);
+    let all = common::cases(300, 3000);
+    for _ in 0..all {
+        let mut model = grow(&mut random).0.model();
+        // Products and quotients of what is there: nothing that a row takes, and long.
+        let h = model.hamiltonian.expect("there is an H");
+        if random.chance(0.3) {
+            let sine = model.dag.call(Op::Sin, &[h]);
+            let squares = model.dag.product(&Rational::ONE, &[(sine, 2), (h, 3)]);
+            model.hamiltonian = Some(model.dag.div(squares, sine));
+        }
+        let before = model.dag.len();
+        found += usize::from(find(&mut model).is_ok());
+        largest = largest.max(model.dag.len() - before);
+    }
+    println!("{found} of {all} split, at most {largest} nodes");
+    assert!(largest <= 4 * NODES, "{largest} nodes");
+    assert!(found > 0 && found < all);
 }
 
 const FOUND: &[Found] = &[

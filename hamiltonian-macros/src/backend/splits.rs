@@ -92,10 +92,13 @@ pub fn settle(
                 facts,
             }
         }
-        Err((_, refusal)) => refused(
-            model,
-            &format!("no exact flow is known for the term `{}`", refusal.text),
-        ),
+        Err((_, refusal)) => {
+            let why = match refusal.is_limit {
+                true => "the search ended at its limits, before it met an exact flow for the term",
+                false => "no exact flow is known for the term",
+            };
+            refused(model, &format!("{why} `{}`", refusal.text))
+        }
     }
 }
 
@@ -133,7 +136,12 @@ fn facts(splitting: &Splitting) -> Vec<String> {
     let pieces: Vec<String> = splitting.pieces.iter().map(piece).collect();
     let mut facts = match pieces.as_slice() {
         [] => return Vec::new(),
-        [one] => vec![format!("The flow of all of H is exact: {one}.")],
+        [one] if splitting.pieces[0].flow.merges() => {
+            vec![format!("The flow of all of H is exact: {one}.")]
+        }
+        [one] => vec![format!(
+            "H is split into the terms of one loop, each with an exact flow, the first one first on the way down and last on the way up: {one}."
+        )],
         all => vec![format!(
             "H is split into {} pieces with exact flows, outermost first: {}.",
             all.len(),

@@ -127,19 +127,33 @@ pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
     answer(dag, node, scope) == Answer::Zero
 }
 
+/// The same everywhere, at the expense of a number of products for many questions.
+pub(crate) fn vanishes_within(dag: &mut Dag, node: Node, products: &mut usize) -> bool {
+    let mut budget = BUDGET;
+    budget.products = budget.products.min(*products);
+    let before = budget.products;
+    let mut algebra = Algebra::new(budget, Scope::Everywhere);
+    let answer = answer_in(&mut algebra, dag, node);
+    *products -= before - algebra.budget.products;
+    answer == Answer::Zero
+}
+
 /// What the normal form says of a node, loops re-indexed where that helps.
 pub(crate) fn answer(dag: &mut Dag, node: Node, scope: Scope) -> Answer {
-    let mut algebra = Algebra::new(BUDGET, scope);
+    answer_in(&mut Algebra::new(BUDGET, scope), dag, node)
+}
+
+fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
     let mut decide = || {
         let poly = algebra.convert(dag, node)?;
-        if symmetry::summands_vanish(&mut algebra, &poly)? {
+        if symmetry::summands_vanish(algebra, &poly)? {
             return Ok(true);
         }
         if !has_loops(dag, node) {
             return Ok(false);
         }
-        let poly = symmetry::canonical(&mut algebra, dag, &poly)?;
-        symmetry::summands_vanish(&mut algebra, &poly)
+        let poly = symmetry::canonical(algebra, dag, &poly)?;
+        symmetry::summands_vanish(algebra, &poly)
     };
     match decide() {
         Err(Undecided) => Answer::Limit,

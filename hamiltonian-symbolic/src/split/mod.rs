@@ -19,6 +19,7 @@ mod units;
 
 pub use motion::{Motion, Move};
 pub use rows::{ROWS, Row, row};
+pub use space::NODES;
 
 use crate::dag::{Dependence, Node};
 use crate::index::Domain;
@@ -114,6 +115,8 @@ pub struct Refusal {
     pub node: Node,
     /// The same as text.
     pub text: String,
+    /// Whether the search ended at its limits, so that nothing is said of the term.
+    pub is_limit: bool,
 }
 
 /// The most pieces of a splitting.
@@ -180,17 +183,19 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
         Some(h) => h,
         None => model.dag.integer(0),
     };
-    let found = match Space::new(model, &[h]) {
+    let (found, is_limit) = match Space::new(model, &[h]) {
         Some(mut space) => {
             let found = search(&mut space, h);
+            let is_limit = space.is_spent();
             model.dag = space.model.dag;
-            found
+            (found, is_limit)
         }
-        None => over_loops(model, h),
+        None => (over_loops(model, h), false),
     };
     let refused = |node| Refusal {
         node,
         text: print::text(model, node),
+        is_limit,
     };
     found.map_err(refused)
 }
@@ -281,7 +286,15 @@ pub fn declared(
         let Some(flow) = exact_flow(model, *h) else {
             let node = blamed(model, *h);
             let text = print::text(model, node);
-            return Err((at, Refusal { node, text }));
+            let is_limit = false;
+            return Err((
+                at,
+                Refusal {
+                    node,
+                    text,
+                    is_limit,
+                },
+            ));
         };
         pieces.push(Piece {
             h: *h,

@@ -14,6 +14,8 @@ const STEP: f64 = 0.1;
 const STEPS: usize = 32;
 /// The most orders that are tried.
 const TRIALS: usize = 40;
+/// The most operations of all runs together: a run is not begun past them.
+const OPERATIONS: usize = 1_000_000;
 /// Errors closer than this are a tie.
 const TIE: f64 = 1.1;
 
@@ -42,15 +44,17 @@ pub(crate) fn best(
 ) -> Option<Choice> {
     let energy = Tape::of(space, &[h]);
     let mut chosen: Option<(f64, usize, Choice)> = None;
-    let mut trials = 0;
+    let (mut trials, mut operations) = (0, 0);
     for pieces in candidates {
         let keeps = keeps(space, &pieces, invariants);
         let tapes: Option<Vec<Piece>> = pieces.iter().map(|b| piece(space, b)).collect();
         for order in orders(space, &pieces) {
-            trials += 1;
-            if trials > TRIALS && chosen.is_some() {
+            if (trials == TRIALS || operations > OPERATIONS) && chosen.is_some() {
                 break;
             }
+            trials += 1;
+            let lengths = tapes.iter().flatten().map(|piece| piece.tape.len());
+            operations += 2 * STEPS * ORBITS * lengths.sum::<usize>();
             let error = match (&energy, &tapes) {
                 (Some(energy), Some(tapes)) => error(space, energy, tapes, &order),
                 _ => f64::NAN,
@@ -86,7 +90,7 @@ pub(crate) fn best(
         }
     }
     chosen.map(|(_, _, choice)| Choice {
-        among: trials.min(TRIALS),
+        among: trials,
         ..choice
     })
 }

@@ -43,10 +43,15 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if let Some(known) = space.flows.get(&(h, s)) {
         return known.clone();
     }
+    if space.is_spent() {
+        return None;
+    }
     let found = whole(space, h, s)
         .or_else(|| function(space, h, s))
         .or_else(|| separated(space, h, s))
         .or_else(|| commuting(space, h, s));
+    // What was made after the limits may hold anything.
+    let found = found.filter(|_| !space.is_spent());
     space.flows.insert((h, s), found.clone());
     found
 }
@@ -69,6 +74,7 @@ fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
 /// The rows that take all of h.
 fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     ROWS.iter().find_map(|row| match row.solve {
+        _ if space.is_spent() => None,
         Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row)),
         Solve::Pair(_) => None,
     })

@@ -3,7 +3,8 @@
 //!
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
-//! after [`TESTS`] questions every answer is no.
+//! where the search has spent what it may ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
+//! normal form), every answer is no.
 
 use super::motion::Motion;
 use super::solve::Flow;
@@ -14,12 +15,19 @@ use crate::diff;
 use crate::index::Index;
 use crate::loops::Sample;
 use crate::model::Model;
-use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes, witness};
+use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes_within, witness};
 use crate::rational::Rational;
 use std::rc::Rc;
 
 /// The most questions whether an expression is zero.
-pub(crate) const TESTS: usize = 1500;
+const TESTS: usize = 400;
+
+/// The most nodes that a search adds to the arena; those of the systems in the tests stay below
+/// 1500, and below 3000 of the products.
+pub const NODES: usize = 6_000;
+
+/// The most products of terms that the normal form takes for all questions together.
+const PRODUCTS: usize = 10_000;
 
 /// The most pairs, so that a set of variables is a word.
 const PAIRS: usize = 32;
@@ -43,8 +51,12 @@ pub(crate) struct Space {
     tapes: Map<Node, Option<Rc<Tape>>>,
     /// The flows that were sought, by what acts and the time it acts for.
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
-    /// How many questions were asked.
-    pub(crate) tests: usize,
+    /// How many questions may still be asked.
+    tests: usize,
+    /// How many products the normal form may still take.
+    products: usize,
+    /// Where the arena ends that is the search's.
+    last: usize,
 }
 
 impl Space {
@@ -81,7 +93,9 @@ impl Space {
             };
             pairs.push((leaf(Side::Q), leaf(Side::P)));
         }
+        let last = model.dag.len() + NODES;
         Some(Space {
+            last,
             model,
             pairs,
             sets: Vec::new(),
@@ -91,10 +105,15 @@ impl Space {
             sections: Map::default(),
             tapes: Map::default(),
             flows: Map::default(),
-            tests: 0,
+            tests: TESTS,
+            products: PRODUCTS,
         })
     }
 
+    /// Whether the search has taken what it may.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
+    }
     /// The arena.
     pub(crate) fn dag(&mut self) -> &mut Dag {
         &mut self.model.dag
@@ -132,8 +151,12 @@ impl Space {
             .collect()
     }
 
-    /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too.
+    /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
+    /// search has spent what it may, some other expression: nothing is proven or found any more.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
+        if self.is_spent() {
+            return self.model.dag.parameter(Parameter(u16::MAX));
+        }
         if self.set(h) & self.set(variable) == 0 {
             return self.model.dag.integer(0);
         }
@@ -207,10 +230,10 @@ impl Space {
         if self.near(node).iter().any(|near| near.is_nonzero()) {
             return false;
         }
-        self.tests += 1;
-        let answer = self.tests <= TESTS
+        self.tests = self.tests.saturating_sub(1);
+        let answer = !self.is_spent()
             && witness(&self.model, node, Effort::Glance, &[]).is_none()
-            && vanishes(&mut self.model.dag, node, Scope::Everywhere);
+            && vanishes_within(&mut self.model.dag, node, &mut self.products);
         self.zeros.insert(node, answer);
         answer
     }

@@ -75,6 +75,11 @@ impl Tape {
         })
     }
 
+    /// How many operations there are.
+    pub(super) fn len(&self) -> usize {
+        self.steps.len()
+    }
+
     /// The values at a point and step coefficient; `numbers` is scratch.
     pub(super) fn run(&self, z: &[f64], c: f64, numbers: &mut Vec<f64>, results: &mut Vec<f64>) {
         numbers.clear();

@@ -59,7 +59,7 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     let (mut terms, mut integral) = (Vec::new(), Vec::new());
     let mut n = 0;
     while !space.dag().is_zero(derivative) {
-        if n > DEGREE {
+        if n > DEGREE || space.is_spent() {
             return None;
         }
         let at_zero = space.at(derivative, &[(axes.x, zero)]);

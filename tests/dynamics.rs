@@ -1,5 +1,6 @@
 //! Events of definitions, located by a run; how orbits depend on their starts and on parameters.
 
+use crate::common::is_heavy;
 use hamiltonian::prelude::*;
 
 hamiltonian! {
@@ -105,4 +106,87 @@ fn sensitivities_to_parameters() {
         theta.eps
     );
     assert!(theta.eps.abs() > 0.1);
+}
+
+hamiltonian! {
+    /// Kepler's problem in the time s with dt = r ds, in logarithms.
+    pub struct Logarithmic {}
+    H(x, y, time; p_x, p_y, p_t) = ln((p_x^2 + p_y^2)/2 + p_t) + ln(x^2 + y^2)/2;
+    monitor energy_of_kepler = (p_x^2 + p_y^2)/2 - 1/hypot(x, y)
+}
+
+hamiltonian! {
+    /// Kepler's problem.
+    pub struct Kepler {}
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/hypot(x, y)
+}
+
+/// The place on the ellipse of eccentricity .9 at a time, from the farthest point.
+fn on_ellipse(t: f64) -> [f64; 2] {
+    let e = 0.9_f64;
+    let mut anomaly = t + core::f64::consts::PI;
+    for _ in 0..60 {
+        let (sin, cos) = anomaly.sin_cos();
+        anomaly -= (anomaly - e * sin - t - core::f64::consts::PI) / (1.0 - e * cos);
+    }
+    [anomaly.cos() - e, (1.0 - e * e).sqrt() * anomaly.sin()]
+}
+
+/// Steps that are short where the orbit is fast, by a symplectic scheme that stays explicit.
+#[test]
+fn symplectic_variable_steps_by_a_change_of_time() {
+    let tau = core::f64::consts::TAU;
+    let (q, p) = ([-1.9, 0.0], [0.0, -(0.1_f64 / 1.9).sqrt()]);
+    let shell = 0.5;
+    let new = |step: f64| {
+        let start = State::new([q[0], q[1], 0.0], [p[0], p[1], shell]);
+        Integrator::new(&Logarithmic {}, BlanesMoan6, start, step).unwrap()
+    };
+    // The error after five periods, by steps a period.
+    let off = |x: f64, y: f64, t: f64| {
+        let [a, b] = on_ellipse(t);
+        (x - a).hypot(y - b)
+    };
+    let variable = |steps: u64| {
+        let mut run = new(tau / steps as f64);
+        let State { q, .. } = run.advance(5 * steps).unwrap();
+        off(q[0], q[1], q[2])
+    };
+    let fixed = |steps: u64| {
+        let start = State::new(q, p);
+        let step = tau / steps as f64;
+        let mut run = Integrator::new(&Kepler {}, BlanesMoan6, start, step).unwrap();
+        let State { q, t, .. } = run.advance(5 * steps).unwrap();
+        off(q[0], q[1], *t)
+    };
+    let goal = 1e-8;
+    let needed = |error: &dyn Fn(u64) -> f64| {
+        (0..)
+            .map(|k| 25 << k)
+            .find(|steps| error(*steps) < goal)
+            .unwrap()
+    };
+    let (few, many) = (needed(&variable), needed(&fixed));
+    println!("to {goal:e}: {few} steps a period, fixed ones {many}");
+    assert!(10 * few <= many, "{few} {many}");
+
+    // The largest |ΔH| of each tenth, over 10⁵ periods. The golden section in the step brings every place
+    // of the orbit, whose period in s is 2π, among the steps.
+    let periods = if is_heavy() { 100_000 } else { 1_000 };
+    let golden = (5_f64.sqrt() - 1.0) / 2.0;
+    let mut run = new(tau / (50.0 + golden));
+    let energy = -0.5;
+    let mut tenths = [0.0_f64; 10];
+    for tenth in &mut tenths {
+        for _ in 0..5 * periods {
+            run.advance(1).unwrap();
+            let found = run.observable_named("energy_of_kepler").unwrap();
+            *tenth = tenth.max((found - energy).abs());
+        }
+    }
+    println!("{tenths:?}");
+    assert!(
+        tenths.iter().all(|tenth| *tenth <= 1.02 * tenths[0]),
+        "{tenths:?}"
+    );
 }

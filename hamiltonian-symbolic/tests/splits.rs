@@ -358,6 +358,40 @@ fn slope(found: &Found) -> Option<f64> {
     (count > 1).then(|| (apart(&a, &b) / apart(&b, &c)).log2())
 }
 
+/// Short flows of (34)'s coupled piece, there and back: rounding leaves its energy where it was, to
+/// ε√n. What rounds to one side more often, √(1 + sinh²) for the hyperbolic cosine, leaves nε/4.
+#[test]
+fn short_flows_round_to_both_sides() {
+    const PAIRS: usize = 50_000;
+    let mut model = common::system("q; p", "", "", "0.5*q^2*(p^2 + 1)");
+    model.pieces = find(&mut model).unwrap().pieces;
+    let program = derive(&mut model, &[Purpose::Piece(0)]).unwrap();
+    let target = |side| Target::Phase {
+        side,
+        group: 0,
+        column: 0,
+    };
+    let mut point = Point::<f64>::new();
+    point.outputs.insert(target(Side::Q), vec![vec![0.7]]);
+    point.outputs.insert(target(Side::P), vec![vec![0.3]]);
+    let energy = |point: &Point<f64>| {
+        let at = |side| point.outputs[&target(side)][0][0];
+        let (q, p): (f64, f64) = (at(Side::Q), at(Side::P));
+        q * q * (p * p + 1.0)
+    };
+    let start = energy(&point);
+    for n in 0..PAIRS {
+        let c = 1e-4 * (0.5 + (n as f64 * 0.618_033_988_749_895).fract());
+        for c in [c, -c] {
+            point.c = c;
+            point.outputs = run(&program, &program.functions[0], &point).outputs;
+        }
+    }
+    let moved = (energy(&point) / start - 1.0).abs();
+    let random = f64::EPSILON * (2.0 * PAIRS as f64).sqrt();
+    assert!(moved < 10.0 * random, "{moved:e}, at random {random:e}");
+}
+
 /// A system of arrays, and its pieces.
 struct Ring {
     signature: &'static str,

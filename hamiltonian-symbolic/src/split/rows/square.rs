@@ -105,9 +105,12 @@ fn in_chart(
             domain.push(names.get("d")?);
         }
         (Some(1), Some(1)) => {
+            // By half of the argument: √(1 + sinh²) of a short time rounds down more often than up, and
+            // the energy of a run drifts.
             names.read(
                 space.dag(),
-                "r = sqrt(2*F*f2); grown = sinh(P*r*s); C = sqrt(1 + grown^2); S = grown/r; d = C + Fu*S; \
+                "r = sqrt(2*F*f2); half = sinh(P*r*s/2); C = 1 + 2*half^2; S = 2*half*sqrt(1 + half^2)/r; \
+                 d = C + Fu*S; \
                  u1 = (u + b/f2)*C - b/f2 + 2*F*S",
             )?;
         }

@@ -1,6 +1,7 @@
 //! Forces: systems that lose energy, against closed forms, and the order of every scheme that takes
 //! forces.
 
+use crate::allocator::allocations;
 use crate::common::order::slope;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_split};
@@ -45,6 +46,13 @@ hamiltonian! {
     /// A chain whose bonds push two masses each, every mass with a friction of its own.
     pub struct Chain<const N: usize> {}
     H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + (q[(i + 1) % N] - q[i])^4/4 };
+    force(q; p) = -0.3*p
+}
+
+hamiltonian! {
+    /// The same with a number of masses set at run time, and a mass each.
+    pub struct Long { N: usize, m: [N] }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/(2*m[i]) + (q[(i + 1) % N] - q[i])^4/4 };
     force(q; p) = -0.3*p
 }
 
@@ -172,4 +180,15 @@ fn friction_alone_is_exact() {
         "{}",
         end.p[0]
     );
+}
+
+#[test]
+fn a_kick_with_friction_allocates_nothing() {
+    let long = Long::new(3, vec![1.0, 2.0, 0.5]).unwrap();
+    let start = State::new(vec![0.3, -0.2, 0.9], vec![0.4, 0.1, -0.5]);
+    let mut run = Integrator::new(&long, Yoshida4, start, 0.01).unwrap();
+    let count = allocations(|| {
+        run.advance(3000).unwrap();
+    });
+    assert_eq!(count, 0);
 }

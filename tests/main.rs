@@ -4,6 +4,8 @@
 // Under another name, as `hygiene` names it.
 extern crate hamiltonian as mechanics;
 
+#[path = "../hamiltonian-core/tests/common/allocator.rs"]
+mod allocator;
 pub mod arrays;
 pub mod brackets;
 mod budgets;

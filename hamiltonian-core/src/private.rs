@@ -8,6 +8,7 @@ use core::convert::Infallible;
 use core::marker::PhantomData;
 
 pub extern crate alloc;
+pub use alloc::sync::Arc;
 pub use core;
 
 pub use hamiltonian_lanes::{Lift, Mask, Real};

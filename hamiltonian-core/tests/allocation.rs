@@ -1,44 +1,11 @@
 //! Nothing allocates in a step: counted, for every scheme, with sizes set at compile and at run
 //! time, observed and not.
 
+use crate::common::allocator::allocations;
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Scheme, Vector};
-use std::alloc::{GlobalAlloc, Layout, System as Heap};
-use std::cell::Cell;
-
-/// The heap, counting the calls of each thread.
-struct Counting;
-
-thread_local! {
-    static CALLS: Cell<u64> = const { Cell::new(0) };
-}
-
-// SAFETY: every call is passed on to the heap unchanged; the counter is a thread-local `Cell`
-// with a constant initial value and no destructor, so touching it allocates nothing.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        CALLS.set(CALLS.get() + 1);
-        unsafe { Heap.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { Heap.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        CALLS.set(CALLS.get() + 1);
-        unsafe { Heap.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static COUNTING: Counting = Counting;
-
-fn allocations(work: impl FnOnce()) -> u64 {
-    let before = CALLS.get();
-    work();
-    CALLS.get() - before
-}
 
 struct NoAllocations<S>(S);
 

@@ -243,6 +243,10 @@ impl<T: Real> Real for Dual<T> {
         self.re.write_words(to);
         self.eps.write_words(to);
     }
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        T::out_of_line(f)
+    }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         Self {
             re: T::read_words(next),

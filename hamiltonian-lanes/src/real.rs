@@ -207,6 +207,23 @@ pub trait Real:
     /// ```
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self;
 
+    /// `f()` in a function of its own, compiled with the instructions of this scalar. For parts of a
+    /// body that is too long to be one function; whatever is left a plain call would lose the level of
+    /// a pack ([`Level`](crate::Level)).
+    ///
+    /// ```
+    /// # use hamiltonian_lanes::Real;
+    /// assert_eq!(f64::out_of_line(|| 2.0_f64.sqrt()), 2.0_f64.sqrt());
+    /// ```
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        #[inline(never)]
+        fn entry<A>(f: impl FnOnce() -> A) -> A {
+            f()
+        }
+        entry(f)
+    }
+
     /// 0.
     #[inline(always)]
     fn zero() -> Self {

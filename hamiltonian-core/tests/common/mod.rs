@@ -2,6 +2,7 @@
 //! its own (order, forms, check values) is tested at the workspace root, on systems the macro
 //! makes.
 
+pub mod allocator;
 pub mod four;
 pub mod pieces;
 pub mod systems;

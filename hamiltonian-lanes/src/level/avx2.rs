@@ -6,7 +6,7 @@
 use core::arch::x86_64::*;
 
 use super::portable::plain;
-use super::register::{Register, intrinsics};
+use super::register::{Register, intrinsics, out_of_line};
 
 impl Register for __m256d {
     type Flags = __m256d;
@@ -14,6 +14,7 @@ impl Register for __m256d {
     const LANES: u32 = 4;
     const FUSED: bool = true;
 
+    out_of_line!("avx2,fma");
     intrinsics! {
         fn splat(value: f64) -> Self { _mm256_set1_pd(value) }
         fn load(lanes: &[f64; 4]) -> Self { _mm256_loadu_pd(lanes.as_ptr()) }
@@ -71,4 +72,4 @@ fn once_rounded(a: f64, b: f64, c: f64) -> f64 {
     unsafe { _mm_cvtsd_f64(_mm_fmadd_sd(_mm_set_sd(a), _mm_set_sd(b), _mm_set_sd(c))) }
 }
 
-plain!(One, 1, fused: true, fma: once_rounded, 0);
+plain!(One, 1, fused: true, fma: once_rounded, features: ["avx2,fma"], 0);

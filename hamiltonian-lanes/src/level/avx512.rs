@@ -5,7 +5,7 @@
 
 use core::arch::x86_64::*;
 
-use super::register::{Register, intrinsics};
+use super::register::{Register, intrinsics, out_of_line};
 
 impl Register for __m512d {
     type Flags = __mmask8;
@@ -13,6 +13,7 @@ impl Register for __m512d {
     const LANES: u32 = 8;
     const FUSED: bool = true;
 
+    out_of_line!("avx512f,avx512dq,avx512cd,avx512bw,avx512vl,avx2,fma");
     intrinsics! {
         fn splat(value: f64) -> Self { _mm512_set1_pd(value) }
         fn load(lanes: &[f64; 8]) -> Self { _mm512_loadu_pd(lanes.as_ptr()) }

@@ -6,7 +6,7 @@
 use core::arch::aarch64::*;
 
 use super::portable::plain;
-use super::register::{Register, intrinsics};
+use super::register::{Register, intrinsics, out_of_line};
 
 impl Register for float64x2_t {
     type Flags = uint64x2_t;
@@ -14,6 +14,7 @@ impl Register for float64x2_t {
     const LANES: u32 = 2;
     const FUSED: bool = true;
 
+    out_of_line!();
     intrinsics! {
         fn splat(value: f64) -> Self { vdupq_n_f64(value) }
         fn load(lanes: &[f64; 2]) -> Self { vld1q_f64(lanes.as_ptr()) }
@@ -78,4 +79,4 @@ fn once_rounded(a: f64, b: f64, c: f64) -> f64 {
     }
 }
 
-plain!(One, 1, fused: true, fma: once_rounded, 0);
+plain!(One, 1, fused: true, fma: once_rounded, features: [], 0);

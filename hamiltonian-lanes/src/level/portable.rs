@@ -12,12 +12,14 @@ pub struct Two([f64; 2]);
 
 /// [`Register`] for `$Type([f64; $n])`, lane by lane, with a function for `fma` of one lane.
 macro_rules! plain {
-    ($Type:ident, $n:literal, fused: $fused:literal, fma: $fma:path, $($k:tt)*) => {
+    ($Type:ident, $n:literal, fused: $fused:literal, fma: $fma:path, features: [$($features:literal)?], $($k:tt)*) => {
         impl Register for $Type {
             type Flags = [bool; $n];
             type Array = [f64; $n];
             const LANES: u32 = $n;
             const FUSED: bool = $fused;
+
+            crate::level::register::out_of_line!($($features)?);
 
             #[inline(always)]
             fn splat(value: f64) -> Self {
@@ -139,4 +141,4 @@ fn twice_rounded(a: f64, b: f64, c: f64) -> f64 {
     a * b + c
 }
 
-plain!(Two, 2, fused: false, fma: twice_rounded, 0 1);
+plain!(Two, 2, fused: false, fma: twice_rounded, features: [], 0 1);

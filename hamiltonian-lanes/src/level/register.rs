@@ -63,7 +63,31 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn not(a: Self::Flags) -> Self::Flags;
     /// Bit k is the flag of lane k; the bits above the last lane are 0.
     fn bits(a: Self::Flags) -> u32;
+
+    /// `f()` out of line, compiled with the instructions of the register.
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A;
 }
+
+/// [`Register::out_of_line`] with these features.
+macro_rules! out_of_line {
+    ($($features:literal)?) => {
+        #[inline(always)]
+        fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+            $(#[target_feature(enable = $features)])?
+            #[inline(never)]
+            fn entry<A>(f: impl FnOnce() -> A) -> A {
+                f()
+            }
+            // SAFETY: `entry` asks for features of the level that names the register, and that
+            // level is entered only on a CPU that has them (see the module).
+            #[allow(unused_unsafe)]
+            unsafe {
+                entry(f)
+            }
+        }
+    };
+}
+pub(super) use out_of_line;
 
 /// Functions of a register whose bodies are intrinsics, written as ordinary functions.
 #[allow(unused_macros)]

@@ -5,7 +5,7 @@
 
 use core::arch::x86_64::*;
 
-use super::register::{Register, intrinsics};
+use super::register::{Register, intrinsics, out_of_line};
 
 impl Register for __m128d {
     type Flags = __m128d;
@@ -13,6 +13,7 @@ impl Register for __m128d {
     const LANES: u32 = 2;
     const FUSED: bool = false;
 
+    out_of_line!();
     intrinsics! {
         fn splat(value: f64) -> Self { _mm_set1_pd(value) }
         fn load(lanes: &[f64; 2]) -> Self { _mm_loadu_pd(lanes.as_ptr()) }

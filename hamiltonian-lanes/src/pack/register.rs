@@ -236,6 +236,10 @@ impl<R: Register> Real for V<R> {
         let lanes = R::store(self.0);
         lanes.as_ref().get(k as usize).copied().unwrap_or(f64::NAN)
     }
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        R::out_of_line(f)
+    }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         let mut lanes = R::Array::default();
         for lane in lanes.as_mut() {

@@ -119,6 +119,10 @@ impl<P: Pack> Real for Nf<P> {
     fn lane(self, k: u32) -> f64 {
         self.0.lane(k)
     }
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        P::out_of_line(f)
+    }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         Self(P::read_words(next))
     }

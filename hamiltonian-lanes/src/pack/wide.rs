@@ -249,6 +249,10 @@ impl<P: Pack, const K: usize> Real for W<P, K> {
         let pack = self.0.get((k / P::LANES) as usize);
         pack.map_or(f64::NAN, |pack| pack.lane(k % P::LANES))
     }
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        P::out_of_line(f)
+    }
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
         Self([(); K].map(|()| P::read_words(next)))
     }

@@ -93,10 +93,10 @@ pub fn write(out: &mut String, context: Context, scalar: &dyn Fn(u16) -> String,
     writer.steps(steps);
 }
 
-struct Writer<'a> {
-    context: Context<'a>,
+pub(super) struct Writer<'a> {
+    pub(super) context: Context<'a>,
     scalar: &'a dyn Fn(u16) -> String,
-    out: &'a mut String,
+    pub(super) out: &'a mut String,
     /// Wrapped indices of open loops and the text they are reached by.
     indices: Vec<(Index, String)>,
     /// Elements of open loops that are reached through a slice cut to the segment.
@@ -111,7 +111,7 @@ macro_rules! line {
 }
 
 impl<'a> Writer<'a> {
-    fn steps(&mut self, steps: &[Step]) {
+    pub(super) fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             match step {
                 Step::Let(value) => self.compute(*value),
@@ -301,7 +301,7 @@ impl<'a> Writer<'a> {
         let end = self.context.indices.saturating(&inner.end);
         if found.wrapped.is_empty() && found.cuts.is_empty() {
             line!(self, "for _i{d} in {start}..{end} {{");
-            self.steps(&inner.body);
+            self.iteration(&inner.body);
             line!(self, "}}");
             return;
         }
@@ -314,7 +314,7 @@ impl<'a> Writer<'a> {
                 self.slices.push((*slice, index.clone(), text));
             }
             line!(self, "for _i{d} in 0.._l{d} {{");
-            self.steps(&inner.body);
+            self.iteration(&inner.body);
             line!(self, "}}");
             self.slices.truncate(known_slices);
             return;
@@ -332,7 +332,7 @@ impl<'a> Writer<'a> {
         self.cut(inner.domain, &found.cuts);
         line!(self, "for _k{d} in 0.._l{d} {{");
         line!(self, "let _i{d} = _s{d} + _k{d};");
-        self.steps(&inner.body);
+        self.iteration(&inner.body);
         line!(self, "}}");
         if !found.wrapped.is_empty() {
             line!(self, "_s{d} += _l{d};");

@@ -190,7 +190,13 @@ impl<'a> Emission<'a> {
             arrays: &self.prepared.arrays,
         };
         self.bodies.write(&mut self.out, body);
-        let fill = self.prepared.fill(context, |array| format!("_b{array}"));
+        let fill = self.prepared.fill(context, |array| {
+            let shape = &context.model.parameters[usize::from(array)].shape;
+            match layout::is_dynamic(shape, context.is_run_time) {
+                true => format!("__h::Arc::new(_b{array})"),
+                false => format!("_b{array}"),
+            }
+        });
         line!(self, "{fill}\n}}");
         line!(
             self,
@@ -337,7 +343,7 @@ impl<'a> Emission<'a> {
     /// The holder of a field, a kick or a drift with its evaluation.
     fn flow(&mut self, purpose: Purpose) {
         let (name, inputs, outputs): (_, &[&str], &[&str]) = match purpose {
-            Purpose::Push => ("__Push", &["_q", "_p"], &["_op"]),
+            Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
             Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
             Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
             _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
@@ -365,11 +371,7 @@ impl<'a> Emission<'a> {
         let (declaration, holders) = (generics.holder_declaration(), generics.holder_arguments());
         let vector = &self.vector;
         let piece = match purpose {
-            Purpose::Push => Some((
-                0,
-                "let _before = __h::core::clone::Clone::clone(&_x.p);\n\
-                 let (_q, _p, _op) = (&_x.q, &_before, &mut _x.p);",
-            )),
+            Purpose::Push => Some((0, "let (_oq, _op) = (&mut _x.q, &mut _x.p);")),
             Purpose::Kick => Some((0, "let (_q, _op) = (&_x.q, &mut _x.p);")),
             Purpose::Drift => Some((1, "let (_p, _oq) = (&_x.p, &mut _x.q);")),
             _ => None,
@@ -397,7 +399,10 @@ impl<'a> Emission<'a> {
             }
         };
         let receiver = Receiver::Holder(&holder);
+        // A damped kick reads the momenta it writes, each before it is written.
+        self.bodies.context.in_place = purpose == Purpose::Push;
         let text = evaluation(&mut self.bodies, name, receiver, &arguments, function);
+        self.bodies.context.in_place = false;
         line!(self, "let _self = self;\n{parts}\n{text}");
         line!(self, "}}\n}}");
     }

@@ -61,7 +61,11 @@ impl Holder {
         for &array in &self.arrays {
             let shape = &context.model.parameters[usize::from(array)].shape;
             let ty = layout::storage(shape, "T", context.indices, context.is_run_time, "__h");
-            let _ = writeln!(out, "a{array}: {ty},");
+            // All holders of a run share what is sized at run time.
+            let _ = match layout::is_dynamic(shape, context.is_run_time) {
+                true => writeln!(out, "a{array}: __h::Arc<{ty}>,"),
+                false => writeln!(out, "a{array}: {ty},"),
+            };
         }
         out.push_str("}\n");
     }

@@ -23,6 +23,7 @@ mod generics;
 mod holder;
 mod index;
 mod item;
+mod iteration;
 mod layout;
 mod markers;
 mod mixed;

@@ -213,11 +213,11 @@ impl Bodies<'_> {
         };
         let _ = write!(
             self.parts,
-            "#[inline(never)]\n#[allow(clippy::too_many_arguments, clippy::type_complexity)]\n\
+            "#[inline(always)]\n#[allow(clippy::too_many_arguments, clippy::type_complexity)]\n\
              fn {function}{}(_self: &{}{declared}){result} {{\n{text}}}\n",
             body.receiver.declaration(self.generics),
             body.receiver.ty(self.generics),
         );
-        format!("{function}(_self{passed})")
+        format!("<T as __h::Real>::out_of_line(|| {function}(_self{passed}))")
     }
 }

@@ -32,6 +32,10 @@ impl Marks {
     pub fn insert(&mut self, value: Value) -> bool {
         !core::mem::replace(&mut self.0[value.0 as usize], true)
     }
+    /// Removes a value; whether it was there.
+    pub fn remove(&mut self, value: Value) -> bool {
+        core::mem::take(&mut self.0[value.0 as usize])
+    }
 }
 
 /// What a block with these results does.

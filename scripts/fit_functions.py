@@ -218,6 +218,9 @@ def main():
     table("EXP_EVEN", "cosh r = 1 + z·P(z), z = r² ≤ (ln 2/2)²",
           precise(lambda z: (cosh(sqrt(z)) - 1) / z),
           lambda z: z, 0, edge, 6)
+    table("EXP_EVEN_SHORT", "cosh r = 1 + z·P(z), z = r² ≤ (ln 2/2)²",
+          precise(lambda z: (cosh(sqrt(z)) - 1) / z),
+          lambda z: z, 0, edge, 5)
     table("EXP_ODD", "sinh r = r + r·z·P(z), z = r² ≤ (ln 2/2)²",
           precise(lambda z: (sinh(sqrt(z)) / sqrt(z) - 1) / z),
           lambda z: z, 0, edge, 5)

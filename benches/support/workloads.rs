@@ -3,6 +3,7 @@
 //! Both are kept out of line and are given their inputs through `black_box`, so that neither is
 //! computed by the compiler.
 
+use hamiltonian::Scheme;
 use hamiltonian::prelude::*;
 use std::hint::black_box;
 
@@ -52,6 +53,16 @@ pub const ALL: &[Workload] = &[
         name: "Hénon–Heiles, Störmer–Verlet",
         library: henon_heiles,
         twin: henon_heiles_twin,
+    },
+    Workload {
+        name: "Hénon–Heiles, Yoshida 4",
+        library: |n| yoshida(Yoshida4, n),
+        twin: yoshida_twin,
+    },
+    Workload {
+        name: "Hénon–Heiles, composed Strang",
+        library: |n| yoshida(Composition::yoshida(Strang), n),
+        twin: yoshida_twin,
     },
 ];
 
@@ -151,5 +162,48 @@ fn henon_heiles_twin(n: u64) -> Vec<f64> {
     }
     px -= half * x * (1.0 + 2.0 * y);
     py -= half * (y + x * x - y * y);
+    vec![x, y, px, py]
+}
+
+#[inline(never)]
+fn yoshida<M: Scheme<f64, HenonHeiles>>(scheme: M, n: u64) -> Vec<f64> {
+    let start = black_box(State::new([0.1, -0.1], [0.3, 0.2]));
+    let mut run = Integrator::new(&HenonHeiles {}, scheme, start, black_box(STEP)).unwrap();
+    let end = run.advance(n).unwrap();
+    vec![end.q[0], end.q[1], end.p[0], end.p[1]]
+}
+
+#[inline(never)]
+fn yoshida_twin(n: u64) -> Vec<f64> {
+    let h = black_box(STEP);
+    let ([mut x, mut y], [mut px, mut py]) = black_box(([0.1, -0.1], [0.3, 0.2]));
+    let outer = h / (2.0 - 2.0_f64.cbrt());
+    let inner = h - 2.0 * outer;
+    let middle = 0.5 * (outer + inner);
+    macro_rules! kick {
+        ($c:expr) => {
+            px -= $c * x * (1.0 + 2.0 * y);
+            py -= $c * (y + x * x - y * y);
+        };
+    }
+    macro_rules! drift {
+        ($c:expr) => {
+            x += $c * px;
+            y += $c * py;
+        };
+    }
+    let half = 0.5 * outer;
+    kick!(half);
+    for k in 0..n {
+        if k > 0 {
+            kick!(outer);
+        }
+        drift!(outer);
+        kick!(middle);
+        drift!(inner);
+        kick!(middle);
+        drift!(outer);
+    }
+    kick!(half);
     vec![x, y, px, py]
 }

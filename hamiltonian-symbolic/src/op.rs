@@ -247,6 +247,12 @@ operations! {
     Ln1p ln_1p(x) None Some(0), "\\operatorname{log1p}",
         [From(-1), Any, Nowhere, Some(MinusOne), Infinite, Branched],
         |d, x, f| { let one = d.integer(1); let r = d.add(&[one, x[0]]); vec![d.powi(r, -1)] };
+    Erf erf(x) Odd Some(0), "\\operatorname{erf}",
+        [All, Any, Nowhere, None, Limits, Entire],
+        |d, x, f| vec![bell(d, x[0], 2)];
+    Erfc erfc(x) None Some(1), "\\operatorname{erfc}",
+        [All, Positive, Nowhere, None, Limits, Entire],
+        |d, x, f| vec![bell(d, x[0], -2)];
     Atan2 atan2(y, x) None None, "\\operatorname{atan2}",
         [All, Any, Jump(Cut), None, Nothing, Branched],
         |d, x, f| {
@@ -287,6 +293,17 @@ operations! {
         let (vanished, slope) = (d.equal(f, zero), d.mul(&[f, log]));
         vec![d.mul(&[x[1], lower]), d.select(vanished, zero, slope)]
     };
+}
+
+/// k·exp(−x²)/√π
+fn bell(dag: &mut Dag, x: Node, k: i64) -> Node {
+    let square = dag.powi(x, 2);
+    let minus = dag.neg(square);
+    let pi = dag.pi();
+    let root = dag.call(Op::Sqrt, &[pi]);
+    let (bell, root) = (dag.call(Op::Exp, &[minus]), dag.powi(root, -1));
+    let product = dag.mul(&[bell, root]);
+    dag.scale(&Rational::integer(k), product)
 }
 
 impl Op {

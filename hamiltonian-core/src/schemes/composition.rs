@@ -6,7 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use super::table::Weight;
 use super::tables::general as tables;
-use crate::map::{Cause, Map, ScalarOf, Step};
+use crate::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::scheme::{Entry, Listed, OneStep, Scheme};
 use crate::state::{Point, State};
 use crate::system::System;
@@ -120,7 +120,7 @@ impl<M: OneStep, const S: usize> OneStep for Composition<M, S> {
 impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Scheme<T, S>
     for Composition<M, STAGES>
 {
-    type Map = Composed<M::Map, STAGES>;
+    type Map = Either<Composed<M::Map, STAGES, true>, Composed<M::Map, STAGES, false>>;
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let (last, weight) = &self.stages[STAGES - 1];
@@ -128,7 +128,7 @@ impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Sche
         let mut before = weight.to::<T>() * step.before;
         let mut at = T::zero();
         let duration = T::constant(f64::from(last.entry().duration), 0.0);
-        let stages = core::array::from_fn(|i| {
+        let stages: [_; STAGES] = core::array::from_fn(|i| {
             let (scheme, weight) = &self.stages[i];
             let weight = weight.to::<T>();
             let h = weight * step.h;
@@ -144,7 +144,11 @@ impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Sche
             at += weight;
             stage
         });
-        Composed { stages }
+        if stages.iter().all(|stage| stage.joins) {
+            Either::First(Composed { stages })
+        } else {
+            Either::Second(Composed { stages })
+        }
     }
     fn start(
         &self,
@@ -165,12 +169,12 @@ struct Stage<M: Map> {
     at: ScalarOf<M>,
 }
 
-/// The map of a [`Composition`].
-pub struct Composed<M: Map, const S: usize> {
+/// The map of a [`Composition`]; `JOINED` where every stage joins the one before, so that no step asks.
+pub struct Composed<M: Map, const S: usize, const JOINED: bool> {
     stages: [Stage<M>; S],
 }
 
-impl<M: Map, const S: usize> Composed<M, S> {
+impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {
     /// When stage `i` of the step from `t` to `end` is over.
     #[inline(always)]
     fn end_of(&self, i: usize, t: ScalarOf<M>, end: ScalarOf<M>) -> ScalarOf<M> {
@@ -184,7 +188,7 @@ impl<M: Map, const S: usize> Composed<M, S> {
     #[inline(always)]
     fn join_stage(&self, i: usize, t: ScalarOf<M>, z: &mut M::Carried) {
         let stage = &self.stages[i];
-        if stage.joins {
+        if JOINED || stage.joins {
             stage.map.join(t, z);
         } else {
             let before = if i == 0 { S - 1 } else { i - 1 };
@@ -194,7 +198,7 @@ impl<M: Map, const S: usize> Composed<M, S> {
     }
 }
 
-impl<M: Map, const S: usize> Map for Composed<M, S> {
+impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> {
     type Carried = M::Carried;
     type Work = M::Work;
 

@@ -62,8 +62,9 @@ pub(crate) fn atan2<W: Word>(y: W, x: W) -> W {
     let small = Real::min(height, width);
     let large = Real::max(height, width);
     let least = W::splat(1.0 / PLAIN);
-    let plain =
-        large.le(W::splat(PLAIN)) & least.le(large) & (least.le(small) | small.equals(W::zero()));
+    // Farther apart the quotient may be subnormal, which two words cannot round once.
+    let apart = !(large * least).le(small) & !small.equals(W::zero());
+    let plain = large.le(W::splat(PLAIN)) & least.le(large) & !apart;
     let rare = !plain;
     if rare.any() {
         return value.replace2(rare, y, x, atan2_of_rare);

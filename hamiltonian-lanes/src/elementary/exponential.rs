@@ -110,11 +110,20 @@ pub(super) fn exp_any(x: f64, more: f64, shift: i64) -> f64 {
     scale_any(one + rest, power.wrapping_add(shift as u64))
 }
 
-/// Exponential.
+/// Exponential: 1 + (high + (r²·P(r) − low)), whose sums round by at most a quarter and a half.
 #[inline(always)]
 pub(crate) fn exp<W: Word>(x: W) -> W {
-    let (power, one, rest) = exp_parts(x, W::zero());
-    let y = scale_normal(one + rest, power);
+    let Reduced { power, high, low } = reduce(x, W::zero());
+    let r = high - low;
+    let z = r * r;
+    // By pairs of powers, which shares z and needs no z².
+    let pair = |k: usize| r.fma(W::splat(EXP_ODD[k]), W::splat(EXP_EVEN_SHORT[k]));
+    let series = z.fma(
+        z.fma(z.fma(z.fma(pair(4), pair(3)), pair(2)), pair(1)),
+        pair(0),
+    );
+    let y = W::one() + (high + z.fma(series, -low));
+    let y = scale_normal(y, power);
     let rare = !x.abs().le(W::splat(LARGE));
     if rare.any() {
         return y.replace(rare, x, exp_of_large);

@@ -100,7 +100,11 @@ impl Algebra {
                 let y = self.argument(&x[1])?;
                 self.power(&first, &y)?
             }
-            Op::Asin | Op::Acos | Op::Atan | Op::Acosh | Op::Atan2 => {
+            Op::Erfc => {
+                let erf = self.call(Op::Erf, x)?;
+                one.sub(&erf)
+            }
+            Op::Asin | Op::Acos | Op::Atan | Op::Acosh | Op::Erf | Op::Atan2 => {
                 let mut arguments = vec![first];
                 for other in &x[1..] {
                     arguments.push(self.argument(other)?);

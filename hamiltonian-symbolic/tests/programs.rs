@@ -61,7 +61,7 @@ fn work(program: &Program, function: &Function) -> usize {
 fn simplification_adds_no_operation() {
     let mut random = Random(13);
     let (mut more, mut written, mut left) = (0, 0, 0);
-    let count = common::cases(5_000, 10_000);
+    let count = 10_000;
     for _ in 0..count {
         let (tree, _) = grow(&mut random);
         let program = match derive(&mut tree.model(), &[Purpose::Energy]) {

@@ -6,7 +6,7 @@
 
 use super::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, Compensated,
-    ConsecutiveSubTrajectories, DiscreteGradient, Gauss, ImplicitMidpoint,
+    ConsecutiveSubTrajectories, DiscreteGradient, Gauss, GaussNystrom, ImplicitMidpoint,
     IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
     Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
     SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
@@ -83,7 +83,7 @@ macro_rules! catalogue {
         }
 
         /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q, t) with constant M.
-        pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic>(
+        pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic + Unforced>(
             visitor: &mut impl Visitor<T, S>,
         ) {
             $(visitor.visit($quadratic);)+
@@ -142,6 +142,7 @@ quadratic {
     Srkn11b,
     Srkn14a,
     BlanesCasasEscorihuela8,
+    GaussNystrom::<2>::default(),
 }
 implicit {
     Gauss::<2>::default(),

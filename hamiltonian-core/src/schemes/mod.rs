@@ -25,6 +25,7 @@
 //! | [`IntersectingSubTrajectories`] | (33) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients |
 //! | [`ImplicitMidpoint`] | | 2 | | dq∧dp | 1 gradient an iteration |
 //! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
+//! | [`GaussNystrom`] | | 2S | quadratic T, no forces | dq∧dp | S forces an iteration |
 //! | [`Variational`] | (35) | min(2·degree, quadrature's) | | dq∧dp | a gradient a point and iteration |
 //! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
@@ -59,6 +60,7 @@ mod gauss;
 mod iterate;
 mod midpoint;
 mod newton;
+mod second_order;
 mod stages;
 mod variational;
 
@@ -86,6 +88,7 @@ pub use projection::{
     Averaged, MidpointProjected, Mixed, Mixing, Projected, ProjectedWork, Semiexplicit,
 };
 pub use runge_kutta::{Classical, ClassicalWork, RungeKutta4};
+pub use second_order::{CarriesForces, Eliminated, EliminatedWork, GaussNystrom};
 pub use separable::{StormerVerlet, SymplecticEuler};
 pub use splittings::Strang;
 pub use stages::{Carries, Collocated, CollocatedWork, Stages};

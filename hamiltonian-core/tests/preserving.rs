@@ -308,8 +308,8 @@ fn symplectic_schemes_do_not_drift() {
     assert!(of_34(Variational::<2, 2>::lobatto(), steps) <= 0.02);
     assert!(of_34(Variational::<1, 2>::lobatto(), steps) <= 0.02);
     assert!(of_34(Semiexplicit::<Strang>::default(), steps) <= 0.02);
-    // Negative control.
-    assert!(of_34(RungeKutta4, steps) > 1.0);
+    // Negative control: it loses H, all of it in the long run.
+    assert!(of_34(RungeKutta4, steps) > 0.1);
 }
 
 /// Rounding errors of `scheme` on Hénon–Heiles after so many steps, root mean square over the

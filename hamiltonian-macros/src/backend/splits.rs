@@ -119,8 +119,8 @@ fn refused(model: &Model, why: &str) -> Found {
             message: format!("{name} is not split into exact flows: {why}"),
             label: "needs H = A + B + … whose pieces have exact flows".into(),
             note: "declare pieces by hand, `split { A = …; B = …; }`, or use a scheme for any H: \
-                   `ImplicitMidpoint`, `Pihajoki`, `IntersectingSubTrajectories`, `RungeKutta4` \
-                   (not symplectic)"
+                   `ImplicitMidpoint`, `Gauss`, `Tao`, `Semiexplicit`, `Pihajoki`, \
+                   `IntersectingSubTrajectories`, `RungeKutta4` (not symplectic)"
                 .into(),
         }),
         facts: vec![format!("H is not split into exact flows: {why}.")],

@@ -268,3 +268,30 @@ fn a_block_of_masses_keeps_its_energy() {
     assert!(!block("x*u + (2 + x^2)*v + x*w").contains("compile_error"));
     assert!(block("u^2").contains("is not conserved"));
 }
+
+/// A scheme that needs a split names the term without a flow, and the schemes for any H.
+#[test]
+fn what_is_not_split_says_so() {
+    let source = "pub struct Sphere {} H(q; p) = p^2/(2*(1 + q^2)) + cos(q)";
+    let code = format!("(::hamiltonian) {source}");
+    let code = expand(TokenStream::from_str(&code).unwrap()).to_string();
+    let message = "H of `Sphere` is not split into exact flows: no exact flow is known for the \
+                   term `p^2/(2*(q^2 + 1))`";
+    assert!(code.contains(message), "{code}");
+    for scheme in [
+        "ImplicitMidpoint",
+        "Gauss",
+        "Tao",
+        "Semiexplicit",
+        "Pihajoki",
+    ] {
+        assert!(code.contains(&format!("`{scheme}`")), "{scheme}");
+    }
+    // One that is split says nothing of it, and one loop of flows is no flow.
+    let ring = docs(
+        "pub struct Pairs { n: usize } H(x[n]; y[n]) = sum(i in 0..n, j in 0..i) {
+            ln((x[i] - x[j])^2 + (y[i] - y[j])^2) }",
+    );
+    assert!(ring.contains("split into the terms of one loop"), "{ring}");
+    assert!(!ring.contains("flow of all of H"), "{ring}");
+}

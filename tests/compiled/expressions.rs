@@ -4,1282 +4,1282 @@ use hamiltonian::hamiltonian;
 
 hamiltonian! {
     pub struct E0 { a, b, c }
-    H(x, y; px, py; t) = ((if ((if (atan2((-1), (1/3)) <= t) { a } else { (1/2) }) <= b) { atan2(((t - (py^2))*max((-7/4), (1/2))), a) } else { px }) + ln((((t + a)^2) + 2)))
+    H(x, y; px, py; t) = ((if ((if (atan2((-1), (1/3)) <= t) { a } else { (1/2) }) <= b) { atan2(((t - (py^2))*max((-7/4), (1/2))), a) } else { px }) + ln_1p((((t + a)^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E1 { a, b, c }
-    H(x, y; px, py; t) = (((if (min((y - (1/10)), 1) < y) && ((-((if (acos((py - b)) <= x) { b } else { y })*y)) < x) { ((-((if (acos((py - b)) <= x) { b } else { y })*y))/((min(acos((py/(1 + (py^2)))), (py/((1^2) + (1^2))))^2) + 1)) } else { ((atan2(px, (a/(1/2)))^5)/(abs(((y*py) + (py - b)))^(1/2))) })*sqrt(((((((min(acos((py/(1 + (py^2)))), (py/((1^2) + (1^2))))^2)^2) + 1)^-2)^2) + 2)))*(py - ((py^2)/(-7/4))))
+    H(x, y; px, py; t) = (((if (min((y - (1/10)), 1) < y) { ((-((if (asinh((py - b)) <= b) { 1 } else { py })*x))/(b - atanh(((pi*y)/(1 + ((pi*y)^2)))))) } else { cosh(atan(((asinh((py - b)) + a) + (max(px, c) - tanh(tanh((1/2))))))) })*(-(tanh(tanh((1/2))) + t)))*((py - (asinh((py - b)) + a))/x))
 }
 
 hamiltonian! {
     pub struct E2 { a, b, c }
-    H(x, y; px, py; t) = (-((py*exp(cos(tanh((((y^2) + (((a^2) + (a^2))^-1))^5))))) + (((exp(atan(t))^(5/2))/cosh((((pow(b, cos(py))^2) + (1/4))^-3)))/(px + (2/abs(px))))))
+    H(x, y; px, py; t) = (((if !((px - 5) == (1/2)) { (px - 5) } else { (-(ln(cosh(atan(px)))*c)) })*((x/abs(b))^2))*(t*(px*(sinh(atan((-7/4)))*exp_m1(atan((a + b)))))))
 }
 
 hamiltonian! {
     pub struct E3 { a, b, c }
-    H(x, y; px, py; t) = ((((if !((px - 5) == (1/2)) { (px - 5) } else { (-(acosh((cosh(atan(px)) + 1))*c)) })*((px/abs(b))^2))*(t*(px*(sign((-7/4))*(if (((-b) + px) == b) || ((a*(px - c)) <= 3) { (pi + c) } else { pi }))))) + (cosh((cosh(cos(5)) + c))*((((1/2)^-1)*(y*(x + t))) + (b^4))))
+    H(x, y; px, py; t) = ((abs(asin((tan(erf(((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + ((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + px))))/(1 + (tan(erf(((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + ((px*((if ((-px) < a) || ((b - py) <= px) { (a - py) } else { 2 }) + (1/2))) + px))))^2)))))^(2/3)) + asin(cos((((exp(atan(cosh(cos((x*y)))))^(-7/5)) - ((x*y) + (abs((x + y)) + b))) + x))))
 }
 
 hamiltonian! {
     pub struct E4 { a, b, c }
-    H(x, y; px, py; t) = (min(((c*y) - c), (5/(((5*sinh(tanh(ln(exp(atan(py))))))^2) + 1))) + pi)
+    H(x, y; px, py; t) = atan2((atan2((((c*px)/(px*(c*py)))*b), pi) + (x - py)), py)
 }
 
 hamiltonian! {
     pub struct E5 { a, b, c }
-    H(x, y; px, py; t) = (abs((acosh((abs((sin((atan2(b, x)^-3)) - ((c*px)/py))) + 1))*(((c*px)/py)*py)))^(1/2))
+    H(x, y; px, py; t) = (((max(c, (py*a)) + (abs((if (y <= py) && (((pi*y) + c) < a) { (if (pow(abs((-7/4)), tanh((y - (-7/4)))) == (-7/4)) { (if (py < 1) || ((((a^2) + (pi^2))^(5/2)) <= pi) { py } else { x }) } else { min(py, (px*t)) }) } else { y }))^(1/3)))*sinh(((((1/10) + y) - y)/(cos(cbrt(py))*a))))^2)
 }
 
 hamiltonian! {
     pub struct E6 { a, b, c }
-    H(x, y; px, py; t) = (cos((if ((((1/3)*(1/3)) - px) < pi) { (tanh(((981/100) - c))/((b^2) + (1/4))) } else { (-1) })) + (max(c, c) + (if (((c*y)*y) <= y) || (sinh(a) <= x) { atan(y) } else { (-7/4) })))
+    H(x, y; px, py; t) = (((if ((px/exp(tanh(px))) == px) { (px*(py*b)) } else { c })*asin(tanh((a - ((-1) - ((((abs(c)^(3/10))^2) + 1)^-1)))))) + (hypot(t, (981/100)) + min(hypot(((((t + y)*sin(pi))*((((x - pi)/exp(atan((pi*(((y - a) + (1 + t))*(y/((b^2) + 1))))))) - ((abs(x)^(-7/5))*5))^2))^6), 1), (((exp(((-b)*(-7/4)))^7)*cbrt((((c^2) + (b^2))^-2)))/t))))
 }
 
 hamiltonian! {
     pub struct E7 { a, b, c }
-    H(x, y; px, py; t) = (((((if (cbrt((981/100)) == px) || (sin((pi/exp(atan(sign((981/100)))))) < b) { sign((981/100)) } else { y })/((((b + c)*sinh(((a - t)^2)))^2) + (pi^2)))^2) + (1/4))^(-1/2))
+    H(x, y; px, py; t) = (if (px < c) || (((pi^2)*((1/3) + 3)) <= c) { ((5*x)*((1/3) + 3)) } else { ((5*x) - 5) })
 }
 
 hamiltonian! {
     pub struct E8 { a, b, c }
-    H(x, y; px, py; t) = (((y - a) + (1 + t))*(cos((-(py*px)))/((((abs(x)^(-7/5))*5)^2) + (1^2))))
+    H(x, y; px, py; t) = sinh(tanh((((if (((if (((-7/4) - (x - a)) <= py) { c } else { 5 })^2) <= x) && ((a - (1/3)) == t) { ((-exp((1 - ((x*pi)*a))))^4) } else { ((((py + py)^2) + 1)^(-3/2)) })*x) + ln_1p((((if ((a/exp(cos(x))) <= 3) { 2 } else { ((1/10) + c) }) + (t*px))*(a*py))))))
 }
 
 hamiltonian! {
     pub struct E9 { a, b, c }
-    H(x, y; px, py; t) = (((if ((max(pi, 3) - pi) == 3) || (((pi^2)*asinh(5)) <= c) { (if !((981/100) < py) { (cosh(((((-(px^2))^2) + 1)^(-1/2)))^(-7/5)) } else { (px - py) }) } else { asinh(5) })/exp(atan(a))) + tanh((2 - ln_1p((pow(abs((((1/abs((1/10))) + t) + a)), sin(y)) + (if ((-7/4) <= b) { 1 } else { 1 }))))))
+    H(x, y; px, py; t) = (((((b*(981/100)) + (if (px <= px) { px } else { erf(py) })) - ((if !(((1/2)^-2) < b) { c } else { px })*(1/2))) + erfc((b - ((981/100) + b)))) + (((-x) - cos(1)) - ((3 - pi) + c)))
 }
 
 hamiltonian! {
     pub struct E10 { a, b, c }
-    H(x, y; px, py; t) = (((if (b < y) || (px <= py) { ((((px - b) - ((((1/2)^2) + (1/4))^(3/10)))^-3)^5) } else { (3 + py) }) - (py + pi))^7)
+    H(x, y; px, py; t) = ((sinh(max(x, (ln(abs(b)) - c)))^5) + (exp((if ((py*(sinh(max(x, (ln(abs(b)) - c)))^5)) < x) && (b <= t) { sinh(max(x, (ln(abs(b)) - c))) } else { pi }))^(-3/2)))
 }
 
 hamiltonian! {
     pub struct E11 { a, b, c }
-    H(x, y; px, py; t) = (((((py/py)^2) + (b^2))^(5/2)) + (-cosh(cos((if ((((tanh((py/py))^2) + (((((py/py)^2) + (b^2))^(5/2))^2))^(3/10)) <= x) || (y <= 1) { (b^5) } else { (px + cosh((1/2))) })))))
+    H(x, y; px, py; t) = (((if ((a*5) <= a) { sqrt((x^6)) } else { (px + a) }) - (x + b))^2)
 }
 
 hamiltonian! {
     pub struct E12 { a, b, c }
-    H(x, y; px, py; t) = ((cos((py/tanh((((c - py) + (t*px))*b))))/(((t + a)^2) + (t^2))) + (y - (tan(sin((((-7/4)^3)*x)))*cos(y))))
+    H(x, y; px, py; t) = ((((b*py)/(((((-2) - a) - px)^2) + 1))/((atan(c)^2) + 1)) + sqrt((if (y <= y) || (t <= t) { ((pow(((2^2) + 2), sin((if ((2*(x^-1)) < c) || (erf(b) < t) { ((((if (t < x) { b } else { y })^2) + (1/4))^(5/2)) } else { y }))) + cosh(cos((a/t))))^2) } else { atanh(cos(x)) })))
 }
 
 hamiltonian! {
     pub struct E13 { a, b, c }
-    H(x, y; px, py; t) = (-(atan((((px*(c + c))*((2 - py)/a)) - (px*(asin(sin(y)) + b)))) + (if ((abs(t)^(-4/3)) == 3) { x } else { t })))
+    H(x, y; px, py; t) = (exp((asinh((a + (2 + acos(sin(px)))))*(if ((-y) < c) && ((t + (pi/cosh(cos(b)))) < t) { asinh((a + (2 + acos(sin(px))))) } else { (acos(sin(px))^5) })))*acosh(((((c/(if ((abs((1/((b^2) + (1/4))))^(-7/5)) < c) { a } else { (1/10) }))^2) + (1^2)) + 1)))
 }
 
 hamiltonian! {
     pub struct E14 { a, b, c }
-    H(x, y; px, py; t) = (b/((x - atan(py)) - exp_m1(ln_1p(((hypot(a, (a + a))^2) + 2)))))
+    H(x, y; px, py; t) = ((if (((exp(c)^(-3/2)) + b) < a) && (py < (y - px)) { ((-(t + atan((y - px))))^2) } else { (-1) })*((py*(if ((atan2(c, x)*(-7/4)) < a) || ((if (asinh(y) < py) { y } else { px }) < b) { y } else { (sign((px/px)) - c) })) - (erfc((((sin((1/3)) + exp_m1(atan((exp(tanh(a))^(3/2))))) + c) - 2))*y)))
 }
 
 hamiltonian! {
     pub struct E15 { a, b, c }
-    H(x, y; px, py; t) = (cos((py - (b^4))) + min((if (y <= b) { cosh(sin((c - ((-1) - (c^7))))) } else { x }), atanh((acos(((x - b)/(1 + ((x - b)^2))))/(1 + (acos(((x - b)/(1 + ((x - b)^2))))^2))))))
+    H(x, y; px, py; t) = ((((t/c)*py)*(erfc(py) - (((1/2)/(py*(t + (3*a))))^6))) + (-((((y*1)/(((exp(x)^(-7/5))*x) + y)) + pi) + (x + x))))
 }
 
 hamiltonian! {
     pub struct E16 { a, b, c }
-    H(x, y; px, py; t) = (sqrt(abs((cos((asin(cos((y + max(y, (-7/4))))) + (((x*asin(cos((y + max(y, (-7/4))))))*ln_1p(exp(cos(c))))^4)))*px))) - sin(((tanh(((y/b)*y)) + ((1/3) - y)) + pow(cosh(t), (3 + x)))))
+    H(x, y; px, py; t) = (ln_1p((((sinh(cos(((sqrt((((px^5)^2) + (px^2))) - pow(((py^2) + 1), tanh(py))) + c)))^2) + (1/4))^(3/2)))*max(x, (sin(ln_1p(exp(x)))^-2)))
 }
 
 hamiltonian! {
     pub struct E17 { a, b, c }
-    H(x, y; px, py; t) = ((cosh(cos(tanh((((((-(cos((x + ln_1p(((c^2) + (1/4)))))^4)) - py)^2) + (1/4))^(1/2)))))^(3/10))^4)
+    H(x, y; px, py; t) = asinh(((1/3)*(py + (((((1/3) + y) + (1/2))*x) + y))))
 }
 
 hamiltonian! {
     pub struct E18 { a, b, c }
-    H(x, y; px, py; t) = (hypot((abs((((py*(px - py))^6) - py)) + c), acos((a/(1 + (a^2))))) + acosh((abs((x*(exp(tanh((hypot(acos((((t*(x*x)) + x)/(1 + (((t*(x*x)) + x)^2)))), (pow(abs((pi*((y - x)/pi))), tanh((t/(981/100))))*c))^-1)))^(1/2)))) + 1)))
+    H(x, y; px, py; t) = ((ln_1p(((a^2) + 1))*(py - t)) + (((abs((if !(y < x) { y } else { y }))^(-1/2)) + b) - (t + x)))
 }
 
 hamiltonian! {
     pub struct E19 { a, b, c }
-    H(x, y; px, py; t) = (hypot(b, ((x*((1 + x) + (x + py)))^2)) + y)
+    H(x, y; px, py; t) = cosh(atan(((if (t <= b) { acos((x/(1 + (x^2)))) } else { ((y*c) + py) })*hypot((b/((cosh(1)^(1/2))^3)), ((((-max(t, (b/((cosh(1)^(1/2))^3))))^2) + 1)^(-1/2))))))
 }
 
 hamiltonian! {
     pub struct E20 { a, b, c }
-    H(x, y; px, py; t) = (if ((y + y) < c) || ((if (((b*acosh(((((px/exp((x*(3*px))))^2) + 2) + 1)))*pi) <= a) && (tan((1/10)) == pi) { acosh((((a^2) + (a^2)) + 1)) } else { (1/10) }) < t) { hypot((-7/4), a) } else { (b*acosh(((((px/exp((x*(3*px))))^2) + 2) + 1))) })
+    H(x, y; px, py; t) = (ln(abs(exp_m1(((if !(px <= y) { (1/3) } else { (if !((b*sin(1)) <= px) { a } else { c }) }) - (b - x))))) + ((((((2 + (1/3))*py)/x)^2) + 1)^(-3/2)))
 }
 
 hamiltonian! {
     pub struct E21 { a, b, c }
-    H(x, y; px, py; t) = ((max(((-px)*a), ((((981/100) - pow(((b^2) + 1), atan(((981/100)/c))))*(py*py))^2))^3) + ((3/c) - x))
+    H(x, y; px, py; t) = ((((if (py == py) || (((((b^4)^2) + (1/4))^-1) <= px) { (-(-(pow(((b^2) + (a^2)), cos(c))*t))) } else { (t/exp(((((b^2) + (a^2))*(px^4))*t))) })*(py + (-erf(tan(((c*3)^5))))))^-2) + tan(sin(((-((-1)*(b + tanh(((b - (1/3))*b)))))^2))))
 }
 
 hamiltonian! {
     pub struct E22 { a, b, c }
-    H(x, y; px, py; t) = hypot(((((1/3)*((c*a) + a))*((((1/2) + x) - y) + x)) - (if (sqrt(((tan(cos(b))^2) + (x^2))) < b) && (3 < c) { px } else { (sin((((1/10)^5) + (b*b)))*(t - py)) })), c)
+    H(x, y; px, py; t) = (px*((acosh((((((y + px)/abs(t))^2) + (px^2)) + 1)) - a)*(acosh((((((y + px)/abs(t))^2) + (px^2)) + 1)) - a)))
 }
 
 hamiltonian! {
     pub struct E23 { a, b, c }
-    H(x, y; px, py; t) = (-hypot((px/x), ((b*x)*y)))
+    H(x, y; px, py; t) = (((py*pi)/abs((py + a))) + (if ((x*t) <= y) && (tan((b^2)) < y) { px } else { py }))
 }
 
 hamiltonian! {
     pub struct E24 { a, b, c }
-    H(x, y; px, py; t) = ((((if (((px/((a^2) + (1/4)))^3) < (1/10)) && (sinh((py - c)) < sinh((py - c))) { (1/10) } else { max(b, ((-pi)/((tanh(py)^2) + 2))) })*((t - (sqrt(((a^2) + 2))*(if (((px/((a^2) + (1/4)))^3) < (1/10)) && (sinh((py - c)) < sinh((py - c))) { (1/10) } else { max(b, ((-pi)/((tanh(py)^2) + 2))) })))*(py + pi)))^2) + ((b - exp(((pi + pi)/t)))*y))
+    H(x, y; px, py; t) = (min((px*(-7/4)), a) + (((c + y) + ((2*b) + ((((c - (1/3))^2) + (x^2))^(13/4)))) - (y^2)))
 }
 
 hamiltonian! {
     pub struct E25 { a, b, c }
-    H(x, y; px, py; t) = ((((if ((a*5) <= t) && (a < ((-((((-tan(cos(y)))^2) + 2)^(-4/3)))/(((a + x)^2) + (1/4)))) { (t/(px*a)) } else { ((-((((-tan(cos(y)))^2) + 2)^(-4/3)))/(((a + x)^2) + (1/4))) })^2) + ((-1)^2))^-2)
+    H(x, y; px, py; t) = (max(((b*(-7/4)) - a), px)*(b - ((py*(x - py))*(b*px))))
 }
 
 hamiltonian! {
     pub struct E26 { a, b, c }
-    H(x, y; px, py; t) = ((x + (sqrt((((1/2)^2) + (t^2)))*c)) - ((px*(5*3))/y))
+    H(x, y; px, py; t) = (b + (((((t - (((ln_1p(((t^2) + (py^2))) + b) + ((b*sinh(cos(x)))/((sinh(cos((b + (abs((c - x))^-2))))^2) + 1))) - (px - c))) - max(c, c))^2) + (1/4))^(-3/2)))
 }
 
 hamiltonian! {
     pub struct E27 { a, b, c }
-    H(x, y; px, py; t) = (((t - t) - ((py - a)*((((py^2) + py) - 5)^-3))) + ((pi + ((((c^2) + (a^2))^(1/3)) + asin((t/(1 + (t^2)))))) + (if (((-7/4) + atan(pi)) < a) || ((y*(y/((y^2) + 1))) <= pi) { t } else { sign(tanh((x*y))) })))
+    H(x, y; px, py; t) = ((exp(sin((if ((t/py) <= py) && ((px + b) < py) { ((px + asinh(px))^2) } else { py }))) - tanh((if (px < (if ((t/py) <= py) && ((px + b) < py) { ((px + asinh(px))^2) } else { py })) || (atan2(((-1)*t), px) <= a) { py } else { acosh((((px^2) + (1/4)) + 1)) }))) + ((cosh((exp(b)/abs((x + x))))^-2)/((-1)^4)))
 }
 
 hamiltonian! {
     pub struct E28 { a, b, c }
-    H(x, y; px, py; t) = ((asin(cos((-1))) + sqrt(abs((a/px)))) + atanh((((((px*x)^2) + (1/4))^(-1/2))/(1 + (((((px*x)^2) + (1/4))^(-1/2))^2)))))
+    H(x, y; px, py; t) = (if ((t/t) <= c) { ((x/abs(px))/((1/2) - c)) } else { exp_m1(cos(((a - b)*pi))) })
 }
 
 hamiltonian! {
     pub struct E29 { a, b, c }
-    H(x, y; px, py; t) = ((((px*t)*x) - (px/abs((c + t))))^4)
+    H(x, y; px, py; t) = cos(((y - (atanh(tanh(py))*a)) - a))
 }
 
 hamiltonian! {
     pub struct E30 { a, b, c }
-    H(x, y; px, py; t) = (max((c*(px*py)), (b/abs(((1/3)*px)))) + (ln_1p(y) - t))
+    H(x, y; px, py; t) = (hypot((py - py), hypot((pi/((px^2) + (pi^2))), (px - px))) + ((y*(-(y + y)))*atanh((((c*(y/y)) + a)/(1 + (((c*(y/y)) + a)^2))))))
 }
 
 hamiltonian! {
     pub struct E31 { a, b, c }
-    H(x, y; px, py; t) = atanh((atan((if (px < px) { acos(((tanh(((2 - c) - ((-1)*t)))/x)/(1 + ((tanh(((2 - c) - ((-1)*t)))/x)^2)))) } else { max(b, py) }))/(1 + (atan((if (px < px) { acos(((tanh(((2 - c) - ((-1)*t)))/x)/(1 + ((tanh(((2 - c) - ((-1)*t)))/x)^2)))) } else { max(b, py) }))^2))))
+    H(x, y; px, py; t) = atanh(((abs(((erf((((-7/4)^2)*((if (max(hypot(y, c), a) <= x) { (-1) } else { max(hypot(y, c), a) })*(1/10))))*px)^7))^(5/2))/(1 + ((abs(((erf((((-7/4)^2)*((if (max(hypot(y, c), a) <= x) { (-1) } else { max(hypot(y, c), a) })*(1/10))))*px)^7))^(5/2))^2))))
 }
 
 hamiltonian! {
     pub struct E32 { a, b, c }
-    H(x, y; px, py; t) = (if (((1/10) - px) <= 2) || (((b^-1) - c) < px) { acosh((exp(cos((((y^2) + 2)^-3))) + 1)) } else { ((((((b - a)*py)^2) + (py^2))^(1/3))*(cbrt(1)*b)) })
+    H(x, y; px, py; t) = (a/(max((if (hypot(2, tan(atan(y))) < b) || ((c + a) < a) { exp(pi) } else { tanh((2/(((y*(5/a))^2) + 1))) }), py)^-2))
 }
 
 hamiltonian! {
     pub struct E33 { a, b, c }
-    H(x, y; px, py; t) = (((if ((cosh(exp_m1(tanh((-7/4))))^(-7/5)) <= c) || ((b*(px^2)) < (1/2)) { max(a, px) } else { (c*b) }) + ((cosh(exp_m1(tanh((-7/4))))*c) + (t + (a^3)))) + (x - (pi*sign(((-7/4)*pi)))))
+    H(x, y; px, py; t) = ((a/(((if ((px + (-a)) <= t) { (((-a)/(if ((a*px) <= a) { pi } else { pi })) - erf((b + 3))) } else { min((px - (t/exp(t))), a) })^2) + (b^2))) + erf(min(tanh((min(max(x, (x + sinh(x))), (if ((cosh(sin((x^2)))^(-7/5)) < pi) || ((acosh((((a^2) + 1) + 1))/abs(max(x, (x + sinh(x))))) < (-7/4)) { (y^2) } else { (cosh(sin((x^2)))^(-7/5)) })) - (1*t))), sin(x))))
 }
 
 hamiltonian! {
     pub struct E34 { a, b, c }
-    H(x, y; px, py; t) = (((((if (pi < c) && ((3 + (if (c <= t) || ((-1) < x) { b } else { pi })) <= (1/10)) { 5 } else { pi })^2) + (px^2))^(5/2))*y)
+    H(x, y; px, py; t) = hypot((if (t <= x) && ((asin(tanh(1)) + y) < c) { (abs((exp(atan(acosh((abs((t/asin(tanh(1)))) + 1))))^(-1/2)))^(2/3)) } else { (t + (py + py)) }), (((1 + a)*(5 - pi)) - (t/((x^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E35 { a, b, c }
-    H(x, y; px, py; t) = (if (atan((abs(t)^(-7/5))) < abs(t)) { (if (((5 - t)^-1) <= px) && ((2*x) == t) { (1 + (b*1)) } else { atan(max((pi^7), b)) }) } else { (b - acos(((atan(max((pi^7), b)) - py)/(1 + ((atan(max((pi^7), b)) - py)^2))))) })
+    H(x, y; px, py; t) = (((t - 5)*b) + ((if ((a + (a*x)) <= (-7/4)) && (cosh(sin(t)) <= 2) { a } else { px }) - (x*a)))
 }
 
 hamiltonian! {
     pub struct E36 { a, b, c }
-    H(x, y; px, py; t) = (((if (asinh((px - pi)) < py) || ((px^3) < px) { py } else { px })*a) + ln(abs(acosh((((asin(cos((pi - (abs(((-7/4) - c))^(-1/2)))))^2) + 1) + 1)))))
+    H(x, y; px, py; t) = (((((exp(((py/((py^2) + 2))/atan2(((py + abs((1/10))) - (t + py)), pi)))^(5/2))^2) + 1)^(2/3)) + (if (y <= a) { ((abs((((-7/4)/y) - (abs(max(a, x))^(2/3))))^(1/3))^-2) } else { c }))
 }
 
 hamiltonian! {
     pub struct E37 { a, b, c }
-    H(x, y; px, py; t) = ((-(a/px))*(exp(sin(sin((asin((t - b))*(y*px)))))^(1/2)))
+    H(x, y; px, py; t) = (((erf((((a^2) + a)*((py + (if (b < (1/10)) { (((x/c)/(abs((1/2))^(13/4)))/cosh((((y^2) + (a^2))^(-1/2)))) } else { (a - t) })) + ((((t + b)^2) + 1)^(1/3)))))^2) + (b^2))^(-4/3))
 }
 
 hamiltonian! {
     pub struct E38 { a, b, c }
-    H(x, y; px, py; t) = ((x*a)/exp(((((((x*a) + ln_1p(((py^2) + (a^2)))) + (-1))^2) + (c^2))^-1)))
+    H(x, y; px, py; t) = ((-((atanh((5/(1 + (5^2)))) + pi) - t))/abs((if (sign(cbrt(px)) <= pi) || (((-1) + x) < px) { erf(c) } else { px })))
 }
 
 hamiltonian! {
     pub struct E39 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(((sqrt(((px^2) + 2))^2) + 2)) + (((1/2) + (acos(sin((if (y <= t) || ((b^4) < c) { (c + y) } else { atanh(sin((981/100))) }))) + y))*(-(-(1 - x)))))
+    H(x, y; px, py; t) = ((atanh(tanh((-cbrt((b/((px^2) + (1/4))))))) + (py*((((py - py)^2) + 1)^(2/3)))) + min(((y - a) + b), (sqrt((ln(exp_m1(x)) + ((x - c)/(((x*1)^2) + 2))))*(x/x))))
 }
 
 hamiltonian! {
     pub struct E40 { a, b, c }
-    H(x, y; px, py; t) = tan(((cosh(sin(t))/2) - ((min(px, y) - (py*(-7/4)))*c)))
+    H(x, y; px, py; t) = ((erf((acosh(((((cbrt(t)/abs((-(min(a, px) - t))))^2) + 1) + 1))/(-1)))*(1/3))/exp((x + (y + 1))))
 }
 
 hamiltonian! {
     pub struct E41 { a, b, c }
-    H(x, y; px, py; t) = pow(abs(((cbrt((py/pi))/y) - px)), sin((t/((asin(sin((cbrt((py/pi))/y)))^2) + (1/4)))))
+    H(x, y; px, py; t) = ((py/((y^2) + (x^2))) + (((-7/4) + ((y^2) + (x^2))) + sign((py - ((y^2) + (x^2))))))
 }
 
 hamiltonian! {
     pub struct E42 { a, b, c }
-    H(x, y; px, py; t) = ((((a^2) - (if ((((py^2) + 1)^-1) <= c) || ((px*(a^2)) < 1) { py } else { (((pi*px) + (-7/4))*a) }))^2) + sin(((if (((t*b) - t) < 2) && (((981/100)*t) < a) { (b*b) } else { ((981/100)*t) })*(y + x))))
+    H(x, y; px, py; t) = (hypot((a - (if ((px + t) <= a) { acosh((((b^2) + 1) + 1)) } else { py })), atanh((((if ((acosh((((b^2) + 1) + 1))*(a/px)) < pi) || ((py/py) < py) { t } else { cos(a) }) - (pi - max(px, a)))/(1 + (((if ((acosh((((b^2) + 1) + 1))*(a/px)) < pi) || ((py/py) < py) { t } else { cos(a) }) - (pi - max(px, a)))^2))))) + ((x - y)*y))
 }
 
 hamiltonian! {
     pub struct E43 { a, b, c }
-    H(x, y; px, py; t) = (sign(py)/((((((((-(max(py, y) - b))/((a^2) + 2)) + ((c*2)*x)) - ((px*(981/100))/((((c*2)*x)^2) + 1))) + ((ln_1p(((b^2) + 1))*x) - py))^2) + 2)^(-1/2)))
+    H(x, y; px, py; t) = ((sign(t)/cosh(atan((if !((if ((t*(-t)) <= a) { a } else { sinh(5) }) < y) { (1 - 1) } else { py })))) + ((((sign(t)/cosh(atan((if !((if ((t*(-t)) <= a) { a } else { sinh(5) }) < y) { (1 - 1) } else { py }))))*b)/abs((1/10)))*(sinh(sin(px)) + (if !(atan(y) == pi) { tan(t) } else { x }))))
 }
 
 hamiltonian! {
     pub struct E44 { a, b, c }
-    H(x, y; px, py; t) = min(min(2, x), sinh(tanh((((c + pi)*(py - y))^-1))))
+    H(x, y; px, py; t) = (((px/(x - tan(((1/10)*py))))/cosh((atan2(tanh(y), b) + (if ((tan(((1/10)*py))*pi) <= c) && (((x - tan(((1/10)*py))) - px) <= py) { a } else { x }))))^6)
 }
 
 hamiltonian! {
     pub struct E45 { a, b, c }
-    H(x, y; px, py; t) = (cosh(cos(((px/(px + (px - c))) - asinh((t - c))))) + (if ((x - x) <= x) { sqrt(abs((tanh((y + sinh((5*(if (sinh((pi^2)) <= c) || (acos((exp(cos(t))/(1 + (exp(cos(t))^2)))) < c) { (1/3) } else { x })))))/y))) } else { ((x + (pi^2)) - a) }))
+    H(x, y; px, py; t) = ((((-(((py^2) + 1)^(-7/5))) + (pi + ((((t + (-7/4))^2) + (1/4))^(1/2)))) - (a + (t + (-7/4)))) + pow(cosh(tanh(((x - a)*min(y, (if (x <= x) { y } else { x }))))), (atanh(sin((cosh(sin(((pi*c)/((if ((if (((y - c) + (1/10)) <= a) || ((((1/3) - t) - (1/3)) < pi) { (((x^2) + 1)^(1/2)) } else { c }) < x) && (y < y) { t } else { 1 })*(if (b < t) { (-x) } else { c })))))/(((((((1/2) + ((y + atan2(c, (981/100)))*(1/10)))^2) + (a^2))^(3/10))^2) + (b^2)))))*hypot(a, x))))
 }
 
 hamiltonian! {
     pub struct E46 { a, b, c }
-    H(x, y; px, py; t) = (((x + t)*((((c^2) + 1)^-2)*((px*a) - (c^2)))) - t)
+    H(x, y; px, py; t) = ((pow(((pow(px, (px*(((tanh(c)^2) + (1/4))^(5/2))))^2) + 2), tan(px)) + cos((-(ln_1p(((acos((((abs((y*a))^(2/3))*(hypot((t - t), b) - ((px*(((tanh(c)^2) + (1/4))^(5/2))) + (px*(-7/4)))))/(1 + (((abs((y*a))^(2/3))*(hypot((t - t), b) - ((px*(((tanh(c)^2) + (1/4))^(5/2))) + (px*(-7/4)))))^2))))^2) + 2))/(a*(((-(px^-2))^3)^7))))))*(((hypot(pi, (-1))^2) + 1)^(1/3)))
 }
 
 hamiltonian! {
     pub struct E47 { a, b, c }
-    H(x, y; px, py; t) = (asin(tanh(((((1/2) - (if (((981/100)*y) < 3) || ((x/y) == pi) { b } else { py }))*(((981/100)*a)*t)) - y))) + ((if !((3*y) <= a) { (981/100) } else { ((c + x) - (1/10)) })*ln_1p((((y + b)^2) + 2))))
+    H(x, y; px, py; t) = acosh((exp(cos((py/y))) + 1))
 }
 
 hamiltonian! {
     pub struct E48 { a, b, c }
-    H(x, y; px, py; t) = ((-(t*(((sin(b)*c) + px)/abs((-px))))) + (((if !((x + t) <= a) { x } else { pi }) + a) - (asinh(2)*((if ((x*(a/x)) < pi) || ((y/y) < y) { t } else { tanh(a) }) - (pi - max(x, a))))))
+    H(x, y; px, py; t) = ((tan(sin(asinh((((-1)/cosh(sin(px))) + sign(py))))) + ((px - pi) + py)) + ((((y^2) + 1)^(-1/2))*((if (((if (y == y) { y } else { 5 })/abs(x)) < (-7/4)) || (b <= c) { ((x - c)/5) } else { a })*((y + (c + x))/(3 - exp_m1(cos(((a + b) - (1/3)))))))))
 }
 
 hamiltonian! {
     pub struct E49 { a, b, c }
-    H(x, y; px, py; t) = (tanh((x*atan2(py, (if ((x/py) <= (981/100)) || (((-7/4) + py) < a) { (981/100) } else { b })))) + (if (sin(y) == pi) || ((abs(t)/(1/2)) <= (-1)) { c } else { asinh((x - x)) }))
+    H(x, y; px, py; t) = asinh(((if ((atanh((3/(1 + (3^2)))) - py) == t) || (py <= x) { (((cbrt(cosh(sin((x/b))))^2) + 1)^(3/2)) } else { (a*py) }) + (((b^2) + 1)^-3)))
 }
 
 hamiltonian! {
     pub struct E50 { a, b, c }
-    H(x, y; px, py; t) = sqrt((((exp(tanh(((pi*c)/(((py*b)^2) + (1/4)))))/(y*py))^2) + 1))
+    H(x, y; px, py; t) = (1*((abs(((if ((y*(c*1)) < a) { b } else { ((-7/4)*c) })*b))^(-1/2))/((((if ((y*(((a^2) + 2)^(-4/3))) < t) && ((py - (x/((t^2) + 2))) <= pi) { t } else { b })/py)^2) + (5^2))))
 }
 
 hamiltonian! {
     pub struct E51 { a, b, c }
-    H(x, y; px, py; t) = ((((px*t)*1) - (((px^2) + (1/4))^(-4/3))) + (if (t < y) { atan2(((981/100) + (1/10)), c) } else { y }))
+    H(x, y; px, py; t) = (sinh(sin(ln_1p(((((-(pi*(px - (-7/4))))*py)^2) + (1/4))))) + sqrt((((abs((5 + (5*(y*((x*(-x))*((t + c)*y))))))^(-7/5))^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E52 { a, b, c }
-    H(x, y; px, py; t) = ((((((y - py)*c)/((x^2) + 2))^2) + (1/4))^(1/2))
+    H(x, y; px, py; t) = (((((if !(((x - a) - 3) < py) { (acos(((x*(py + t))/(1 + ((x*(py + t))^2)))) + (pi + (x*(if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (c*px)) < b) { 3 } else { c })))) } else { atan((y/t)) })*((atan((if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (c*px)) < b) { 3 } else { c })) - py) - (t - a)))^2) + 1)^(3/10))
 }
 
 hamiltonian! {
     pub struct E53 { a, b, c }
-    H(x, y; px, py; t) = pow(abs((if !(asinh(y) <= y) { max((b/abs(px)), pow(abs(c), min(y, 1))) } else { cos(((((((-1)*((1/10)/(1/10)))/((((1/10) - abs(px))^2) + 2))*(b + (981/100))) + (px + ((t + b) - 2)))^2)) })), tanh(((ln(((((abs((py^5))^(-4/3)) - (2/abs(2)))^2) + 1))*hypot(ln(abs(((b/abs(px))*px))), cosh(c)))^-2)))
+    H(x, y; px, py; t) = (acosh((exp(cos(((py*c)*(-(c/((t^2) + 1)))))) + 1)) - (t + ((abs(x)^(5/2))*py)))
 }
 
 hamiltonian! {
     pub struct E54 { a, b, c }
-    H(x, y; px, py; t) = (cos((((a/cos((((acos(((py/py)/(1 + ((py/py)^2))))*(py*b))^2)*(acos(((py/py)/(1 + ((py/py)^2))))*(py*b))))) + (exp((cosh(atan((t - a)))^(-7/5)))^(-1/2)))^6)) + ((((((t + t) - t) + atan2((if ((t - t) < y) { c } else { (1/10) }), c))^2) + 2)^(-1/2)))
+    H(x, y; px, py; t) = (((-7/4) + ((((tanh(px) + ((((px/(-7/4))^2) + 2)^(-4/3)))^2) + (a^2))^(-4/3))) + (cosh(atan((((y^2)*x)/(x - ((1/10) - erf((y + y)))))))^-3))
 }
 
 hamiltonian! {
     pub struct E55 { a, b, c }
-    H(x, y; px, py; t) = ((-(px - cbrt((-7/4))))*ln((((sinh(atan((-(abs((((if (y < py) || (py < c) { (-1) } else { py })^2)^3))^(-3/2))))) - x)^2) + 2)))
+    H(x, y; px, py; t) = ((cosh(cos((if (py <= c) && (hypot(y, ((1/2)*t)) <= t) { a } else { (py*(-1)) })))^(3/10))/cosh(cos((x*sin(t)))))
 }
 
 hamiltonian! {
     pub struct E56 { a, b, c }
-    H(x, y; px, py; t) = abs(((cosh((((((-7/4)/(-7/4))*((-7/4)/(-7/4)))*(-b)) - (y + ((1/2)*py))))^(1/3)) + pow(((cos(sign(((if ((sqrt(cosh(3)) - t) == b) && (y < x) { asinh(sin(1)) } else { (b*1) }) + (((-7/4)*py)*x))))^2) + 2), atan(a))))
+    H(x, y; px, py; t) = erf(asinh((x - px)))
 }
 
 hamiltonian! {
     pub struct E57 { a, b, c }
-    H(x, y; px, py; t) = (((py/((((1/10) - py)^2) + 2))/(a + t)) + ((abs(((1/2)*(981/100)))^(-1/2)) + ln_1p(((pi^2) + 2))))
+    H(x, y; px, py; t) = (((((1/2) - b)/((py^2) + 1)) - (exp(tanh(((py*acosh((((px^2) + 1) + 1)))*px)))^7)) + ((((((y - ((y + c)/((c^2) + 1)))*x)*(t*a))^2) + 1)^(-7/5)))
 }
 
 hamiltonian! {
     pub struct E58 { a, b, c }
-    H(x, y; px, py; t) = abs(((((a - (t - py))^-1)*(((((x/cosh(px)) - ((a - (t - py)) + b))^2) + 2)^(-3/2)))^2))
+    H(x, y; px, py; t) = ((((px/x)^-3)*(sqrt(((b^2) + (1/4)))^2))^7)
 }
 
 hamiltonian! {
     pub struct E59 { a, b, c }
-    H(x, y; px, py; t) = min(((cos(c) - min(a, sqrt(((px^2) + (x^2)))))/(-(acosh((((t^2) + (sqrt(((px^2) + (x^2)))^2)) + 1))/pow(cosh(cos(3)), sin(b))))), y)
+    H(x, y; px, py; t) = ((asin(cos((1/3)))*(-exp_m1(atan((if !(((((px + py)^2) + 1)^(-7/5)) == ((px + py)^2)) { t } else { x })))))*((t + x) + (y + c)))
 }
 
 hamiltonian! {
     pub struct E60 { a, b, c }
-    H(x, y; px, py; t) = ((abs(asinh(asinh(cosh((px*sin(t))))))*((1/10)*atan2(exp(tanh(((exp_m1((py*px))^2)^5))), py))) + acosh((abs((((t*pi) - x)*x)) + 1)))
+    H(x, y; px, py; t) = ((py*(cosh(atan(pi)) - ((c + t)*px))) + acosh(((((((asin(((acosh((abs(t) + 1)) + (981/100))/(1 + ((acosh((abs(t) + 1)) + (981/100))^2)))) - (abs(t) + 1)) + (abs(t)^-1))*y)^2) + 1) + 1)))
 }
 
 hamiltonian! {
     pub struct E61 { a, b, c }
-    H(x, y; px, py; t) = sqrt((((asin(((x*(py + t))/(1 + ((x*(py + t))^2)))) + (pi + (x*(if ((if ((y/t) < py) { c } else { (py*y) }) < py) && ((pi - (3*px)) < b) { 3 } else { c }))))^2) + (1/4)))
+    H(x, y; px, py; t) = exp(((y - b)*(((py*t) - b) + (5*(-1)))))
 }
 
 hamiltonian! {
     pub struct E62 { a, b, c }
-    H(x, y; px, py; t) = hypot((y - py), ln(abs((b + (min(px, x)*x)))))
+    H(x, y; px, py; t) = (pi/cosh(atan((if (a < b) || (t < py) { px } else { (max((if ((y - px) <= px) { y } else { a }), b) + cosh(atan(acosh((abs(x) + 1))))) }))))
 }
 
 hamiltonian! {
     pub struct E63 { a, b, c }
-    H(x, y; px, py; t) = ((atan2(2, ((b/b)*py))*2) + ((((pi^3)*(abs(3)^(1/3))) - (exp(sin(x))^(-1/2)))^3))
+    H(x, y; px, py; t) = ((py*(px/(if ((px*px) < py) || (py < a) { py } else { py }))) + acosh((cosh(tan(atan(hypot((((1/10) - (((if ((b*(1/10)) <= b) { y } else { c })*cosh(sin(1)))^6))^-3), b)))) + 1)))
 }
 
 hamiltonian! {
     pub struct E64 { a, b, c }
-    H(x, y; px, py; t) = min((c^7), ((y + (c*a))*hypot(py, t)))
+    H(x, y; px, py; t) = (((c*(((y*(c + c)) - 1)^6))/px)*(a*(x*x)))
 }
 
 hamiltonian! {
     pub struct E65 { a, b, c }
-    H(x, y; px, py; t) = (abs((if !((a/y) < c) { (t - x) } else { (((-hypot(py, c))*((-7/4)*ln_1p(((b^2) + (1/4)))))*(px + px)) }))^(2/3))
+    H(x, y; px, py; t) = ln_1p((((y*sqrt(cosh(tanh(py))))^2) + 2))
 }
 
 hamiltonian! {
     pub struct E66 { a, b, c }
-    H(x, y; px, py; t) = (cosh((-py)) + ((atanh(((x - b)/(1 + ((x - b)^2))))/y) + y))
+    H(x, y; px, py; t) = (sin(atan((pow(abs(t), a) + (py + b)))) + (((atan2((if (x <= x) || ((pi + y) < b) { (c - 2) } else { ((a*c)*y) }), (c^-1))^2) + 1)^(-1/2)))
 }
 
 hamiltonian! {
     pub struct E67 { a, b, c }
-    H(x, y; px, py; t) = (((abs((((a - x)*(((a^2) + ((-7/4)^2))^(-7/5)))/((t^2) + (b^2))))^(3/10))*((t*px) + (py + py)))^6)
+    H(x, y; px, py; t) = ((((b - py)/((3^2) + (a^2)))*(x*(a^2))) - cosh((-acos(sin((cosh(atan((b/((-c) + b))))^6))))))
 }
 
 hamiltonian! {
     pub struct E68 { a, b, c }
-    H(x, y; px, py; t) = ln_1p(((((((ln(abs((((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))) + ((((y*px) + sqrt(a))^2) - (5/(((((y*px) + sqrt(a))^2) + (1/4))^(2/3)))))^2) + 2)^-1)^2) + 1))
+    H(x, y; px, py; t) = (((y*((a*x)^-2))*py)/a)
 }
 
 hamiltonian! {
     pub struct E69 { a, b, c }
-    H(x, y; px, py; t) = (((b*(-py))*pow(abs((if ((py + (-7/4)) < 5) { (a - py) } else { py })), atan(sign((((acosh((((3^2) + 1) + 1))^2) + 2)^-3))))) + (((b - a) + (((x*x) + a) + c)) + (-1)))
+    H(x, y; px, py; t) = (sin((if ((px*(abs(t)^-3)) <= (1/10)) { py } else { py })) + asinh((hypot(c, pi)*(y^5))))
 }
 
 hamiltonian! {
     pub struct E70 { a, b, c }
-    H(x, y; px, py; t) = acosh((exp(tanh(abs((abs((acosh((((((py + y) - a)^2) + 1) + 1))^5))^(1/3))))) + 1))
+    H(x, y; px, py; t) = cbrt(min(((((((1/2)/abs((1/2)))^2) + 1)^(-7/5)) + (a*(if !(sign((abs((-1))^(-1/2))) < y) { y } else { y }))), (cbrt(pi) + (abs((exp(ln(abs(max((exp(py)^(-4/3)), ((pi + 3) - ((py + ((x + exp(py)) - c)) - pi))))))^(-1/2)))^(2/3)))))
 }
 
 hamiltonian! {
     pub struct E71 { a, b, c }
-    H(x, y; px, py; t) = ((px^6) + max((if ((y - px) <= px) && (px < x) { ln(abs(y)) } else { b }), ((3/(py + t)) + ((3/(py + t)) + ((if ((c + c) <= b) && (atanh(sin(y)) < x) { (1/10) } else { x }) - (-7/4))))))
+    H(x, y; px, py; t) = (((tan((hypot(a, x) + x))/((px^2) + (b^2)))^(-4/3))*sinh(hypot((pi + (c*c)), (tan((x*x)) - x))))
 }
 
 hamiltonian! {
     pub struct E72 { a, b, c }
-    H(x, y; px, py; t) = ((max(sin(px), b)^2) + (if ((x*c) < y) { min(max(tanh((y*x)), b), y) } else { (if (cosh(sin((if ((if ((y + b) <= c) || (sin(y) <= x) { b } else { sin(y) }) <= c) && ((((x*c)^2) + c) == x) { (y*x) } else { y }))) <= a) || ((a^-1) < a) { x } else { acosh(((((if ((if (((-7/4) + cos(5)) == b) { t } else { (if ((((b^2) + (1/4))^(5/2)) <= y) && ((b*(x/exp(atan((((x*c)^2) + c))))) < 1) { pi } else { y }) }) <= y) { (a*y) } else { y })^2) + 1) + 1)) }) }))
+    H(x, y; px, py; t) = ((((a*(px/a)) - py)*atan2(((px*c) - py), a)) + ((y + ((t^5) - ((1/10)/abs((x - t)))))^(3/2)))
 }
 
 hamiltonian! {
     pub struct E73 { a, b, c }
-    H(x, y; px, py; t) = (acosh((abs(atan((x*c))) + 1))*ln(cosh(((y*1) - (((px/y) + (py + pi))*px)))))
+    H(x, y; px, py; t) = (t + (min((-px), cbrt(sign(((((y*x)*(1/10))*py) - py))))*((acos(cos(max(atanh((erf((((pi^2) + (a^2))^(5/2)))/(1 + (erf((((pi^2) + (a^2))^(5/2)))^2)))), (tan(sin((abs(y)^(-1/2))))/cosh(tanh(cos((c/px))))))))*a) + (px - y))))
 }
 
 hamiltonian! {
     pub struct E74 { a, b, c }
-    H(x, y; px, py; t) = (3 + ((3*acosh((abs((if (sqrt(abs(t)) <= b) && (max((x/exp(py)), pi) == b) { t } else { (a/exp(tanh(x))) })) + 1)))*(3*acosh((abs((if (sqrt(abs(t)) <= b) && (max((x/exp(py)), pi) == b) { t } else { (a/exp(tanh(x))) })) + 1)))))
+    H(x, y; px, py; t) = min(((a*a)*y), atan2(y, (abs(((pi - (y*py)) + atanh((b/(1 + (b^2))))))^-2)))
 }
 
 hamiltonian! {
     pub struct E75 { a, b, c }
-    H(x, y; px, py; t) = (((((1/3)^2) - (((1/3)^2)*exp_m1((1/3))))*py) + ln(exp(tanh((((cosh((hypot((x + c), (t*x)) + ((((t*x) - 1)^6) - (x*y))))^-3)^2)*(y*(x*c)))))))
+    H(x, y; px, py; t) = (atan2(((c*px)*t), (px*(sqrt(abs((981/100)))*a))) + asinh((if !(atanh((y/(1 + (y^2)))) <= y) { acos(sin((((y/y) + c)*(x*x)))) } else { ((1/y)*x) })))
 }
 
 hamiltonian! {
     pub struct E76 { a, b, c }
-    H(x, y; px, py; t) = ((((abs(py)^(3/10))/((-1) - a))/abs((a/abs(x)))) + ((if ((1/3) <= b) { px } else { y }) + px))
+    H(x, y; px, py; t) = ((-(b*y)) + hypot(px, max(x, (c*(px + (x*acos((atan2(px, 1)/(1 + (atan2(px, 1)^2))))))))))
 }
 
 hamiltonian! {
     pub struct E77 { a, b, c }
-    H(x, y; px, py; t) = ((t*(cosh(y)^(-7/5)))/px)
+    H(x, y; px, py; t) = ((((c*b) + px)*(((((px^2) + (y^2))^(1/3)) - ((x - x) - y))^-2)) + sinh(py))
 }
 
 hamiltonian! {
     pub struct E78 { a, b, c }
-    H(x, y; px, py; t) = ((min(t, px)*b) + atan(max(t, ((y*pi)*ln_1p(((x^2) + 2))))))
+    H(x, y; px, py; t) = (((t/abs(py)) - (c*((if (asinh((t - 1)) == b) || (pow(((c^2) + (b^2)), c) <= (-1)) { py } else { py }) - px))) + ((t*t)*cbrt((y*c))))
 }
 
 hamiltonian! {
     pub struct E79 { a, b, c }
-    H(x, y; px, py; t) = (if (tanh(x) <= x) { ((x + px)*py) } else { ((b*(cosh(atan((981/100)))^(-4/3)))/hypot((px/((c^2) + 2)), c)) })
+    H(x, y; px, py; t) = (y/(ln(((((y + (a + t))/(max((a*y), y)^5))^2) + (1/4)))*(((1/2) + y) - ((erf(py)/a)*(c + px)))))
 }
 
 hamiltonian! {
     pub struct E80 { a, b, c }
-    H(x, y; px, py; t) = ((acosh((exp(acosh(((((t + x)^2) + (1/4)) + 1))) + 1)) - px)^2)
+    H(x, y; px, py; t) = (if ((hypot(x, t)*pi) <= x) && (px < px) { a } else { (if ((px^3) < y) { tan(sin((px + ((((y*x)^2) + (1^2))^-3)))) } else { (t*(pi*y)) }) })
 }
 
 hamiltonian! {
     pub struct E81 { a, b, c }
-    H(x, y; px, py; t) = (atan((cosh(sin(exp(cos((((((px/px)^2) + 2)^-3)/abs(((px + pow(((hypot(cbrt(a), atan2(c, t))^2) + 2), a)) + 2))))))) - py)) + min((a*(cos((a^5)) - y)), tanh(y)))
+    H(x, y; px, py; t) = ((px + ((sqrt((((a + py)^2) + 1))^2)*py)) + (if (b <= (-1)) { cbrt(hypot(1, min(atan2((1/10), (981/100)), x))) } else { (if (c <= y) { x } else { (1/10) }) }))
 }
 
 hamiltonian! {
     pub struct E82 { a, b, c }
-    H(x, y; px, py; t) = ((if (px <= b) && ((pi + 5) < y) { a } else { (-y) })*y)
+    H(x, y; px, py; t) = abs(cosh(sin(((if ((y*py) < a) && (((1 - a)*px) < a) { exp_m1(sin((asinh(((1/2)^(2/3))) + (a/(if !((py + pi) <= t) { asin((a/(1 + (a^2)))) } else { py }))))) } else { min((b + y), pow((((b*asinh(((1/2)^(2/3))))^2) + 1), cos(b))) }) + tanh(b)))))
 }
 
 hamiltonian! {
     pub struct E83 { a, b, c }
-    H(x, y; px, py; t) = (max(x, ((c*a)*py))*((((-((1/2)*3))^2) + (1/4))^(-7/5)))
+    H(x, y; px, py; t) = (if (5 <= px) { (hypot(px, (c*b))/abs((if ((3*(pi - c)) <= px) || (pow(((b^2) + (px^2)), c) < px) { erf(a) } else { (abs(((t + 3) + b))^(3/10)) }))) } else { (px + (5 + x)) })
 }
 
 hamiltonian! {
     pub struct E84 { a, b, c }
-    H(x, y; px, py; t) = ((((px + ((t*px)*py)) - ((b*px) - px))*((t - c) + asinh((exp((px*(-py))) + (if ((px - pi) < (t - c)) { t } else { (if !(((py*pi)^-1) < py) { px } else { pi }) }))))) + (c + ((c/pi) - (a - c))))
+    H(x, y; px, py; t) = (((if ((px + py) == px) { atan2(py, b) } else { px })*sqrt(((((a - (((erf(b)^2) + 1)^-1))*py)^2) + (c^2)))) + (((exp_m1(((((abs((b*(3*x)))^(1/2))^2) + 2)^(1/2)))*(c - c))*((981/100) - x)) + cosh((pi/a))))
 }
 
 hamiltonian! {
     pub struct E85 { a, b, c }
-    H(x, y; px, py; t) = (x - asin((((((x*px)^2) + (x^2))^(-1/2))/(1 + (((((x*px)^2) + (x^2))^(-1/2))^2)))))
+    H(x, y; px, py; t) = (((3*(if ((a/(c - y)) == px) || (px < a) { c } else { cbrt((a*a)) })) + x) - tanh((px - (-7/4))))
 }
 
 hamiltonian! {
     pub struct E86 { a, b, c }
-    H(x, y; px, py; t) = ((((-1)*y)/py) + ((t + c)/cosh(atan(atanh((t/(1 + (t^2))))))))
+    H(x, y; px, py; t) = ((y*asinh(acos(tanh(t))))*(((1*erfc((t/exp((((px^2) + 2)^-2)))))*1)*b))
 }
 
 hamiltonian! {
     pub struct E87 { a, b, c }
-    H(x, y; px, py; t) = (ln((((1 - ((((py*(-1)) + pi) - t)*(c + c)))^2) + (b^2))) + exp_m1(sin(((acosh((((c^2) + 1) + 1)) + cbrt(sqrt((((atan(c)*(-7/4))^2) + 2))))*(((y*sqrt(abs(b))) + (y*5)) + cosh(tanh((pi + b))))))))
+    H(x, y; px, py; t) = ((if !(tan(tanh(py)) <= py) { (-py) } else { ((-(((abs(1)^(2/3)) - (-py)) + (cos(a) + (tanh((981/100)) + (cosh(cos(px))^-2))))) + exp((5 + py))) }) + asin(sin((b - (if ((((b^2) + (1/4))^(-1/2)) <= y) { (y*(x + x)) } else { acosh(((((abs(pi)^(3/10))^2) + 2) + 1)) })))))
 }
 
 hamiltonian! {
     pub struct E88 { a, b, c }
-    H(x, y; px, py; t) = asin(((c*(if ((b - (1/2)) < c) || ((1/3) < t) { x } else { (if ((t/((c^2) + ((-1)^2))) == py) && ((981/100) <= pi) { (1/3) } else { c }) }))/(1 + ((c*(if ((b - (1/2)) < c) || ((1/3) < t) { x } else { (if ((t/((c^2) + ((-1)^2))) == py) && ((981/100) <= pi) { (1/3) } else { c }) }))^2))))
+    H(x, y; px, py; t) = ((c - (pow(exp(px), sqrt(abs(min(t, y))))*x)) + (x/c))
 }
 
 hamiltonian! {
     pub struct E89 { a, b, c }
-    H(x, y; px, py; t) = atan2((y + (1/3)), ((px + x) + cos(5)))
+    H(x, y; px, py; t) = (if (max(py, (-7/4)) < b) || ((a*b) < px) { y } else { sqrt(abs(min(t, t))) })
 }
 
 hamiltonian! {
     pub struct E90 { a, b, c }
-    H(x, y; px, py; t) = (((px + ((((px*px)^2) + (1^2))^-3))*((((((tanh((t + (if ((981/100) < pi) || ((pi + ((981/100)*py)) < (px + ((((px*px)^2) + (1^2))^-3))) { b } else { pi })))*((px - (pi + ((981/100)*py)))*pi)) + 5)*(-((c/((px^2) + (1/4)))^2)))^2) + (1/4))^(1/3))) + min((-tan(hypot(1, min(atan2((if (sinh(cos(1)) < y) { x } else { (1/10) }), a), (((1/2)*x) - c))))), (x*y)))
+    H(x, y; px, py; t) = (hypot((-hypot((py/((px^2) + (pi^2))), px)), min((if (c < t) { ((c/pi) - a) } else { px }), px)) + (((acosh((abs(sinh((if ((a - 2) < y) { 3 } else { ((sinh(atan((pi*exp(cos(a))))) + 1) + sinh(y)) }))) + 1))*y)^2)*atanh(((-((((((x^2) + (1/4))^(13/4))^4)*exp(cos(a)))*atan2(x, (c/(max(y, (1/2))/abs((1/3)))))))/(1 + ((-((((((x^2) + (1/4))^(13/4))^4)*exp(cos(a)))*atan2(x, (c/(max(y, (1/2))/abs((1/3)))))))^2))))))
 }
 
 hamiltonian! {
     pub struct E91 { a, b, c }
-    H(x, y; px, py; t) = ((y*(-(-px))) + px)
+    H(x, y; px, py; t) = (ln_1p(abs(max(x, x)))*(a*py))
 }
 
 hamiltonian! {
     pub struct E92 { a, b, c }
-    H(x, y; px, py; t) = (((if ((t/cosh((((px^2) + 2)^(-1/2)))) <= (-1)) { (1/2) } else { abs(px) })*max(y, (-7/4)))^-1)
+    H(x, y; px, py; t) = (if !(acosh((abs((px/((a^2) + 1))) + 1)) < x) { (2/1) } else { ((-px)^2) })
 }
 
 hamiltonian! {
     pub struct E93 { a, b, c }
-    H(x, y; px, py; t) = (((px/(a*(1/10))) - (-((b - c)*hypot((b - b), (px + (5 + px)))))) + (if (cosh(atan(y)) < t) || (pi < y) { t } else { (b*y) }))
+    H(x, y; px, py; t) = (((t - c)/abs(((((if (((py*py) + t) <= (py*py)) { (t - c) } else { c }) + b)*c)*pi))) + ((if ((2 - (((pi^2) + 1)^(3/10))) == y) { (sign(x) + b) } else { (((erfc(b)^-3)*max(y, (if (((if (b <= a) && ((981/100) < x) { t } else { y }) + 1) <= y) { (abs(t)^(3/2)) } else { x }))) + asin(((c/hypot((1/10), c))/(1 + ((c/hypot((1/10), c))^2))))) })/(((-asin(tanh(b)))^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E94 { a, b, c }
-    H(x, y; px, py; t) = ((5/py)*(((pi^-3) + (y - 1))*y))
+    H(x, y; px, py; t) = (((x/(((y - ((sin(py) + c)*py))^2) + 1))*(b - (((y - ((sin(py) + c)*py))^2) + 1)))^3)
 }
 
 hamiltonian! {
     pub struct E95 { a, b, c }
-    H(x, y; px, py; t) = (if ((((-1)*b)^5) < a) || (((px + 5)*y) < 1) { ((t*((3/((y^2) + 2)) + b)) + (-7/4)) } else { px })
+    H(x, y; px, py; t) = min(px, (if !(tan(sin(exp_m1(tanh((1/3))))) < x) { a } else { (c - tanh((1/3))) }))
 }
 
 hamiltonian! {
     pub struct E96 { a, b, c }
-    H(x, y; px, py; t) = (exp(sin(tan(sin((sinh(((t*(5 + pi))*(((3 - pi) - py) + tanh((c/abs((if (sign((1/2)) <= pi) && (1 <= py) { (px - py) } else { (b + (-1)) })))))))*((-a)/(py + px))))))) + (((if (cos(t) < y) { (y + cos(t)) } else { t })^5)*cbrt((y*y))))
+    H(x, y; px, py; t) = (exp(tanh(((px*cos((((c + py) - tanh(py)) - px)))^5))) + cbrt((((if ((x + (-1)) < x) { ((t*(-1))*x) } else { x })*(a + pi))^3)))
 }
 
 hamiltonian! {
     pub struct E97 { a, b, c }
-    H(x, y; px, py; t) = (py - (sin(pow(((((-x) + tan(atan(py)))^2) + 2), tanh((a*a))))/(-a)))
+    H(x, y; px, py; t) = tanh((if (acosh((abs((1*(-1))) + 1)) < c) { (t*y) } else { ((hypot((1/2), 2)*pi) - ((-(1/2)) + (c*(c + py)))) }))
 }
 
 hamiltonian! {
     pub struct E98 { a, b, c }
-    H(x, y; px, py; t) = ((x*(min(t, x) + (x + px))) + sign((abs(t)^(13/4))))
+    H(x, y; px, py; t) = (((c + b) + hypot(pi, pi)) - asinh((((hypot(pi, pi)*t)*((t/(py + asinh(a))) - ln_1p(exp(tanh((b + (y*hypot(pi, pi)))))))) - atan2((py - x), (a + py)))))
 }
 
 hamiltonian! {
     pub struct E99 { a, b, c }
-    H(x, y; px, py; t) = (((b*py)*((((px - b)^2) + (1/4))^-1)) + (asinh(((x - (-7/4)) + ((1/2)*acos(((y*5)/(1 + ((y*5)^2))))))) - (max((3 - x), x) + t)))
+    H(x, y; px, py; t) = (abs(((px*(-1))^2)) + (sign(atanh((hypot((a*y), (y/((min(y, t)^2) + (a^2))))/(1 + (hypot((a*y), (y/((min(y, t)^2) + (a^2))))^2)))))^-2))
 }
 
 hamiltonian! {
     pub struct E100 { a, b, c }
-    H(x, y; px, py; t) = (if (y <= py) { ((1/3)*pi) } else { (abs((1/2))*(5 + (1/3))) })
+    H(x, y; px, py; t) = ln_1p((((((if ((c/((3^2) + (1/4))) <= py) { (if !(sinh(atan(t)) <= x) { y } else { pi }) } else { py })*(y + (t + y)))*hypot((1/3), (x + (1/3))))^2) + 1))
 }
 
 hamiltonian! {
     pub struct E101 { a, b, c }
-    H(x, y; px, py; t) = abs(((((y^2) + ((1/3)^2))^(3/10))*cbrt(((t + py)*(atanh((b/(1 + (b^2))))^2)))))
+    H(x, y; px, py; t) = ((((tanh(c) + ((c*((t - pi) - x)) + (if !(t <= (1/3)) { px } else { c })))^2) + 1)^(2/3))
 }
 
 hamiltonian! {
     pub struct E102 { a, b, c }
-    H(x, y; px, py; t) = (((tanh((if (asinh((py + a)) < px) { (3*py) } else { (sign(b)/(((px + py)^2) + 1)) })) - 1)*pow(c, tanh((3 - b)))) + ((if (exp(t) <= t) { (x + y) } else { ((x*pi)*asinh(atanh(cos((x*x))))) }) + y))
+    H(x, y; px, py; t) = ((t - (px + (-1))) + ln_1p(abs((a*((981/100)^3)))))
 }
 
 hamiltonian! {
     pub struct E103 { a, b, c }
-    H(x, y; px, py; t) = ((((-7/4) + cbrt((a - (a*(1/10)))))*(cbrt((a - (a*(1/10))))/a))*(if ((2 - (((pi^2) + 1)^(3/10))) == py) { a } else { y }))
+    H(x, y; px, py; t) = sin((y/(acosh((abs((py + (if (b <= t) { ln(((t^2) + 2)) } else { (-1) }))) + 1))*tanh((-x)))))
 }
 
 hamiltonian! {
     pub struct E104 { a, b, c }
-    H(x, y; px, py; t) = (((x - (-(abs((py - (1/10))) + cosh(tanh(abs((py - (1/10))))))))/(a*sinh(((pi - (abs((py - (1/10))) + cosh(tanh(abs((py - (1/10)))))))*(x - 5)))))^2)
+    H(x, y; px, py; t) = ((((if !((a*((1/2)*py)) < a) { erfc((if ((pow(abs(px), sin(px))*py) <= a) || (x <= b) { (if (y < (1/2)) || (c <= (981/100)) { t } else { (981/100) }) } else { t })) } else { (-(tan(b)^6)) })^2) + 2)^(5/2))
 }
 
 hamiltonian! {
     pub struct E105 { a, b, c }
-    H(x, y; px, py; t) = (((((px^-2)*py) + (px*(py - c))) + t) + min((((1/3)*a)*(x + (981/100))), ((y*b)*c)))
+    H(x, y; px, py; t) = (((abs(((((((1/10)^2) + 1)^(-7/5)) - c)*(if (py < b) { (c + (1/3)) } else { (b^(-7/5)) })))^(1/2)) - ((1/3)/(3*py))) + ((((pi^3) + a)/x)*(abs((a + (((c*(((pi^3) + a)/x)) + y) - (y - x))))^(3/10))))
 }
 
 hamiltonian! {
     pub struct E106 { a, b, c }
-    H(x, y; px, py; t) = ((if (tan(pi) == x) { (if (pi <= px) && (y < t) { (1/10) } else { (x^3) }) } else { y })*((if ((x*tan(pi)) < y) && (py < px) { (-1) } else { sign((px^5)) }) + (if ((x + (-1)) < x) || ((px*(b*x)) < px) { y } else { (acosh((abs((a^-3)) + 1))*((c*px) - ((-1) - tan(pi)))) })))
-}
-
-hamiltonian! {
-    pub struct E107 { a, b, c }
-    H(x, y; px, py; t) = (if (hypot((2*pi), t) < y) && (ln((((abs(b)^(2/3))^2) + (1/4))) < (1/10)) { ((((-7/4) - t)*sign(px)) - (3*5)) } else { (((b^4) - (x^2)) + a) })
-}
-
-hamiltonian! {
-    pub struct E108 { a, b, c }
-    H(x, y; px, py; t) = ((((py + c)*py)*px) + ((if ((if ((y*(c*x)) <= pi) && ((((-1)/((y^2) + 1)) + x) <= (1/2)) { c } else { ln(exp((981/100))) }) < a) { t } else { (t*x) }) + (((((y + y)/abs(((c - a)^4)))^2) + 1)^(-1/2))))
-}
-
-hamiltonian! {
-    pub struct E109 { a, b, c }
-    H(x, y; px, py; t) = hypot((x^7), (((hypot(c, x)*py)*((-1) - (hypot(c, x)*py))) - sqrt(cosh(((py*(b + (y*x)))^-1)))))
-}
-
-hamiltonian! {
-    pub struct E110 { a, b, c }
-    H(x, y; px, py; t) = tanh((-sinh(cos((y*sign(tanh(exp(atan(ln(cosh(sin((((((c*(t*x))/((if (1 < c) || (((a*px) + t) < x) { (py + y) } else { t }) - (a*(if (hypot(a, (y + (1/3))) < c) { x } else { y }))))^2) + (1/4))^(5/2))))))))))))))
-}
-
-hamiltonian! {
-    pub struct E111 { a, b, c }
-    H(x, y; px, py; t) = (((asinh(px)*(px/(1/10))) + (exp(((a + py) + ln_1p(t)))^(5/2))) + ((c/abs(hypot(atan(t), (min(atan(t), c) + y))))*sqrt(abs((x/(((-1) + a)*ln(abs(x))))))))
-}
-
-hamiltonian! {
-    pub struct E112 { a, b, c }
-    H(x, y; px, py; t) = max((if (px < a) && (x <= px) { px } else { (-1) }), (px/5))
-}
-
-hamiltonian! {
-    pub struct E113 { a, b, c }
-    H(x, y; px, py; t) = (if (py < (1/3)) { asinh(px) } else { (exp(cos((x/((((1/3) + py)^2) + (px^2)))))^(3/10)) })
-}
-
-hamiltonian! {
-    pub struct E114 { a, b, c }
-    H(x, y; px, py; t) = ((max(c, t) + py) + (sin(x)^(13/4)))
-}
-
-hamiltonian! {
-    pub struct E115 { a, b, c }
-    H(x, y; px, py; t) = (((((cos(ln_1p(px)) + (px + y)) - a)^2) + (px^2))^(-4/3))
-}
-
-hamiltonian! {
-    pub struct E116 { a, b, c }
-    H(x, y; px, py; t) = (if !((-(x + py)) <= 2) { b } else { (((((b^2) + (1/4))^(1/2)) + t) - (t - t)) })
-}
-
-hamiltonian! {
-    pub struct E117 { a, b, c }
-    H(x, y; px, py; t) = (max((-b), atanh(((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)/(1 + ((((py + px) + (min(t, (py + px))/((py^2) + 2)))^6)^2))))) + (cbrt(exp_m1(((if (1 == y) && ((1/10) < x) { (((y + (b + b)) + (1/10))^7) } else { ((y*acos(cos(b))) + y) })^4)))/pow(abs(x), sin((y + (if !(tanh((((t^2) + 1)^-2)) <= y) { y } else { acosh((((t^2) + (t^2)) + 1)) }))))))
-}
-
-hamiltonian! {
-    pub struct E118 { a, b, c }
-    H(x, y; px, py; t) = asinh((abs(((((((if !(a <= b) { (cbrt((c*py)) + abs((py*cbrt(a)))) } else { x })^5)^2) + (1/4))^(1/3)) - (-1)))^(3/2)))
-}
-
-hamiltonian! {
-    pub struct E119 { a, b, c }
-    H(x, y; px, py; t) = ((hypot((py - (1/2)), min(3, pi))*(sqrt((((if (ln_1p(((1^2) + 2)) < c) { ((a - px)/px) } else { x })^2) + 2))*(1/3)))^7)
-}
-
-hamiltonian! {
-    pub struct E120 { a, b, c }
-    H(x, y; px, py; t) = (tanh(((-py)^4)) + (((a - sin(b)) + (y*x))*((c/c)/c)))
-}
-
-hamiltonian! {
-    pub struct E121 { a, b, c }
-    H(x, y; px, py; t) = (max((t + (t*t)), cos(a)) - (if !(y <= t) { 3 } else { py }))
-}
-
-hamiltonian! {
-    pub struct E122 { a, b, c }
-    H(x, y; px, py; t) = (acos(sin((y*((if (py == b) { a } else { (b/b) })*a)))) - (2 - y))
-}
-
-hamiltonian! {
-    pub struct E123 { a, b, c }
-    H(x, y; px, py; t) = (((px - hypot(a, (-b)))^2) + (pow(cosh(sin(hypot(c, 1))), atan(c))^2))
-}
-
-hamiltonian! {
-    pub struct E124 { a, b, c }
     H(x, y; px, py; t) = min((-atan2(py, py)), ((((-y)^(3/10)) + 2) + (pow(((((-y)^(3/10))^2) + (1/4)), atan((x^7)))*atan2(py, py))))
 }
 
 hamiltonian! {
+    pub struct E107 { a, b, c }
+    H(x, y; px, py; t) = hypot((if (y < t) || (((1/3) + t) == (x + a)) { ((-5) - 2) } else { ((5 - px) - tan(cos((asinh(py)/cosh(cos((x + a))))))) }), py)
+}
+
+hamiltonian! {
+    pub struct E108 { a, b, c }
+    H(x, y; px, py; t) = (((px*px)*(pi*py)) + (if ((y/((x^2) + 2)) < b) || (x < a) { (((1/10) - (b*c))^2) } else { (((a*b) + y) - c) }))
+}
+
+hamiltonian! {
+    pub struct E109 { a, b, c }
+    H(x, y; px, py; t) = (exp(((1^3) + px))*(py + ln_1p(abs((5*x)))))
+}
+
+hamiltonian! {
+    pub struct E110 { a, b, c }
+    H(x, y; px, py; t) = erfc(exp_m1(sin((if (max(py, px) < y) && ((-(c - cosh(sin(((b - t)*a))))) <= t) { a } else { cos(cosh(sin(((b - t)*a)))) }))))
+}
+
+hamiltonian! {
+    pub struct E111 { a, b, c }
+    H(x, y; px, py; t) = ((-(((atan(py)^2) + (1/4))^(2/3))) + (tanh(atan2(atan2((erf((((((y^2) + 2)^(5/2))/((a^2) + 1)) + (-7/4)))/((x^2) + 2)), ((a^2) + 1)), acosh((((tanh((c*x))^2) + 2) + 1))))*(if !((b + (x*x)) < y) { b } else { c })))
+}
+
+hamiltonian! {
+    pub struct E112 { a, b, c }
+    H(x, y; px, py; t) = hypot(pow(((px^2) + (t^2)), px), (((b + y) - (-px)) + ((pi + px) - (acos((((1/10)*((1/2) + px))*c))/(-1)))))
+}
+
+hamiltonian! {
+    pub struct E113 { a, b, c }
+    H(x, y; px, py; t) = ((if (5 <= y) { (((px*tan((a - 2))) + b) + c) } else { y }) + (x - (c*c)))
+}
+
+hamiltonian! {
+    pub struct E114 { a, b, c }
+    H(x, y; px, py; t) = ((cos((-7/4)) - min(c, (((tanh(b)^2) + (px^2))^(-7/5)))) + acosh((((cbrt((tanh(((if (sign((981/100)) < y) && (asinh(b) <= c) { y } else { (y + b) }) + c)) - exp(atan(sin(c)))))^2) + 1) + 1)))
+}
+
+hamiltonian! {
+    pub struct E115 { a, b, c }
+    H(x, y; px, py; t) = (((asin(y) + (py^3)) + ((if (b < t) && (((-1) - py) <= (981/100)) { y } else { pi }) + ((((if (erfc(y) <= py) { x } else { b })^2) + 1)^-3)))^5)
+}
+
+hamiltonian! {
+    pub struct E116 { a, b, c }
+    H(x, y; px, py; t) = ln_1p((((((atan2(exp_m1(exp_m1((a*((((((y^2) + 1)^(-7/5))^2) + 1)^(-7/5))))), erfc(cosh(tanh(px))))^2) + (a^2))^-3)^2) + 2))
+}
+
+hamiltonian! {
+    pub struct E117 { a, b, c }
+    H(x, y; px, py; t) = ((py*(a*a)) + ((((y + (c*t))/((t^2) + 2))*(-7/4)) + (5 + y)))
+}
+
+hamiltonian! {
+    pub struct E118 { a, b, c }
+    H(x, y; px, py; t) = hypot((if ((x*a) < px) { (((c*y) + asin(((-(c - b))/(1 + ((-(c - b))^2))))) + (1/2)) } else { (-((py - 2) + sinh((a/abs(2))))) }), (c + tanh(min((atan(py)/((((x - c) - atan2(b, x))^2) + ((1/2)^2))), (c - b)))))
+}
+
+hamiltonian! {
+    pub struct E119 { a, b, c }
+    H(x, y; px, py; t) = ((if !(((((pi - t)^2) + 2)^(-7/5)) < pi) { (if (sqrt((((x - pi)^2) + (x^2))) < y) { hypot(b, b) } else { ((b - (1/10)) - (erf(px)*erfc(b))) }) } else { x })^2)
+}
+
+hamiltonian! {
+    pub struct E120 { a, b, c }
+    H(x, y; px, py; t) = ((((abs(((if ((py*(b + px)) <= (1/2)) { px } else { py }) + b))^(3/2)) + t) + (-abs((py + pi)))) + ln((((((-(acosh((((c^2) + (b^2)) + 1))*b)) + sign((if (((b^2)*y) < a) || ((if !(((c^2) + (b^2)) < 5) { (1/10) } else { pi }) < (-1)) { y } else { b })))*((sign(b)^(-4/3))/hypot(a, (y - (y^-3)))))^2) + ((1/2)^2))))
+}
+
+hamiltonian! {
+    pub struct E121 { a, b, c }
+    H(x, y; px, py; t) = (if !((-(x + px)) <= t) { (((c*3) - erfc(((x + b)^7))) - ((1/2)/cosh(ln_1p((((py + y)^2) + 2))))) } else { y })
+}
+
+hamiltonian! {
+    pub struct E122 { a, b, c }
+    H(x, y; px, py; t) = atan((((((y*(((t^2) + 1)^-3))^2) + (py^2))^(3/10))/cosh((pi*((1/10)^3)))))
+}
+
+hamiltonian! {
+    pub struct E123 { a, b, c }
+    H(x, y; px, py; t) = (tan(sin((a + (a + (b - min(5, pow(py, cos(a)))))))) + (-((((if ((x/((y^2) + 1)) < c) || ((-1) < x) { (981/100) } else { ((981/100)*b) })^2) + 1)^(-3/2))))
+}
+
+hamiltonian! {
+    pub struct E124 { a, b, c }
+    H(x, y; px, py; t) = (hypot(y, (py - c))*py)
+}
+
+hamiltonian! {
     pub struct E125 { a, b, c }
-    H(x, y; px, py; t) = hypot((if (y < t) && (px < (-1)) { ((-5) - 2) } else { ((5 - px) - exp(atan((atan(pi)/sin(py))))) }), x)
+    H(x, y; px, py; t) = ((b*(if (((c*py) + b) <= (c*py)) { sign(pi) } else { y }))/abs(b))
 }
 
 hamiltonian! {
     pub struct E126 { a, b, c }
-    H(x, y; px, py; t) = (((cos(px)*t) + pi) + (sign(y) + b))
+    H(x, y; px, py; t) = ((ln_1p(((pow(abs(a), sin((-7/4)))^2) + 1)) + py) + (((-y)*(x*y)) - (x^(3/10))))
 }
 
 hamiltonian! {
     pub struct E127 { a, b, c }
-    H(x, y; px, py; t) = ((hypot(t, a) - hypot(t, a)) + (pow(exp((x/((((t/((c - t)^-3))^2) + (1/4))^(3/10)))), px) - (hypot(t, t)*(y - sqrt(((a^2) + 2))))))
+    H(x, y; px, py; t) = (exp_m1(cos(((((-1)*(-1))/px)*ln(((c*t) - a)))))*y)
 }
 
 hamiltonian! {
     pub struct E128 { a, b, c }
-    H(x, y; px, py; t) = ((x*cosh(sin(((if (b <= 1) || (5 < x) { (t + pi) } else { (-7/4) })*py)))) + (exp(atan(tan(py)))*5))
+    H(x, y; px, py; t) = (((pow(abs(py), c)^4)*((tanh(sin(((py + t)^3))) + tanh(atan2((px*b), sqrt((((x*py)^2) + 1))))) - (c + b)))^-3)
 }
 
 hamiltonian! {
     pub struct E129 { a, b, c }
-    H(x, y; px, py; t) = ((-((py*(-(1/2))) + ((py*c) - (py*t)))) + tan((sinh((abs(((ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))*(-((if (a < t) || ((abs(x)^(2/3)) <= ln_1p(((exp_m1(((1/10) + (x - 3)))^2) + (t^2)))) { b } else { 1 })*y)))/(((if ((-y) <= x) || ((a*a) < a) { a } else { t })^2) + 1)))^(5/2))) + acosh(((((sinh(min(b, x))^2)^2) + 2) + 1)))))
+    H(x, y; px, py; t) = (tanh((((px*2)/exp(tanh((cbrt((c - b))/erfc((2/(((px + t)^2) + (1/4)))))))) - px)) + ln(((atanh((((((x^2) + (1/4))^(-1/2))*(((cos((if (y < t) && (abs(x) < y) { 2 } else { b })) - (b^-1)) - y)*c))/(1 + (((((x^2) + (1/4))^(-1/2))*(((cos((if (y < t) && (abs(x) < y) { 2 } else { b })) - (b^-1)) - y)*c))^2))))^2) + (a^2))))
 }
 
 hamiltonian! {
     pub struct E130 { a, b, c }
-    H(x, y; px, py; t) = (pow(((y^2) + 1), x) + ((b/(((x - px)^2) + 1)) + (1/2)))
+    H(x, y; px, py; t) = (atan(((exp(((((a*(t - (y - c)))^2) + 1)^(-1/2)))*pow(((b^2) + 1), py))*((tanh(exp(tanh(py)))/exp(cos(px)))*(if !(((1/10)*(1/10)) < py) { x } else { px }))))^2)
 }
 
 hamiltonian! {
     pub struct E131 { a, b, c }
-    H(x, y; px, py; t) = (if (abs((py*x)) <= px) { ((((if ((x^6) < (-7/4)) { ln(((sign(py)^2) + 1)) } else { ((if (tan(tanh((981/100))) < y) && (acosh((((a^2) + (c^2)) + 1)) <= 5) { (1/3) } else { (-b) }) + ln_1p(((ln_1p(((c^2) + 2))^2) + 1))) }) - ((sign(py)^2) + 1))^-2)^6) } else { sin(exp((pi*py))) })
+    H(x, y; px, py; t) = ((erf(x) + b)*((c*py) + ((c + ln_1p(((((sinh(b)^4) + a)^2) + 1)))*x)))
 }
 
 hamiltonian! {
     pub struct E132 { a, b, c }
-    H(x, y; px, py; t) = ((sqrt(((acos(((pi/((acosh((((b^2) + 1) + 1))^2) + (((b^2) + 1)^2)))/(1 + ((pi/((acosh((((b^2) + 1) + 1))^2) + (((b^2) + 1)^2)))^2))))^2) + 1))*px) + sinh(tanh(((abs(c) + (-b)) + (if !((y^5) < y) { y } else { acos(((((c - x)*x)*t)/(1 + ((((c - x)*x)*t)^2)))) })))))
+    H(x, y; px, py; t) = ((atanh(tanh((c*(cosh(((-(if (acosh(((((c/(((1/10)^2) + 1))^2) + (1/4)) + 1)) < b) { 1 } else { (5 + (if (cosh(atan((b*py))) < b) || ((c - py) < px) { py } else { ln(((cosh(exp(tanh((-7/4))))^2) + (px^2))) })) })) + cbrt((-(if (pi < t) { a } else { (py/((c^2) + (1/4))) })))))^(-4/3)))))*(((-(if (pi < t) { a } else { (py/((c^2) + (1/4))) })) + py) + px)) + (((a*x) - y)*(y + ((y*(x + 1)) + (-(c^3))))))
 }
 
 hamiltonian! {
     pub struct E133 { a, b, c }
-    H(x, y; px, py; t) = asinh(atan(sinh(((b/((c^2) + 1)) + ((py/x)*(((asinh((((((pi + (c - c))*(y - b))^2) + 1)^(-4/3)))^2) + (1/4))^-2))))))
+    H(x, y; px, py; t) = ((if !((-7/4) <= c) { exp_m1(atan(tanh((if (((if (b < x) { (981/100) } else { b })*c) <= x) || (t < y) { px } else { b })))) } else { (1/10) }) + (sqrt(((t^2) + 2)) + px))
 }
 
 hamiltonian! {
     pub struct E134 { a, b, c }
-    H(x, y; px, py; t) = ((if (b < x) && ((-7/4) == px) { x } else { px })*y)
+    H(x, y; px, py; t) = (a - ((if ((y + c) <= py) || ((((y + c) + py) + px) < px) { x } else { py })^2))
 }
 
 hamiltonian! {
     pub struct E135 { a, b, c }
-    H(x, y; px, py; t) = (((a - (pi*a)) + (cos(py) - (1/3))) + tan(atan(sin((asinh((abs(c)^(-4/3))) - y)))))
+    H(x, y; px, py; t) = (erfc(tan((((((py^4)*(b/((c^2) + (1/4))))*(a + b)) - (b - (((sign(pi)^2) + (5^2))^(5/2)))) + tanh(acosh((((cbrt(atan((if (t <= t) && (c == a) { t } else { ((2 + ((b - (((sign(pi)^2) + (5^2))^(5/2))) + 2)) - py) })))^2) + 1) + 1)))))) + ((if (c == b) { x } else { acosh((cosh(sin(((t*(-7/4))^2))) + 1)) }) + cbrt(abs(((y - x)^-3)))))
 }
 
 hamiltonian! {
     pub struct E136 { a, b, c }
-    H(x, y; px, py; t) = (pi - (c + asin((min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)/(1 + (min((exp_m1((((x - c) - py) + exp(cos(((if !(max(y, px) < c) { abs(b) } else { (1/2) }) + ((b*5)^-2))))))/(y - (3 - px))), 1)^2))))))
+    H(x, y; px, py; t) = (-((if !((b*(if (2 <= y) { 3 } else { px })) <= y) { a } else { x }) - (ln(exp(pi)) - (-(exp_m1(py) + c)))))
 }
 
 hamiltonian! {
     pub struct E137 { a, b, c }
-    H(x, y; px, py; t) = ((px + py)*y)
+    H(x, y; px, py; t) = erf((-((c*((atanh(((c^-3)/(1 + ((c^-3)^2))))*py)*((c*y)^2))) + (exp(atan((min(b, a) + c)))*exp(tanh((((abs((b/exp(tanh((a/px)))))^(-1/2))*b) + atan(((a*atan2(c, a))^2)))))))))
 }
 
 hamiltonian! {
     pub struct E138 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(abs((if ((abs((if (((((pi - t)^2) + 2)^(-7/5)) < pi) && (cbrt(px) < pi) { b } else { (1/2) }))^(5/2)) < t) || (((a^4)*pi) == (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t })) { atanh((((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))/(1 + (((px*(py^6)) + (if ((-((pi - t)^2)) <= b) && ((-b) <= (-1)) { pi } else { t }))^2)))) } else { ((b + py) - py) }))) + (-(acosh(((((-ln(cosh(tanh(sin(abs((-acos((x + y)))))))))^2) + (x^2)) + 1)) + (if !(t <= b) { sin(((1/3) + (sinh(sin(b))*b))) } else { b }))))
+    H(x, y; px, py; t) = ((if ((px*(px + py)) < 5) { exp_m1(sin(pow(((b^2) + (1/4)), cos(((px*t)/(abs(ln_1p(((px^2) + 2)))^(2/3))))))) } else { (((if ((px + (1/3)) <= t) || (min(t, (if !((b - py) <= a) { t } else { py })) <= 1) { (981/100) } else { atanh(cos(c)) }) + (-py)) + (py + (py/((px^2) + 2)))) }) + acosh(((((abs((if !(y <= (981/100)) { acos(sin(c)) } else { c })) + (ln(((if ((x^-2) < 5) { (a*(if !(c < a) { (1/2) } else { x })) } else { b })*((y/((a^2) + 1)) + (c/exp(1)))))*(((y*y)*atan2(2, (x - y))) + (if !((3^5) <= t) { (t + b) } else { y }))))^2) + 2) + 1)))
 }
 
 hamiltonian! {
     pub struct E139 { a, b, c }
-    H(x, y; px, py; t) = sin((if !((px*(px/b)) < t) { (y*b) } else { (if ((y^-3) <= b) || (cos(sinh(tanh(c))) <= 5) { (1/2) } else { x }) }))
+    H(x, y; px, py; t) = atan(ln_1p(((sign(atanh(sin(hypot(hypot(a, acos(tanh(((((a^2) + 1)^(3/2)) - c)))), min(acos((tanh((pi^7))/(1 + (tanh((pi^7))^2)))), ((x*(a - c)) - (px/y)))))))^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E140 { a, b, c }
-    H(x, y; px, py; t) = (((((cosh(cos(((1/2) + t)))^(2/3)) - t)*(sinh(y) - (abs(a)^(-3/2)))) - (y*exp(t))) + (((((y - (px + ((a*py) - b)))^2) + 2)^(3/10))/px))
+    H(x, y; px, py; t) = ((-(if ((if !(acosh((abs(a) + 1)) <= y) { b } else { (b - (1/3)) }) < y) { atanh(cos((min(t, 3)^-2))) } else { (((((-y)/px)/((y*asin((atanh(cos((min(t, 3)^-2)))/(1 + (atanh(cos((min(t, 3)^-2)))^2)))))*pi))/(981/100))^7) })) + (erf(pi)^-2))
 }
 
 hamiltonian! {
     pub struct E141 { a, b, c }
-    H(x, y; px, py; t) = (asinh((((t + (c*a))*(pi^6)) + ((((t + (c*a))*(pi^6))*c) - (abs(px)^(-7/5))))) + (hypot(tanh(b), (((tan(sin(c)) - (pi + t))^7) - (x/(1/2))))^-3))
+    H(x, y; px, py; t) = ((((px*(c/(-1))) + b)^6) + (((x + b) + (abs(((1/3)*b))^-1))*((asinh(x)*x)*abs(y))))
 }
 
 hamiltonian! {
     pub struct E142 { a, b, c }
-    H(x, y; px, py; t) = (py/acosh(((((y*(-c))^2) + 1) + 1)))
+    H(x, y; px, py; t) = (((((px^2) + (a^2))^(5/2)) + (exp_m1(sin((y - (cosh(x)*py)))) - a))/abs(cos((a^2))))
 }
 
 hamiltonian! {
     pub struct E143 { a, b, c }
-    H(x, y; px, py; t) = acosh((cosh(sin(((acos((a/(1 + (a^2))))/exp(tanh(px))) - (exp_m1(sin(y))*c)))) + 1))
+    H(x, y; px, py; t) = cosh(sin(((((px/c) - abs((-7/4))) + asin((y/(1 + (y^2))))) - px)))
 }
 
 hamiltonian! {
     pub struct E144 { a, b, c }
-    H(x, y; px, py; t) = ((((py/(1/10))*a) - ((if (pi < px) { c } else { px }) + c)) + (if !(b < b) { (max(c, x)*(x - x)) } else { (abs(((t*x) + y))^-1) }))
+    H(x, y; px, py; t) = (exp_m1(sin(cbrt(cos((pi + ((hypot(a, px) + (1/2))*(a - (py + b)))))))) + (y - (sign(((-7/4)^2))^6)))
 }
 
 hamiltonian! {
     pub struct E145 { a, b, c }
-    H(x, y; px, py; t) = ((px*((-((x*py)*(x^(3/10))))*a))^3)
+    H(x, y; px, py; t) = (x*(if (cbrt((((5^2) + (1/4))^(-4/3))) <= x) && (((1 + c) + t) < px) { py } else { (pi*pi) }))
 }
 
 hamiltonian! {
     pub struct E146 { a, b, c }
-    H(x, y; px, py; t) = (atanh(sin((((py + ((py + (981/100)) + ((-7/4) - (py + (981/100))))) + (if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) }))*y))) + ((if ((if !((py^2) < py) { (((px^2) + (1/4))^-1) } else { b }) < b) { px } else { (px/abs(b)) })/abs(y)))
+    H(x, y; px, py; t) = ln((((y/(a - erfc(((((((a/x)*(py*a)) + erfc(t))^2) + 1)^(2/3)))))^2) + 2))
 }
 
 hamiltonian! {
     pub struct E147 { a, b, c }
-    H(x, y; px, py; t) = ((((asin(((1/10)/(1 + ((1/10)^2))))*(t + pi))*(px + py))*((cbrt(pow(((b^2) + 1), py)) + ((sqrt(abs((py + py)))/cosh(sin(c)))*(t + t)))^2)) + atanh((((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))/(1 + (((c*a) + (if (x < x) || ((b^2) <= x) { cbrt(pi) } else { (-((b - t)/abs((b*x)))) }))^2)))))
+    H(x, y; px, py; t) = (sqrt(((((-(px/((t^2) + (1/4))))^2)^2) + 1)) + (3*acos(((asin((if (x < x) || (sign(((-7/4) + b)) <= t) { ((b*x)/(x - pi)) } else { (if (t <= y) && ((y*t) <= y) { x } else { acosh((cosh(tanh(ln(((y^2) + 2)))) + 1)) }) })) + pi)/(1 + ((asin((if (x < x) || (sign(((-7/4) + b)) <= t) { ((b*x)/(x - pi)) } else { (if (t <= y) && ((y*t) <= y) { x } else { acosh((cosh(tanh(ln(((y^2) + 2)))) + 1)) }) })) + pi)^2))))))
 }
 
 hamiltonian! {
     pub struct E148 { a, b, c }
-    H(x, y; px, py; t) = max((((sqrt(acos(((t/(((py/abs(b))^2) + 2))/(1 + ((t/(((py/abs(b))^2) + 2))^2)))))^2) + 2)^(3/10)), tanh((a + y)))
+    H(x, y; px, py; t) = sinh((if !(((a + (-1))/py) <= (981/100)) { x } else { (min(((if ((px*(-1)) < x) || (py <= t) { a } else { px })*py), ((px*(-1)) + y)) + (a*((abs(c)^-2)*py))) }))
 }
 
 hamiltonian! {
     pub struct E149 { a, b, c }
-    H(x, y; px, py; t) = ((((t + y)*atanh(((x + t)/(1 + ((x + t)^2))))) + (((c + t) + c)*y)) - (if ((if (a <= a) || (t <= pi) { t } else { t }) <= py) && ((py/abs(t)) < y) { atan2((b*(t - 1)), 5) } else { b }))
+    H(x, y; px, py; t) = (min((981/100), c) - (if ((b + y) <= c) || (y <= py) { c } else { sign(t) }))
 }
 
 hamiltonian! {
     pub struct E150 { a, b, c }
-    H(x, y; px, py; t) = (((3 + tanh(((-7/4) + px))) - a) + ((y + sinh(x))*(pi + 5)))
+    H(x, y; px, py; t) = (tanh((exp_m1(atan(exp((px + (b + py))))) + px)) + cos(ln(((tan(tanh((x + pi)))^2) + (1/4)))))
 }
 
 hamiltonian! {
     pub struct E151 { a, b, c }
-    H(x, y; px, py; t) = (if (x <= 2) { ((if (((b - y)*py) < a) { abs((2*y)) } else { c })*atan(((((((b + (b/x))^-1)/((py^2) + 2))^2) + 2)^(1/2)))) } else { (1/2) })
+    H(x, y; px, py; t) = ((((if (a == py) { a } else { y })/(((((t + (1/2))^5) + y)^2) + 1)) + (b*y)) + (py + c))
 }
 
 hamiltonian! {
     pub struct E152 { a, b, c }
-    H(x, y; px, py; t) = (if (ln_1p((((b*py)^2) + 2)) <= c) || (((x*y)*py) <= py) { (py/(-1)) } else { (if !((b*(if (2 <= y) { 3 } else { px })) <= y) { a } else { x }) })
+    H(x, y; px, py; t) = (if !((((y^2) + (1/4))^-2) <= 3) { (y*(((y - a) + b) - b)) } else { (c + (sin((py*t))*b)) })
 }
 
 hamiltonian! {
     pub struct E153 { a, b, c }
-    H(x, y; px, py; t) = (atanh((exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))/(1 + (exp((((if ((1/3) < px) { py } else { (1/3) }) + py) + (py + (b*b))))^2)))) + (if (acosh(((((t + (1/3))^2) + (1/4)) + 1)) == b) && (y < x) { c } else { (((ln_1p((((5 + ((b/((x^2) + 2)) + (a*atan2((a - x), (1/3)))))^2) + ((981/100)^2)))^2) + 1)^(-1/2)) }))
+    H(x, y; px, py; t) = (((-((px - b)*a)) - ((py - tan((c - 2))) + (if ((px + py) <= px) && (a < t) { (px - b) } else { c }))) + pow(abs(cos(b)), cos(min(exp_m1(atan((-cos(b)))), ((max(acos((t/(1 + (t^2)))), (c + y))^2) - ((b/exp((((max(acos((t/(1 + (t^2)))), (c + y))^2) + c) - (-1)))) - y))))))
 }
 
 hamiltonian! {
     pub struct E154 { a, b, c }
-    H(x, y; px, py; t) = (if !((x + (1/3)) <= t) { cosh(cos((exp(tanh((pow(px, sin(px))/exp(cos((asin((sqrt(cosh(asin(cos(c))))/(1 + (sqrt(cosh(asin(cos(c))))^2))))^2))))))^(2/3)))) } else { y })
+    H(x, y; px, py; t) = exp_m1(sin(((c - (cbrt((x/((py^2) + 2))) + b))^-1)))
 }
 
 hamiltonian! {
     pub struct E155 { a, b, c }
-    H(x, y; px, py; t) = ((if ((x^-2) < 5) { ((a + (c - y))*(-(py*(t/exp(t))))) } else { pi })*((abs(x)^-1)^5))
+    H(x, y; px, py; t) = hypot((asinh(x)/exp(atan(c))), px)
 }
 
 hamiltonian! {
     pub struct E156 { a, b, c }
-    H(x, y; px, py; t) = ((b/exp((exp(py)^7))) + (((c - c)*t) + (max(x, t) + ((if (atan2(t, asin((c/(1 + (c^2))))) <= x) && ((x*(x + b)) < y) { atan2(t, asin((c/(1 + (c^2))))) } else { c }) + sin(x)))))
+    H(x, y; px, py; t) = ((cosh(py)*(abs(cos(((t*px)*(abs(((t*t)*(981/100)))^(1/2)))))^(-1/2))) + ((x - y) + (-7/4)))
 }
 
 hamiltonian! {
     pub struct E157 { a, b, c }
-    H(x, y; px, py; t) = hypot(py, min(asin((((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)/(1 + (((((tanh(acos(sin((cbrt(px)^-2))))^2) + (pi^2))^(1/3)) - y)^2)))), (py - x)))
+    H(x, y; px, py; t) = ((py - y)*((((-7/4)*(abs(((((acos((x/(1 + (x^2)))) - (y + 2))^2) + (1/4))^-1))^(1/2)))*x)/py))
 }
 
 hamiltonian! {
     pub struct E158 { a, b, c }
-    H(x, y; px, py; t) = (((b*max((1/10), y)) + ((-pow((((abs(px)^(3/10))^2) + 1), tanh(t)))^2))*tanh((acosh((((2^2) + 1) + 1))*acos((pi*((c - px)^2))))))
+    H(x, y; px, py; t) = ((if ((sin(px)*a) < x) { a } else { (c*3) })*y)
 }
 
 hamiltonian! {
     pub struct E159 { a, b, c }
-    H(x, y; px, py; t) = ((((-1) - py)/abs((((((py + c)^3)*(py + c)) - (py + c))/(((py^2) + 1)^(-3/2))))) + tanh(sinh((1/10))))
+    H(x, y; px, py; t) = (((py + sinh(px))/exp(tanh(c))) + (((t*y)/((t*(1/10))/(((c + acos(sin(x)))^2) + (t^2))))*((y/a) + (t - t))))
 }
 
 hamiltonian! {
     pub struct E160 { a, b, c }
-    H(x, y; px, py; t) = (exp((1 + exp(tanh((b/a))))) + (y*px))
+    H(x, y; px, py; t) = (cosh(tanh((((erf((-erfc(min((ln(((acos(c)^2) + (c^2)))/(((if (cbrt((if (((((-1)^2) + (c^2))^-1) <= py) && (x <= (1/3)) { px } else { 5 })) < py) && ((((-7/4)*y) + a) == y) { ((1/10) + (sin((pi + c)) + y)) } else { t })^2) + 1)), (pi^2)))))^2) + 2)^(-7/5))))/cosh((((c^2) - y) - y)))
 }
 
 hamiltonian! {
     pub struct E161 { a, b, c }
-    H(x, y; px, py; t) = (-(((((((y + y) + (((py/exp(cos((px + (px - x))))) - px)^(-1/2)))*acosh((abs(cos(max(atanh(((1/10)/(1 + ((1/10)^2)))), a))) + 1)))^2) + 1)^-3) + x))
+    H(x, y; px, py; t) = ((c*pow(((py^2) + ((981/100)^2)), b)) + ((-(-((y*(c*pow(((py^2) + ((981/100)^2)), b)))/cosh(y)))) + exp_m1(cos((((c^2) + (x^2))^(-1/2))))))
 }
 
 hamiltonian! {
     pub struct E162 { a, b, c }
-    H(x, y; px, py; t) = ((((((hypot(sqrt(abs((((atan2((py*a), px)^2) + 1)^(-3/2)))), px)^2) + (a^2))^(5/2))^2)/abs(atan((tan(((981/100) + px)) - (ln(exp(pi))*(atan2((py*a), px)^2)))))) + sin(((((x/c) - acosh(((((-7/4)^2) + 1) + 1))) + (a - b)) - x)))
+    H(x, y; px, py; t) = (((abs(asin((pow(((exp(atan(asinh(((1/3)*px))))^2) + (1/4)), (((((py*((py + ((((5^2) + ((1/10)^2))^(-3/2))*b)) - px))^2) + 1)^(-4/3)) + (b - (b*b))))/(1 + (pow(((exp(atan(asinh(((1/3)*px))))^2) + (1/4)), (((((py*((py + ((((5^2) + ((1/10)^2))^(-3/2))*b)) - px))^2) + 1)^(-4/3)) + (b - (b*b))))^2)))))^(2/3))^2) + ((t*x) - 2))
 }
 
 hamiltonian! {
     pub struct E163 { a, b, c }
-    H(x, y; px, py; t) = (if (t <= t) && (x == a) { asinh((py/((pi^2) + (1/4)))) } else { ((pi^2) + (if ((px + px) < py) || ((exp(cos(t)) + px) == a) { t } else { t })) })
+    H(x, y; px, py; t) = ((py - (y + b))*(if !(a < c) { (if (c <= t) || ((t - (t/((y^2) + (py^2)))) == px) { py } else { 1 }) } else { 1 }))
 }
 
 hamiltonian! {
     pub struct E164 { a, b, c }
-    H(x, y; px, py; t) = (asin((((a/x)*px)/(1 + (((a/x)*px)^2)))) + sin(sqrt(((2^2) + 1))))
+    H(x, y; px, py; t) = ((y - tan(c))*(min(py, x) - (y*erfc(sign((a + hypot(t, t)))))))
 }
 
 hamiltonian! {
     pub struct E165 { a, b, c }
-    H(x, y; px, py; t) = ((((-(px/(exp(sin((py + 5))) + (abs((b*(1/2)))*exp(tanh(b))))))^7) - py) + exp_m1(atan(sin((max(a, acosh((abs((pi*(atan(cos(a)) - (-1)))) + 1))) - t)))))
+    H(x, y; px, py; t) = (abs(((atanh(((-px)/(1 + ((-px)^2))))*py)*(px + py))) + sin((((acosh((abs(((((x*((b/((c^2) + (c^2)))/((t^2) + ((1/10)^2))))^2) + 1)^(-3/2))) + 1))^2) + (a^2))^(3/2))))
 }
 
 hamiltonian! {
     pub struct E166 { a, b, c }
-    H(x, y; px, py; t) = ((((tanh((py/px)) + a) + (pow(((((py*c)^2)^2) + 2), t) + y))^2)^5)
+    H(x, y; px, py; t) = ((if (x < b) && (x < (1/3)) { c } else { x }) - (if !(((pi + 1) + py) <= c) { acos((((if !(erfc(c) == b) { erfc((tanh(pow((((-(cosh((py*(1/10)))^2))^2) + 1), tanh(pi))) + px)) } else { t })/(((c + ((1/2) + 1)) + c) - ((c + (py + (-sign(a)))) + (y*x))))/(1 + (((if !(erfc(c) == b) { erfc((tanh(pow((((-(cosh((py*(1/10)))^2))^2) + 1), tanh(pi))) + px)) } else { t })/(((c + ((1/2) + 1)) + c) - ((c + (py + (-sign(a)))) + (y*x))))^2)))) } else { ((x + x)/abs(((1/10) + b))) }))
 }
 
 hamiltonian! {
     pub struct E167 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((x + t)*((b + b)*((if !(exp((y - x)) < c) { (1/3) } else { px })*t)))*b))
+    H(x, y; px, py; t) = (((((abs(py)^(3/10))*x)^2) + (c^2))^(-4/3))
 }
 
 hamiltonian! {
     pub struct E168 { a, b, c }
-    H(x, y; px, py; t) = (((px - c)*px) + (cosh(sin((((if ((a + x) < (1/10)) && (x <= pi) { a } else { y }) + (((1 - (-1))/abs(2))/b))*(a - 2)))) - ((y^3) + ln_1p(abs(b)))))
+    H(x, y; px, py; t) = ((((t - (py*py)) + py) + cos((sqrt(abs(c))/abs(((1/2) - px))))) + ((-7/4) + erfc(((-x) + acos((cosh(sin((x*((((((-7/4) - (-7/4)) + (-7/4)) - b) + x) - (1/10)))))^(1/3)))))))
 }
 
 hamiltonian! {
     pub struct E169 { a, b, c }
-    H(x, y; px, py; t) = (if !(5 < py) { (if (((((if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) })^2) + (b^2))^(1/2)) <= px) { (sqrt(abs((if ((px^6) <= a) && (((px^6) + tanh(py)) <= (if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) })) { (1/3) } else { a })))*sinh(tanh(((-1) + py)))) } else { ((((-(x + x)) - px)/(((((-1)*(-1)) - b)^2) + (1/4)))^7) }) } else { acosh((cosh(sin(pow(abs((if ((abs((t*x))^(-3/2)) < 1) { ((if (b < t) || (((-1)*(-1)) <= y) { y } else { (1/3) }) + c) } else { (if ((a - (a + y)) < a) { sin(py) } else { a }) })), atan(c)))) + 1)) })
+    H(x, y; px, py; t) = (((c^4)*c) - ((-pow(abs(y), atan(c)))/cosh(sin(((py^6)*(pi/(((1/10)^2) + 1)))))))
 }
 
 hamiltonian! {
     pub struct E170 { a, b, c }
-    H(x, y; px, py; t) = exp_m1(sin((-((b/((hypot(b, (-c))^2) + (1/4))) - ((((((y^-2)*py)^-1)^2) + 1)^(2/3))))))
+    H(x, y; px, py; t) = min((if (y <= py) && (((if !((2 + pi) <= b) { b } else { a }) + 2) < t) { atan2((3*2), y) } else { (ln(abs(b))/b) }), (t + b))
 }
 
 hamiltonian! {
     pub struct E171 { a, b, c }
-    H(x, y; px, py; t) = ((((if ((py*px) <= c) { py } else { (if !(sin((px + px)) <= pi) { px } else { b }) })^5) + (tanh((b*(atanh(tanh(px))^-2))) + pi)) + (y*(((3^5) + (t + (981/100)))/(ln_1p(abs((((cos((((y*a)*cbrt(t))*3))^2) + 1)^(-1/2))))*(if ((-x) <= 1) { 3 } else { y })))))
+    H(x, y; px, py; t) = (asinh(((atan2(a, cosh((px - a))) + (((py + py)*b)*ln((((if (py < px) { (1/10) } else { (1/10) })^2) + 1)))) + min((a - acos((((1/2) - px)/(1 + (((1/2) - px)^2))))), (py*c)))) + (cosh(((1/3) + x)) - ((y*(x + ((((981/100)*(-1)) + a)/((y^2) + 1))))^-1)))
 }
 
 hamiltonian! {
     pub struct E172 { a, b, c }
-    H(x, y; px, py; t) = (abs(((exp_m1(y) - asinh((if !(atan2((a + a), t) <= py) { a } else { exp_m1(sin(((py*b)^4))) })))^(1/3)))^(5/2))
+    H(x, y; px, py; t) = (((c*((a - py) + x))*exp(pi))*pow(exp(cos((y*py))), sin((c + py))))
 }
 
 hamiltonian! {
     pub struct E173 { a, b, c }
-    H(x, y; px, py; t) = (tan(cos(((((abs(px)^(-1/2))^2) + (1/4))^(2/3))))*cbrt(min((5/c), ((pi*y)^2))))
+    H(x, y; px, py; t) = min((if (((1/2)/(1/2)) < b) && (px <= px) { py } else { 2 }), sign((if ((c + b) < x) || (((2/(((1/10)^2) + 2))*py) <= (-7/4)) { tan(tanh((if ((y + (px + a)) <= x) { a } else { y }))) } else { cosh(sin((py - t))) })))
 }
 
 hamiltonian! {
     pub struct E174 { a, b, c }
-    H(x, y; px, py; t) = ((cbrt((if !(px <= a) { (py*((c + b) + px)) } else { (-py) })) + (c + px)) + cbrt(((if ((x + (a + a)) <= t) { max(y, (x + y)) } else { (1/10) })/((if ((y - c) == y) { c } else { (b*x) }) - (-7/4)))))
+    H(x, y; px, py; t) = ((erf(sin((cos(b) - exp(((c/(py^-1))*px)))))*(cosh(((((a - c)^2) + (1/4))^(1/2)))^-2)) + (-((y*(acosh((abs(y) + 1)) + (y/y))) + (-7/4))))
 }
 
 hamiltonian! {
     pub struct E175 { a, b, c }
-    H(x, y; px, py; t) = ((px + exp_m1(tanh(max((if !((b + c) < c) { px } else { cbrt(3) }), (if (tan(cos((5*a))) <= y) { x } else { px }))))) + ((1*py)*(c^5)))
+    H(x, y; px, py; t) = min((a - (pi*(2*((c*x) + py)))), exp_m1(tanh((1/10))))
 }
 
 hamiltonian! {
     pub struct E176 { a, b, c }
-    H(x, y; px, py; t) = (((if (c <= t) || (sin((px - 3)) < c) { tan(pow(((c^2) + 1), sin(y))) } else { 3 }) - ((pow((((t + x)^2) + 1), cos(a)) - (x - ln_1p(((a^2) + 2)))) - py))/(((((-((atan(min(py, a)) + 2) - py)) + pi)^2)^2) + 2))
+    H(x, y; px, py; t) = ((((c + (((((c*((1/3) + x)) - a)/((asinh(((-(1/2)) + b))^2) + 1))*py)*atan2((py - (1/3)), px)))^2) + (1/4))^(-7/5))
 }
 
 hamiltonian! {
     pub struct E177 { a, b, c }
-    H(x, y; px, py; t) = ((((if (abs(sinh(atan(px))) < c) && ((px + px) <= px) { py } else { (px + px) })*(sinh(atan(px)) - py))*((cbrt(px) - (a + py)) - (py - t))) + ln_1p(abs(((((a^2) + (1/4))^(-7/5))^-2))))
+    H(x, y; px, py; t) = (tan(tanh((exp(tanh(tan(px)))*((if !((-(px + c)) < c) { (b + t) } else { (b + t) }) - py)))) + ((c - c) - sin((x*y))))
 }
 
 hamiltonian! {
     pub struct E178 { a, b, c }
-    H(x, y; px, py; t) = ln(abs(((x^-3) - ((px*b)/((abs((c*t))^2) + ((1/10)^2))))))
+    H(x, y; px, py; t) = ((((pi - t) + a) - (if (((py*b)^3) <= b) { tan(c) } else { (if (((abs((1/2))^(-7/5)) + a) < x) && (((abs((1/2))^(-7/5)) + a) <= b) { c } else { px }) })) - a)
 }
 
 hamiltonian! {
     pub struct E179 { a, b, c }
-    H(x, y; px, py; t) = (if (x < b) { c } else { ((py/((x^2) + (1/4))) + c) })
+    H(x, y; px, py; t) = (cbrt(cbrt(atanh((b/(1 + (b^2))))))*pow(cosh(atan((py + x))), (-((px/py)^2))))
 }
 
 hamiltonian! {
     pub struct E180 { a, b, c }
-    H(x, y; px, py; t) = (asin((asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))/(1 + (asinh((px*(px + ((a*b)*cbrt((pow(cosh(atan((py + b))), atan((-((py/((px^2) + 2)) + px))))^3))))))^2)))) + (if (y <= y) { (a + b) } else { asinh(x) }))
+    H(x, y; px, py; t) = (sign((-((((-((((py*px) - (c/cosh(atan(pi)))) - cosh(b))*b))^2) + 1)^(2/3)))) + max(cosh(cos(ln_1p(((y^2) + 2)))), (x + b)))
 }
 
 hamiltonian! {
     pub struct E181 { a, b, c }
-    H(x, y; px, py; t) = ((if ((if (((-7/4) + c) <= py) || (x <= (-7/4)) { (2*a) } else { a }) <= x) || (t <= c) { (if !(pow(((py^2) + 1), (a*px)) < a) { y } else { x }) } else { py })/sin(min(c, t)))
+    H(x, y; px, py; t) = ((y*1)*sin(((c*b) + py)))
 }
 
 hamiltonian! {
     pub struct E182 { a, b, c }
-    H(x, y; px, py; t) = (sinh(atan((x - (px*(y^4)))))*(-py))
+    H(x, y; px, py; t) = (abs(((((atanh(((py*b)/(1 + ((py*b)^2)))) + ((x*atan2((px*a), py))^2))^2) + (x^2))^(-7/5)))^(13/4))
 }
 
 hamiltonian! {
     pub struct E183 { a, b, c }
-    H(x, y; px, py; t) = ((((b*b)*py)^6) + (((x*a) + a)/(ln_1p((((abs((-max(y, sign((y + (y*pi))))))^(2/3))^2) + (1/4))) - ((x - pi) + (y/((a^2) + (y^2)))))))
+    H(x, y; px, py; t) = ((cos(pow(((3^2) + 2), b)) - (((a/(-7/4))/((((b - a)*py)^2) + (1/4)))^5)) + ((abs(((x*((t + t) - (2^5)))^2))^(-1/2)) - x))
 }
 
 hamiltonian! {
     pub struct E184 { a, b, c }
-    H(x, y; px, py; t) = ((y - (x + b)) - (pow(((py^2) + (x^2)), sin((sinh(atan((x*sqrt(abs(t)))))*abs(t)))) - (if !(px <= (-1)) { ((-1) + py) } else { (y*(c*t)) })))
+    H(x, y; px, py; t) = (((b/cosh(tanh(a))) + atan2((sin((px/((atan2(b, px)^2) + 2)))^7), (c*hypot(py, y)))) + (t*3))
 }
 
 hamiltonian! {
     pub struct E185 { a, b, c }
-    H(x, y; px, py; t) = hypot(b, (if ((y + py) < px) { px } else { ((((py/((a^2) + 2)) + (py^-2)) + (t*2)) + (atan(t) + py)) }))
+    H(x, y; px, py; t) = atan2((b - py), x)
 }
 
 hamiltonian! {
     pub struct E186 { a, b, c }
-    H(x, y; px, py; t) = (((((tan((if !(b < px) { max((abs(px)^(3/10)), py) } else { (abs(cbrt((py*py)))^3) }))^2) + (cosh(atanh(sin(((1/10) + px))))^2)) + py) + py) + ((b/(1/3)) - (y - min(((tanh(((1/2) - x))^6) - ((1/3)*(x - b))), y))))
+    H(x, y; px, py; t) = ((-(max((min((t + py), 5) + min((t + py), 5)), (px + (t^6)))*(px*b))) + cos((if (x < x) { atan2(x, x) } else { (a^-3) })))
 }
 
 hamiltonian! {
     pub struct E187 { a, b, c }
-    H(x, y; px, py; t) = (if ((a/(if (x <= py) { x } else { b })) == c) { (c*t) } else { px })
+    H(x, y; px, py; t) = ((py/((5^2) + 2)) + ((((pi*t)/c)*x)*(if ((if ((py + cos(b)) < py) && ((atan(a) + a) < t) { px } else { (if !(((if ((px^2) <= py) || ((px - t) <= pi) { x } else { py })^6) <= py) { a } else { py }) }) < x) && ((-c) <= t) { tanh((px - (1/2))) } else { b })))
 }
 
 hamiltonian! {
     pub struct E188 { a, b, c }
-    H(x, y; px, py; t) = (atanh((a/(1 + (a^2)))) + ((-(if (asin(tanh((if ((cosh(py) + b) <= a) { x } else { py }))) < (1/3)) || ((-a) < py) { (abs(3)^(5/2)) } else { (((x + ln(abs(x))) + acos(tanh((a/acos((y/(1 + (y^2))))))))^2) })) - ((if ((a/((x^2) + 1)) <= c) || (exp_m1((px*c)) < x) { 2 } else { hypot(px, ((((-1)/(((t + b)^2) + (y^2)))^2)^2)) })^-1)))
+    H(x, y; px, py; t) = tanh((y - ((((py + asin((b*px))) + x)^5)*y)))
 }
 
 hamiltonian! {
     pub struct E189 { a, b, c }
-    H(x, y; px, py; t) = (((py + a)/(((((t^2) + 2)^(-4/3))^2) + (1/4))) + (y/(((((cos((1/2))^-3)^2) + (c^2))^(5/2))^6)))
+    H(x, y; px, py; t) = ((((ln_1p(cosh(tanh(a))) - t) - (((((if (py == px) { max(((px/c) - py), px) } else { (if (tanh(a) <= a) && ((((atan(px)^2) + (1/4))^(13/4)) < a) { b } else { (981/100) }) })^2) + (1/4))^(2/3))*(((px*py)*(px*(py + px)))^3)))^6) + sinh(tanh((if ((pi/((t^2) + (1/4))) < x) { (b + ((t/((b^2) + 1)) + x)) } else { (t/tanh(x)) }))))
 }
 
 hamiltonian! {
     pub struct E190 { a, b, c }
-    H(x, y; px, py; t) = (abs((if ((c*x) <= py) { acos(cos(((y*x) - (y*x)))) } else { py }))^(-4/3))
+    H(x, y; px, py; t) = (((sin((x + (y^7))) + c) + (if (py <= 5) { (atanh(sin(5)) - (-1)) } else { tan(x) })) + c)
 }
 
 hamiltonian! {
     pub struct E191 { a, b, c }
-    H(x, y; px, py; t) = (((if ((1/10) <= y) && (t <= 5) { t } else { 2 }) + (cos(c)*t)) + (if (((pi + 5)^3) < a) && ((y*a) < c) { px } else { c }))
+    H(x, y; px, py; t) = (asinh((ln_1p(abs(abs((cbrt(tanh((y/((py + (1/3)) + atanh(min(py, py))))))^6))))^2))*(ln(((px^2) + 1))/((((acos(hypot(py, t))*(sign((cbrt((py/(((-(hypot(py, t)*min((a + pi), (pi - 3))))^2) + (x^2))))*py))/(((py + b)^2) + (((px^2) + 1)^2))))^-3)^2) + 2)))
 }
 
 hamiltonian! {
     pub struct E192 { a, b, c }
-    H(x, y; px, py; t) = ((if (atan2(b, t) <= c) { ((1/10) + px) } else { ((1/10) + px) }) + (if (x <= c) { sqrt(((y^2) + (1/4))) } else { c }))
+    H(x, y; px, py; t) = (((((1/2) + (b - b)) + px)/(((if ((if (b < pi) && (((-1)*min((1/10), c)) <= px) { c } else { py }) <= px) && ((((if (b < pi) && (((-1)*min((1/10), c)) <= px) { c } else { py }) - py)^6) < py) { min((tan(hypot((if (c < t) || (c < b) { px } else { (-1) }), b)) - (5*((1 + px)^-2))), b) } else { py })^2) + (a^2))) + ((((if (cos(atan(pi)) < x) { ((((a/(((pi + c)^2) + 1))^2) + (x^2))^(-3/2)) } else { (-(x*c)) })^5)^6)^5))
 }
 
 hamiltonian! {
     pub struct E193 { a, b, c }
-    H(x, y; px, py; t) = ((py/((-7/4)/((((-hypot(y, a))*(py*1))^2) + 1))) + px)
+    H(x, y; px, py; t) = ((abs((py + atanh(cos(c))))^(-3/2))*y)
 }
 
 hamiltonian! {
     pub struct E194 { a, b, c }
-    H(x, y; px, py; t) = ((((if (tan(tanh(px)) < b) { py } else { (tan(tanh(px)) + t) })*px) - (-((ln(abs(b))*px) + t)))*(((-max(a, (t/py)))^2)*y))
+    H(x, y; px, py; t) = (-tanh(((((exp_m1(tanh(((atan((1 + py))*(-a))^2))) + y)^2) + 1)^(13/4))))
 }
 
 hamiltonian! {
     pub struct E195 { a, b, c }
-    H(x, y; px, py; t) = ((3/((ln((((abs(min(sign((py + px)), px))^-2)^2) + 2))^2) + 2)) + ((((abs(y)^(5/2)) + c)/t) + sign(((x*pi) + (2 + (x + y))))))
+    H(x, y; px, py; t) = (sqrt(abs((-((((1/10)^2) + (1/py))*sqrt(((atan2((-1), max(c, (981/100)))^2) + (1/4))))))) + ((((ln((((exp(sin((1/3)))/abs(b))^2) + (1/4)))*(c + (((hypot(y, y)^2) + 2)^(13/4))))^2) + 1)^(3/2)))
 }
 
 hamiltonian! {
     pub struct E196 { a, b, c }
-    H(x, y; px, py; t) = (((py*x) - (c/cosh(atan(pi)))) - c)
+    H(x, y; px, py; t) = (atan2((t - (if !((x*b) < 1) { b } else { (x*b) })), (-((1/2)*py)))*(b/cosh((if ((t - (if (b <= b) { x } else { b })) < b) { (1/2) } else { ((pi*t) + b) }))))
 }
 
 hamiltonian! {
     pub struct E197 { a, b, c }
-    H(x, y; px, py; t) = (-(if (hypot((((t^2) + 2)^(13/4)), t) < (1/10)) && (b < y) { (py/(t^-2)) } else { sqrt((((sin(t) - tanh(((981/100)*py)))^2) + (t^2))) }))
+    H(x, y; px, py; t) = (((if ((a - pi) == y) { (-erfc((c - (y*y)))) } else { (-b) })*((py/atan(y)) - (y - b)))^2)
 }
 
 hamiltonian! {
     pub struct E198 { a, b, c }
-    H(x, y; px, py; t) = (hypot((if (((1/3)/((b^2) + (1/4))) < px) { (1/3) } else { c }), 2) + (if (x < x) { (b - (x - b)) } else { (if (((y/y)^4) < x) { (1/2) } else { t }) }))
+    H(x, y; px, py; t) = (sqrt(abs((if (a <= px) && ((py + px) <= py) { tan(tanh((py*py))) } else { sign((3*(((a - px) + (1*(py^-3)))*a))) }))) + (sin(max((t + x), (abs(abs((abs(sin((t/y)))^(3/10))))^(2/3))))^2))
 }
 
 hamiltonian! {
     pub struct E199 { a, b, c }
-    H(x, y; px, py; t) = ((px - b)*((px - y) - ((c*b)/(1/2))))
+    H(x, y; px, py; t) = (abs(((px^5) + atanh((((px*b) + ((2 + (b + y)) - c))/(1 + (((px*b) + ((2 + (b + y)) - c))^2))))))^(2/3))
 }
 
 hamiltonian! {
     pub struct E200 { a, b, c }
-    H(x, y; px, py; t) = pow(((c^2) + ((-7/4)^2)), (t - (((c/(atan(t) + (a/((c^2) + (y^2))))) - py) - exp_m1(a))))
+    H(x, y; px, py; t) = atanh(((((981/100)^2) - abs((1/2)))*((tanh((((((1/3)*x)^2) + 1)^(2/3))) + px)/((y^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E201 { a, b, c }
-    H(x, y; px, py; t) = (min(((((pow((((cbrt((c + (-7/4)))*((981/100) + px))^2) + 2), cos(py))^2) + (t^2))^(13/4))*(abs((abs(b)^(3/10)))^(13/4))), a) + ((y + min(y, (if ((if (sin(pi) < b) { y } else { y }) < y) && (x < (-7/4)) { c } else { pi }))) + tan(ln_1p(((ln_1p(abs(((((sqrt(abs((x*c)))^2) + 1)^-2) + ((t^-1)*sign(t)))))^2) + 2)))))
+    H(x, y; px, py; t) = (((c + (t*px)) + pow((((py + (b/px))^2) + (b^2)), cos(erf((px + px))))) + (if !(ln_1p((c^3)) <= (1/2)) { tan(cos((if (y < b) { (5 + (((1/10)/((b^2) + 2)) + c)) } else { (if (c <= 5) { (((a^2) + (pi^2))^(13/4)) } else { x }) }))) } else { atan2(((b^2) - x), a) }))
 }
 
 hamiltonian! {
     pub struct E202 { a, b, c }
-    H(x, y; px, py; t) = (x*min(((if (px <= x) && ((x + c) == t) { (exp(cos(y))^(-3/2)) } else { px }) + (y - (x*((1*px)^(-1/2))))), (if (px < x) || (3 <= b) { t } else { x })))
+    H(x, y; px, py; t) = (if ((a/((x^2) + 2)) < py) { asin(cos((1/2))) } else { py })
 }
 
 hamiltonian! {
     pub struct E203 { a, b, c }
-    H(x, y; px, py; t) = (((((-(px*(a + a)))/(x*y))^2)*(((if ((if ((-7/4) <= (-7/4)) || (abs(c) < px) { (c + b) } else { (-1) }) <= py) && (b <= py) { py } else { b }) + a) + ((hypot(a, a)^5)/(py*py))))^2)
+    H(x, y; px, py; t) = ((((max(atan2((t/c), t), (1/2))^2) + 2)^(2/3))/((((if (b <= y) || ((t^6) < px) { a } else { t }) - pi)^2) + (1/4)))
 }
 
 hamiltonian! {
     pub struct E204 { a, b, c }
-    H(x, y; px, py; t) = (((if (py < py) && (b < b) { (pi + (exp(cos((((((py*t)/((b^2) + (1/4)))^2) + (px^2))^(-1/2))))^(3/10))) } else { (px - px) }) - c) + (cosh(cos(min(t, (pi*t))))^(3/2)))
+    H(x, y; px, py; t) = ((ln_1p((erfc(acos(cos(((px + px) - (if (exp((px + px)) < py) && (atanh(tanh((-(-1)))) < px) { ((b/pi)^6) } else { acosh((cosh(cos((t/(((px - py)^2) + 2)))) + 1)) })))))*t))^5) + (c/exp(atan((-min((exp_m1(b)/(((b*x)^2) + (1/4))), cosh(sin(x))))))))
 }
 
 hamiltonian! {
     pub struct E205 { a, b, c }
-    H(x, y; px, py; t) = hypot((x*py), (((y + px)^3)*(y/abs(x))))
+    H(x, y; px, py; t) = ((-((x + y) + t))/abs(atan2(c, atanh(tanh(((abs(((((((abs(((((x - (if (y <= t) { c } else { b })) + (px - x))*(((ln((((if (py <= 1) { x } else { x })^2) + 1))^2) + (x^2))^(13/4)))*2))^(3/2))^2) + (b^2))^(3/10))^5)*c))*5) + a))))))
 }
 
 hamiltonian! {
     pub struct E206 { a, b, c }
-    H(x, y; px, py; t) = (if ((y/px) <= py) && (x < c) { ((1/2) - y) } else { ((max((py^(-3/2)), t)*(abs(px)^(13/4))) + ln_1p(cosh(atan2((exp_m1(tanh((px - (t*(y/cosh(sin(px)))))))*((1/2) + x)), max(acos((abs(py)/(1 + (abs(py)^2)))), py))))) })
+    H(x, y; px, py; t) = cbrt((((y - t) - px)*erfc(((5 + pi) - px))))
 }
 
 hamiltonian! {
     pub struct E207 { a, b, c }
-    H(x, y; px, py; t) = ((acosh(((((px/((((if (px <= py) { a } else { px }) + (t*t))^2) + 1))^2) + (1/4)) + 1)) + py) + (acosh((abs((y - (((y^2) + 2)^(-1/2)))) + 1))/((a + y)/sinh((exp_m1(sin(y))*3)))))
+    H(x, y; px, py; t) = ((tan(sin(py))^2) + sign((y + y)))
 }
 
 hamiltonian! {
     pub struct E208 { a, b, c }
-    H(x, y; px, py; t) = ((pi/(y*py))*((-a) - hypot(3, (t + px))))
+    H(x, y; px, py; t) = (erfc(cosh(tanh((cosh(px)^(1/2)))))*(exp(atan(erf(x)))^(5/2)))
 }
 
 hamiltonian! {
     pub struct E209 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((b/abs(b)) + (-px))*x))
+    H(x, y; px, py; t) = ((if (((t^6) + (t^6)) < y) || ((b - x) < px) { abs(x) } else { ((((a^2) + (x^2))^(1/3))*(((c^2) + 1)^-1)) })*((((c^2) + 2)^(3/2)) - t))
 }
 
 hamiltonian! {
     pub struct E210 { a, b, c }
-    H(x, y; px, py; t) = (exp_m1((a/(3/cosh(((3*py) - acos(sin(sqrt(abs((1/10)))))))))) + max(atanh((((-((c*a)*x))^6)/(1 + (((-((c*a)*x))^6)^2)))), t))
+    H(x, y; px, py; t) = (((-(-(px + (1/10)))) + (((((px*(1/10))/((exp_m1((((((-(px + (1/10)))*(1/2))^2) + (a^2))^(2/3)))^2) + 1))^2) + (pi^2))^(5/2))) + ((if (cbrt(x) <= cbrt(x)) || ((c/(t/2)) <= a) { (if !(max(x, (c*y)) == b) { t } else { y }) } else { y }) - (a*c)))
 }
 
 hamiltonian! {
     pub struct E211 { a, b, c }
-    H(x, y; px, py; t) = ((tan(ln_1p(exp((((-1)*b)*(y*tanh((px*(x + y))))))))^3) - (pow((((tanh(3) - (py*b))^2) + (t^2)), cos(px))^2))
+    H(x, y; px, py; t) = (((t - y) + ((py*5)/cosh(atan(asin((b/(1 + (b^2))))))))^4)
 }
 
 hamiltonian! {
     pub struct E212 { a, b, c }
-    H(x, y; px, py; t) = ((sign((x + c))*cos((px + 1)))*((a*max(x, py)) - ((981/100)*y)))
+    H(x, y; px, py; t) = ((x*b) + (if ((if (((-pi)/b) <= px) { (x*b) } else { (y*px) }) <= t) && ((b - pi) < c) { 5 } else { c }))
 }
 
 hamiltonian! {
     pub struct E213 { a, b, c }
-    H(x, y; px, py; t) = ((((pi*atan(px))*pow(((atan(px)^2) + 2), (exp(sin(a))^(13/4)))) + px) + cosh(sin((asin((atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)/(1 + (atan2((y + sign((b*(if (y == b) && ((a^3) <= x) { b } else { y })))), x)^2))))*sin((y/c))))))
+    H(x, y; px, py; t) = (((ln_1p((((exp_m1(atan((t*cosh(sin((px*pi)))))) - sin((exp_m1((py + (t - a)))^5)))^2) + (1/4)))*px)*(asin((px/(1 + (px^2))))*b)) + ((a*((-1) + b))/((max(y, tan(tanh(a)))^2) + 1)))
 }
 
 hamiltonian! {
     pub struct E214 { a, b, c }
-    H(x, y; px, py; t) = (((if !(b <= x) { c } else { t })^2)*(py + c))
+    H(x, y; px, py; t) = ((a/(((a - erf(((((((a^2) + 2)^(5/2))*(3 + px))/x)*hypot((a^6), (a^2)))))^2) + (1/4)))^2)
 }
 
 hamiltonian! {
     pub struct E215 { a, b, c }
-    H(x, y; px, py; t) = (sin(px)/(cbrt((a + y))*((sinh(tanh((if (y < (-7/4)) || (((-px) - t) < a) { (-7/4) } else { (c*(t - (-7/4))) }))) - max(t, t))*((sqrt(((a^2) + 2))^6) - ((x*hypot(y, y))*1)))))
+    H(x, y; px, py; t) = (((pi + t)/abs((py*exp(atan(y)))))*atan2(((x + sin((c + exp(atan(y))))) + px), (if (((2*py) - pi) <= 2) && (x < c) { (t/abs((-7/4))) } else { tanh((ln(((px^2) + (y^2))) + sin((c + exp(atan(y)))))) })))
 }
 
 hamiltonian! {
     pub struct E216 { a, b, c }
-    H(x, y; px, py; t) = ((atanh((px/(1 + (px^2))))*(px + ((px*b) + (px - (t/b))))) + (((if ((abs(y)^(-1/2)) == (981/100)) { a } else { x }) - (y*(y*(((((1/3)*x)^2) + 1)^(2/3))))) + x))
+    H(x, y; px, py; t) = ((((py*px)*sin(sinh(tanh(px)))) + sqrt((((atan2(px, (t^4))*b)^2) + (1/4)))) + (erfc((t*ln(((atanh(sin((3*1)))^2) + 1))))/pi))
 }
 
 hamiltonian! {
     pub struct E217 { a, b, c }
-    H(x, y; px, py; t) = (((x^2) + c)/((if (t == (1/10)) || ((b*pi) < px) { px } else { exp_m1(atan(((if (cosh((c^3)) <= (1/2)) && (x <= ((x^2) + c)) { py } else { (3 + (y - b)) }) + ((a*(b - c)) + (1/3))))) })*(((c + px) + min(max(cosh((c^3)), a), px))^4)))
+    H(x, y; px, py; t) = max((c - c), ((y*(1/10))*(c*pow((((b + a)^2) + 1), px))))
 }
 
 hamiltonian! {
     pub struct E218 { a, b, c }
-    H(x, y; px, py; t) = (((((sign(((-1) + px))^2) + (1/4))^(3/10))*abs(py))*((py*min(((1/10) + (-1)), (y + a)))/((if ((a/((x^2) + 2)) < py) { sinh(cos((1/2))) } else { a }) - (sqrt(cosh(cos((-(py - (1/10))))))*px))))
+    H(x, y; px, py; t) = (if (((a - 3)^3) < px) { (if !((((-1)*y)^7) < (a - 3)) { (((t^2) + (1/4))^(3/10)) } else { y }) } else { (((c*(erf(py) - a))^6)*t) })
 }
 
 hamiltonian! {
     pub struct E219 { a, b, c }
-    H(x, y; px, py; t) = ((abs(((py + (px^4))*(px/(py - (1/3)))))^(3/2)) + (if (sign(y) < sign(y)) || (exp((c^-2)) <= (1/10)) { (((((y + (pi - t))^2) + 1)^-3) + (min(2, x) - b)) } else { (((b*c) - (if ((y*c) <= c) || ((((-1) - y)/5) < a) { (-1) } else { (-7/4) })) + ((a*c)/(-(((-1) - y)/5)))) }))
+    H(x, y; px, py; t) = (((((min((px/a), (min((t*(abs(t)^(-7/5))), a)*(-1))) - asinh((sqrt(((sqrt(erfc(exp(sin(((((py*sqrt(exp(tanh(px))))^2) + (1/4))^(13/4))))))^2) + (py^2))) + px)))^2) + 2)^(1/3)) + ((((c + ((pi - (1/3)) + (-1)))^3)*b) - (sin(y)*(if ((y - x) <= y) || (b <= x) { (b^-3) } else { ln_1p(abs((abs(tan(tanh((max(asinh(a), (max(((c + ((pi - (1/3)) + (-1)))^3), ((x + x) - (-t))) - b))^6))))^-2))) }))))
 }
 
 hamiltonian! {
     pub struct E220 { a, b, c }
-    H(x, y; px, py; t) = (((max(((if ((px + (((t^2) + 1)^(-4/3))) < y) || ((-7/4) < b) { (-px) } else { 3 })*((-t)*(c + pi))), (((((b*(1/3))^2) + (1/4))^-3)*((c*b) - hypot(x, 2))))^2) + 1)^(-3/2))
+    H(x, y; px, py; t) = tanh((atan(atanh(tanh(((t*a)*y))))/((((a^2) + 1)^(-3/2)) + ln_1p(abs(py)))))
 }
 
 hamiltonian! {
     pub struct E221 { a, b, c }
-    H(x, y; px, py; t) = ((if !(((y + (1/2))*t) < (1/2)) { ((y + (1/2))*t) } else { ((((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) })^2) + (1/4))^(-7/5)) })*(((if (5 <= a) { asin(((x^2)/(1 + ((x^2)^2)))) } else { asin(tanh(((y + a) + y))) }) - (px - 5)) - t))
+    H(x, y; px, py; t) = (tan(y) + ((((sqrt(cosh((ln(cosh(tanh((y + c))))*b))) - py)^2) + 2)^(-3/2)))
 }
 
 hamiltonian! {
     pub struct E222 { a, b, c }
-    H(x, y; px, py; t) = (atanh((cbrt(((b + py)*px))/(1 + (cbrt(((b + py)*px))^2)))) + ((2 + (2 + y))*t))
+    H(x, y; px, py; t) = (acos(sin(atan((abs((c - (px - (-1))))^(3/10))))) + (erfc((b - t))*sqrt((((y + 3)^2) + 2))))
 }
 
 hamiltonian! {
     pub struct E223 { a, b, c }
-    H(x, y; px, py; t) = ((x + (exp(tanh(x))^-3))/asin(cos((((if !((py*(((py^2) + 2)^(-7/5))) < px) { c } else { c }) - (((max((1/10), (if (((px + px)^2) <= py) { y } else { py }))^2) + (a^2))^(-7/5)))*b))))
+    H(x, y; px, py; t) = sin(pow((((-(((pi/exp(x))*max(hypot(pow(((acos(sin((if !(min(t, a) <= a) { pi } else { y })))^2) + (pi^2)), cos((exp_m1(cos((py - t)))*(-cos(py))))), tanh(((-1) - (-1)))), 2))^(5/2)))^2) + (1/4)), sin((y/px))))
 }
 
 hamiltonian! {
     pub struct E224 { a, b, c }
-    H(x, y; px, py; t) = ((ln_1p(exp(tanh(x)))*((((if ((px - px) < c) || (((px - px) + 3) < y) { b } else { px })^2)*(x + ((-x)/abs(c))))*((-7/4)/exp(px))))*py)
+    H(x, y; px, py; t) = tanh(((py/abs((if (b < py) && ((x + (t + pi)) < c) { (t - py) } else { y }))) + ((a + px)/(((px - sign(pi))^2) + 1))))
 }
 
 hamiltonian! {
     pub struct E225 { a, b, c }
-    H(x, y; px, py; t) = (atan2(((1/2)*(py - exp(atan(2)))), ((ln_1p(cbrt(py)) - (if (a < py) || (pi <= 1) { c } else { (t + b) }))^(3/2))) + pow((((ln(((y^2) + 1))/(((y^5)^2) + 2))^2) + (1/4)), tanh(min((x*y), (atan2(y, t)*cbrt((y*1)))))))
+    H(x, y; px, py; t) = ((((asin((((px*asinh(asin((px/(1 + (px^2))))))*(a/px))/(1 + (((px*asinh(asin((px/(1 + (px^2))))))*(a/px))^2))))*a)*((((pi - py)*py)*((py + px) + py))/cosh((ln((((py + py)^2) + 1))/(if (py <= pi) && ((b^2) == b) { (sign((1/2))*px) } else { a })))))^4) + (if ((y*y) < pi) || ((1/3) < t) { ((pi - (if (((((c*pi)^2) + (1/4))^(2/3)) <= b) && (((t - (1/4))/x) == y) { y } else { x }))/(acos((x/(1 + (x^2))))*1)) } else { b }))
 }
 
 hamiltonian! {
     pub struct E226 { a, b, c }
-    H(x, y; px, py; t) = ln((-(if (a < c) || ((if (ln_1p((t - x)) <= x) || (((-pi)/b) <= px) { (px + px) } else { 3 }) < a) { min(((-7/4) + (abs((3/(((c^6)^2) + (1/4))))^(3/10))), (py + a)) } else { b })))
+    H(x, y; px, py; t) = (abs((ln_1p(cosh(atan((-(y + atan(((if (((((1^2) + (px^2))^(-4/3))^7) < ((1^2) + (px^2))) { min((1/3), (1/2)) } else { (y*(px^2)) }) - (-tanh((py - 3))))))))))/((((((x*c)^2) + ((px^2)^2))^(-3/2))^2) + 1)))^(3/2))
 }
 
 hamiltonian! {
     pub struct E227 { a, b, c }
-    H(x, y; px, py; t) = (((if !((a^6) <= py) { pi } else { b }) - x)^-3)
+    H(x, y; px, py; t) = tanh((((((acosh(((((y^-3)^2) + (px^2)) + 1)) - (t + t))^2) + (1/4))^(1/3)) - (px*sqrt(cosh(sin(y))))))
 }
 
 hamiltonian! {
     pub struct E228 { a, b, c }
-    H(x, y; px, py; t) = (acosh((cosh(cos((pow(abs(px), px)^-3))) + 1)) + (acosh((((((x/abs(t)) + ((((if (c <= x) { t } else { y })^2) + 1)^(1/2)))^2) + 1) + 1))*(y^-3)))
+    H(x, y; px, py; t) = (sign(((((((t + t) - ((px/atan((b - a)))*px))*pow(abs(((t + a)^4)), tanh((b/a))))^2) + 2)^(-3/2))) + (if ((cosh(sin(y))^(-7/5)) <= pi) && ((abs(x)^(-3/2)) <= t) { (b + t) } else { (-1) }))
 }
 
 hamiltonian! {
     pub struct E229 { a, b, c }
-    H(x, y; px, py; t) = ((b - y)*atan2(max((((pi^2) + 1)^(2/3)), (x*((py/(y*b)) + (px + py)))), (-7/4)))
+    H(x, y; px, py; t) = ((-(px*(1/10))) + ((((((-7/4) + t)^4) - px) - (t/x))*y))
 }
 
 hamiltonian! {
     pub struct E230 { a, b, c }
-    H(x, y; px, py; t) = (((x/px)*cosh(sin(atanh(cos(1)))))*pi)
+    H(x, y; px, py; t) = (((max(erfc(((-(py*cos(b))) + y)), (pow(cosh(sin(px)), x)^-1))^2) + 1)^(1/2))
 }
 
 hamiltonian! {
     pub struct E231 { a, b, c }
-    H(x, y; px, py; t) = (((abs((((c + 3)/px) - px))^(1/2))*((cosh(sin(ln_1p(((5^2) + (1/4)))))^-1)^2)) + (((y*x) + t)*b))
+    H(x, y; px, py; t) = ((if ((if (t <= pi) { t } else { (px + px) }) <= c) { ((b - b) + (5^-2)) } else { (exp_m1(sin(py)) - py) }) + (if (a < y) || ((t/((abs((-1))^2) + (y^2))) == y) { asin(tanh((sqrt(((y^2) + 1))/cosh(atan(a))))) } else { asin(cos(pow(abs(b), tanh(max(x, b))))) }))
 }
 
 hamiltonian! {
     pub struct E232 { a, b, c }
-    H(x, y; px, py; t) = (if (2 < pi) { (-1) } else { ((if (t <= 2) && (tanh(x) == pi) { x } else { x })*py) })
+    H(x, y; px, py; t) = pow(((asinh(cos(t))^2) + (1/4)), cos((asinh(cos(t))/((px^3)/y))))
 }
 
 hamiltonian! {
     pub struct E233 { a, b, c }
-    H(x, y; px, py; t) = cbrt((((((((pi*min(((t*pi) - 2), exp(tanh(py))))^6)^2) + (py^2))^-3)^2) + (if (cbrt((c/a)) <= (t*pi)) { x } else { (pi - ((t - t)^7)) })))
+    H(x, y; px, py; t) = ((5/pi) + ((t*(tan(cos((y*t))) - ((b*3) + (x/t))))*(pi*px)))
 }
 
 hamiltonian! {
     pub struct E234 { a, b, c }
-    H(x, y; px, py; t) = ((tan(tanh((abs((t + asin(tanh((px*b)))))^-3))) + (b + px)) + cosh(cbrt((b*(if ((b*x) <= x) { x } else { y })))))
+    H(x, y; px, py; t) = (((1/2) - cbrt(((a*3) - (((px*(a*3)) + px)*(atanh((abs(py)^(-3/2))) + a))))) + (abs(((((b*b)*(exp(((((x - y)^2) + 2)^(1/3)))^-1))^2) + (((((a*pi)*y) + y) - asinh((-1))) - min(exp(sin((1/10))), ((b*b)*(-7/4))))))^(-1/2)))
 }
 
 hamiltonian! {
     pub struct E235 { a, b, c }
-    H(x, y; px, py; t) = atan2(cosh(tanh(sinh(cos((pi - (c + (px*b))))))), (x*(pi - y)))
+    H(x, y; px, py; t) = cos((abs((-((-(-cos((abs(y)^(3/10)))))/(((sinh(cos(px))*a)^2) + 2))))^(-3/2)))
 }
 
 hamiltonian! {
     pub struct E236 { a, b, c }
-    H(x, y; px, py; t) = (((-y)*max(y, b)) + (if ((t + cosh(py)) < 3) { (if !((3*(py + px)) <= py) { (1/2) } else { (x^2) }) } else { sinh((y - (-px))) }))
+    H(x, y; px, py; t) = ((y - (px*3))*((3 - (1/10)) + pow(((px^2) + 2), sin(c))))
 }
 
 hamiltonian! {
     pub struct E237 { a, b, c }
-    H(x, y; px, py; t) = (min(cos(((py^6) - (px + ln(exp(px))))), (abs(cos(sqrt(((py^2) + (pi^2)))))^(1/2))) + (ln_1p(cosh(cos((atanh(((x + y)/(1 + ((x + y)^2)))) + c)))) - (x/cosh(atan(t)))))
+    H(x, y; px, py; t) = (((asinh((py^3)) - (3*((py/b)*py)))/((((px*((a*sinh(b))/2))*((cosh((abs(sin(hypot(t, py)))^(3/10)))/(((((((b*(-(px + (((((t - c)^2) + 1)^-3)*cosh(pow((981/100), py))))))/cosh(c))^2) + (c^2))^(3/2))^2) + 2)) + (-1)))^2) + (1/4))) + ((asin((max(x, x)/(1 + (max(x, x)^2)))) + (((x*(1 + (max(x, x)^2))) + min((1/10), (1/10)))*t))/(t + (max(x, x)^2))))
 }
 
 hamiltonian! {
     pub struct E238 { a, b, c }
-    H(x, y; px, py; t) = abs((((((-(((py/x) + py)^(1/2))) + ((py + t)^6))^2) + (1/4))^(-4/3)))
+    H(x, y; px, py; t) = (-((if !(((b*px)^5) <= py) { c } else { ((px - (abs((x*(981/100)))^(1/3)))*y) })^7))
 }
 
 hamiltonian! {
     pub struct E239 { a, b, c }
-    H(x, y; px, py; t) = exp(cosh((((-b)/cosh(t))*((((-b)/cosh(t))^6)/(y*((((if ((x - (y + y)) < x) { y } else { y })^4) + (1*(1/2))) + ((((a*(981/100))*1) + (py + b)) - tanh(px))))))))
+    H(x, y; px, py; t) = ((atanh((acosh((abs(max(((py - x)/exp_m1(atan((c - px)))), ((c - px) - b))) + 1))/(1 + (acosh((abs(max(((py - x)/exp_m1(atan((c - px)))), ((c - px) - b))) + 1))^2))))/(exp_m1(atan((c - px)))*cbrt(atanh((hypot(b, px)/(1 + (hypot(b, px)^2)))))))*(1/2))
 }
 
 hamiltonian! {
     pub struct E240 { a, b, c }
-    H(x, y; px, py; t) = (((pi/abs(((pi - (if (((((c*pi)^2) + (1/4))^(2/3)) <= b) && (((t - ((c*pi)^2))/px) == py) { py } else { px }))/abs(c)))) + t) + tan((((((pi + (cosh((-(y + y)))/y)) - (t - ((((cosh(tanh((if (c < a) { x } else { (1/3) })))^2) + (y^2))^(3/10))^2)))*(-7/4))*cos(((-t)*((1/3) + pi)))) - (x*c))))
+    H(x, y; px, py; t) = ((if (((((a*a)^2) + (1/4))^(3/10)) < b) && (asinh(py) < px) { ((c + c)*(py + (c + c))) } else { max((981/100), py) }) + pow(abs((((t/y) - c)/exp(tanh((1/2))))), (sqrt(cosh((cos(tanh((t - (981/100)))) - x))) + (a/b))))
 }
 
 hamiltonian! {
     pub struct E241 { a, b, c }
-    H(x, y; px, py; t) = (((px - (sign(((t/x) + y)) + (px - b)))^2)*((px*px) + 5))
+    H(x, y; px, py; t) = ((if (cos(a) <= 5) && (((((c + px)^2) + 2)^-1) < (c + px)) { c } else { (py*a) }) - (if ((x^6) <= c) { (-(if ((px/(-7/4)) < y) || (exp_m1(5) < c) { a } else { pow(((t^2) + 2), tanh(b)) })) } else { ln((((y/px)^2) + 1)) }))
 }
 
 hamiltonian! {
     pub struct E242 { a, b, c }
-    H(x, y; px, py; t) = ln(cosh((((if ((t*t) < y) || ((y + (if !((t - py) <= pi) { t } else { y })) <= y) { asinh(py) } else { x }) - (cbrt(sinh(atan(((((tan(sin(py))/(((y - a)^2) + 2))^2) + (t^2))^(3/2))))) + x)) + ((((c/exp(sin((y + py)))) - (b + y)) + acos((b/(1 + (b^2))))) + x))))
+    H(x, y; px, py; t) = (((ln_1p(abs((if (((if (erfc(max(a, pi)) == t) { c } else { y }) + (if (erfc(max(a, pi)) == t) { c } else { y })) <= pi) { atan((px*c)) } else { y }))) - t)^2) + (1 + x))
 }
 
 hamiltonian! {
     pub struct E243 { a, b, c }
-    H(x, y; px, py; t) = (((((1 - 1) - 1) + (abs(sin((abs(t)^(-4/3))))^(-7/5))) + hypot(px, px)) + ln_1p(((((((-(cosh(sin((1 - x)))^-3))^2) + 1)^(-1/2))^2) + 1)))
+    H(x, y; px, py; t) = ((-(hypot((atanh(px)*atan(acos((py*ln(abs(pow(((c^2) + 1), sin(((if !((981/100) < (1/2)) { t } else { a }) - py))))))))), (cosh(min(py, (-1)))^(-1/2)))/py)) + (-atanh(cos((a/cosh(y))))))
 }
 
 hamiltonian! {
     pub struct E244 { a, b, c }
-    H(x, y; px, py; t) = ((1/2)*(if !(t <= py) { (if ((1^-3) == y) && ((((1/10)*c) - py) < 5) { 1 } else { px }) } else { 2 }))
+    H(x, y; px, py; t) = (if (b < py) { ((1/2)*((1/10) - x)) } else { exp(sin(sinh(atan((x/sqrt((((y/(c - y))^2) + 1))))))) })
 }
 
 hamiltonian! {
     pub struct E245 { a, b, c }
-    H(x, y; px, py; t) = sin(((cosh(cos(py)) + ((((y*max(py, c))^2) + (1/4))^(3/2)))/cos((b*c))))
+    H(x, y; px, py; t) = ((tanh((if ((if (px <= 5) || ((a*(y*1)) < a) { px } else { c }) <= b) { sinh(a) } else { a }))^5) + cbrt(((cosh(atan(b))*(if (x < a) { x } else { cbrt((a*b)) }))^7)))
 }
 
 hamiltonian! {
     pub struct E246 { a, b, c }
-    H(x, y; px, py; t) = (((((((a^2) + (1/4))^(-3/2)) + pi) + sqrt(((px^2) + 1)))*(py + (c + pi))) + exp(((pi*x)/cosh(cos((y + b))))))
+    H(x, y; px, py; t) = (((py*(((((1/10)*py)^2) + (1/4))^(3/10)))*pi) + (exp(exp(tanh((981/100))))*min((1/10), (c^2))))
 }
 
 hamiltonian! {
     pub struct E247 { a, b, c }
-    H(x, y; px, py; t) = ((((b - c)*((((a + x)^2) + 2)^(2/3)))*min((if !(((-7/4)*pi) <= t) { x } else { px }), ((cosh(sin(3))^(1/2)) + py))) + 3)
+    H(x, y; px, py; t) = ((if ((981/100) < t) || ((a^4) <= py) { b } else { b }) - (if ((abs((pi*y))^(-1/2)) < 1) || ((b - pi) <= py) { c } else { (a/a) }))
 }
 
 hamiltonian! {
     pub struct E248 { a, b, c }
-    H(x, y; px, py; t) = hypot(((pow(((t^2) + 2), tanh(b)) + ((abs((1/10))^(-7/5))*((ln_1p(cosh((if !(py <= (t^2)) { (if ((b/abs(1)) == py) && (b <= (1/3)) { a } else { b }) } else { (1/2) })))/((5^2) + 2)) + t)))/(((if (cbrt((c - a)) == pi) || ((1 + x) < y) { (asinh(pi)*exp(((((b^2) + 1)^(-3/2)) + y))) } else { c })^2) + (1/4))), x)
+    H(x, y; px, py; t) = ((((-(1/10)) + ((((1/10) - px)/hypot(t, y)) + (-1))) + (cbrt(cos((x*y)))/pi)) + a)
 }
 
 hamiltonian! {
     pub struct E249 { a, b, c }
-    H(x, y; px, py; t) = (((pi*b) - acosh((exp((px/(((b + ((-1) - t))*a) + py))) + 1))) + (if (y <= 3) { x } else { (x + hypot(x, y)) }))
+    H(x, y; px, py; t) = (erfc(((px - atanh(cos(atanh(((px*(((pi/((pow(abs((px + c)), px)^2) + 2))*asin(cos((-7/4)))) - (((pow(abs((px + c)), px)^2) + 2)/(((px*px)^2) + 1))))/(1 + ((px*(((pi/((pow(abs((px + c)), px)^2) + 2))*asin(cos((-7/4)))) - (((pow(abs((px + c)), px)^2) + 2)/(((px*px)^2) + 1))))^2))))))) - (((px + pi)/(1 + ((px*(((pi/((pow(abs((px + c)), px)^2) + 2))*asin(cos((-7/4)))) - (((pow(abs((px + c)), px)^2) + 2)/(((px*px)^2) + 1))))^2))) + b))) + (acosh((abs((t + (x/exp(atan(((pi + x)/(((y*y)^2) + 2))))))) + 1))*y))
 }
 
 hamiltonian! {
     pub struct E250 { a, b, c }
-    H(x, y; px, py; t) = ((if ((x/exp(cos(b))) <= pi) && ((atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) }))/t) <= 3) { (atan2(c, (if (sign(x) <= a) { (cosh(cos(asin(sin(acos((py/(1 + (py^2))))))))^(2/3)) } else { ((abs(hypot(c, x))^-2) + hypot(c, x)) })) - (1/3)) } else { (c + cbrt((-a))) })*a)
+    H(x, y; px, py; t) = (if ((t*x) <= px) { acosh((abs((a*((1/10) + min(x, t)))) + 1)) } else { t })
 }
 
 hamiltonian! {
     pub struct E251 { a, b, c }
-    H(x, y; px, py; t) = sinh(cos((abs((((y + py)*(((px^2) + 2)^(1/3))) + atan((b*px))))^(-1/2))))
+    H(x, y; px, py; t) = (sqrt((((if (py < x) || ((y - pi) <= y) { (c*(pi/py)) } else { (py - (((b^2) + (1/4))^(-7/5))) })^2) + (1/4))) + tan(sin(((b*3)*sinh(cos(((((3 + (-(abs(x)^(-1/2))))^2) + 1)^(-4/3))))))))
 }
 
 hamiltonian! {
     pub struct E252 { a, b, c }
-    H(x, y; px, py; t) = (ln_1p(abs((px - (max(px, px)*(-7/4))))) + (x/((-((atanh((x/(1 + (x^2))))*asinh(3)) - (x - cosh(t))))^(1/3))))
+    H(x, y; px, py; t) = (atanh((((((abs(acosh((((pow(((pi^2) + (1/4)), tanh((c + (b*px))))^2) + (1/4)) + 1)))^-3)^2) + 2)^-3)/(1 + (((((abs(acosh((((pow(((pi^2) + (1/4)), tanh((c + (b*px))))^2) + (1/4)) + 1)))^-3)^2) + 2)^-3)^2)))) + ((y/(((sign(exp(cos((((c - y)*(if ((t/((y^2) + 2)) <= y) { c } else { c })) - abs(cosh((t/((y^2) + 2))))))))*cos((pi - (a*a))))^2) + 1)) - ((y - a)*((x*c)/t))))
 }
 
 hamiltonian! {
     pub struct E253 { a, b, c }
-    H(x, y; px, py; t) = (((2 - c) - ((x/abs(ln_1p(exp(cos(py))))) + y)) - (px/(x + py)))
+    H(x, y; px, py; t) = (-((cosh(atan((((((sin((px + (((px + ln_1p(cosh(sin(px))))*(((b + x) - max((((asin(sinh(cos(c)))^2) + (1/4))^(1/2)), ((x*(a*px))/cosh(cos(t)))))^2))^2)))/(((c^-2) + (1/2))*sin(py))) + (px - ((px/exp(atan(3))) - sin(px))))^2) + 2)^-3)))/((abs(((x^-3)*(-(-a))))^2) + (1/4)))*((px*b) + (if (((1 - px) + x) <= ((px + ln_1p(cosh(sin(px))))*(((b + x) - max((((asin(sinh(cos(c)))^2) + (1/4))^(1/2)), ((x*(a*px))/cosh(cos(t)))))^2))) && ((x*x) <= y) { sinh(sin((b/cbrt(px)))) } else { px }))))
 }
 
 hamiltonian! {
     pub struct E254 { a, b, c }
-    H(x, y; px, py; t) = ((a*a)*(if (y < px) && (2 < py) { (if ((y - px) == t) || (atan(py) < a) { c } else { (px*1) }) } else { (c*((((1/2)^2) + 1)^(2/3))) }))
+    H(x, y; px, py; t) = (-((ln_1p(abs(t)) + y)*(if ((t^5) <= t) && (py < y) { ((t + (-t))*px) } else { ((if (cos(t) < c) { t } else { a }) + (a/px)) })))
 }
 
 hamiltonian! {
     pub struct E255 { a, b, c }
-    H(x, y; px, py; t) = (max((atan(asin(tanh(hypot((b^-1), atan((t^2)))))) + a), abs(cos(py))) + abs(tanh((if (b == y) || ((x*pi) < t) { (1/2) } else { y }))))
+    H(x, y; px, py; t) = ((((a^-1)*pow(abs(t), (c + py)))/((t^2) + (1/4))) + atan2(((if !((if (c < x) { atanh(sin(pi)) } else { y }) < c) { exp_m1(tanh(x)) } else { b })*((erfc(ln_1p(abs((3 - x)))) - b)*t)), (abs((3 - x)) + c)))
 }
 
 super::list! {

@@ -7,7 +7,7 @@ use hamiltonian_symbolic::eval::{Outcome, Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
-use hamiltonian_symbolic::{diff, structure};
+use hamiltonian_symbolic::{diff, split, structure};
 
 /// A tree as a program.
 pub struct Interpreted {
@@ -40,8 +40,11 @@ impl Interpreted {
                 model.hamiltonian = Some(split);
             }
             wanted.extend([Purpose::Kick, Purpose::Drift]);
+        } else if let Ok(splitting) = split::find(&mut model) {
+            model.pieces = splitting.pieces;
         }
         wanted.push(Purpose::ParameterGradient);
+        wanted.extend((0..model.pieces.len()).map(|at| Purpose::Piece(at as u16)));
         Interpreted {
             program: derive(&mut model, &wanted).expect("a program"),
             is_separable: structure.separable.is_ok(),

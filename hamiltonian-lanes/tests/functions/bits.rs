@@ -1,15 +1,19 @@
-//! The same bits in a scalar and in the lanes of every level that does not fuse, in debug and in
-//! release: hashes over random arguments.
+//! The same bits in a scalar and in the lanes of every level that does not fuse, on every machine and
+//! with every optimisation: hashes over random arguments, compared with `bits.txt`, which
+//! `HAMILTONIAN_RECORD=1` writes.
 
 use hamiltonian_lanes::Cpu;
 
 use super::points::{ROWS, Random};
 
+/// The arguments of a recorded hash.
+const RECORDED: usize = 4_096;
+
 fn count() -> usize {
     if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
         1_000_000
     } else {
-        4_096
+        RECORDED
     }
 }
 
@@ -41,9 +45,11 @@ fn hash(values: impl IntoIterator<Item = f64>) -> Hash {
 #[test]
 fn lanes_have_the_bits_of_scalars() {
     let mut random = Random(3);
+    let mut made = String::new();
     for row in ROWS {
         let (x, y): (Vec<f64>, Vec<f64>) = (0..count()).map(|k| row.draw(k, &mut random)).unzip();
         let scalar = hash(x.iter().zip(&y).map(|(&x, &y)| (row.f64)(x, y)));
+        made += &format!("{:8} {:016x}\n", row.name, scalar.0);
         println!("{:8} {:016x}", row.name, scalar.0);
         for cpu in Cpu::available() {
             let lanes = |unfused| {
@@ -56,5 +62,12 @@ fn lanes_have_the_bits_of_scalars() {
                 assert_eq!(lanes(false), scalar, "{}, {cpu:?}", row.name);
             }
         }
+    }
+    if std::env::var_os("HAMILTONIAN_RECORD").is_some() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/functions/bits.txt");
+        std::fs::write(path, &made).expect("the file can be written");
+    } else if count() == RECORDED {
+        let recorded: Vec<&str> = include_str!("bits.txt").lines().collect();
+        assert_eq!(made.lines().collect::<Vec<_>>(), recorded);
     }
 }

@@ -4,14 +4,15 @@
 //! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
 //! is not finite is never shown, but found, located and reported.
 
+mod inspect;
+
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::map::{Cause, Clock, Map, Step};
 use crate::observe::{Every, Observer, Verdict, View, Watch, every, watch};
 use crate::part::{Part, Recipe};
 use crate::scheme::{Entry, Scheme};
-use crate::schemes::Copies;
-use crate::state::{Carried, Point, State};
+use crate::state::{Carried, State};
 use crate::system::{Dynamics, System};
 use crate::vector::Vector;
 use alloc::string::String;
@@ -426,61 +427,6 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.arrives(self.steps);
     }
 
-    /// The present state: time, coordinates and momenta, all at the same time.
-    pub fn state(&self) -> &State<S::Vector> {
-        &self.state
-    }
-
-    /// The present time.
-    pub fn time(&self) -> T {
-        self.state.t
-    }
-
-    /// The number of steps made.
-    pub fn steps(&self) -> u64 {
-        self.steps
-    }
-
-    /// The step size.
-    pub fn step(&self) -> T {
-        self.step
-    }
-
-    /// The time one step advances: the step size, but twice that for
-    /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
-    pub fn interval(&self) -> T {
-        self.clock.interval
-    }
-
-    /// H at the present state.
-    pub fn energy(&self) -> T {
-        self.prepared
-            .energy(self.state.t, &self.state.q, &self.state.p)
-    }
-
-    /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`
-    /// where there is none.
-    pub fn observable_named(&self, name: &str) -> Option<T> {
-        let index = S::observable_index(name)?;
-        let State { t, q, p } = &self.state;
-        Some(self.prepared.observable(index, *t, q, p))
-    }
-
-    /// The system with its parameters worked in.
-    pub fn prepared(&self) -> &S::Prepared {
-        &self.prepared
-    }
-
-    /// The scheme's entry in the catalogue.
-    pub fn entry(&self) -> Entry {
-        self.entry
-    }
-
-    /// All that the scheme carries, before the closing piece of the last step.
-    pub fn carried(&self) -> &R::Carried {
-        &self.carried
-    }
-
     /// Parts of a step from the present state.
     pub(crate) fn part(&self) -> Part<'_, T, S, R> {
         part(
@@ -524,36 +470,6 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             system: self.system,
             observer: make(self.observer),
         }
-    }
-
-    /// The observer.
-    pub fn observer(&self) -> &O {
-        &self.observer
-    }
-
-    /// Ends the run: the observer.
-    pub fn into_observer(self) -> O {
-        self.observer
-    }
-}
-
-impl<T: Real, S: System<T>, R, O> Integrator<T, S, R, O>
-where
-    R: MapOf<T, S> + Map<Carried = Copies<S::Vector>>,
-{
-    /// The second copy (q̃, p̃) at the present time, or the second point of a scheme that carries two;
-    /// the first is [`state`](Integrator::state).
-    pub fn copy(&self) -> Point<S::Vector> {
-        self.shown.y.clone()
-    }
-
-    /// How far the two copies are apart: the Euclidean norm of (q − q̃, p − p̃).
-    pub fn copy_distance(&self) -> f64 {
-        let mut sum = T::zero();
-        for (a, b) in self.shown.x.components().zip(self.shown.y.components()) {
-            sum = (a - b).fma(a - b, sum);
-        }
-        Real::sqrt(sum.to_f64())
     }
 }
 

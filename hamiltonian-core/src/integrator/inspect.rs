@@ -1,0 +1,99 @@
+//! What a run is asked for.
+//!
+//! Input: a run. Output: its state, clock, energy, second copy and observer. Invariant: nothing here
+//! changes a run.
+
+use super::{Integrator, MapOf};
+use crate::map::Map;
+use crate::scheme::Entry;
+use crate::schemes::Copies;
+use crate::state::{Point, State};
+use crate::system::{Dynamics, System};
+use crate::vector::Vector;
+use hamiltonian_lanes::Real;
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// The present state: time, coordinates and momenta, all at the same time.
+    pub fn state(&self) -> &State<S::Vector> {
+        &self.state
+    }
+
+    /// The present time.
+    pub fn time(&self) -> T {
+        self.state.t
+    }
+
+    /// The number of steps made.
+    pub fn steps(&self) -> u64 {
+        self.steps
+    }
+
+    /// The step size.
+    pub fn step(&self) -> T {
+        self.step
+    }
+
+    /// The time one step advances: the step size, but twice that for
+    /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
+    pub fn interval(&self) -> T {
+        self.clock.interval
+    }
+
+    /// H at the present state.
+    pub fn energy(&self) -> T {
+        self.prepared
+            .energy(self.state.t, &self.state.q, &self.state.p)
+    }
+
+    /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`
+    /// where there is none.
+    pub fn observable_named(&self, name: &str) -> Option<T> {
+        let index = S::observable_index(name)?;
+        let State { t, q, p } = &self.state;
+        Some(self.prepared.observable(index, *t, q, p))
+    }
+
+    /// The system with its parameters worked in.
+    pub fn prepared(&self) -> &S::Prepared {
+        &self.prepared
+    }
+
+    /// The scheme's entry in the catalogue.
+    pub fn entry(&self) -> Entry {
+        self.entry
+    }
+
+    /// All that the scheme carries, before the closing piece of the last step.
+    pub fn carried(&self) -> &R::Carried {
+        &self.carried
+    }
+
+    /// The observer.
+    pub fn observer(&self) -> &O {
+        &self.observer
+    }
+
+    /// Ends the run: the observer.
+    pub fn into_observer(self) -> O {
+        self.observer
+    }
+}
+impl<T: Real, S: System<T>, R, O> Integrator<T, S, R, O>
+where
+    R: MapOf<T, S> + Map<Carried = Copies<S::Vector>>,
+{
+    /// The second copy (q̃, p̃) at the present time, or the second point of a scheme that carries two;
+    /// the first is [`state`](Integrator::state).
+    pub fn copy(&self) -> Point<S::Vector> {
+        self.shown.y.clone()
+    }
+
+    /// How far the two copies are apart: the Euclidean norm of (q − q̃, p − p̃).
+    pub fn copy_distance(&self) -> f64 {
+        let mut sum = T::zero();
+        for (a, b) in self.shown.x.components().zip(self.shown.y.components()) {
+            sum = (a - b).fma(a - b, sum);
+        }
+        Real::sqrt(sum.to_f64())
+    }
+}

@@ -112,9 +112,9 @@ fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
 #[inline(always)]
 fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     let swapped = W::odd(n);
-    let sign = (n & W::Bits::splat(2)).shl::<62>() ^ sign;
     let z = r * r;
     if W::LANES == 1 {
+        let sign = (n & W::Bits::splat(2)).shl::<62>() ^ sign;
         // One of the two series, by a branch; −w is had without a constant in a register.
         let minus_w = z.fma(W::splat(0.5), W::splat(-1.0));
         let y = if swapped.all() {
@@ -137,7 +137,7 @@ fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     );
     let series = third.fma(square, second).fma(square, first);
     let y = W::select(swapped, w, r) + factor.fma(series, rest);
-    flip(y, sign)
+    flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
 }
 
 /// Number `K` of [`COSINE`] where `swapped` is set, of [`SINE`] elsewhere.
@@ -150,12 +150,13 @@ fn coefficient<W: Word, const K: usize>(swapped: W::Mask) -> W {
 #[inline(always)]
 pub(crate) fn sin<W: Word>(x: W) -> W {
     let angle = x.abs();
-    let rare = !angle.le(W::splat(LARGE));
-    if W::LANES == 1 && rare.any() {
-        return x.replace(rare, x, sin_of_large);
+    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
+    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
+        return x.replace(W::Mask::splat(true), x, sin_of_large);
     }
     let (n, r, tail) = reduce(angle);
     let y = sine_in(n, r, tail, sign_bit(x));
+    let rare = !angle.le(W::splat(LARGE));
     if W::LANES > 1 && rare.any() {
         return y.replace(rare, x, sin_of_large);
     }
@@ -166,13 +167,14 @@ pub(crate) fn sin<W: Word>(x: W) -> W {
 #[inline(always)]
 pub(crate) fn cos<W: Word>(x: W) -> W {
     let angle = x.abs();
-    let rare = !angle.le(W::splat(LARGE));
-    if W::LANES == 1 && rare.any() {
-        return x.replace(rare, x, cos_of_large);
+    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
+    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
+        return x.replace(W::Mask::splat(true), x, cos_of_large);
     }
     let (n, r, tail) = reduce(angle);
     let next = n.plus(W::Bits::splat(1));
     let y = sine_in(next, r, tail, W::Bits::splat(0));
+    let rare = !angle.le(W::splat(LARGE));
     if W::LANES > 1 && rare.any() {
         return y.replace(rare, x, cos_of_large);
     }

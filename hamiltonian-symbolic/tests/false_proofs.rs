@@ -6,27 +6,14 @@
 //! others.
 
 use crate::common::{cases, parse, system};
+use crate::random_text::Random;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::loops::{Sample, sample};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 
-/// A generator that gives the same numbers everywhere (SplitMix64).
-struct Random(u64);
-
 impl Random {
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) % n as u64) as usize
-    }
-    fn pick<'a>(&mut self, from: &[&'a str]) -> &'a str {
-        from[self.below(from.len())]
-    }
-
     /// Two expressions that are equal where all that is raised to a power is positive.
     fn equals(&mut self, depth: usize) -> (String, String) {
         if depth == 0 {

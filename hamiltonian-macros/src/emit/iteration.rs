@@ -69,7 +69,7 @@ impl Writer<'_> {
                 Step::Let(_) | Step::Loop(_) => {}
             }
         }
-        let Some((first, _)) = computed.first() else {
+        let (Some((first, _)), false) = (computed.first(), results.is_empty()) else {
             return self.steps(steps);
         };
         self.steps(&given);

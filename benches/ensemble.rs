@@ -15,7 +15,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Carried, Clock, Map, Scheme, Step, System};
+use hamiltonian::{Carried, Clock, Map, Scheme, Scratch, Step, System};
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
 
 hamiltonian! {
@@ -61,9 +61,9 @@ fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
         let mut carried = Scheme::<T, Pendulum>::start(&scheme, &prepared, &start, h);
         // The scratch of a splitting is nothing.
         #[allow(clippy::let_unit_value)]
-        let mut work = map.work(&carried);
+        let mut work = Scratch::like(&carried);
         map.run(clock, 0, n, &mut carried, &mut work);
-        map.close(clock.at(n), &mut carried);
+        map.close(clock.at(n), &mut carried, &mut work);
         let point = carried.point();
         point.q[0].store(some_q);
         point.p[0].store(some_p);

@@ -13,7 +13,7 @@ use crate::tree;
 use expressions::compiled;
 use generate::{COUNT, TESTS, file, trees};
 use hamiltonian::private::SVector;
-use hamiltonian::{Dynamics, Flow, Piece, Point, Separable, System, VectorField};
+use hamiltonian::{Dynamics, Flow, Piece, Point, Scratch, Separable, System, VectorField};
 use interpret::Interpreted;
 
 /// Where everything is evaluated.
@@ -85,10 +85,14 @@ where
     let [a, b] = at.into.map(SVector::from);
     let (q, p) = (SVector::from(at.q), SVector::from(at.p));
     let mut point = Point { q, p: b };
-    S::KICK.flow(&prepared, at.c).apply(at.t, &mut point);
+    let kick = S::KICK.flow(&prepared, at.c);
+    let mut work = Scratch::like(&point);
+    kick.apply(at.t, &mut point, &mut work);
     two(&mut outputs, "kick", point.p);
     let mut point = Point { q: a, p };
-    S::DRIFT.flow(&prepared, at.c).apply(at.t, &mut point);
+    let drift = S::DRIFT.flow(&prepared, at.c);
+    let mut work = Scratch::like(&point);
+    drift.apply(at.t, &mut point, &mut work);
     two(&mut outputs, "drift", point.q);
     outputs
 }
@@ -217,6 +221,6 @@ fn conditions_couple_without_a_derivative() {
     };
     <Conditional as Separable<f64>>::DRIFT
         .flow(&prepared, 2.0)
-        .apply(0.0, &mut point);
+        .apply(0.0, &mut point, &mut ());
     assert_eq!(point.q[0], 2.5);
 }

@@ -56,6 +56,34 @@ hamiltonian! {
     force(q; p) = -0.3*p
 }
 
+hamiltonian! {
+    /// A charge in a magnetic field that grows with x, and in air: momenta push each other.
+    pub struct Turning { a = 0.3, b = 0.2, w = 0.7 }
+    H(x, y; p_x, p_y; t) = sqrt(1 + p_x^2 + p_y^2) + x^4/4 + y^2/2 + cos(t)*x*y/3;
+    force(x, y; p_x, p_y) = [(b + w*(1 + x^2))*p_y - a*p_x + sin(t), (b - w*(1 + x^2))*p_x - a*p_y]
+}
+
+hamiltonian! {
+    /// Friction along one direction, of a number of masses set at run time.
+    pub struct Sliding { N: usize, u: [N] }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + q[i]^2/2 + q[i]^4/4 };
+    force(q; p) = -dot(u, p)*u
+}
+
+hamiltonian! {
+    /// The same masses in air.
+    pub struct Falling { N: usize, c = 0.3 }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + q[i]^2/2 + q[i]^4/4 };
+    force(q; p) = -c*norm(p)*p
+}
+
+hamiltonian! {
+    /// Dry friction, whose derivative by p is that of the viscous part alone.
+    pub struct Dry { gamma = 0.1, mu = 0.2 }
+    H = p^2/2 + q^2/2;
+    force(q; p) = -gamma*p - mu*sign(p)
+}
+
 type D = DoubleDouble;
 
 /// The slope of every scheme against a run of order 4 with a step 64 times as small.
@@ -136,6 +164,55 @@ fn orders_with_forces() {
         Chain::<4>::default(),
         State::new(numbers(q), numbers(p)),
     ));
+    let start = State::new([0.9, -0.2].map(D::from), [0.4, 0.3].map(D::from));
+    let mut turning = Slopes::new(Turning::default(), start);
+    turning.visit(Yoshida4);
+    all(turning);
+}
+
+/// A charge that turns 400 rad a step and slows down: Strang's step is the kick alone, to rounding.
+#[test]
+fn momenta_that_push_each_other_have_their_exact_flow() {
+    hamiltonian! {
+        /// A free charge in a uniform field, with friction.
+        pub struct Larmor { omega = 40.0, gamma = 0.1 }
+        H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2;
+        force(x, y; p_x, p_y) = [omega*p_y - gamma*p_x, -omega*p_x - gamma*p_y]
+    }
+    let start = State::new([0.0, 0.0], [1.0, 0.0]);
+    for h in [0.01, 0.3, 10.0, -0.3] {
+        let mut run = Integrator::new(&Larmor::default(), Strang, start.clone(), h).unwrap();
+        let end = run.advance(3).unwrap();
+        let (size, angle) = ((-0.1 * end.t).exp(), 40.0 * end.t);
+        for (found, exact) in [
+            (end.p[0], size * angle.cos()),
+            (end.p[1], -size * angle.sin()),
+        ] {
+            let allowed = (8.0 + angle.abs()) * f64::EPSILON * size;
+            assert!((found - exact).abs() < allowed, "h = {h}: {found}, {exact}");
+        }
+    }
+}
+
+/// Whether rustc knows the flows of a system's pieces as exact.
+macro_rules! is_exact {
+    ($system:ty) => {{
+        struct Probe<T>(core::marker::PhantomData<T>);
+        trait Otherwise {
+            const IS: bool = false;
+        }
+        impl<T> Otherwise for Probe<T> {}
+        impl<T: hamiltonian::Exact> Probe<T> {
+            const IS: bool = true;
+        }
+        Probe::<$system>::IS
+    }};
+}
+
+#[test]
+fn only_affine_forces_are_exact() {
+    assert!(is_exact!(Linear) && is_exact!(Turning) && is_exact!(Sliding) && is_exact!(Pushed));
+    assert!(!is_exact!(Air) && !is_exact!(Falling) && !is_exact!(Dry));
 }
 
 /// q = e^(−γt/2) (cos ωt + γ/(2ω) sin ωt)
@@ -189,6 +266,17 @@ fn a_kick_with_friction_allocates_nothing() {
     let mut run = Integrator::new(&long, Yoshida4, start, 0.01).unwrap();
     let count = allocations(|| {
         run.advance(3000).unwrap();
+    });
+    assert_eq!(count, 0);
+    let (q, p) = (vec![0.3, -0.2, 0.9], vec![0.4, 0.1, -0.5]);
+    let start = State::new(q, p);
+    let sliding = Sliding::new(3, vec![1.0, 0.5, -1.0]).unwrap();
+    let mut run = Integrator::new(&sliding, Yoshida4, start.clone(), 0.01).unwrap();
+    let falling = Falling::new(3).unwrap();
+    let mut beside = Integrator::new(&falling, Strang, start, 0.01).unwrap();
+    let count = allocations(|| {
+        run.advance(3000).unwrap();
+        beside.advance(3000).unwrap();
     });
     assert_eq!(count, 0);
 }

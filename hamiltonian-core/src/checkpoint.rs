@@ -141,7 +141,8 @@ impl Checkpoint {
     }
 
     /// Writes its file: beside the place first, then renamed, so that whatever happens meanwhile the
-    /// old file or the new one is there, whole.
+    /// old file or the new one is there, whole. A process that is killed while it writes leaves what it
+    /// wrote, `….<number of the process>.part`, which may be deleted.
     ///
     /// # Errors
     /// [`CheckpointError::File`].

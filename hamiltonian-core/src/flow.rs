@@ -2,7 +2,7 @@
 //!
 //! Input: a prepared system and a step coefficient. Output: [`VectorField`], which accumulates
 //! c·J∇H, and [`Flow`], the exact map of a piece of H over a fixed duration, which a [`Piece`] makes;
-//! [`Pieces`] puts k of them together. Invariant: nothing here allocates.
+//! [`Pieces`] puts k of them together. Invariant: nothing here allocates but [`Scratch::like`].
 
 use crate::vector::Vector;
 use core::fmt::Debug;
@@ -12,6 +12,31 @@ use hamiltonian_lanes::Real;
 pub trait VectorField<V: Vector>: Clone + Debug {
     /// `into_q += c·∂H/∂p(q, p, t)`, `into_p += c·(f(q, p, t) − ∂H/∂q(q, p, t))`.
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
+}
+
+/// Memory in which a flow or a map of `X` computes and whose contents never matter: `()`, an `X`, or a
+/// struct of such.
+pub trait Scratch<X> {
+    /// Of the shape of `x`. This may allocate.
+    fn like(x: &X) -> Self;
+}
+
+impl<X> Scratch<X> for () {
+    #[inline(always)]
+    fn like(_: &X) {}
+}
+
+impl<X: Vector> Scratch<X> for X {
+    fn like(x: &X) -> Self {
+        x.clone()
+    }
+}
+
+impl<X, A: Scratch<X>, B: Scratch<X>> Scratch<X> for (A, B) {
+    #[inline(always)]
+    fn like(x: &X) -> Self {
+        (A::like(x), B::like(x))
+    }
 }
 
 /// The exact map of a piece of H over a fixed duration, with t frozen.
@@ -26,18 +51,20 @@ pub trait Flow<X: Vector>: Clone + Debug {
     /// piece is a loop over terms that do not commute: the map is then the exact flows of the terms
     /// one after the other.
     const MERGES: bool = true;
+    /// What it computes in.
+    type Work: Scratch<X>;
 
     /// Moves the point; the first term of a loop first.
-    fn apply(&self, t: X::Scalar, x: &mut X);
+    fn apply(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work);
     /// The same with the terms of a loop in the opposite order.
     #[inline(always)]
-    fn apply_reversed(&self, t: X::Scalar, x: &mut X) {
-        self.apply(t, x);
+    fn apply_reversed(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) {
+        self.apply(t, x, work);
     }
     /// Moves the point, and says which piece made it leave the numbers, if one did.
     #[cold]
-    fn blame(&self, t: X::Scalar, x: &mut X) -> Option<&'static str> {
-        self.apply(t, x);
+    fn blame(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) -> Option<&'static str> {
+        self.apply(t, x, work);
         (!x.is_finite()).then_some(Self::NAME)
     }
 }
@@ -76,8 +103,9 @@ pub struct Nothing;
 
 impl<X: Vector> Flow<X> for Nothing {
     const NAME: &'static str = "";
+    type Work = ();
     #[inline(always)]
-    fn apply(&self, _: X::Scalar, _: &mut X) {}
+    fn apply(&self, _: X::Scalar, _: &mut X, _: &mut ()) {}
 }
 
 /// The innermost piece, down and up: one flow where it merges, two where it is a loop.
@@ -110,13 +138,14 @@ impl<F> Turn<F> {
 
 impl<X: Vector, F: Flow<X>> Flow<X> for Turn<F> {
     const NAME: &'static str = F::NAME;
+    type Work = F::Work;
     #[inline(always)]
-    fn apply(&self, t: X::Scalar, x: &mut X) {
-        self.down.apply(t, x);
+    fn apply(&self, t: X::Scalar, x: &mut X, work: &mut F::Work) {
+        self.down.apply(t, x, work);
         if !F::MERGES
             && let Some(up) = &self.up
         {
-            up.apply_reversed(t, x);
+            up.apply_reversed(t, x, work);
         }
     }
 }
@@ -131,17 +160,23 @@ pub struct Sandwich<F, I> {
 
 impl<X: Vector, F: Flow<X>, I: Flow<X>> Flow<X> for Sandwich<F, I> {
     const NAME: &'static str = F::NAME;
+    type Work = (F::Work, I::Work);
     #[inline(always)]
-    fn apply(&self, t: X::Scalar, x: &mut X) {
-        self.down.apply(t, x);
-        self.inside.apply(t, x);
-        self.up.apply_reversed(t, x);
+    fn apply(&self, t: X::Scalar, x: &mut X, (work, inside): &mut Self::Work) {
+        self.down.apply(t, x, work);
+        self.inside.apply(t, x, inside);
+        self.up.apply_reversed(t, x, work);
     }
     #[cold]
-    fn blame(&self, t: X::Scalar, x: &mut X) -> Option<&'static str> {
-        (self.down.blame(t, x))
-            .or_else(|| self.inside.blame(t, x))
-            .or_else(|| self.up.blame(t, x))
+    fn blame(
+        &self,
+        t: X::Scalar,
+        x: &mut X,
+        (work, inside): &mut Self::Work,
+    ) -> Option<&'static str> {
+        (self.down.blame(t, x, work))
+            .or_else(|| self.inside.blame(t, x, inside))
+            .or_else(|| self.up.blame(t, x, work))
     }
 }
 

@@ -4,11 +4,15 @@
 //! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
 //! is not finite is never shown, but found, located and reported.
 
+mod advance;
 mod inspect;
+
+pub use advance::States;
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::map::{Cause, Clock, Map, Step};
+use crate::flow::Scratch;
+use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Verdict, View, Watch, every, watch};
 use crate::part::{Part, Recipe};
 use crate::scheme::{Entry, Scheme};
@@ -20,10 +24,6 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::{Mask, Real};
-
-/// Steps between two checks that everything is finite: few enough that replaying a bad block is
-/// quick, enough that the check costs nothing.
-const BLOCK: u64 = 1024;
 
 /// A run: a system, a scheme, a start and a step under way.
 ///
@@ -152,7 +152,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         let carried = scheme.start(&prepared, &start, step);
         let map = scheme.prepare(&prepared, Step::of(step));
         Integrator {
-            work: map.work(&carried),
+            work: Scratch::like(&carried),
             map,
             snapshot: carried.clone(),
             shown: carried.clone(),
@@ -216,148 +216,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         self.attach(&mut closure);
         self.with_observer(|observer| (observer, closure))
     }
-
-    /// Makes `n` steps and returns the state after them; fewer where an observer ends the run.
-    ///
-    /// # Errors
-    /// [`Error::NotFinite`], [`Error::Solve`]. The run then stands at the last good state and
-    /// can be asked for it.
-    pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
-        if let Some(error) = &self.refused {
-            return Err(error.clone());
-        }
-        let end = self.steps.saturating_add(n);
-        let interval = self.observer.interval().max(1);
-        while self.steps < end && !self.ended {
-            let due = (self.steps / interval)
-                .saturating_add(1)
-                .saturating_mul(interval);
-            self.run_to(due.min(end))?;
-            if self.steps == due {
-                let part = part(
-                    &self.prepared,
-                    &*self.recipe,
-                    &self.state,
-                    self.step,
-                    self.clock,
-                );
-                let view = View {
-                    step: self.steps,
-                    state: &self.state,
-                    prepared: &self.prepared,
-                    between: &part,
-                };
-                if self.observer.observe(&view).is_break() {
-                    let end = self.observer.end().map(Option::<&_>::cloned);
-                    self.end(end);
-                    if let Some(error) = &self.refused {
-                        return Err(error.clone());
-                    }
-                }
-            }
-        }
-        Ok(&self.state)
-    }
-
-    /// Steps to `stop`, leaves the synchronised state there.
-    fn run_to(&mut self, stop: u64) -> Result<(), Error> {
-        while self.steps < stop {
-            let n = BLOCK.min(stop - self.steps);
-            self.snapshot.copy_from(&self.carried);
-            let made = self.steps - self.began;
-            (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
-            if !self.arrives(self.steps + n) {
-                return Err(self.replay(n));
-            }
-            self.steps += n;
-        }
-        Ok(())
-    }
-
-    /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
-    #[cold]
-    fn replay(&mut self, n: u64) -> Error {
-        let last = self.steps + n - 1;
-        self.carried.copy_from(&self.snapshot);
-        loop {
-            let made = self.steps - self.began;
-            self.snapshot.copy_from(&self.carried);
-            (self.map).run(self.clock, made, 1, &mut self.carried, &mut self.work);
-            let good = self.arrives(self.steps + 1);
-            // The last step is the bad one if none before it was.
-            if good && self.steps < last {
-                self.steps += 1;
-                continue;
-            }
-            let bad = !(self.carried.finite() & self.shown.finite());
-            let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
-            let (begin, end) = (self.clock.at(made), self.clock.at(made + 1));
-            self.carried.copy_from(&self.snapshot);
-            let cause = self
-                .map
-                .explain(begin, end, made == 0, &mut self.carried, &mut self.work);
-            let step = self.steps + 1;
-            let error = match cause {
-                Cause::Unsolved {
-                    residual,
-                    iterations,
-                } => Error::Solve {
-                    step,
-                    lane,
-                    time: begin.to_f64(),
-                    residual,
-                    iterations,
-                },
-                Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
-                    step,
-                    piece: match cause {
-                        Cause::Piece(name) => Some(name),
-                        _ => None,
-                    },
-                    lane,
-                    time: self.state.t.to_f64(),
-                    q: numbers(&self.state.q),
-                    p: numbers(&self.state.p),
-                },
-            };
-            self.carried.copy_from(&self.snapshot);
-            self.arrives(self.steps);
-            return error;
-        }
-    }
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The states after `every`, 2·`every`, … further steps (0 counts as 1), until an observer ends
-    /// the run; without one, without end. The first error is the last item.
-    pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
-        States {
-            run: self,
-            every: every.max(1),
-            failed: false,
-        }
-    }
-
-    /// Writes the state after `made` steps, which the map has made; whether all is finite.
-    fn arrives(&mut self, steps: u64) -> bool {
-        let made = steps - self.began;
-        let t = self.clock.at(made);
-        self.shown.copy_from(&self.carried);
-        if made > 0 {
-            self.map.close(t, &mut self.shown);
-        }
-        let point = self.shown.point();
-        self.state.q.copy_from(&point.q);
-        self.state.p.copy_from(&point.p);
-        self.state.t = self.shown.time(t);
-        self.state.t.is_finite() && self.shown.is_finite() && self.carried.is_finite()
-    }
-
-    /// Writes the state anew after what is carried was changed.
-    pub(crate) fn show_carried(&mut self) {
-        self.arrives(self.steps);
-    }
-
     /// Goes on from here with another step: the scheme starts anew at the present state. Whatever it
     /// carries besides is made again, and (25), (26), (33) make their second point again.
     ///
@@ -480,7 +341,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S,
             prepared: self.prepared.clone(),
             recipe: Arc::clone(&self.recipe),
             entry: self.entry,
-            work: map.work(&self.carried),
+            work: Scratch::like(&self.carried),
             map,
             carried: self.carried.clone(),
             snapshot: self.snapshot.clone(),
@@ -563,26 +424,6 @@ fn check_step<T: Real>(step: T) -> Result<(), Error> {
     Err(Error::Step {
         step: step.to_f64(),
     })
-}
-
-/// The iterator of [`Integrator::states`].
-pub struct States<'a, T: Real, S: System<T>, R: MapOf<T, S>, O> {
-    run: &'a mut Integrator<T, S, R, O>,
-    every: u64,
-    failed: bool,
-}
-
-impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Iterator for States<'_, T, S, R, O> {
-    type Item = Result<State<S::Vector>, Error>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.failed || self.run.has_ended() {
-            return None;
-        }
-        let state = self.run.advance(self.every).cloned();
-        self.failed = state.is_err();
-        Some(state)
-    }
 }
 
 /// Whether time, coordinates and momenta are finite.

@@ -75,7 +75,7 @@ pub use checkpoint::{Checkpoint, Memory};
 pub use derivatives::{WrongDerivative, check_derivatives};
 pub use error::{CheckpointError, Error};
 pub use events::{Event, Events, Located};
-pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Turn, VectorField};
+pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorField};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
 pub use integrator::{Integrator, MapOf, Run, States};
 pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
@@ -85,7 +85,7 @@ pub use observe::{
 pub use output::Recorder;
 #[cfg(feature = "progress")]
 pub use progress::Progress;
-pub use push::{Both, SubStep};
+pub use push::{Both, Coupled, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 pub use state::{Carried, Gradient, Pair, Point, State};
 pub use system::{

@@ -6,6 +6,7 @@
 //! depends on the number of steps made and on nothing else, so that the bits of a trajectory are the
 //! same however it is cut into blocks and whoever observes it.
 
+use crate::flow::Scratch;
 use crate::state::Carried;
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
@@ -22,13 +23,11 @@ pub trait Map {
     /// All that is carried from step to step.
     type Carried: Carried;
     /// Scratch, whose contents never matter.
-    type Work;
+    type Work: Scratch<Self::Carried>;
 
-    /// Scratch of the right shape. This may allocate.
-    fn work(&self, like: &Self::Carried) -> Self::Work;
     /// The piece before the body of the first step, at its beginning.
     #[inline(always)]
-    fn open(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried) {}
+    fn open(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
     /// The step from `t` to `end`, but for its opening and closing pieces.
     fn body(
         &self,
@@ -39,12 +38,12 @@ pub trait Map {
     );
     /// The piece after the body, at the end of the step.
     #[inline(always)]
-    fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried) {}
+    fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
     /// `close` of the step before, then `open`.
     #[inline(always)]
-    fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried) {
-        self.close(t, z);
-        self.open(t, z);
+    fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.close(t, z, work);
+        self.open(t, z, work);
     }
     /// Makes the step again that led to a value that is not finite, and says why it did. `first` is
     /// whether it began with `open` instead of `join`.
@@ -77,13 +76,13 @@ pub trait Map {
         // computed where a system looks at the time.
         let mut left = n;
         if made == 0 && n > 0 {
-            self.open(clock.at(0), &mut carried);
+            self.open(clock.at(0), &mut carried, work);
             self.body(clock.at(0), clock.at(1), &mut carried, work);
             left -= 1;
         }
         while left != 0 {
             let k = end - left;
-            self.join(clock.at(k), &mut carried);
+            self.join(clock.at(k), &mut carried, work);
             self.body(clock.at(k), clock.at(k + 1), &mut carried, work);
             left -= 1;
         }
@@ -99,9 +98,9 @@ pub trait Map {
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
-        self.open(t, z);
+        self.open(t, z, work);
         self.body(t, end, z, work);
-        self.close(end, z);
+        self.close(end, z, work);
     }
 }
 
@@ -171,36 +170,34 @@ pub enum Either<A, B> {
 
 /// Calls the same method of whichever map is there.
 macro_rules! either {
-    ($self:ident.$method:ident($($argument:expr),*)) => {
+    ($self:ident.$method:ident($($argument:expr),*; $work:ident)) => {
         match $self {
-            Either::First(map) => map.$method($($argument),*),
-            Either::Second(map) => map.$method($($argument),*),
+            Either::First(map) => map.$method($($argument),*, &mut $work.0),
+            Either::Second(map) => map.$method($($argument),*, &mut $work.1),
         }
     };
 }
 
-impl<A: Map, B: Map<Carried = A::Carried, Work = A::Work>> Map for Either<A, B> {
+impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     type Carried = A::Carried;
-    type Work = A::Work;
+    /// Of the first, and of the second.
+    type Work = (A::Work, B::Work);
 
-    fn work(&self, like: &A::Carried) -> A::Work {
-        either!(self.work(like))
+    #[inline(always)]
+    fn open(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
+        either!(self.open(t, z; work));
     }
     #[inline(always)]
-    fn open(&self, t: ScalarOf<A>, z: &mut A::Carried) {
-        either!(self.open(t, z));
+    fn body(&self, t: ScalarOf<A>, end: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
+        either!(self.body(t, end, z; work));
     }
     #[inline(always)]
-    fn body(&self, t: ScalarOf<A>, end: ScalarOf<A>, z: &mut A::Carried, work: &mut A::Work) {
-        either!(self.body(t, end, z, work));
+    fn close(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
+        either!(self.close(t, z; work));
     }
     #[inline(always)]
-    fn close(&self, t: ScalarOf<A>, z: &mut A::Carried) {
-        either!(self.close(t, z));
-    }
-    #[inline(always)]
-    fn join(&self, t: ScalarOf<A>, z: &mut A::Carried) {
-        either!(self.join(t, z));
+    fn join(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
+        either!(self.join(t, z; work));
     }
     #[cold]
     fn explain(
@@ -209,9 +206,9 @@ impl<A: Map, B: Map<Carried = A::Carried, Work = A::Work>> Map for Either<A, B> 
         end: ScalarOf<A>,
         first: bool,
         z: &mut A::Carried,
-        work: &mut A::Work,
+        work: &mut Self::Work,
     ) -> Cause {
-        either!(self.explain(t, end, first, z, work))
+        either!(self.explain(t, end, first, z; work))
     }
     #[inline(always)]
     fn run(
@@ -220,8 +217,8 @@ impl<A: Map, B: Map<Carried = A::Carried, Work = A::Work>> Map for Either<A, B> 
         made: u64,
         n: u64,
         z: &mut A::Carried,
-        work: &mut A::Work,
+        work: &mut Self::Work,
     ) {
-        either!(self.run(clock, made, n, z, work));
+        either!(self.run(clock, made, n, z; work));
     }
 }

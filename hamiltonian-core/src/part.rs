@@ -4,6 +4,7 @@
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
 use crate::error::Error;
+use crate::flow::Scratch;
 use crate::integrator::{Integrator, MapOf, numbers};
 use crate::map::{Cause, Clock, Map, Step};
 use crate::observe::{Between, Observer};
@@ -115,7 +116,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
             let h = part * self.step;
             let mut carried = self.recipe.start_alone(self.prepared, from, h);
             let map = self.recipe.prepare(self.prepared, Step::of(h));
-            let mut work = map.work(&carried);
+            let mut work = Scratch::like(&carried);
             map.step(from.t, t, &mut carried, &mut work);
             let reached = carried.time(t);
             if !(carried.is_finite() && reached.is_finite()) {
@@ -144,7 +145,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
     #[cold]
     fn explain(&self, map: &R, from: &State<S::Vector>, h: T, t: T) -> Error {
         let mut carried = self.recipe.start_alone(self.prepared, from, h);
-        let mut work = map.work(&carried);
+        let mut work = Scratch::like(&carried);
         let cause = map.explain(from.t, t, true, &mut carried, &mut work);
         let bad = !carried.finite();
         let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
@@ -201,7 +202,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Makes whole steps as long as they do not pass `t`, and returns the state at `t`, any time
-    /// ahead: the last part of a step is made on a copy.
+    /// ahead: the last part of a step is made on a copy. Observers see whole steps alone: an event in
+    /// that part is found by the step that makes it whole.
     ///
     /// Where an observer ends the run before, the state at which it did is returned; see
     /// [`has_ended`](Integrator::has_ended).

@@ -18,7 +18,7 @@ pub use nalgebra::{
 
 pub use crate::error::Error;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
-pub use crate::push::{Both, SubStep};
+pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
@@ -98,7 +98,8 @@ impl<X> Copy for Never<X> {}
 
 impl<X: Vector> Flow<X> for Never<X> {
     const NAME: &'static str = "";
-    fn apply(&self, _: X::Scalar, _: &mut X) {
+    type Work = ();
+    fn apply(&self, _: X::Scalar, _: &mut X, _: &mut ()) {
         match self.1 {}
     }
 }

@@ -1,10 +1,10 @@
 //! Kicks of systems with a force.
 //!
 //! Input: what the macro emitted for ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations that
-//! are the exact flow together, and [`SubStep`], a symmetric step for a force that has no exact flow.
-//! Invariant: only momenta move.
+//! are the exact flow together, [`Coupled`], the exact flow where momenta push each other, and
+//! [`SubStep`], a symmetric step for a force that has no exact flow. Invariant: only momenta move.
 
-use crate::flow::{Flow, VectorField};
+use crate::flow::{Flow, Scratch, VectorField};
 use crate::schemes::{Contraction, iterate};
 use crate::state::Point;
 use crate::vector::Vector;
@@ -16,10 +16,106 @@ pub struct Both<A, B>(pub A, pub B);
 
 impl<X: Vector, A: Flow<X>, B: Flow<X>> Flow<X> for Both<A, B> {
     const NAME: &'static str = A::NAME;
+    type Work = (A::Work, B::Work);
     #[inline(always)]
-    fn apply(&self, t: X::Scalar, x: &mut X) {
-        self.0.apply(t, x);
-        self.1.apply(t, x);
+    fn apply(&self, t: X::Scalar, x: &mut X, (first, second): &mut Self::Work) {
+        self.0.apply(t, x, first);
+        self.1.apply(t, x, second);
+    }
+}
+
+/// Momenta to compute in.
+#[derive(Debug, Clone)]
+pub struct Momenta<V>([V; 4]);
+
+impl<V: Vector> Scratch<Point<V>> for Momenta<V> {
+    fn like(x: &Point<V>) -> Self {
+        let zeros = || x.p.zeros_like();
+        Momenta([zeros(), zeros(), zeros(), zeros()])
+    }
+}
+
+/// The exact flow of ṗ = A(q, t)·p + b(q, t) at frozen q and t, from c·(A·p + b) and c·A·p.
+///
+/// ```text
+/// p ← p + Σ Δₖ,   Δ₁ = s·c·(A·p + b),   Δₖ = s·c·A·Δₖ₋₁/k
+/// ```
+///
+/// summed to rounding, 1/s times one after the other. s is the largest power of ½ for which no term is
+/// larger than p and Δ₁ together, so that none takes digits from the sum; each lane has its own. A lane
+/// whose sum does not end becomes NaN.
+///
+/// Source: A. H. Al-Mohy, N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488, eqs. (3.1) and (3.15),
+/// doi:10.1137/100788860.
+#[derive(Debug, Clone)]
+pub struct Coupled<F, L> {
+    /// c·(A·p + b).
+    pub field: F,
+    /// c·A·p.
+    pub linear: L,
+}
+
+/// So many terms of a series that none of which is larger than the first two: 2³⁶/36! is below ε of a
+/// double-double number.
+const TERMS: u32 = 48;
+
+/// A duration in more parts than this is an error.
+const PARTS: u32 = 10_000;
+
+impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled<F, L> {
+    const NAME: &'static str = "force";
+    type Work = Momenta<V>;
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, Momenta(work): &mut Momenta<V>) {
+        type Size<V> = <<V as Vector>::Scalar as Real>::Size;
+        let [term, next, sum, drift] = work;
+        let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
+        let half = V::Scalar::constant(0.5, 0.0);
+        let rounding = Size::<V>::constant(V::Scalar::epsilon(), 0.0);
+        let none = <<V::Scalar as Real>::Mask as Mask>::splat(false);
+        // What is left of the duration, and the part that is tried.
+        let (mut left, mut part) = (one, one);
+        let mut lost = none;
+        for _ in 0..PARTS {
+            term.set_zero();
+            (self.field).add(t, &x.q, &x.p, drift, term);
+            term.scale(part);
+            sum.copy_from(term);
+            let scale = x.p.size() + term.size();
+            let (mut ended, mut small, mut grows) = (none, none, none);
+            for k in 2..TERMS {
+                next.set_zero();
+                (self.linear).add(t, &x.q, term, drift, next);
+                // A lane that has ended adds zeros.
+                let factor = part / V::Scalar::constant(f64::from(k), 0.0);
+                next.scale(V::Scalar::select(ended | grows, zero, factor));
+                sum.accumulate(one, next);
+                core::mem::swap(term, next);
+                let size = term.size();
+                grows = grows | scale.lt(size);
+                // Two in a row: a term may be small by chance.
+                let was_small = core::mem::replace(&mut small, size.le(rounding * scale));
+                ended = ended | (small & was_small);
+                lost = lost | !(size + scale).equals(size + scale);
+                if (ended | grows | lost).all() {
+                    break;
+                }
+            }
+            let moves = ended & !grows & zero.lt(left);
+            next.copy_from(&x.p);
+            next.accumulate(one, sum);
+            x.p.copy_where(moves, next);
+            left = V::Scalar::select(moves, left - part, left);
+            part = V::Scalar::select(grows, half * part, part);
+            part = V::Scalar::select(zero.lt(left), part, zero);
+            if (lost | !zero.lt(left)).all() {
+                break;
+            }
+        }
+        let unsolved = lost | zero.lt(left);
+        if unsolved.any() {
+            x.p.poison(unsolved);
+        }
     }
 }
 
@@ -30,7 +126,7 @@ impl<X: Vector, A: Flow<X>, B: Flow<X>> Flow<X> for Both<A, B> {
 /// ```
 ///
 /// Solved by fixed-point iteration; where that does not converge the momenta become NaN. Two steps do
-/// not merge. Vectors sized at run time are copied.
+/// not merge.
 #[derive(Debug, Clone)]
 pub struct SubStep<F>(pub F);
 
@@ -42,9 +138,9 @@ struct Change<'a, V: Vector, F> {
     field: &'a F,
     t: V::Scalar,
     point: &'a Point<V>,
-    middle: V,
+    middle: &'a mut V,
     /// The drift of the field, which is not used.
-    drift: V,
+    drift: &'a mut V,
 }
 
 impl<V: Vector, F: VectorField<V>> Contraction<V> for Change<'_, V, F> {
@@ -54,7 +150,7 @@ impl<V: Vector, F: VectorField<V>> Contraction<V> for Change<'_, V, F> {
         self.middle
             .accumulate(V::Scalar::constant(0.5, 0.0), change);
         next.set_zero();
-        (self.field).add(self.t, &self.point.q, &self.middle, &mut self.drift, next);
+        (self.field).add(self.t, &self.point.q, self.middle, self.drift, next);
     }
     #[inline(always)]
     fn scale(&self, change: &V) -> <V::Scalar as Real>::Size {
@@ -65,19 +161,20 @@ impl<V: Vector, F: VectorField<V>> Contraction<V> for Change<'_, V, F> {
 impl<V: Vector, F: VectorField<V>> Flow<Point<V>> for SubStep<F> {
     const NAME: &'static str = "force";
     const MERGES: bool = false;
+    type Work = Momenta<V>;
     #[inline(always)]
-    fn apply(&self, t: V::Scalar, x: &mut Point<V>) {
-        let mut change = x.p.zeros_like();
-        let mut next = change.clone();
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, Momenta(work): &mut Momenta<V>) {
+        let [change, next, middle, drift] = work;
+        change.set_zero();
         let mut equation = Change {
             field: &self.0,
             t,
             point: x,
-            middle: change.clone(),
-            drift: change.clone(),
+            middle,
+            drift,
         };
-        let outcome = iterate(LIMIT, &mut equation, &mut change, &mut next);
-        x.p.accumulate(V::Scalar::one(), &change);
+        let outcome = iterate(LIMIT, &mut equation, change, next);
+        x.p.accumulate(V::Scalar::one(), change);
         if !outcome.solved.all() {
             x.p.poison(!outcome.solved);
         }

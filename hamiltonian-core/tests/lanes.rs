@@ -3,9 +3,10 @@
 use crate::common::four::Four;
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian_core::{Clock, Map, Scheme, Step, Vector};
+use hamiltonian_core::{Clock, Flow, Map, Point, Real, Scheme, Scratch, Step, Vector, VectorField};
 
 /// (34) from these, and the Hénon–Heiles system.
 const STARTS: [[f64; 4]; 2] = [[0.4, -1.1, 0.05, 0.8], [0.3, 0.1, -0.02, -0.5]];
@@ -53,13 +54,13 @@ fn check<H, M, const N: usize>(
     dead.q[0].0[2] = f64::NAN;
     let mut carried = Scheme::start(scheme, &prepared, &dead, Four([h; 4]));
     let map = Scheme::prepare(scheme, &prepared, Step::of(Four([h; 4])));
-    let mut work = map.work(&carried);
+    let mut work = Scratch::like(&carried);
     let clock = Clock {
         start: Four([0.0; 4]),
         interval: run.interval(),
     };
     map.run(clock, 0, 700, &mut carried, &mut work);
-    map.close(clock.at(700), &mut carried);
+    map.close(clock.at(700), &mut carried, &mut work);
     let point = hamiltonian_core::Carried::point(&carried);
     let end = State {
         t: clock.at(700),
@@ -161,7 +162,7 @@ fn a_solve_fails_in_its_lane_alone() {
     let prepared = System::<Four>::prepare(&Hand(Paper34));
     let map = Scheme::<Four, Hand<Paper34, 1>>::prepare(&scheme, &prepared, Step::of(step));
     let mut carried = Scheme::<Four, Hand<Paper34, 1>>::start(&scheme, &prepared, &start, step);
-    let mut work = map.work(&carried);
+    let mut work = Scratch::like(&carried);
     map.step(start.t, step, &mut carried, &mut work);
     for k in 0..4 {
         let mut alone = Integrator::new(&Hand(Paper34), scheme, lone(&start, k), 0.05).unwrap();
@@ -170,5 +171,73 @@ fn a_solve_fails_in_its_lane_alone() {
             Ok(end) => assert_eq!(end.q[0].to_bits(), found.to_bits(), "lane {k}"),
             Err(_) => assert!(k == 1 && found.is_nan(), "lane {k}: {found}"),
         }
+    }
+}
+
+/// c·(A·p + b) with A = −γ + ω J, or c·A·p.
+#[derive(Debug, Clone)]
+struct Turning<T> {
+    c: T,
+    gamma: T,
+    omega: T,
+    b: T,
+}
+
+impl<T: Real> VectorField<SVector<T, 2>> for Turning<T> {
+    fn add(
+        &self,
+        _: T,
+        _: &SVector<T, 2>,
+        p: &SVector<T, 2>,
+        _: &mut SVector<T, 2>,
+        into: &mut SVector<T, 2>,
+    ) {
+        into[0] += self.c * (self.omega * p[1] - self.gamma * p[0] + self.b);
+        into[1] -= self.c * (self.omega * p[0] + self.gamma * p[1]);
+    }
+}
+
+fn turned<T: Real>([gamma, omega, p]: [T; 3]) -> SVector<T, 2> {
+    let zero = T::zero();
+    let linear = Turning {
+        c: T::constant(0.7, 0.0),
+        gamma,
+        omega,
+        b: zero,
+    };
+    let field = Turning {
+        b: T::one(),
+        ..linear.clone()
+    };
+    let mut point = Point {
+        q: SVector::from([zero; 2]),
+        p: SVector::from([p, zero]),
+    };
+    let mut work = Scratch::like(&point);
+    Coupled { field, linear }.apply(zero, &mut point, &mut work);
+    point.p
+}
+
+/// Momenta that push each other: a lane that needs 300 parts of the duration, one that stands still and
+/// one that is no number are each what they are alone.
+#[test]
+fn momenta_push_each_other_in_their_lane_alone() {
+    let lanes = [
+        [0.1, 0.3, 1.0],
+        [5.0, 900.0, -2.0],
+        [0.0, 0.0, 0.5],
+        [0.1, f64::NAN, 1.0],
+    ];
+    let found = turned([0, 1, 2].map(|k| Four(lanes.map(|lane| lane[k]))));
+    for (k, lane) in lanes.into_iter().enumerate() {
+        let alone = turned(lane);
+        for i in 0..2 {
+            assert_eq!(
+                found[i].0[k].to_bits(),
+                alone[i].to_bits(),
+                "lane {k}, p[{i}]"
+            );
+        }
+        assert_eq!(alone.iter().all(|p| p.is_nan()), k == 3);
     }
 }

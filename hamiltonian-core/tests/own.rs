@@ -54,9 +54,6 @@ struct Twice<V, F>(F, F, PhantomData<V>);
 impl<V: Vector, F: VectorField<V>> Map for Twice<V, F> {
     type Carried = Point<V>;
     type Work = Point<V>;
-    fn work(&self, like: &Point<V>) -> Point<V> {
-        like.clone()
-    }
     #[inline(always)]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, middle: &mut Point<V>) {
         middle.copy_from(z);

@@ -9,7 +9,7 @@ use super::common::systems::{
 use super::common::{difference, start};
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    DoubleDouble, Group, Integrator, Map, Real, Scheme, State, Step, System, Vector,
+    DoubleDouble, Group, Integrator, Map, Real, Scheme, Scratch, State, Step, System, Vector,
 };
 
 /// The Jacobi function cn(u | m), by the arithmetic–geometric mean (Abramowitz and Stegun, 16.4).
@@ -249,7 +249,7 @@ fn variable_steps_return() {
     let begin = carried.clone();
     for h in [2e-3, -2e-3] {
         let map = Scheme::<f64, Hand<Kepler, 2>>::prepare(&scheme, &prepared, Step::of(h));
-        let mut work = map.work(&carried);
+        let mut work = Scratch::like(&carried);
         for _ in 0..2_000 {
             map.step(0.0, h, &mut carried, &mut work);
         }

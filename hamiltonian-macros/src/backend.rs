@@ -175,6 +175,7 @@ fn wanted(checked: &Checked, model: &Model, large: bool, kick: Option<emit::Kick
             wanted.extend([Purpose::Push, Purpose::Drift]);
             wanted.extend(rest.then_some(Purpose::Kick));
         }
+        Some(emit::Kick::Coupled) => wanted.extend([Purpose::Linear, Purpose::Drift]),
         Some(emit::Kick::SubStep) => wanted.push(Purpose::Drift),
     }
     if checked.item.is_some() && !checked.parameters.is_empty() {

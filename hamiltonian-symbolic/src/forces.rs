@@ -5,21 +5,30 @@
 //! is in one entry, with the part of ∂H/∂q that belongs to the same element of the same loop.
 //!
 //! With f = b + a·p for each momentum by itself, a and b free of momenta, the flow for the duration c
-//! is p + w·(f − ∂H/∂q) with w = (eᶜᵃ − 1)/a, which is c where a = 0.
+//! is p + w·(f − ∂H/∂q) with w = (eᶜᵃ − 1)/a, which is c where a = 0. Where momenta push each other,
+//! f = b + A·p, the flow is a series in A, which a run sums: the program says A·p.
 
-use crate::dag::{Array, Dag, Dependence, Node, Side};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::model::{Model, VectorEntry};
 use crate::op::Op;
 use crate::pipeline::gradient_of;
 
-/// The exact flow of ṗ = f − ∂H/∂q at frozen q, as two accumulations, one after the other.
-#[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Kick {
-    /// Reads momenta: each entry its own element alone.
-    pub damped: Vec<VectorEntry>,
-    /// Reads none.
-    pub rest: Vec<VectorEntry>,
+/// The exact flow of ṗ = f − ∂H/∂q at frozen q.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum Kick {
+    /// Two accumulations, one after the other.
+    Single {
+        /// Reads momenta: each entry its own element alone.
+        damped: Vec<VectorEntry>,
+        /// Reads none.
+        rest: Vec<VectorEntry>,
+    },
+    /// Momenta push each other.
+    Coupled {
+        /// c·A·p
+        linear: Vec<VectorEntry>,
+    },
 }
 
 /// Where two entries add to the same element in the same iteration.
@@ -45,8 +54,44 @@ pub fn slopes(model: &mut Model, gradient: &[VectorEntry]) -> Vec<VectorEntry> {
     slopes
 }
 
-/// ∂f/∂p of an element by its own momentum; 0 where f does not depend on momenta. An error where it
-/// is not affine in its own momentum alone.
+/// Whether an expression is affine in momenta as it is written. Derivatives do not tell: that of
+/// sign(p) is 0.
+fn is_affine(dag: &Dag, root: Node) -> bool {
+    let mut affine: Map<Node, bool> = Map::default();
+    for node in dag.reachable(&[root]) {
+        let moves = |node: &Node| dag.dependence(*node).on(Dependence::P);
+        let is = !moves(&node)
+            || match dag.kind(node) {
+                Kind::Element(..) => true,
+                Kind::Sum(_, terms) => terms.iter().all(|(_, term)| affine[term]),
+                Kind::Product(_, factors) => {
+                    let mut moving = factors.iter().filter(|(factor, _)| moves(factor));
+                    let first = moving.next();
+                    first.is_none_or(|(factor, power)| *power == 1 && affine[factor])
+                        && moving.next().is_none()
+                }
+                Kind::Reduce(_, body) => affine[body],
+                Kind::Select(condition, yes, no) => !moves(condition) && affine[yes] && affine[no],
+                _ => false,
+            };
+        affine.insert(node, is);
+    }
+    affine[&root]
+}
+
+/// The part of an entry that is linear in momenta, of an entry that is affine in them.
+fn linear(dag: &mut Dag, force: &VectorEntry) -> VectorEntry {
+    let value = diff::forward(dag, force.value, Dependence::P, |dag, leaf| {
+        dag.dependence(leaf).on(Dependence::P).then_some(leaf)
+    });
+    VectorEntry {
+        value,
+        ..force.clone()
+    }
+}
+
+/// ∂f/∂p of an element by its own momentum, where f is affine in momenta; 0 where it does not depend on
+/// them. An error where other momenta push it.
 fn rate(dag: &mut Dag, force: &VectorEntry) -> Result<Node, ()> {
     let own = dag.element(
         Array::Phase {
@@ -58,8 +103,8 @@ fn rate(dag: &mut Dag, force: &VectorEntry) -> Result<Node, ()> {
         None,
     );
     match diff::gradient(dag, force.value, Dependence::P).as_slice() {
-        [] if !dag.dependence(force.value).on(Dependence::P) => Ok(dag.integer(0)),
-        [(leaf, rate)] if *leaf == own && !dag.dependence(*rate).on(Dependence::P) => Ok(*rate),
+        [] => Ok(dag.integer(0)),
+        [(leaf, rate)] if *leaf == own => Ok(*rate),
         _ => Err(()),
     }
 }
@@ -104,17 +149,36 @@ fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
 /// The kick, from ∂V/∂q.
 ///
 /// # Errors
-/// The entry of the force whose flow at frozen q is not known: it is not affine in its own momentum, or
-/// its rate is that of a row and other rows are pushed in the same loop.
+/// The entry of the force that is not affine in momenta.
 pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<VectorEntry>> {
+    let forces = model.force.clone();
+    if let Some(force) = (forces.iter()).find(|force| !is_affine(&model.dag, force.value)) {
+        return Err(Box::new(force.clone()));
+    }
+    Ok(single(model, gradient).unwrap_or_else(|()| {
+        let c = model.dag.coefficient();
+        let scaled = |force: &VectorEntry| {
+            let entry = linear(&mut model.dag, force);
+            let value = model.dag.mul(&[c, entry.value]);
+            VectorEntry { value, ..entry }
+        };
+        Kick::Coupled {
+            linear: forces.iter().map(scaled).collect(),
+        }
+    }))
+}
+
+/// The kick where each momentum is pushed by itself. An error where it is not: it is pushed by others,
+/// or its rate is that of a row and other rows are pushed in the same loop.
+fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
     let forces = model.force.clone();
     let mut weights = Vec::with_capacity(forces.len());
     for force in &forces {
-        let rate = rate(&mut model.dag, force).map_err(|()| Box::new(force.clone()))?;
+        let rate = rate(&mut model.dag, force)?;
         let damps = !model.dag.is_zero(rate);
         weights.push((weight(&mut model.dag, rate), damps));
     }
-    let mut kick = Kick::default();
+    let (mut damped, mut rest) = (Vec::new(), Vec::new());
     let c = model.dag.coefficient();
     for entry in slopes(model, gradient) {
         let of_same =
@@ -128,7 +192,7 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<Vec
             (None, Some(at)) => {
                 let (weight, _) = weights[at];
                 if model.dag.variables(weight) != 0 || !is_whole(model, &forces[at]) {
-                    return Err(Box::new(forces[at].clone()));
+                    return Err(());
                 }
                 (weight, false)
             }
@@ -136,11 +200,11 @@ pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<Vec
         let value = model.dag.mul(&[weight, entry.value]);
         let scaled = VectorEntry { value, ..entry };
         match damps {
-            true => kick.damped.push(scaled),
-            false => kick.rest.push(scaled),
+            true => damped.push(scaled),
+            false => rest.push(scaled),
         }
     }
-    Ok(kick)
+    Ok(Kick::Single { damped, rest })
 }
 
 /// The kick of the model's H, which is separable.

@@ -243,17 +243,20 @@ pub fn request(
                 request.stores.push(added(VectorEntry { value, ..entry }));
             }
         }
-        Purpose::Push | Purpose::Kick if !model.force.is_empty() => {
+        Purpose::Push | Purpose::Linear | Purpose::Kick if !model.force.is_empty() => {
             let gradient = along(model, (true, false));
-            // Where there is no exact flow nobody asks for it.
-            let kick = forces::kick(model, &gradient).unwrap_or_default();
-            let entries = match purpose {
-                Purpose::Push => kick.damped,
-                _ => kick.rest,
+            let missing = |_| internal("this force has no exact flow".to_owned());
+            let entries = match (purpose, forces::kick(model, &gradient).map_err(missing)?) {
+                (Purpose::Push, forces::Kick::Single { damped, .. }) => damped,
+                (Purpose::Kick, forces::Kick::Single { rest, .. }) => rest,
+                (Purpose::Linear, forces::Kick::Coupled { linear }) => linear,
+                (purpose, _) => return Err(internal(format!("this force has no {purpose:?}"))),
             };
             request.stores.extend(entries.into_iter().map(added));
         }
-        Purpose::Push => {}
+        Purpose::Push | Purpose::Linear => {
+            return Err(internal("there is no force".to_owned()));
+        }
         Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
             let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
             for entry in along(model, sides) {

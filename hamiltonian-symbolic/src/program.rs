@@ -233,6 +233,8 @@ pub enum Purpose {
     VectorField,
     /// The part of the kick of a forced system that reads momenta: `p += w·(f − ∂H/∂q)`.
     Push,
+    /// Of a force f = A(q, t)·p + b(q, t) whose momenta push each other: `into_p += c·A·p`.
+    Linear,
     /// `into_p −= c·∂H/∂q`; of a forced system the part of the kick that reads no momenta.
     Kick,
     /// `into_q += c·∂H/∂p`.
@@ -251,7 +253,10 @@ impl Purpose {
     /// Whether outputs are added to instead of overwritten.
     #[must_use]
     pub fn accumulates(self) -> bool {
-        matches!(self, Purpose::VectorField | Purpose::Kick | Purpose::Drift)
+        matches!(
+            self,
+            Purpose::VectorField | Purpose::Linear | Purpose::Kick | Purpose::Drift
+        )
     }
 }
 

@@ -2,7 +2,9 @@
 
 use super::state;
 use hamiltonian::schemes::Visitor;
-use hamiltonian::{Clock, Dual, Entry, Form, Integrator, Map, Scheme, State, Step, System, Vector};
+use hamiltonian::{
+    Clock, Dual, Entry, Form, Integrator, Map, Scheme, Scratch, State, Step, System, Vector,
+};
 
 /// MᵀJM − J, and ‖M‖², both in the maximum norm of entries; columns of M are `columns`.
 pub fn defect(columns: &[Vec<f64>], form: impl Fn(usize, usize) -> f64) -> (f64, f64) {
@@ -107,7 +109,7 @@ where
     let prepared = system.prepare();
     let map = scheme.prepare(&prepared, Step::of(Dual::fixed(h)));
     let mut carried = scheme.start(&prepared, start, Dual::fixed(h));
-    let mut work = map.work(&carried);
+    let mut work = Scratch::like(&carried);
     let duration = f64::from(scheme.entry().duration);
     let clock = Clock {
         start: start.t,

@@ -5,7 +5,7 @@
 mod text;
 
 use crate::common::geometry::{defect, one_point};
-use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Split, System, Vector};
+use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Scratch, Split, System, Vector};
 use hamiltonian_symbolic::dag::{Array, Parameter, Side};
 use hamiltonian_symbolic::eval::{self, run};
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -34,7 +34,10 @@ macro_rules! each {
         {
             fn apply(&self, number: usize, prepared: &P, c: T, point: &mut V) {
                 match number {
-                    $($at => self.$at.flow(prepared, c).apply(T::zero(), point),)+
+                    $($at => {
+                        let flow = self.$at.flow(prepared, c);
+                        flow.apply(T::zero(), point, &mut Scratch::like(point));
+                    })+
                     _ => unreachable!("there are no more"),
                 }
             }

@@ -78,7 +78,7 @@ macro_rules! catalogue {
         }
 
         /// Visits the compensated schemes.
-        pub fn visit_compensated<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
+        pub fn visit_compensated<T: Real, S: Separable<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
             $(visitor.visit($compensated);)+
         }
 

@@ -4,16 +4,16 @@
 //! and its low words together are the sum of all kicks and drifts to twice the digits; kicks and drifts
 //! themselves are computed at the point.
 //!
-//! Exact flows that are not sums (rotations, scalings) have no increment to carry: the bound is
-//! [`Separable`].
+//! Exact flows that are not sums (rotations, scalings, friction) have no increment to carry: the bounds
+//! are [`Separable`] and [`Unforced`].
 
 use super::table::Table;
 use super::zigzag::Zigzag;
-use crate::flow::{Flow, Piece, Pieces};
+use crate::flow::{Flow, Piece, Pieces, Scratch};
 use crate::map::Step;
 use crate::scheme::{Entry, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
-use crate::system::Separable;
+use crate::system::{Separable, Unforced};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -40,6 +40,15 @@ use hamiltonian_lanes::Real;
 /// let mut run = Integrator::new(&Oscillator, Compensated(KahanLi8), start, 0.1)?;
 /// assert!((run.advance(1_000)?.q[0] - 100.0_f64.cos()).abs() < 1e-8);
 /// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+///
+/// Friction is no sum: a system with a force is refused.
+///
+/// ```compile_fail,E0277
+/// use hamiltonian_core::{Scheme, Separable, schemes::{Compensated, Strang}};
+///
+/// fn takes<S: Separable<f64>>() where Compensated<Strang>: Scheme<f64, S> {}
+/// fn with_or_without_a_force<S: Separable<f64>>() { takes::<S>() }
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Compensated<M>(pub M);
@@ -85,10 +94,21 @@ pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
 #[derive(Debug, Clone, Copy)]
 pub struct Carrying<A, const KICK: bool>(A);
 
+/// What a flow of points computes in.
+#[derive(Debug)]
+pub struct OfPoint<W>(W);
+
+impl<V: Vector, W: Scratch<Point<V>>> Scratch<Words<V>> for OfPoint<W> {
+    fn like(words: &Words<V>) -> Self {
+        OfPoint(W::like(&words.x))
+    }
+}
+
 impl<V: Vector, F: Flow<Point<V>>, const KICK: bool> Flow<Words<V>> for Carrying<F, KICK> {
     const NAME: &'static str = F::NAME;
+    type Work = OfPoint<F::Work>;
     #[inline(always)]
-    fn apply(&self, t: V::Scalar, z: &mut Words<V>) {
+    fn apply(&self, t: V::Scalar, z: &mut Words<V>, OfPoint(work): &mut Self::Work) {
         let Pair { x: point, y: low } = z;
         let (moved, low) = if KICK {
             (&mut point.p, &mut low.p)
@@ -97,7 +117,7 @@ impl<V: Vector, F: Flow<Point<V>>, const KICK: bool> Flow<Words<V>> for Carrying
         };
         // The flow adds its increment to whatever stands where it adds.
         core::mem::swap(moved, low);
-        self.0.apply(t, point);
+        self.0.apply(t, point, work);
         let moved = if KICK { &mut point.p } else { &mut point.q };
         core::mem::swap(moved, low);
         carry(moved, low);
@@ -124,7 +144,7 @@ type Halves<T, S> = (
     Carrying<<S as Separable<T>>::Drift, false>,
 );
 
-impl<T: Real, S: Separable<T>, M: Table> Scheme<T, S> for Compensated<M> {
+impl<T: Real, S: Separable<T> + Unforced, M: Table> Scheme<T, S> for Compensated<M> {
     type Map = Zigzag<
         Words<S::Vector>,
         <Halves<T, S> as Pieces<T, S::Prepared>>::Outer,

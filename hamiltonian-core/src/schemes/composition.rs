@@ -6,6 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use super::table::Weight;
 use super::tables::general as tables;
+use crate::flow::Scratch;
 use crate::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::scheme::{Entry, Listed, OneStep, Scheme};
 use crate::state::{Point, State};
@@ -186,14 +187,14 @@ impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {
 
     /// The closing piece of the stage before, then the opening one of stage `i`.
     #[inline(always)]
-    fn join_stage(&self, i: usize, t: ScalarOf<M>, z: &mut M::Carried) {
+    fn join_stage(&self, i: usize, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         let stage = &self.stages[i];
         if JOINED || stage.joins {
-            stage.map.join(t, z);
+            stage.map.join(t, z, work);
         } else {
             let before = if i == 0 { S - 1 } else { i - 1 };
-            self.stages[before].map.close(t, z);
-            stage.map.open(t, z);
+            self.stages[before].map.close(t, z, work);
+            stage.map.open(t, z, work);
         }
     }
 }
@@ -202,13 +203,9 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
     type Carried = M::Carried;
     type Work = M::Work;
 
-    fn work(&self, like: &M::Carried) -> Self::Work {
-        self.stages[0].map.work(like)
-    }
-
     #[inline(always)]
-    fn open(&self, t: ScalarOf<M>, z: &mut M::Carried) {
-        self.stages[0].map.open(t, z);
+    fn open(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
+        self.stages[0].map.open(t, z, work);
     }
 
     #[inline(always)]
@@ -216,20 +213,20 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
         for (i, stage) in self.stages.iter().enumerate() {
             let begin = t + stage.at;
             if i > 0 {
-                self.join_stage(i, begin, z);
+                self.join_stage(i, begin, z, work);
             }
             stage.map.body(begin, self.end_of(i, t, end), z, work);
         }
     }
 
     #[inline(always)]
-    fn close(&self, t: ScalarOf<M>, z: &mut M::Carried) {
-        self.stages[S - 1].map.close(t, z);
+    fn close(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
+        self.stages[S - 1].map.close(t, z, work);
     }
 
     #[inline(always)]
-    fn join(&self, t: ScalarOf<M>, z: &mut M::Carried) {
-        self.join_stage(0, t, z);
+    fn join(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
+        self.join_stage(0, t, z, work);
     }
 
     #[cold]
@@ -242,22 +239,22 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
         work: &mut Self::Work,
     ) -> Cause {
         if !first && !self.stages[0].joins {
-            self.stages[S - 1].map.close(t, z);
+            self.stages[S - 1].map.close(t, z, work);
         }
         for (i, stage) in self.stages.iter().enumerate() {
             let (begin, end) = (t + stage.at, self.end_of(i, t, end));
             let opens = !stage.joins || (first && i == 0);
             let mut after = z.clone();
             if opens {
-                stage.map.open(begin, &mut after);
+                stage.map.open(begin, &mut after, work);
             } else {
-                stage.map.join(begin, &mut after);
+                stage.map.join(begin, &mut after, work);
             }
             stage.map.body(begin, end, &mut after, work);
             let next = self.stages.get(i + 1);
             let mut closed = after.clone();
             if next.is_none_or(|next| !next.joins) {
-                stage.map.close(end, &mut closed);
+                stage.map.close(end, &mut closed, work);
             }
             if !closed.is_finite() {
                 return stage.map.explain(begin, end, opens, z, work);
@@ -379,18 +376,20 @@ pub struct InvertedWork<M: Map> {
     inner: M::Work,
 }
 
-impl<M: Map> Map for Inverted<M> {
-    type Carried = M::Carried;
-    type Work = InvertedWork<M>;
-
-    fn work(&self, like: &M::Carried) -> Self::Work {
+impl<M: Map> Scratch<M::Carried> for InvertedWork<M> {
+    fn like(like: &M::Carried) -> Self {
         InvertedWork {
             target: like.clone(),
             image: like.clone(),
             next: like.clone(),
-            inner: self.back.work(like),
+            inner: M::Work::like(like),
         }
     }
+}
+
+impl<M: Map> Map for Inverted<M> {
+    type Carried = M::Carried;
+    type Work = InvertedWork<M>;
 
     #[inline(always)]
     fn body(&self, t: ScalarOf<M>, end: ScalarOf<M>, z: &mut M::Carried, work: &mut Self::Work) {

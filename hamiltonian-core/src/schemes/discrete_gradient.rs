@@ -4,6 +4,7 @@
 //! step is rounding, whatever the step.
 
 use super::iterate::{Contraction, iterate};
+use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
@@ -188,17 +189,19 @@ impl<T: Real, P: Dynamics<T>> EnergyKeeping<T, P> {
     }
 }
 
-impl<T: Real, P: Dynamics<T>> Map for EnergyKeeping<T, P> {
-    type Carried = Pair<Point<P::Vector>, Point<P::Vector>>;
-    type Work = EnergyWork<P::Vector>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
+impl<V: Vector> Scratch<Pair<Point<V>, Point<V>>> for EnergyWork<V> {
+    fn like(like: &Pair<Point<V>, Point<V>>) -> Self {
         EnergyWork {
             other: like.x.clone(),
             gradient: like.x.clone(),
             next: like.x.clone(),
         }
     }
+}
+
+impl<T: Real, P: Dynamics<T>> Map for EnergyKeeping<T, P> {
+    type Carried = Pair<Point<P::Vector>, Point<P::Vector>>;
+    type Work = EnergyWork<P::Vector>;
 
     #[inline(always)]
     fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {

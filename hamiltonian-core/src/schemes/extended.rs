@@ -100,8 +100,9 @@ pub struct Crossed<F, const FIRST: bool>(F);
 
 impl<V: Vector, F: VectorField<V>, const FIRST: bool> Flow<Copies<V>> for Crossed<F, FIRST> {
     const NAME: &'static str = if FIRST { "H(q, p̃)" } else { "H(q̃, p)" };
+    type Work = ();
     #[inline(always)]
-    fn apply(&self, t: V::Scalar, z: &mut Copies<V>) {
+    fn apply(&self, t: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
         let Pair { x, y } = z;
         if FIRST {
             self.0.add(t, &x.q, &y.p, &mut y.q, &mut x.p);

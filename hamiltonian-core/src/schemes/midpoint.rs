@@ -4,7 +4,7 @@
 //! equations hold to rounding; otherwise it is an error.
 
 use super::iterate::{Contraction, iterate};
-use crate::flow::VectorField;
+use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
@@ -164,16 +164,18 @@ impl<V: Vector, F: VectorField<V>> Midpoint<V, F> {
     }
 }
 
-impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
-    type Carried = Pair<Point<V>, Point<V>>;
-    type Work = MidpointWork<V>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
+impl<V: Vector> Scratch<Pair<Point<V>, Point<V>>> for MidpointWork<V> {
+    fn like(like: &Pair<Point<V>, Point<V>>) -> Self {
         MidpointWork {
             middle: like.x.clone(),
             next: like.x.clone(),
         }
     }
+}
+
+impl<V: Vector, F: VectorField<V>> Map for Midpoint<V, F> {
+    type Carried = Pair<Point<V>, Point<V>>;
+    type Work = MidpointWork<V>;
 
     #[inline(always)]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {

@@ -3,7 +3,7 @@
 //! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric in the
 //! point and the density together, so no drift comes in that a fixed step would not have.
 
-use crate::flow::VectorField;
+use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, OneStep, Scheme};
 use crate::state::{Carried, Point, State};
@@ -173,6 +173,15 @@ pub struct PacingWork<V: Vector, W> {
     inner: W,
 }
 
+impl<V: Vector, W: Scratch<Point<V>>> Scratch<Pace<V>> for PacingWork<V, W> {
+    fn like(like: &Pace<V>) -> Self {
+        PacingWork {
+            velocity: like.point.clone(),
+            inner: W::like(&like.point),
+        }
+    }
+}
+
 impl<T, S, M, G> Map for Pacing<T, S, M, G>
 where
     T: Real,
@@ -183,14 +192,6 @@ where
 {
     type Carried = Pace<S::Vector>;
     type Work = PacingWork<S::Vector, <M::Map as Map>::Work>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
-        let map = self.scheme.prepare(&self.prepared, Step::of(self.epsilon));
-        PacingWork {
-            velocity: like.point.clone(),
-            inner: map.work(&like.point),
-        }
-    }
 
     #[inline(always)]
     fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {

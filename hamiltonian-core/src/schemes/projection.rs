@@ -8,6 +8,7 @@ use super::extended::{Copies, Cross, Doubled};
 use super::stages::Stages;
 use super::table::Table;
 use super::zigzag::Zigzag;
+use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Carried, Pair, Point, State};
@@ -100,16 +101,14 @@ impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for MidpointProjec
 #[derive(Debug, Clone)]
 pub struct Averaged<M>(M);
 
-impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Averaged<M> {
+impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
     type Carried = Copies<V>;
-    type Work = ();
-
-    fn work(&self, _: &Copies<V>) {}
+    type Work = M::Work;
 
     #[inline(always)]
-    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, work: &mut M::Work) {
         z.y.copy_from(&z.x);
-        self.0.step(t, end, z, &mut ());
+        self.0.step(t, end, z, work);
         let half = V::Scalar::constant(0.5, 0.0);
         z.x.scale(half);
         z.x.accumulate(half, &z.y);
@@ -122,10 +121,10 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Averaged<M> {
         end: V::Scalar,
         _: bool,
         z: &mut Copies<V>,
-        _: &mut (),
+        work: &mut M::Work,
     ) -> Cause {
         z.y.copy_from(&z.x);
-        self.0.explain(t, end, true, z, &mut ())
+        self.0.explain(t, end, true, z, work)
     }
 }
 
@@ -213,15 +212,13 @@ pub struct Mixing<M, T> {
     momenta: T,
 }
 
-impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Mixing<M, V::Scalar> {
+impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Mixing<M, V::Scalar> {
     type Carried = Copies<V>;
-    type Work = ();
-
-    fn work(&self, _: &Copies<V>) {}
+    type Work = M::Work;
 
     #[inline(always)]
-    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
-        self.inner.step(t, end, z, &mut ());
+    fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Copies<V>, work: &mut M::Work) {
+        self.inner.step(t, end, z, work);
         mix(self.coordinates, &mut z.x.q, &mut z.y.q);
         mix(self.momenta, &mut z.x.p, &mut z.y.p);
     }
@@ -233,9 +230,9 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Mixing<M, V::Sca
         end: V::Scalar,
         _: bool,
         z: &mut Copies<V>,
-        _: &mut (),
+        work: &mut M::Work,
     ) -> Cause {
-        self.inner.explain(t, end, true, z, &mut ())
+        self.inner.explain(t, end, true, z, work)
     }
 }
 
@@ -353,7 +350,8 @@ const UPDATES: usize = 6;
 
 /// The scratch of [`Projected`].
 #[derive(Debug, Clone)]
-pub struct ProjectedWork<V: Vector> {
+pub struct ProjectedWork<V: Vector, W> {
+    inner: W,
     copies: Copies<V>,
     multiplier: Point<V>,
     end: Point<V>,
@@ -363,7 +361,7 @@ pub struct ProjectedWork<V: Vector> {
     inverse_squares: [V::Scalar; UPDATES],
 }
 
-impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Projected<M> {
+impl<V: Vector, M: Map<Carried = Copies<V>>> Projected<M> {
     /// Broyden's method for μ, with the inverse Jacobian of the defect as products of the steps
     /// (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3,
     /// doi:10.1137/1.9781611970944). It starts as ¼, the one for h = 0. A lane that is solved is not
@@ -374,7 +372,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Projected<M> {
         t: V::Scalar,
         end: V::Scalar,
         z: &mut <Self as Map>::Carried,
-        work: &mut ProjectedWork<V>,
+        work: &mut ProjectedWork<V, M::Work>,
     ) -> Cause {
         type Size<V> = <<V as Vector>::Scalar as Real>::Size;
         let one = V::Scalar::one();
@@ -405,7 +403,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Projected<M> {
             a.accumulate(one, &work.multiplier);
             b.copy_from(point);
             b.accumulate(-one, &work.multiplier);
-            self.inner.step(t, end, &mut work.copies, &mut ());
+            (self.inner).step(t, end, &mut work.copies, &mut work.inner);
             iterations += 1;
             // The defect, and the mean of a + μ and b − μ.
             let Pair { x: a, y: b } = &mut work.copies;
@@ -487,17 +485,20 @@ fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
     sum
 }
 
-impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Projected<M> {
-    type Carried = Pair<Point<V>, Stages<Point<V>, 2>>;
-    type Work = ProjectedWork<V>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
+impl<V, W> Scratch<Pair<Point<V>, Stages<Point<V>, 2>>> for ProjectedWork<V, W>
+where
+    V: Vector,
+    W: Scratch<Copies<V>>,
+{
+    fn like(like: &Pair<Point<V>, Stages<Point<V>, 2>>) -> Self {
         let point = || like.point().clone();
+        let copies = Pair {
+            x: point(),
+            y: point(),
+        };
         ProjectedWork {
-            copies: Pair {
-                x: point(),
-                y: point(),
-            },
+            inner: W::like(&copies),
+            copies,
             multiplier: point(),
             end: point(),
             step: point(),
@@ -505,6 +506,11 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Projected<M> {
             inverse_squares: [V::Scalar::zero(); UPDATES],
         }
     }
+}
+
+impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Projected<M> {
+    type Carried = Pair<Point<V>, Stages<Point<V>, 2>>;
+    type Work = ProjectedWork<V, M::Work>;
 
     #[inline(always)]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Self::Carried, work: &mut Self::Work) {
@@ -527,7 +533,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>, Work = ()>> Map for Projected<M> {
         match self.solve(t, end, z, work) {
             Cause::Overflow => Cause::Overflow,
             // Where the splitting itself leaves its domain, that is the cause.
-            unsolved => match self.inner.explain(t, end, true, &mut copies, &mut ()) {
+            unsolved => match (self.inner).explain(t, end, true, &mut copies, &mut work.inner) {
                 Cause::Piece(piece) if !copies.is_finite() => Cause::Piece(piece),
                 _ => unsolved,
             },

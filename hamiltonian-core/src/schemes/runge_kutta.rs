@@ -3,7 +3,7 @@
 //! Input: any system. Output: [`RungeKutta4`]. Invariant: none but its order.
 
 use super::composition::Adjoint;
-use crate::flow::VectorField;
+use crate::flow::{Scratch, VectorField};
 use crate::map::{Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
@@ -110,17 +110,19 @@ impl<V: Vector, F: VectorField<V>> Classical<V, F> {
     }
 }
 
-impl<V: Vector, F: VectorField<V>> Map for Classical<V, F> {
-    type Carried = Point<V>;
-    type Work = ClassicalWork<V>;
-
-    fn work(&self, like: &Point<V>) -> Self::Work {
+impl<V: Vector> Scratch<Point<V>> for ClassicalWork<V> {
+    fn like(like: &Point<V>) -> Self {
         ClassicalWork {
             increment: like.clone(),
             stage: like.clone(),
             sum: like.clone(),
         }
     }
+}
+
+impl<V: Vector, F: VectorField<V>> Map for Classical<V, F> {
+    type Carried = Point<V>;
+    type Work = ClassicalWork<V>;
 
     #[inline(always)]
     fn body(&self, t: V::Scalar, end: V::Scalar, z: &mut Point<V>, work: &mut Self::Work) {

@@ -7,6 +7,7 @@ use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, iterate};
 use super::stages::{Stages, extrapolation};
+use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Pair, Point, State};
@@ -282,11 +283,8 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     }
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
-    type Carried = CarriesForces<P::Vector, S>;
-    type Work = EliminatedWork<P::Vector, S>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
+impl<V: Vector, const S: usize> Scratch<CarriesForces<V, S>> for EliminatedWork<V, S> {
+    fn like(like: &CarriesForces<V, S>) -> Self {
         let vector = || like.x.q.clone();
         EliminatedWork {
             stage: vector(),
@@ -297,6 +295,11 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
             guess: like.y.x.clone(),
         }
     }
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
+    type Carried = CarriesForces<P::Vector, S>;
+    type Work = EliminatedWork<P::Vector, S>;
 
     #[inline(always)]
     fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {

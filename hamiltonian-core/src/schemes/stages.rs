@@ -15,7 +15,7 @@ use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
 use super::newton::{Entries, Linear};
-use crate::flow::VectorField;
+use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Pair, Point, State};
 use crate::system::Dynamics;
@@ -420,13 +420,15 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 }
 
+impl<V: Vector, const S: usize> Scratch<Carries<V, S>> for CollocatedWork<V, S> {
+    fn like(like: &Carries<V, S>) -> Self {
+        CollocatedWork::new(&like.x, &like.y.x)
+    }
+}
+
 impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
     type Carried = Carries<P::Vector, S>;
     type Work = CollocatedWork<P::Vector, S>;
-
-    fn work(&self, like: &Self::Carried) -> Self::Work {
-        CollocatedWork::new(&like.x, &like.y.x)
-    }
 
     #[inline(always)]
     fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {

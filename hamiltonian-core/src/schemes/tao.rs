@@ -94,8 +94,9 @@ pub struct Turned<T> {
 
 impl<V: Vector> Flow<Copies<V>> for Turned<V::Scalar> {
     const NAME: &'static str = "binding";
+    type Work = ();
     #[inline(always)]
-    fn apply(&self, _: V::Scalar, z: &mut Copies<V>) {
+    fn apply(&self, _: V::Scalar, z: &mut Copies<V>, _: &mut ()) {
         let half = V::Scalar::constant(0.5, 0.0);
         let Pair { x, y } = z;
         for k in 0..V::PARTS {

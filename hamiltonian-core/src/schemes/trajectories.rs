@@ -258,8 +258,6 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
     type Carried = Points<V>;
     type Work = ();
 
-    fn work(&self, _: &Points<V>) {}
-
     #[inline(always)]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {
         let Pair { x, y } = z;
@@ -343,8 +341,6 @@ impl<V: Vector, F: VectorField<V>> Interleaved<V, F> {
 impl<V: Vector, F: VectorField<V>> Map for Interleaved<V, F> {
     type Carried = Points<V>;
     type Work = ();
-
-    fn work(&self, _: &Points<V>) {}
 
     #[inline(always)]
     fn body(&self, t: V::Scalar, _: V::Scalar, z: &mut Points<V>, _: &mut ()) {

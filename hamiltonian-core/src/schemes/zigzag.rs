@@ -54,15 +54,15 @@ impl<F> Link<F> {
     }
 
     #[inline(always)]
-    fn apply<X: Vector>(&self, t: X::Scalar, x: &mut X)
+    fn apply<X: Vector>(&self, t: X::Scalar, x: &mut X, work: &mut F::Work)
     where
         F: Flow<X>,
     {
-        self.up.apply_reversed(t, x);
+        self.up.apply_reversed(t, x, work);
         if !F::MERGES
             && let Some(down) = &self.down
         {
-            down.apply(t, x);
+            down.apply(t, x, work);
         }
     }
 }
@@ -235,61 +235,67 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
 
 impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Table> Map for Zigzag<X, O, I, W> {
     type Carried = X;
-    type Work = ();
-
-    fn work(&self, _: &X) {}
+    /// Of the outermost flow, and of those inside.
+    type Work = (O::Work, I::Work);
 
     #[inline(always)]
-    fn open(&self, t: X::Scalar, z: &mut X) {
+    fn open(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         if let Some(opening) = &self.opening {
-            opening.apply(t, z);
+            opening.apply(t, z, &mut work.0);
         }
     }
 
     #[inline(always)]
-    fn body(&self, t: X::Scalar, _: X::Scalar, z: &mut X, _: &mut ()) {
+    fn body(&self, t: X::Scalar, _: X::Scalar, z: &mut X, (outer, inner): &mut Self::Work) {
         let stages = self.stages.as_ref();
         for (i, stage) in stages.iter().enumerate() {
-            stage.inner.apply(t + stage.inner_at, z);
+            stage.inner.apply(t + stage.inner_at, z, inner);
             if i + 1 < stages.len() {
-                stage.outer.apply(t + stage.outer_at, z);
+                stage.outer.apply(t + stage.outer_at, z, outer);
             }
         }
     }
 
     #[inline(always)]
-    fn close(&self, t: X::Scalar, z: &mut X) {
+    fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
         if let Some(closing) = self.closing() {
-            closing.apply(t, z);
+            closing.apply(t, z, &mut work.0);
         }
     }
 
     #[inline(always)]
-    fn join(&self, t: X::Scalar, z: &mut X) {
-        self.joining.apply(t, z);
+    fn join(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
+        self.joining.apply(t, z, &mut work.0);
     }
 
     #[cold]
-    fn explain(&self, t: X::Scalar, end: X::Scalar, first: bool, z: &mut X, _: &mut ()) -> Cause {
+    fn explain(
+        &self,
+        t: X::Scalar,
+        end: X::Scalar,
+        first: bool,
+        z: &mut X,
+        work: &mut Self::Work,
+    ) -> Cause {
         let stages = self.stages.as_ref();
         let Some(last) = stages.last() else {
             return Cause::Overflow;
         };
         if first {
-            self.open(t, z);
+            self.open(t, z, work);
         } else {
-            self.join(t, z);
+            self.join(t, z, work);
         }
         let mut blamed = (!z.is_finite()).then_some(O::NAME);
         for stage in stages {
-            blamed = blamed.or_else(|| stage.inner.blame(t + stage.inner_at, z));
+            blamed = blamed.or_else(|| stage.inner.blame(t + stage.inner_at, z, &mut work.1));
             if blamed.is_none() && !core::ptr::eq(stage, last) {
-                stage.outer.apply(t + stage.outer_at, z);
+                stage.outer.apply(t + stage.outer_at, z, &mut work.0);
                 blamed = (!z.is_finite()).then_some(O::NAME);
             }
         }
         let at_the_end = || {
-            self.close(end, z);
+            self.close(end, z, work);
             (!z.is_finite()).then_some(O::NAME)
         };
         match blamed.or_else(at_the_end) {

@@ -60,7 +60,8 @@ impl<T: Real, const WHICH: u8> Flow<Plane<T>> for PolarFlow<T, WHICH> {
         SQUARE => "r^2/2",
         _ => "r^3 sin(3theta)/3",
     };
-    fn apply(&self, _: T, x: &mut Plane<T>) {
+    type Work = ();
+    fn apply(&self, _: T, x: &mut Plane<T>, _: &mut ()) {
         let c = self.0;
         let (r, pt) = (x.q[0], x.p[1]);
         if WHICH == RADIAL {
@@ -162,8 +163,9 @@ impl<T: Real, const WHICH: u8, const TURNS: bool> Flow<Plane<T>> for LoopFlow<T,
         1 => "kick",
         _ => "drift",
     };
+    type Work = ();
     const MERGES: bool = WHICH != 0 || !TURNS;
-    fn apply(&self, _: T, x: &mut Plane<T>) {
+    fn apply(&self, _: T, x: &mut Plane<T>, _: &mut ()) {
         let c = self.0;
         match WHICH {
             0 => {
@@ -182,12 +184,12 @@ impl<T: Real, const WHICH: u8, const TURNS: bool> Flow<Plane<T>> for LoopFlow<T,
             }
         }
     }
-    fn apply_reversed(&self, t: T, x: &mut Plane<T>) {
+    fn apply_reversed(&self, t: T, x: &mut Plane<T>, _: &mut ()) {
         if WHICH == 0 && TURNS {
             self.second(x);
             self.first(x);
         } else {
-            self.apply(t, x);
+            self.apply(t, x, &mut ());
         }
     }
 }

@@ -171,8 +171,9 @@ impl<T: Real, H: Halves<N>, const N: usize, const KICK: bool> Flow<Point<SVector
     for Moving<Scaled<H, T, N>, KICK>
 {
     const NAME: &'static str = if KICK { "V" } else { "T" };
+    type Work = ();
     #[inline(never)]
-    fn apply(&self, t: T, x: &mut Point<SVector<T, N>>) {
+    fn apply(&self, t: T, x: &mut Point<SVector<T, N>>, _: &mut ()) {
         let Scaled(system, c) = &self.0;
         if KICK {
             let force = system.force(t, array(&x.q));
@@ -545,7 +546,8 @@ impl<T: Real, const KICK: bool> Piece<T, Chain> for Half<KICK> {
 
 impl<T: Real, const KICK: bool> Flow<Point<DVector<T>>> for Moving<ScaledChain<T>, KICK> {
     const NAME: &'static str = if KICK { "V" } else { "T" };
-    fn apply(&self, _: T, x: &mut Point<DVector<T>>) {
+    type Work = ();
+    fn apply(&self, _: T, x: &mut Point<DVector<T>>, _: &mut ()) {
         if KICK {
             self.0.kick(&x.q, &mut x.p);
         } else {

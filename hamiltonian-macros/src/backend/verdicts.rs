@@ -76,15 +76,16 @@ fn kick(model: &mut Model, structure: &Structure) -> (emit::Kick, Result<(), Rea
         return (emit::Kick::Plain, Ok(()));
     }
     match forces::kick_of(model) {
-        Ok(kick) if kick.damped.is_empty() => (emit::Kick::Plain, Ok(())),
-        Ok(kick) => {
-            let rest = !kick.rest.is_empty();
+        Ok(forces::Kick::Single { damped, .. }) if damped.is_empty() => (emit::Kick::Plain, Ok(())),
+        Ok(forces::Kick::Single { rest, .. }) => {
+            let rest = !rest.is_empty();
             (emit::Kick::Damped { rest }, Ok(()))
         }
+        Ok(forces::Kick::Coupled { .. }) => (emit::Kick::Coupled, Ok(())),
         Err(entry) => {
             let reason = Reason {
                 message: format!(
-                    "the force `{}` on {} is not affine in its own momentum: it has no exact flow",
+                    "the force `{}` on {} is not affine in momenta: it has no exact flow",
                     print::text(model, entry.value),
                     of(model)
                 ),

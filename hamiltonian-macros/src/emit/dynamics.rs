@@ -90,7 +90,12 @@ pub fn implementations(
     emission.dynamics();
     emission.flow(Purpose::VectorField);
     if definition.structure.separable.is_ok() {
-        for purpose in [Purpose::Push, Purpose::Kick, Purpose::Drift] {
+        for purpose in [
+            Purpose::Push,
+            Purpose::Linear,
+            Purpose::Kick,
+            Purpose::Drift,
+        ] {
             if context.program.function(purpose).is_some() {
                 emission.flow(purpose);
             }
@@ -344,6 +349,7 @@ impl<'a> Emission<'a> {
     fn flow(&mut self, purpose: Purpose) {
         let (name, inputs, outputs): (_, &[&str], &[&str]) = match purpose {
             Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
+            Purpose::Linear => ("__Linear", &["_q", "_p"], &["_oq", "_op"]),
             Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
             Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
             _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
@@ -391,8 +397,9 @@ impl<'a> Emission<'a> {
                     self,
                     "#[automatically_derived]\nimpl{declaration} __h::Flow<__h::Point<{vector}>> for \
                      {name}{holders} {{\n\
-                     const NAME: &'static __h::core::primitive::str = {:?};\n\
-                     #[inline(always)]\nfn apply(&self, _t: T, _x: &mut __h::Point<{vector}>) {{",
+                     const NAME: &'static __h::core::primitive::str = {:?};\ntype Work = ();\n\
+                     #[inline(always)]\n\
+                     fn apply(&self, _t: T, _x: &mut __h::Point<{vector}>, _: &mut ()) {{",
                     self.definition.structure.halves[number],
                 );
                 parts
@@ -444,11 +451,12 @@ impl<'a> Emission<'a> {
     fn separable(&mut self) {
         let generics = self.generics;
         let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
+        let is_coupled = matches!(self.definition.structure.kick, Kick::Coupled);
         let kick: &[(Purpose, &'static str)] = match self.definition.structure.kick {
             Kick::Plain => &[(Purpose::Kick, "__Kick")],
             Kick::Damped { rest: false } => &[(Purpose::Push, "__Push")],
             Kick::Damped { rest: true } => &[(Purpose::Push, "__Push"), (Purpose::Kick, "__Kick")],
-            Kick::SubStep => &[],
+            Kick::Coupled | Kick::SubStep => &[],
         };
         for (piece, flows) in [
             ("__KickPiece", kick),
@@ -458,6 +466,9 @@ impl<'a> Emission<'a> {
                 [(_, only)] => format!("{only}{arguments}"),
                 [(_, first), (_, second)] => {
                     format!("__h::Both<{first}{arguments}, {second}{arguments}>")
+                }
+                _ if is_coupled => {
+                    format!("__h::Coupled<__Field{arguments}, __Linear{arguments}>")
                 }
                 _ => format!("__h::SubStep<__Field{arguments}>"),
             };
@@ -483,6 +494,14 @@ impl<'a> Emission<'a> {
                     line!(self, "}}, {{");
                     self.coefficients(*second, other);
                     line!(self, "}})");
+                }
+                _ if is_coupled => {
+                    line!(
+                        self,
+                        "__h::Coupled {{ field: __h::Dynamics::field(_self, _c), linear: {{"
+                    );
+                    self.coefficients(Purpose::Linear, "__Linear");
+                    line!(self, "}} }}");
                 }
                 _ => line!(self, "__h::SubStep(__h::Dynamics::field(_self, _c))"),
             }

@@ -188,6 +188,9 @@ pub enum Kick {
         /// Whether there is a part that reads none.
         rest: bool,
     },
+    /// Exact by a series over the vector field and its part that is linear in momenta, which push each
+    /// other.
+    Coupled,
     /// A symmetric sub-step over the vector field.
     SubStep,
 }

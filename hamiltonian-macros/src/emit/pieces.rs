@@ -96,7 +96,7 @@ impl Emission<'_> {
             self,
             "#[automatically_derived]\nimpl{declaration} __h::Flow<__h::Point<{vector}>> for \
              {flow}{arguments} {{\n\
-             const NAME: &'static __h::core::primitive::str = {name:?};{merges}",
+             const NAME: &'static __h::core::primitive::str = {name:?};\ntype Work = ();{merges}",
             declaration = self.generics.holder_declaration(),
             arguments = self.generics.holder_arguments(),
             vector = self.vector,
@@ -119,7 +119,8 @@ impl Emission<'_> {
     fn motion(&mut self, method: &str, receiver: Receiver, function: &Function, reversed: bool) {
         line!(
             self,
-            "#[inline(always)]\nfn {method}(&self, _t: T, _x: &mut __h::Point<{}>) {{\nlet _self = self;",
+            "#[inline(always)]\n\
+             fn {method}(&self, _t: T, _x: &mut __h::Point<{}>, _: &mut ()) {{\nlet _self = self;",
             self.vector,
         );
         let inputs: &[(&'static str, &str)] = match self.one_way(function) {

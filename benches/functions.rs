@@ -1,5 +1,6 @@
 //! What an elementary function costs: nanoseconds a value for scalars and for the packs of every
-//! level of this CPU, beside the standard library and the crate `wide`, all in one process.
+//! level of this CPU, one register (`avx512`) and several in lock-step (`avx512-wide`), beside the
+//! standard library and the crate `wide`, all in one process.
 //!
 //! `cargo bench --bench functions` prints a table; with `-- --json` one line a function and level:
 //! `{"function":…, "level":…, "ns":…, "std_ns":…}`, and the latencies. `wide` chooses its
@@ -20,9 +21,11 @@ use std::time::Instant;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Pack, Real, dispatch_at_most};
 use wide::f64x8;
 
-/// Values a round: their arguments stay in the first cache.
-const COUNT: usize = 1024;
-const ROUNDS: usize = 400;
+/// Values a pass, a multiple of the lanes of every pack: their arguments stay in the first cache.
+const COUNT: usize = 960;
+/// Passes a round: reading the clock twice costs as much as a hundred values do.
+const PASSES: usize = 16;
+const ROUNDS: usize = 50;
 
 /// One function as it is written over every scalar, and as its rivals have it.
 trait Function {
@@ -129,38 +132,53 @@ functions! {
     erfc(x) in -3.0 .. 3.0: x.erfc();
 }
 
-/// A function over all arguments in one register after the other; or, chained, of one argument after
-/// the other in all lanes, each waiting for the last.
+/// How a level goes through the arguments.
+#[derive(Clone, Copy)]
+enum Shape {
+    /// One register after the other.
+    Pack,
+    /// As many registers at once as the level holds to hide latencies.
+    Wide,
+    /// One argument after the other in all lanes of a register, each waiting for the last.
+    Chain,
+}
+
+/// A function over all arguments.
 struct Values<'a, F> {
     function: PhantomData<F>,
     from: &'a [f64],
     into: &'a mut [f64],
-    chained: bool,
+    shape: Shape,
+}
+
+#[inline(always)]
+fn throughput<F: Function, P: Pack>(from: &[f64], into: &mut [f64]) {
+    let lanes = P::LANES as usize;
+    for (from, into) in (from.chunks_exact(lanes)).zip(into.chunks_exact_mut(lanes)) {
+        F::ours(P::load(from, 0.0)).store(into);
+    }
 }
 
 impl<F: Function> Kernel for Values<'_, F> {
     type Output = ();
     #[inline(always)]
     fn run<L: Level>(self) {
-        let lanes = L::Pack::LANES as usize;
-        if self.chained {
-            let zero = L::Pack::constant(black_box(0.0), 0.0);
-            let mut last = zero;
-            for &x in self.from {
-                last = F::ours(L::Pack::constant(x, 0.0) + zero * last);
-            }
-            last.store(self.into);
-        } else {
-            for (from, into) in
-                (self.from.chunks_exact(lanes)).zip(self.into.chunks_exact_mut(lanes))
-            {
-                F::ours(L::Pack::load(from, 0.0)).store(into);
+        match self.shape {
+            Shape::Pack => throughput::<F, L::Pack>(self.from, self.into),
+            Shape::Wide => throughput::<F, L::Wide>(self.from, self.into),
+            Shape::Chain => {
+                let zero = L::Pack::constant(black_box(0.0), 0.0);
+                let mut last = zero;
+                for &x in self.from {
+                    last = F::ours(L::Pack::constant(x, 0.0) + zero * last);
+                }
+                last.store(self.into);
             }
         }
     }
 }
 
-fn on_level<F: Function>(cpu: Cpu, chained: bool, from: &[f64], into: &mut [f64]) {
+fn on_level<F: Function>(cpu: Cpu, shape: Shape, from: &[f64], into: &mut [f64]) {
     let function = PhantomData::<F>;
     dispatch_at_most(
         cpu,
@@ -168,16 +186,16 @@ fn on_level<F: Function>(cpu: Cpu, chained: bool, from: &[f64], into: &mut [f64]
             function,
             from,
             into,
-            chained,
+            shape,
         },
     );
 }
 
-/// One rival: its name and one round of its work.
+/// One rival: its name and one pass of its work.
 struct Rival<'a> {
     name: String,
     chained: bool,
-    round: Box<dyn FnMut(&[f64], &mut [f64]) + 'a>,
+    pass: Box<dyn FnMut(&[f64], &mut [f64]) + 'a>,
     least: f64,
 }
 
@@ -198,12 +216,12 @@ impl Report {
             .collect();
         let mut into = vec![0.0; COUNT];
         let mut rivals = Vec::new();
-        let mut add = |name: &str, chained, round: Box<dyn FnMut(&[f64], &mut [f64])>| {
+        let mut add = |name: &str, chained, pass: Box<dyn FnMut(&[f64], &mut [f64])>| {
             let name = name.to_string();
             rivals.push(Rival {
                 name,
                 chained,
-                round,
+                pass,
                 least: f64::INFINITY,
             });
         };
@@ -226,19 +244,26 @@ impl Report {
         );
         for cpu in Cpu::available() {
             let name = format!("{cpu:?}").to_lowercase();
-            for chained in [false, true] {
-                add(
-                    &name,
-                    chained,
-                    Box::new(move |from, into| on_level::<F>(cpu, chained, from, into)),
-                );
+            let wide = format!("{name}-wide");
+            for (name, shape) in [
+                (&name, Shape::Pack),
+                (&wide, Shape::Wide),
+                (&name, Shape::Chain),
+            ] {
+                let chained = matches!(shape, Shape::Chain);
+                let pass = move |from: &[f64], into: &mut [f64]| {
+                    on_level::<F>(cpu, shape, from, into);
+                };
+                add(name, chained, Box::new(pass));
             }
         }
         for _ in 0..ROUNDS {
             for rival in &mut rivals {
                 let start = Instant::now();
-                (rival.round)(black_box(&from), black_box(&mut into));
-                let each = start.elapsed().as_secs_f64() * 1e9 / COUNT as f64;
+                for _ in 0..PASSES {
+                    (rival.pass)(black_box(&from), black_box(&mut into));
+                }
+                let each = start.elapsed().as_secs_f64() * 1e9 / (COUNT * PASSES) as f64;
                 rival.least = rival.least.min(each);
             }
         }

@@ -179,6 +179,11 @@ def main():
 //! Input: nothing. Output: tables, the lowest power first; each says the formula that it serves
 //! and the largest error of that formula relative to the function. Invariant: written by
 //! `scripts/fit_functions.py` and by nothing else.
+
+#![allow(
+    clippy::approx_constant,
+    reason = "printed with all others by the fitting script"
+)]
 """)
     third = mpf(1) / 3
     cube_root_offset()
@@ -224,11 +229,14 @@ def main():
     table("EXP_ODD", "sinh r = r + r·z·P(z), z = r² ≤ (ln 2/2)²",
           precise(lambda z: (sinh(sqrt(z)) / sqrt(z) - 1) / z),
           lambda z: z, 0, edge, 5)
-    edge = ((sqrt(2) - 1) / (sqrt(2) + 1) * mpf("1.0001")) ** 2
-    table("LOGARITHM", "ln((1 + s)/(1 − s)) = 2s + s·z·P(z), z = s² ≤ (√2 − 1)⁴",
+    # A little below √½: errors of ln x next to it are alike on both sides, where k is 0 and −1.
+    least = mpf(0.69)
+    constant("LOGARITHM_LEAST", least, "The least 1 + f of a logarithm; the greatest is below its double.")
+    edge = ((1 - least) / (1 + least) * mpf("1.0001")) ** 2
+    table("LOGARITHM", "ln((1 + s)/(1 − s)) = 2s + s·z·P(z), z = s² ≤ 0.184²",
           precise(lambda z: (2 * atanh(sqrt(z)) / sqrt(z) - 2) / z),
           lambda z: z / 2, 0, edge, 7)
-    table("LOGARITHM_TAIL", "ln((1 + s)/(1 − s)) = 2s + ⅔s·z + s·z²·P(z), z = s² ≤ (√2 − 1)⁴",
+    table("LOGARITHM_TAIL", "ln((1 + s)/(1 − s)) = 2s + ⅔s·z + s·z²·P(z), z = s² ≤ 0.184²",
           precise(lambda z: (2 * atanh(sqrt(z)) / sqrt(z) - 2 - 2 * z / 3) / z**2),
           lambda z: z**2 / 2, 0, edge, 9)
     edge = (sqrt(2) - 1) ** 2 * mpf("1.0001")

@@ -39,6 +39,13 @@ pub trait Word: Real {
     fn from_bits(bits: Self::Bits) -> Self;
     /// Set where the lowest bit is.
     fn odd(bits: Self::Bits) -> Self::Mask;
+    /// `self·2^k` rounded once, for `0 < self ≤ 2` and an integer `k`, infinity or NaN, on levels that
+    /// have an instruction for it; where `k` is not between −1100 and 1100, anything else serves for
+    /// `self`.
+    #[inline(always)]
+    fn scaled(self, _k: Self) -> Option<Self> {
+        None
+    }
     /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
     /// To be called where some lane is set, and never inlined (`#[cold]`).
     fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;

@@ -23,6 +23,7 @@ const EXP_EVEN_REST: [f64; 5] = {
 
 /// `x + more = k·ln 2 + high − low`; `high` is exact, `low` small.
 struct Reduced<W: Word> {
+    k: W,
     /// `k` in the lowest bits.
     power: W::Bits,
     high: W,
@@ -34,6 +35,7 @@ fn reduce<W: Word>(x: W, more: W) -> Reduced<W> {
     let shifted = x.fma(W::splat(LOG2_E), W::splat(ROUNDER));
     let k = shifted - W::splat(ROUNDER);
     Reduced {
+        k,
         power: shifted.bits(),
         high: k.fma(W::splat(-LN_2_HIGH), x),
         low: k.fma(W::splat(LN_2_LOW), -more),
@@ -53,12 +55,19 @@ impl<W: Word> Reduced<W> {
         W::from_bits(W::Bits::splat(1023).minus(self.power).shl::<52>())
     }
 
-    /// `(one, rest)`: exp(x + more) = 2^k·(one + rest).
+    /// `(one, rest)`: exp(x + more) = 2^k·(one + rest), where `one` is 1 + high and the rest has what
+    /// that sum cuts off. Without it errors of exp would reach 0.88 units instead of 0.68, in a
+    /// twentieth less of the time.
     #[inline(always)]
     fn exp(&self) -> (W, W) {
         let r = self.high - self.low;
         let z = r * r;
-        let series = r.fma(polynomial(z, &EXP_ODD), polynomial(z, &EXP_EVEN));
+        // By pairs of powers, which shares z and needs no z².
+        let mut series = exp_pair::<W, 4>(r);
+        series = z.fma(series, exp_pair::<W, 3>(r));
+        series = z.fma(series, exp_pair::<W, 2>(r));
+        series = z.fma(series, exp_pair::<W, 1>(r));
+        series = z.fma(series, exp_pair::<W, 0>(r));
         let (one, cut) = fast_two_sum(W::one(), self.high);
         (one, z.fma(series, cut - self.low))
     }
@@ -110,20 +119,22 @@ pub(super) fn exp_any(x: f64, more: f64, shift: i64) -> f64 {
     scale_any(one + rest, power.wrapping_add(shift as u64))
 }
 
-/// Exponential: 1 + (high + (r²·P(r) − low)), whose sums round by at most a quarter and a half.
+/// The terms of r^(2K) and r^(2K + 1) of (exp r − 1 − r)/r², over the former.
+#[inline(always)]
+fn exp_pair<W: Word, const K: usize>(r: W) -> W {
+    r.fma(W::splat(EXP_ODD[K]), W::splat(EXP_EVEN_SHORT[K]))
+}
+
+/// Exponential.
 #[inline(always)]
 pub(crate) fn exp<W: Word>(x: W) -> W {
-    let Reduced { power, high, low } = reduce(x, W::zero());
-    let r = high - low;
-    let z = r * r;
-    // By pairs of powers, which shares z and needs no z².
-    let pair = |k: usize| r.fma(W::splat(EXP_ODD[k]), W::splat(EXP_EVEN_SHORT[k]));
-    let series = z.fma(
-        z.fma(z.fma(z.fma(pair(4), pair(3)), pair(2)), pair(1)),
-        pair(0),
-    );
-    let y = W::one() + (high + z.fma(series, -low));
-    let y = scale_normal(y, power);
+    let reduced = reduce(x, W::zero());
+    let (one, rest) = reduced.exp();
+    let y = one + rest;
+    if let Some(y) = y.scaled(reduced.k) {
+        return y;
+    }
+    let y = scale_normal(y, reduced.power);
     let rare = !x.abs().le(W::splat(LARGE));
     if rare.any() {
         return y.replace(rare, x, exp_of_large);

@@ -1,7 +1,7 @@
 //! Logarithms and inverse hyperbolic functions.
 //!
 //! Input: any double. Output: the function's value. Invariant: `x = 2^k·(1 + f)` with
-//! √½ ≤ 1 + f < √2, and ln(1 + f) by `s = f/(2 + f)`: 2s + … = f − (f²/2 − s·(f²/2 + …)), so that
+//! 0.69 ≤ 1 + f < 1.38, and ln(1 + f) by `s = f/(2 + f)`: 2s + … = f − (f²/2 − s·(f²/2 + …)), so that
 //! only a small term is rounded (the form of K. C. Ng's `log` in fdlibm, 1993). The inverse
 //! hyperbolic functions take the logarithm of a number of two words.
 
@@ -14,31 +14,35 @@ use crate::word::{Bits, Word};
 
 const ONE: u64 = 1023 << 52;
 const FRACTION: u64 = (1 << 52) - 1;
-/// √½ as bits, rounded down.
-const ROOT_HALF: u64 = 0x3fe6_a09e_667f_3bcc;
+/// The least 1 + f, as bits.
+const LEAST: u64 = LOGARITHM_LEAST.to_bits();
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
 
 /// `(field, k, f)` of a positive normal `x = 2^k·(1 + f)`; `field = k + 1023`, and `f` is exact.
 #[inline(always)]
 pub(super) fn split<W: Word>(x: W) -> (W::Bits, W, W) {
-    let shifted = x.bits().plus(W::Bits::splat(ONE - ROOT_HALF));
+    let shifted = x.bits().plus(W::Bits::splat(ONE - LEAST));
     let field = shifted.shr::<52>();
     let k = W::from_bits(field | W::Bits::splat(TWO_TO_52.to_bits()));
     let k = k - W::splat(TWO_TO_52 + 1023.0);
-    let bits = (shifted & W::Bits::splat(FRACTION)).plus(W::Bits::splat(ROOT_HALF));
+    let bits = (shifted & W::Bits::splat(FRACTION)).plus(W::Bits::splat(LEAST));
     (field, k, W::from_bits(bits) - W::one())
 }
 
-/// `k·ln 2 + ln(1 + f + more)`, with |more| below a unit in the last place of 1.
+/// `k·ln 2 + ln(1 + f + more)`, with |more| below a unit in the last place of 1. Of the errors of ln,
+/// 0.84 units at most, an eighth coefficient would take 0.03 for a fifteenth of the time; the form
+/// f − (f·s − …) needs a twentieth less time, and has errors of 0.93.
 #[inline(always)]
 fn assemble<W: Word>(k: W, f: W, more: W) -> W {
     let s = f / (W::splat(2.0) + f);
     let z = s * s;
-    let half_square = W::splat(0.5) * f * f;
-    let inner = z.fma(polynomial(z, &LOGARITHM), half_square);
-    let (high, cut) = fast_two_sum(k * W::splat(LN_2_HIGH), f);
+    let half = W::splat(0.5) * f;
+    let inner = z.fma(polynomial(z, &LOGARITHM), half * f);
+    // The product with k is exact, and so is what the sum cuts off.
+    let high = k.fma(W::splat(LN_2_HIGH), f);
+    let cut = f + k.fma(W::splat(LN_2_HIGH), -high);
     let low = k.fma(W::splat(LN_2_LOW), more + cut);
-    high + (s.fma(inner, low) - half_square)
+    high + s.fma(inner, (-half).fma(f, low))
 }
 
 /// `ln(2^shift·(u + more))`, for a normal positive `u` and |more| below its last place. Near 1 the
@@ -63,7 +67,9 @@ pub(super) fn is_plain<W: Word>(x: W) -> W::Mask {
 pub(crate) fn ln<W: Word>(x: W) -> W {
     let (_, k, f) = split(x);
     let y = assemble(k, f, W::zero());
-    let rare = !is_plain(x);
+    // The other exponents are those of zero, subnormal, negative, infinite numbers and NaN, and of
+    // the outermost binades.
+    let rare = !k.abs().le(W::splat(1021.0));
     if rare.any() {
         return y.replace(rare, x, ln_of_rare);
     }
@@ -78,11 +84,9 @@ fn ln_of_rare(x: f64) -> f64 {
     } else if x < 0.0 {
         f64::NAN
     } else if x < f64::MIN_POSITIVE {
-        let (_, k, f) = split(x * TWO_TO_52);
-        assemble(k - 52.0, f, 0.0)
+        ln_times(x * TWO_TO_52, -52.0)
     } else {
-        // +∞, or NaN.
-        x
+        ln_times(x, 0.0)
     }
 }
 
@@ -115,7 +119,7 @@ fn ln_1p_of_rare(x: f64) -> f64 {
 /// Beyond, squares may overflow, `1 + x` is `x` to the last bit, and `x + √(x² ± 1)` is `2x`.
 const LARGE: f64 = (1u128 << 100) as f64;
 
-/// `ln(2^shift·x)` for `x ≥ LARGE`; `x` itself where infinite or NaN.
+/// `ln(2^shift·x)` for a positive normal `x`; `x` itself where infinite or NaN.
 fn ln_times(x: f64, shift: f64) -> f64 {
     if x <= f64::MAX {
         let (_, k, f) = split(x);

@@ -69,18 +69,23 @@ pub(super) fn square_root<W: Word>(a: (W, W)) -> (W, W) {
 #[inline(always)]
 pub(super) fn polynomial<W: Word, const N: usize>(z: W, coefficients: &[f64; N]) -> W {
     let square = z * z;
-    let at = |k: usize| W::splat(coefficients[k]);
     let mut start = (N - 1) / 2 * 2;
     let mut sum = if start == N - 1 {
-        at(start)
+        W::splat(coefficients[start])
     } else {
-        at(start + 1).fma(z, at(start))
+        two_terms(z, coefficients, start)
     };
     while start > 0 {
         start -= 2;
-        sum = sum.fma(square, at(start + 1).fma(z, at(start)));
+        sum = sum.fma(square, two_terms(z, coefficients, start));
     }
     sum
+}
+
+/// The terms number `k` and `k + 1`, over `z^k`.
+#[inline(always)]
+fn two_terms<W: Word, const N: usize>(z: W, coefficients: &[f64; N], k: usize) -> W {
+    W::splat(coefficients[k + 1]).fma(z, W::splat(coefficients[k]))
 }
 
 /// The sign bit of each lane.

@@ -107,7 +107,8 @@ fn guess_inverse_cube_root<W: Word>(x: W) -> W {
 /// root `c` of 17 bits, whose cube is exact.
 #[inline(always)]
 fn cube_root<W: Word>(x: W) -> W {
-    let [a1, a2, a3, a4] = [1.0 / 3.0, 2.0 / 9.0, 14.0 / 81.0, 35.0 / 243.0].map(W::splat);
+    let (a1, a2) = (W::splat(1.0 / 3.0), W::splat(2.0 / 9.0));
+    let (a3, a4) = (W::splat(14.0 / 81.0), W::splat(35.0 / 243.0));
     let one = W::one();
     let y = guess_inverse_cube_root(x);
     let e = one - x * y * y * y;

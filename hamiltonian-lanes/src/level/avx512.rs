@@ -46,6 +46,11 @@ impl Register for __m512d {
         fn odd(a: Self) -> __mmask8 {
             _mm512_test_epi64_mask(_mm512_castpd_si512(a), _mm512_set1_epi64(1))
         }
+        fn scaled(a: Self, k: Self) -> Option<Self> {
+            // The smaller size of the two, positive: 2 where `a` is no number.
+            let a = _mm512_range_pd::<0b10_10>(a, _mm512_set1_pd(2.0));
+            Some(_mm512_scalef_pd(a, k))
+        }
         fn lt(a: Self, b: Self) -> __mmask8 { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(a, b) }
         fn le(a: Self, b: Self) -> __mmask8 { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(a, b) }
         fn equals(a: Self, b: Self) -> __mmask8 { _mm512_cmp_pd_mask::<_CMP_EQ_OQ>(a, b) }

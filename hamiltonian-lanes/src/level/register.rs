@@ -51,6 +51,11 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn shr<const K: u32>(a: Self) -> Self;
     /// Whether the lowest bit is set.
     fn odd(a: Self) -> Self::Flags;
+    /// [`Word::scaled`](crate::word::Word::scaled), where there is an instruction for it.
+    #[inline(always)]
+    fn scaled(_a: Self, _k: Self) -> Option<Self> {
+        None
+    }
 
     fn lt(a: Self, b: Self) -> Self::Flags;
     fn le(a: Self, b: Self) -> Self::Flags;

@@ -286,6 +286,10 @@ impl<R: Register> Word for V<R> {
     fn odd(bits: Words<R>) -> Flags<R> {
         Flags(R::odd(bits.0))
     }
+    #[inline(always)]
+    fn scaled(self, k: Self) -> Option<Self> {
+        Some(Self(R::scaled(self.0, k.0)?))
+    }
     #[cold]
     #[inline(never)]
     fn replace(self, mask: Flags<R>, x: Self, f: fn(f64) -> f64) -> Self {

@@ -162,6 +162,10 @@ impl<P: Pack> Word for Nf<P> {
         P::odd(bits)
     }
     #[inline(always)]
+    fn scaled(self, k: Self) -> Option<Self> {
+        Some(Self(self.0.scaled(k.0)?))
+    }
+    #[inline(always)]
     fn replace(self, mask: P::Mask, x: Self, f: fn(f64) -> f64) -> Self {
         Self(self.0.replace(mask, x.0, f))
     }

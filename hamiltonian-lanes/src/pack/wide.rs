@@ -293,6 +293,10 @@ impl<P: Pack, const K: usize> Word for W<P, K> {
         Masks(each!(K, [P::Mask::splat(false); K], k => P::odd(bits.0[k])))
     }
     #[inline(always)]
+    fn scaled(self, power: Self) -> Option<Self> {
+        Some(Self(each!(K, self.0, k => self.0[k].scaled(power.0[k])?)))
+    }
+    #[inline(always)]
     fn replace(self, mask: Masks<P, K>, x: Self, f: fn(f64) -> f64) -> Self {
         // Copies: what a call is given by reference is in memory wherever it is used, so the
         // values themselves would leave their registers on the common path.

@@ -181,14 +181,14 @@ rows! {
         (Near(1048576.0));
     tan 1.0: (Linear(-4.0, 4.0)) (Linear(-1e6, 1e6)) (Binades(TINY, LARGEST)) (NearTurns)
         (Near(1048576.0));
-    exp 1.0: (Linear(-1.0, 1.0)) (Linear(-750.0, 711.0)) (Binades(TINY, 1.0)) (Near(708.0))
+    exp 0.8: (Linear(-1.0, 1.0)) (Linear(-750.0, 711.0)) (Binades(TINY, 1.0)) (Near(708.0))
         (Near(-708.0)) (Near(709.782712893384)) (Near(-745.1332191019411));
     exp_m1 1.0: (Linear(-1.5, 1.5)) (Linear(-50.0, 710.0)) (Binades(TINY, 1.0)) (Near(708.0))
         (Near(0.34657359027997264)) (Near(-0.34657359027997264));
     ln 1.0: (Linear(0.5, 2.0)) (Positive(TINY, LARGEST)) (Near(1.0)) (Near(f64::MIN_POSITIVE))
-        (Near(std::f64::consts::SQRT_2)) (Near(std::f64::consts::FRAC_1_SQRT_2));
+        (Near(0.69)) (Near(1.38)) (Linear(1.25, 1.284));
     ln_1p 1.0: (Linear(-0.9, 2.0)) (Linear(-1.0, -0.9)) (Binades(TINY, 0.9))
-        (Positive(TINY, LARGEST)) (Near(0.41421356237309515));
+        (Positive(TINY, LARGEST)) (Near(0.38));
     cbrt 1.0: (Linear(-8.0, 8.0)) (Binades(TINY, LARGEST)) (Near(1.0)) (Near(f64::MIN_POSITIVE));
     sinh 1.0: (Linear(-2.0, 2.0)) (Linear(-711.0, 711.0)) (Binades(TINY, 1.0)) (Near(708.0))
         (Near(0.34657359027997264));

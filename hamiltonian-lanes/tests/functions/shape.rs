@@ -77,12 +77,11 @@ fn exp_ln_and_atan_are_monotone() {
     ] {
         assert!(monotone(Real::exp, start) <= 1, "exp at {start:e}");
     }
-    let root = std::f64::consts::SQRT_2;
     for start in [
         0.9999999999,
         1.0,
-        root - 1e-13,
-        root / 2.0 - 1e-13,
+        0.69 - 1e-13,
+        1.38 - 1e-13,
         2.0,
         1e-300,
         12345.0,
@@ -90,6 +89,7 @@ fn exp_ln_and_atan_are_monotone() {
     ] {
         assert!(monotone(Real::ln, start) <= 1, "ln at {start:e}");
     }
+    let root = std::f64::consts::SQRT_2;
     for start in [
         1e-8,
         0.3,

@@ -68,6 +68,22 @@ pub enum Error {
         /// Its value on the shell.
         due: f64,
     },
+    /// The monitor function g of another time, dt = g ds, is none.
+    #[error("the monitor function is {value} at the start, and must {reason}")]
+    Monitor {
+        /// Its value there.
+        value: f64,
+        /// What it must: be positive, not depend on time.
+        reason: &'static str,
+    },
+    /// A name that the system declares no monitor, invariant or event by.
+    #[error("`{system}` declares no monitor, invariant or event `{name}`")]
+    Unknown {
+        /// The name asked for.
+        name: String,
+        /// The system.
+        system: &'static str,
+    },
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
     /// piece left its domain. The run stays at the state before that step.
     #[error(

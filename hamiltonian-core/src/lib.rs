@@ -45,12 +45,14 @@ mod part;
 
 mod events;
 mod observe;
+mod observed;
 mod output;
 #[cfg(feature = "progress")]
 mod progress;
 mod root;
 mod tangent;
 mod times;
+mod transformed;
 
 mod checkpoint;
 mod resume;
@@ -82,6 +84,7 @@ pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
 pub use observe::{
     Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Verdict, View, Watch, every, watch,
 };
+pub use observed::{FieldObserved, Observed, ReadyObserved};
 pub use output::Recorder;
 #[cfg(feature = "progress")]
 pub use progress::Progress;
@@ -96,6 +99,7 @@ pub use system::{
 pub use tangent::multipliers;
 pub use tangent::{Tangent, monodromy, symplectic_defect};
 pub use times::{AtTimes, at_times};
+pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};
 pub use vector::{IntoVector, Vector, shape};
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
@@ -116,12 +120,12 @@ pub mod prelude {
         GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8,
         McLachlan8, MidpointProjected, Mixed, Paced, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3,
         Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a,
-        Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TwoStepMidpoint, Variational,
-        Yoshida4, Yoshida6,
+        Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet,
+        TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
     };
     pub use crate::{
         AnyRun, Checkpoint, Dual, EnergyDrift, Error, Event, Events, Gradient, Integrator,
-        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, Tangent, at_times,
-        every, monodromy, symplectic_defect, watch,
+        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, Tangent,
+        TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
     };
 }

@@ -43,6 +43,8 @@ pub enum Needs {
     /// H = ½ pᵀM⁻¹p + V(q, t) with constant M: [`Separable`](crate::Separable) and
     /// [`QuadraticKinetic`](crate::QuadraticKinetic).
     QuadraticKinetic,
+    /// The same in another time, [`TimeTransformed`](crate::TimeTransformed).
+    TimeTransformed,
 }
 
 /// What is known about a scheme: one line of the [catalogue](crate::schemes::catalogue).

@@ -234,6 +234,17 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
 }
 
+/// a·b.
+pub(crate) fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
+    let mut sum = V::Scalar::zero();
+    for k in 0..V::PARTS {
+        for (a, b) in a.part(k).iter().zip(b.part(k)) {
+            sum = a.fma(*b, sum);
+        }
+    }
+    sum
+}
+
 /// The larger of two non-negative numbers, NaN if either is NaN (`f64::max` would drop it).
 #[inline(always)]
 fn larger(a: f64, b: f64) -> f64 {

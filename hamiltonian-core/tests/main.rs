@@ -18,4 +18,5 @@ mod schemes;
 mod start;
 mod tables;
 mod tangent;
+mod transformed;
 mod variational;

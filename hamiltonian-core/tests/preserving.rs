@@ -154,7 +154,7 @@ fn gauss_solves_long_steps_by_newtons_method() {
 
 /// Kepler's problem in the plane.
 #[derive(Debug, Clone)]
-struct Kepler;
+pub struct Kepler;
 
 impl Formula<2> for Kepler {
     const NAME: &'static str = "Kepler";
@@ -178,7 +178,7 @@ impl Halves<2> for Kepler {
 
 /// Q = r^(−3/2).
 #[derive(Debug, Clone, Copy)]
-struct Close;
+pub struct Close;
 
 impl<V: Vector> Density<V> for Close {
     fn rate(&self, _: V::Scalar, q: &V, _: &V, dq: &V, _: &V) -> V::Scalar {

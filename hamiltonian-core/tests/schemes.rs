@@ -245,7 +245,7 @@ fn figures_of_the_papers_34() {
 }
 
 /// The tangent of what is seen after `steps` steps, by dual numbers over any scalar.
-fn tangent<T, S, M>(
+pub fn tangent<T, S, M>(
     system: &S,
     scheme: &M,
     start: &State<S::Vector>,
@@ -274,7 +274,7 @@ where
 }
 
 /// The largest entry of MᵀJM − J over ‖M‖².
-fn defect<T: Real>(columns: &[Vec<T>]) -> f64 {
+pub fn defect<T: Real>(columns: &[Vec<T>]) -> f64 {
     let n = columns.len() / 2;
     let (mut defect, mut size) = (0.0_f64, 0.0_f64);
     for (i, a) in columns.iter().enumerate() {

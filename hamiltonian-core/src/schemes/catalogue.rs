@@ -10,10 +10,11 @@ use super::{
     IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
     Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
     SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
-    SymplecticEuler, Tao, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
+    SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, Scheme};
-use crate::system::{Exact, QuadraticKinetic, Separable, Split, System, Unforced};
+use crate::system::{Autonomous, Exact, QuadraticKinetic, Separable, Split, System, Unforced};
+use crate::transformed::TimeTransformed;
 use hamiltonian_lanes::Real;
 
 /// What is done with each scheme of the catalogue.
@@ -27,7 +28,7 @@ macro_rules! catalogue {
      exact { $($exact:expr,)+ }
      separable { $($separable:expr,)+ } quadratic { $($quadratic:expr,)+ }
      implicit { $($implicit:expr,)+ } doubled { $($doubled:expr,)+ }
-     compensated { $($compensated:expr,)+ }) => {
+     compensated { $($compensated:expr,)+ } transformed { $($transformed:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
         ///
         /// ```
@@ -38,7 +39,7 @@ macro_rules! catalogue {
         pub fn catalogue() -> impl Iterator<Item = Entry> {
             [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($exact.entry(),)+ $($separable.entry(),)+
                 $($quadratic.entry(),)+ $($implicit.entry(),)+ $($doubled.entry(),)+
-                $($compensated.entry(),)+]
+                $($compensated.entry(),)+ $($transformed.entry(),)+]
                 .into_iter()
         }
 
@@ -80,6 +81,16 @@ macro_rules! catalogue {
         /// Visits the compensated schemes.
         pub fn visit_compensated<T: Real, S: Separable<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
             $(visitor.visit($compensated);)+
+        }
+
+        /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q) in the time of a monitor function.
+        pub fn visit_transformed<T, S, G>(visitor: &mut impl Visitor<T, TimeTransformed<S, G>>)
+        where
+            T: Real,
+            S: Separable<T> + QuadraticKinetic + Unforced + Autonomous,
+            G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+        {
+            $(visitor.visit($transformed);)+
         }
 
         /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q, t) with constant M.
@@ -158,5 +169,8 @@ doubled {
 }
 compensated {
     Compensated(Strang),
+}
+transformed {
+    TransformedVerlet::default(),
 }
 }

@@ -27,6 +27,7 @@
 //! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
 //! | [`GaussNystrom`] | | 2S | quadratic T, no forces | dq∧dp | S forces an iteration |
 //! | [`Variational`] | (35) | min(2·degree, quadrature's) | | dq∧dp | a gradient a point and iteration |
+//! | [`TransformedVerlet`] | | 2 | [`TimeTransformed`](crate::TimeTransformed) quadratic T | dq∧dp with dt∧dp_t | 1 ∂V/∂q |
 //! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
 //!
@@ -69,12 +70,13 @@ mod runge_kutta;
 
 mod composition;
 mod paced;
+mod transformed_verlet;
 
 mod catalogue;
 
 pub use catalogue::{
     Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_exact, visit_implicit,
-    visit_quadratic, visit_separable, visit_split, visit_unforced,
+    visit_quadratic, visit_separable, visit_split, visit_transformed, visit_unforced,
 };
 pub use compensated::{Carrying, Compensated};
 pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};
@@ -103,5 +105,6 @@ pub use trajectories::{
     ConsecutiveSubTrajectories, Interleaved, IntersectingSubTrajectories, Start, TwoStep,
     TwoStepMidpoint,
 };
+pub use transformed_verlet::{TransformedVerlet, VerletInNewTime, VerletWork};
 pub use variational::{Ends, Extremal, Variational};
 pub use zigzag::{Zigzag, ZigzagOf};

@@ -11,7 +11,7 @@ use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
 use crate::system::{Dynamics, System};
-use crate::vector::Vector;
+use crate::vector::{Vector, dot};
 use core::fmt;
 use core::ops::Range;
 use hamiltonian_lanes::{DoubleDouble, Mask, Real};
@@ -422,15 +422,4 @@ impl<V: Vector> Extremal<V> {
     pub fn left(&self) -> V::Scalar {
         -dot(&self.start.p, &self.start.q) - self.action
     }
-}
-
-/// a·b.
-fn dot<V: Vector>(a: &V, b: &V) -> V::Scalar {
-    let mut sum = V::Scalar::zero();
-    for k in 0..V::PARTS {
-        for (a, b) in a.part(k).iter().zip(b.part(k)) {
-            sum = a.fma(*b, sum);
-        }
-    }
-    sum
 }

@@ -1,0 +1,304 @@
+//! Störmer–Verlet in another time.
+//!
+//! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
+//! Invariant: one ∂V/∂q a step; what is implicit are two equations for a number each.
+
+use super::iterate::{Contraction, iterate};
+use crate::flow::Scratch;
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Point, State};
+use crate::system::{Autonomous, Dynamics, QuadraticKinetic, Separable, System, Unforced};
+use crate::transformed::{InNewTime, TimeTransformed, WithTime};
+use crate::vector::{Vector, dot};
+use hamiltonian_lanes::{Mask, Real};
+use nalgebra::SVector;
+
+/// Störmer–Verlet, the partitioned Lobatto IIIA–B pair of two stages, for K = g(q)·(½pᵀM⁻¹p + V(q) + p_t):
+/// order 2, symplectic in (q, t, p, p_t), symmetric.
+///
+/// ```text
+/// Q = q[0] + h/2 g(Q) M⁻¹p[0]
+/// p[1] = p[0] − h g(Q) ∂V/∂q(Q) − h/2 (γ(Q, p[0]) + γ(Q, p[1])) ∂g/∂q(Q),   γ = H + p_t
+/// q[1] = Q + h/2 g(Q) M⁻¹p[1],   t[1] = t[0] + h g(Q)
+/// ```
+///
+/// Q is on a line, so the first is one equation for the number g(Q), solved by Newton's method; p\[1\] too
+/// is on a line, on which γ is a quadratic polynomial, solved in closed form. So a step costs one ∂V/∂q
+/// and some g. Without ∂g/∂q it would be a leapfrog with steps that follow g, which is not symplectic.
+/// `KahanLi6.of(TransformedVerlet::default())` and its like have higher order.
+///
+/// It is the scheme of [`TimeTransformed`] alone. g must not depend on momenta: steps end in an error
+/// otherwise.
+///
+/// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), section VIII.2.1,
+/// doi:10.1007/3-540-30666-8; E. Hairer, Appl. Numer. Math. 25 (1997) 219,
+/// doi:10.1016/S0168-9274(97)00061-5.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// # impl hamiltonian_core::QuadraticKinetic for Oscillator {}
+/// # impl hamiltonian_core::Autonomous for Oscillator {}
+/// # #[derive(Debug, Clone, Copy)]
+/// # struct Half;
+/// # impl System<f64> for Half {
+/// #     type Vector = V;
+/// #     type Prepared = Half;
+/// #     const NAME: &'static str = "Half";
+/// #     const GROUPS: &'static [Group] = Oscillator::GROUPS;
+/// #     const OBSERVABLES: &'static [Observable] = &[];
+/// #     fn prepare(&self) -> Half { *self }
+/// #     fn zeros(&self) -> V { V::from_element(0.0) }
+/// # }
+/// # impl Dynamics<f64> for Half {
+/// #     type Vector = V;
+/// #     type Field = Pull;
+/// #     fn energy(&self, _: f64, q: &V, _: &V) -> f64 { 0.5 * q[0] * q[0] }
+/// #     fn gradient_q(&self, _: f64, q: &V, _: &V, out: &mut V) { *out = *q; }
+/// #     fn gradient_p(&self, _: f64, _: &V, _: &V, out: &mut V) { out[0] = 0.0; }
+/// #     fn gradient(&self, _: f64, q: &V, _: &V, dq: &mut V, dp: &mut V) { *dq = *q; dp[0] = 0.0; }
+/// #     fn energy_and_gradient(&self, t: f64, q: &V, p: &V, dq: &mut V, dp: &mut V) -> f64 { Dynamics::gradient(self, t, q, p, dq, dp); Dynamics::energy(self, t, q, p) }
+/// #     fn time_derivative(&self, _: f64, _: &V, _: &V) -> f64 { 0.0 }
+/// #     fn hessian_vector(&self, _: f64, _: &V, _: &V, vq: &V, _: &V, out_q: &mut V, out_p: &mut V) { *out_q = *vq; out_p[0] = 0.0; }
+/// #     fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 { 0.0 }
+/// #     fn field(&self, c: f64) -> Pull { Pull(c) }
+/// # }
+/// # #[derive(Debug, Clone, Copy)]
+/// # struct Pull(f64);
+/// # impl VectorField<V> for Pull {
+/// #     fn add(&self, _: f64, q: &V, _: &V, _: &mut V, into_p: &mut V) { into_p[0] -= self.0 * q[0]; }
+/// # }
+/// # impl Unforced for Half {}
+/// # impl hamiltonian_core::Autonomous for Half {}
+/// use hamiltonian_core::{Integrator, State, TimeTransformed, schemes::TransformedVerlet};
+///
+/// // The oscillator in the time of g = q²/2.
+/// let system = TimeTransformed::new(Oscillator, Half);
+/// let start = system.start(&State::new([1.0], [0.0]))?;
+/// let mut run = Integrator::new(&system, TransformedVerlet::default(), start, 0.01)?;
+/// let end = system.declared(run.advance(100)?);
+/// assert!((end.q[0] - end.t.cos()).abs() < 1e-5);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TransformedVerlet {
+    /// A step whose g(Q) is not found after so many iterations is an error.
+    pub max_iterations: u32,
+}
+
+impl Default for TransformedVerlet {
+    /// At most 50 iterations of Newton's method, which doubles digits.
+    fn default() -> Self {
+        TransformedVerlet { max_iterations: 50 }
+    }
+}
+
+impl Listed for TransformedVerlet {
+    fn entry(&self) -> Entry {
+        Entry {
+            name: "TransformedVerlet",
+            variant: "",
+            equations: "",
+            order: 2,
+            duration: 1,
+            needs: Needs::TimeTransformed,
+            preserves: Form::OnePoint,
+            source: "Hairer, Lubich, Wanner 2006, section VIII.2.1, doi:10.1007/3-540-30666-8",
+        }
+    }
+}
+
+impl OneStep for TransformedVerlet {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+impl<T, S, G> Scheme<T, TimeTransformed<S, G>> for TransformedVerlet
+where
+    T: Real,
+    S: System<T> + Separable<T> + QuadraticKinetic + Unforced + Autonomous,
+    G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+{
+    type Map = VerletInNewTime<T, S::Prepared, G::Prepared>;
+    fn prepare(&self, prepared: &InNewTime<S::Prepared, G::Prepared>, step: Step<T>) -> Self::Map {
+        VerletInNewTime {
+            dynamics: prepared.clone(),
+            h: step.h,
+            half: step.h * T::constant(0.5, 0.0),
+            limit: self.max_iterations,
+        }
+    }
+    fn start(
+        &self,
+        _: &InNewTime<S::Prepared, G::Prepared>,
+        state: &State<WithTime<S::Vector>>,
+        _: T,
+    ) -> Point<WithTime<S::Vector>> {
+        state.point()
+    }
+}
+
+/// The map of [`TransformedVerlet`].
+#[derive(Debug, Clone)]
+pub struct VerletInNewTime<T, P, G> {
+    dynamics: InNewTime<P, G>,
+    h: T,
+    half: T,
+    limit: u32,
+}
+
+/// The scratch of [`VerletInNewTime`].
+#[derive(Debug, Clone)]
+pub struct VerletWork<V> {
+    middle: V,
+    /// M⁻¹p at the beginning, then of the line of p\[1\].
+    velocity: V,
+    /// ∂V/∂q.
+    slope: V,
+    /// ∂g/∂q.
+    along: V,
+    /// ∂g/∂p, and M⁻¹∂g/∂q.
+    other: V,
+}
+
+impl<V: Vector> Scratch<Point<WithTime<V>>> for VerletWork<V> {
+    fn like(z: &Point<WithTime<V>>) -> Self {
+        let vector = || z.q.x.clone();
+        VerletWork {
+            middle: vector(),
+            velocity: vector(),
+            slope: vector(),
+            along: vector(),
+            other: vector(),
+        }
+    }
+}
+
+/// A number σ ↦ the next of Newton's method for σ = g(q + h/2 σ M⁻¹p).
+struct Scale<'a, T, G, V> {
+    monitor: &'a G,
+    half: T,
+    q: &'a V,
+    p: &'a V,
+    velocity: &'a V,
+    middle: &'a mut V,
+    along: &'a mut V,
+    other: &'a mut V,
+}
+
+impl<T: Real, V: Vector<Scalar = T>, G: Dynamics<T, Vector = V>> Scale<'_, T, G, V> {
+    /// Q, and g with its derivatives there.
+    #[inline(always)]
+    fn at(&mut self, scale: T) -> T {
+        self.middle.copy_from(self.q);
+        self.middle.accumulate(self.half * scale, self.velocity);
+        (self.monitor).energy_and_gradient(T::zero(), self.middle, self.p, self.along, self.other)
+    }
+}
+
+impl<T: Real, V: Vector<Scalar = T>, G: Dynamics<T, Vector = V>> Contraction<SVector<T, 1>>
+    for Scale<'_, T, G, V>
+{
+    #[inline(always)]
+    fn map(&mut self, scale: &SVector<T, 1>, next: &mut SVector<T, 1>) {
+        let scale = scale[0];
+        let residual = scale - self.at(scale);
+        let slope = T::one() - self.half * dot(self.along, self.velocity);
+        next[0] = scale - residual / slope;
+    }
+    #[inline(always)]
+    fn scale(&self, scale: &SVector<T, 1>) -> T::Size {
+        scale.size()
+    }
+}
+
+impl<T, V, P, G> VerletInNewTime<T, P, G>
+where
+    T: Real,
+    V: Vector<Scalar = T>,
+    P: Dynamics<T, Vector = V>,
+    G: Dynamics<T, Vector = V>,
+{
+    #[inline(always)]
+    fn solve(&self, z: &mut Point<WithTime<V>>, work: &mut VerletWork<V>) -> Cause {
+        let InNewTime { system, monitor } = &self.dynamics;
+        let (zero, half, two) = (T::zero(), T::constant(0.5, 0.0), T::constant(2.0, 0.0));
+        let (q, p) = (&mut z.q.x, &mut z.p.x);
+        system.gradient_p(zero, q, p, &mut work.velocity);
+        let mut equation = Scale {
+            monitor,
+            half: self.half,
+            q,
+            p,
+            velocity: &work.velocity,
+            middle: &mut work.middle,
+            along: &mut work.along,
+            other: &mut work.other,
+        };
+        let mut scale = SVector::from_element(monitor.energy(zero, q, p));
+        let mut next = scale;
+        let outcome = iterate(self.limit, &mut equation, &mut scale, &mut next);
+        let scale = equation.at(scale[0]);
+        let of_coordinates = work.other.size().equals(T::Size::zero());
+        let kinetic = half * dot(p, &work.velocity);
+        let VerletWork {
+            middle,
+            velocity,
+            slope,
+            along,
+            other,
+        } = work;
+        // The kick: p[1] = line − γ·along, where γ is that at p[1].
+        let shell = system.energy_and_gradient(zero, middle, p, slope, velocity) + z.p.y[0];
+        p.accumulate(-(self.h * scale), slope);
+        along.scale(self.half);
+        p.accumulate(-shell, along);
+        system.gradient_p(zero, middle, p, velocity);
+        system.gradient_p(zero, middle, along, other);
+        let on_line = shell + (half * dot(p, velocity) - kinetic);
+        let linear = T::one() + dot(along, velocity);
+        let square = dot(along, other);
+        let root = (linear * linear - two * square * on_line).sqrt();
+        let shell = two * on_line / (linear + root);
+        p.accumulate(-shell, along);
+        velocity.accumulate(-shell, other);
+        q.copy_from(middle);
+        q.accumulate(self.half * scale, velocity);
+        z.q.y[0] += self.h * scale;
+        let good = outcome.solved & zero.lt(scale) & of_coordinates;
+        if !good.all() {
+            z.poison(!good);
+        }
+        match () {
+            () if !of_coordinates.all() => {
+                Cause::Piece("monitor, which must not depend on momenta")
+            }
+            () if !outcome.solved.all() => outcome.cause(),
+            () if !zero.lt(scale).all() => Cause::Piece("monitor, which must be positive"),
+            () => Cause::Overflow,
+        }
+    }
+}
+
+impl<T, V, P, G> Map for VerletInNewTime<T, P, G>
+where
+    T: Real,
+    V: Vector<Scalar = T>,
+    P: Dynamics<T, Vector = V>,
+    G: Dynamics<T, Vector = V>,
+{
+    type Carried = Point<WithTime<V>>;
+    type Work = VerletWork<V>;
+
+    #[inline(always)]
+    fn body(&self, _: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        self.solve(z, work);
+    }
+
+    #[cold]
+    fn explain(&self, _: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
+        self.solve(z, work)
+    }
+}

@@ -1,0 +1,337 @@
+//! Another time by a monitor function: K = g(q)·(H + p_t) as a system of its own.
+//!
+//! Input: a system, and a function g > 0 of its coordinates. Output: [`TimeTransformed`], whose time is s
+//! with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the long and short steps are
+//! part of what is integrated, not of a control beside it.
+
+use crate::error::Error;
+use crate::flow::VectorField;
+use crate::observed::Observed;
+use crate::state::{Pair, State};
+use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced};
+use crate::vector::{Vector, dot};
+use core::fmt;
+use hamiltonian_lanes::{Mask, Real};
+use nalgebra::SVector;
+
+/// Coordinates and the time t, or momenta and that of the time, p_t.
+pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
+
+/// The system H in the time s with dt = g ds: Hamilton's equations of
+///
+/// ```text
+/// K(q, t, p, p_t) = g(q, p)·(H(q, p) + p_t)
+/// ```
+///
+/// on the shell K = 0, where p_t = −H. The time t is the last coordinate; `state.t` is s. Even steps of s
+/// are steps of g in t: g is to be small where steps are to be short.
+///
+/// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the "H" of any system of the
+/// same shape ([`new`](TimeTransformed::new)), whose derivatives it brings. In a `hamiltonian!` definition
+/// `dt = g*ds` says the same for one g, and H and g may depend on t there.
+///
+/// What is symplectic for K is so in (q, t, p, p_t):
+/// [`TransformedVerlet`](crate::schemes::TransformedVerlet) for H = ½pᵀM⁻¹p + V(q) and g(q), with its
+/// compositions; for any H and g every scheme that asks for no structure, such as
+/// [`Gauss`](crate::schemes::Gauss).
+/// [`Paced`](crate::schemes::Paced) is the explicit alternative: reversible, and not symplectic.
+///
+/// Source: E. Hairer, Appl. Numer. Math. 25 (1997) 219, doi:10.1016/S0168-9274(97)00061-5; S. Reich, SIAM
+/// J. Numer. Anal. 36 (1999) 1549, doi:10.1137/S0036142997329797; E. Hairer, C. Lubich, G. Wanner,
+/// Geometric Numerical Integration (2006), section VIII.2.1, doi:10.1007/3-540-30666-8.
+///
+/// ```
+#[doc = include_str!("doc/oscillator_any.md")]
+/// # impl hamiltonian_core::Autonomous for Oscillator {}
+/// # impl Unforced for Oscillator {}
+/// use hamiltonian_core::{Integrator, State, TimeTransformed, schemes::Gauss};
+///
+/// // The oscillator as its own monitor: g = q²/2, dt = q²/2 ds.
+/// let system = TimeTransformed::new(Oscillator, Oscillator);
+/// let start = system.start(&State::new([1.0], [0.0]))?;
+/// let mut run = Integrator::new(&system, Gauss::<3>::default(), start, 0.05)?;
+/// let end = system.declared(run.advance(20)?);
+/// assert!((0.4..0.5).contains(&end.t) && (end.q[0] - end.t.cos()).abs() < 1e-9);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TimeTransformed<S, G> {
+    /// H.
+    pub system: S,
+    /// g.
+    pub monitor: G,
+}
+
+/// [`TimeTransformed`], prepared.
+#[derive(Debug, Clone)]
+pub struct InNewTime<P, G> {
+    pub(crate) system: P,
+    pub(crate) monitor: G,
+}
+
+impl<S: System<f64> + Clone> TimeTransformed<S, Observed<S>> {
+    /// H in the time of a monitor that the system declares, by its name.
+    ///
+    /// # Errors
+    /// [`Error::Unknown`] where it declares none of this name.
+    pub fn by(system: S, monitor: &str) -> Result<Self, Error> {
+        let monitor = Observed::new(system.clone(), monitor)?;
+        Ok(TimeTransformed { system, monitor })
+    }
+}
+
+impl<S, G> TimeTransformed<S, G> {
+    /// H in the time of g.
+    pub fn new(system: S, monitor: G) -> Self {
+        TimeTransformed { system, monitor }
+    }
+
+    /// The start of a run from a state of H: s = 0, and p_t = −H.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] for a state of another shape, [`Error::Monitor`] where g is not positive there or
+    /// depends on time.
+    pub fn start<T, V>(&self, state: &State<V>) -> Result<State<WithTime<V>>, Error>
+    where
+        T: Real,
+        V: Vector<Scalar = T>,
+        S: System<T, Vector = V>,
+        G: System<T, Vector = V>,
+    {
+        self.system.check_shape(state)?;
+        self.monitor.check_shape(state)?;
+        let monitor = self.monitor.prepare();
+        let value = monitor.energy(state.t, &state.q, &state.p);
+        let refuse = |reason| {
+            let value = value.to_f64();
+            Err(Error::Monitor { value, reason })
+        };
+        if !T::zero().lt(value).all() {
+            return refuse("be positive");
+        }
+        let by_time = monitor.time_derivative(state.t, &state.q, &state.p);
+        if !by_time.equals(T::zero()).all() {
+            return refuse("not depend on time");
+        }
+        let with = |x: &V, time: T| Pair {
+            x: x.clone(),
+            y: SVector::from_element(time),
+        };
+        Ok(State {
+            t: T::zero(),
+            q: with(&state.q, state.t),
+            p: with(&state.p, -self.system.energy(state)),
+        })
+    }
+
+    /// The state of H that a state of the run is, with its time t.
+    pub fn declared<V: Vector>(&self, state: &State<WithTime<V>>) -> State<V> {
+        State {
+            t: state.q.y[0],
+            q: state.q.x.clone(),
+            p: state.p.x.clone(),
+        }
+    }
+
+    /// The groups of H, and that of the time.
+    const fn groups<T: Real>() -> &'static [Group]
+    where
+        S: System<T>,
+    {
+        let all: &'static [Group] = const { &with_time(S::GROUPS, S::Vector::PARTS) };
+        all.split_at(S::GROUPS.len() + 1).0
+    }
+}
+
+/// The most groups of coordinates a system has in another time.
+const MOST_GROUPS: usize = 64;
+
+/// The groups, and the time, repeated.
+const fn with_time(groups: &[Group], part: usize) -> [Group; MOST_GROUPS] {
+    assert!(
+        groups.len() < MOST_GROUPS,
+        "a system has 63 groups of coordinates at most for another time"
+    );
+    let time = Group {
+        coordinate: "t",
+        momentum: "p_t",
+        rank: 0,
+        part,
+        offset: 0,
+        columns: 1,
+    };
+    let mut all = [time; MOST_GROUPS];
+    let mut k = 0;
+    while k < groups.len() {
+        all[k] = groups[k];
+        k += 1;
+    }
+    all
+}
+
+impl<T, S, G> System<T> for TimeTransformed<S, G>
+where
+    T: Real,
+    S: System<T> + Unforced + Autonomous,
+    G: System<T, Vector = S::Vector> + Unforced + Autonomous,
+{
+    type Vector = WithTime<S::Vector>;
+    type Prepared = InNewTime<S::Prepared, G::Prepared>;
+    const NAME: &'static str = S::NAME;
+    const GROUPS: &'static [Group] = Self::groups::<T>();
+    const OBSERVABLES: &'static [Observable] = S::OBSERVABLES;
+    const ON_SHELL: bool = true;
+    const FORMULA: &'static str = S::FORMULA;
+
+    fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
+        self.system.describe_parameters(to)?;
+        write!(to, "; in the time of {}: {}; ", G::NAME, G::FORMULA)?;
+        self.monitor.describe_parameters(to)
+    }
+    fn prepare(&self) -> Self::Prepared {
+        InNewTime {
+            system: self.system.prepare(),
+            monitor: self.monitor.prepare(),
+        }
+    }
+    fn zeros(&self) -> Self::Vector {
+        Pair {
+            x: self.system.zeros(),
+            y: SVector::from_element(T::zero()),
+        }
+    }
+}
+
+impl<S: Unforced, G> Unforced for TimeTransformed<S, G> {}
+impl<S: Autonomous, G> Autonomous for TimeTransformed<S, G> {}
+
+impl<T, P, G> Dynamics<T> for InNewTime<P, G>
+where
+    T: Real,
+    P: Dynamics<T>,
+    G: Dynamics<T, Vector = P::Vector>,
+{
+    type Vector = WithTime<P::Vector>;
+    type Field = FieldInNewTime<P, G, T>;
+
+    #[inline(always)]
+    fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+        let scale = self.monitor.energy(t, &q.x, &p.x);
+        scale * (self.system.energy(t, &q.x, &p.x) + p.y[0])
+    }
+    fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
+        let mut other = p.zeros_like();
+        self.energy_and_gradient(t, q, p, out, &mut other);
+    }
+    fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
+        let mut other = q.zeros_like();
+        self.energy_and_gradient(t, q, p, &mut other, out);
+    }
+    fn gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    ) {
+        self.energy_and_gradient(t, q, p, dq, dp);
+    }
+    fn energy_and_gradient(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        dq: &mut Self::Vector,
+        dp: &mut Self::Vector,
+    ) -> T {
+        let scale = self.monitor.energy(t, &q.x, &p.x);
+        let energy = (self.system).energy_and_gradient(t, &q.x, &p.x, &mut dq.x, &mut dp.x);
+        let shell = energy + p.y[0];
+        dp.x.scale(scale);
+        // A field takes ∂g/∂q away.
+        dq.x.scale(-scale);
+        let field = self.monitor.field(shell);
+        field.add(t, &q.x, &p.x, &mut dp.x, &mut dq.x);
+        dq.x.scale(-T::one());
+        dq.y[0] = T::zero();
+        dp.y[0] = scale;
+        scale * shell
+    }
+    fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
+        T::zero()
+    }
+    fn hessian_vector(
+        &self,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        vq: &Self::Vector,
+        vp: &Self::Vector,
+        out_q: &mut Self::Vector,
+        out_p: &mut Self::Vector,
+    ) {
+        let (p_t, vp_t) = (p.y[0], vp.y[0]);
+        let (q, p, vq, vp) = (&q.x, &p.x, &vq.x, &vp.x);
+        let [mut h_q, mut h_p, mut g_q, mut g_p] = [q, p, q, p].map(Vector::zeros_like);
+        let (system, monitor) = (&self.system, &self.monitor);
+        let shell = system.energy_and_gradient(t, q, p, &mut h_q, &mut h_p) + p_t;
+        let scale = monitor.energy_and_gradient(t, q, p, &mut g_q, &mut g_p);
+        let moved_scale = dot(&g_q, vq) + dot(&g_p, vp);
+        let moved_shell = dot(&h_q, vq) + dot(&h_p, vp) + vp_t;
+        system.hessian_vector(t, q, p, vq, vp, &mut out_q.x, &mut out_p.x);
+        out_q.x.scale(scale);
+        out_p.x.scale(scale);
+        out_q.x.accumulate(moved_scale, &h_q);
+        out_p.x.accumulate(moved_scale, &h_p);
+        out_q.x.accumulate(moved_shell, &g_q);
+        out_p.x.accumulate(moved_shell, &g_p);
+        monitor.hessian_vector(t, q, p, vq, vp, &mut g_q, &mut g_p);
+        out_q.x.accumulate(shell, &g_q);
+        out_p.x.accumulate(shell, &g_p);
+        out_q.y[0] = T::zero();
+        out_p.y[0] = moved_scale;
+    }
+    fn observable(&self, index: usize, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
+        self.system.observable(index, q.y[0], &q.x, &p.x)
+    }
+    fn field(&self, c: T) -> Self::Field {
+        FieldInNewTime {
+            dynamics: self.clone(),
+            c,
+        }
+    }
+}
+
+/// c·J∇K.
+#[derive(Debug, Clone)]
+pub struct FieldInNewTime<P, G, T> {
+    dynamics: InNewTime<P, G>,
+    c: T,
+}
+
+impl<T, P, G> VectorField<WithTime<P::Vector>> for FieldInNewTime<P, G, T>
+where
+    T: Real,
+    P: Dynamics<T>,
+    G: Dynamics<T, Vector = P::Vector>,
+{
+    #[inline(always)]
+    fn add(
+        &self,
+        t: T,
+        q: &WithTime<P::Vector>,
+        p: &WithTime<P::Vector>,
+        into_q: &mut WithTime<P::Vector>,
+        into_p: &mut WithTime<P::Vector>,
+    ) {
+        let InNewTime { system, monitor } = &self.dynamics;
+        let scale = self.c * monitor.energy(t, &q.x, &p.x);
+        let shell = self.c * (system.energy(t, &q.x, &p.x) + p.y[0]);
+        let field = system.field(scale);
+        field.add(t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
+        let field = monitor.field(shell);
+        field.add(t, &q.x, &p.x, &mut into_q.x, &mut into_p.x);
+        into_q.y[0] += scale;
+    }
+}

@@ -1,0 +1,251 @@
+//! Another time: Kepler's problem in even steps of a monitor function, its form, and what is no monitor.
+
+use super::common::systems::{Formula, Hand};
+use super::preserving::{Close, Kepler};
+use super::schemes::{assert_order, defect, tangent};
+use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{
+    Autonomous, DoubleDouble, Dual, Dynamics, Error, Group, Integrator, QuadraticKinetic, Real,
+    Scheme, State, System, TimeTransformed, Vector, VectorField, WithTime,
+};
+
+/// g = √(x² + y²), and a term of p_y where it is asked for.
+#[derive(Debug, Clone)]
+pub struct Radius {
+    with_momentum: bool,
+}
+
+impl Formula<2> for Radius {
+    const NAME: &'static str = "Radius";
+    const GROUPS: &'static [Group] = Kepler::GROUPS;
+    fn energy<T: Real>(&self, _: T, [x, y]: &[T; 2], p: &[T; 2]) -> T {
+        let radius = (*x * *x + *y * *y).sqrt();
+        if self.with_momentum {
+            radius + T::constant(0.125, 0.0) * p[1] * p[1]
+        } else {
+            radius
+        }
+    }
+}
+
+impl Autonomous for Hand<Kepler, 2> {}
+impl Autonomous for Hand<Radius, 2> {}
+impl QuadraticKinetic for Hand<Kepler, 2> {}
+
+type InRadius = TimeTransformed<Hand<Kepler, 2>, Hand<Radius, 2>>;
+
+pub fn in_radius(with_momentum: bool) -> InRadius {
+    TimeTransformed::new(Hand(Kepler), Hand(Radius { with_momentum }))
+}
+
+/// An ellipse of eccentricity e from its pericentre; H = −1/2.
+pub fn pericentre<T: Real>(e: f64) -> State<SVector<T, 2>> {
+    let number = |x: f64| T::constant(x, 0.0);
+    let speed = (number(1.0 + e) / number(1.0 - e)).sqrt();
+    State::new([number(1.0 - e), T::zero()], [T::zero(), speed])
+}
+
+/// The largest |H + ½| of each tenth of a run.
+fn tenths(scheme: impl Scheme<f64, InRadius>, h: f64, steps: u64) -> Vec<f64> {
+    let system = in_radius(false);
+    let start = system.start(&pericentre(0.9)).expect("a good start");
+    let mut run = Integrator::new(&system, scheme, start, h).expect("a good start");
+    (0..10)
+        .map(|_| {
+            (0..steps / 10).fold(0.0_f64, |worst, _| {
+                let state = system.declared(run.advance(1).expect("a good step"));
+                worst.max((system.system.energy(&state) + 0.5).abs())
+            })
+        })
+        .collect()
+}
+
+#[test]
+fn variable_steps_do_not_drift_and_are_few() {
+    const STEPS: u64 = 400;
+    let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some();
+    let periods = if heavy { 100_000 } else { 500 };
+    let h = core::f64::consts::TAU / STEPS as f64;
+    let errors = tenths(TransformedVerlet::default(), h, periods * STEPS);
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    println!("{periods} periods of {STEPS} steps: {errors:.4?}");
+    assert!(largest <= 1.02 * errors[0], "{errors:?}");
+    // Fixed steps, one gradient each too, have that error only where they are 15 times as many.
+    let fixed = |steps: u64| {
+        let (system, h) = (Hand(Kepler), core::f64::consts::TAU / steps as f64);
+        let scheme = StormerVerlet::default();
+        let mut run = Integrator::new(&system, scheme, pericentre(0.9), h).expect("a good start");
+        (0..steps).fold(0.0_f64, |worst, _| {
+            worst.max((system.energy(run.advance(1).expect("a good step")) + 0.5).abs())
+        })
+    };
+    let (many, more) = (fixed(15 * STEPS), fixed(25 * STEPS));
+    println!("fixed steps: {many:.4e}, {more:.4e}, here {largest:.4e}");
+    assert!(
+        many > largest && more < largest,
+        "{many:e} {more:e} {largest:e}"
+    );
+}
+
+/// One step satisfies its equations, with the derivatives of K.
+#[test]
+fn steps_satisfy_the_equations_of_k() {
+    let (system, h) = (in_radius(false), 0.05);
+    let start = system.start(&pericentre(0.6)).expect("a good start");
+    let scheme = TransformedVerlet::default();
+    let mut run = Integrator::new(&system, scheme, start.clone(), h).expect("a good start");
+    let end = run.advance(1).expect("a good step").clone();
+    let time: f64 = end.q.y[0] - start.q.y[0];
+    let middle: SVector<f64, 2> = start.q.x + start.p.x * (0.5 * time);
+    assert!((h * middle.norm() - time).abs() <= 1e-16);
+    assert!((middle + end.p.x * (0.5 * time) - end.q.x).norm() <= 1e-15);
+    let slope = |p: &WithTime<SVector<f64, 2>>| {
+        let mut q = start.q.clone();
+        q.x = middle;
+        system
+            .gradient(&State {
+                t: 0.0,
+                q,
+                p: p.clone(),
+            })
+            .q
+    };
+    let mean = (slope(&start.p).x + slope(&end.p).x) * 0.5;
+    assert!((start.p.x - mean * h - end.p.x).norm() <= 1e-15);
+    assert_eq!(start.p.y, end.p.y);
+}
+
+#[test]
+fn they_have_their_order() {
+    let system = in_radius(false);
+    let start = system
+        .start(&pericentre::<DoubleDouble>(0.6))
+        .expect("a good start");
+    let verlet = TransformedVerlet::default();
+    assert_order(&system, &verlet, &start, 2.0, 16);
+    assert_order(&system, &KahanLi6.of(verlet), &start, 2.0, 8);
+    // A monitor of momenta too, for schemes that ask for no structure.
+    let system = in_radius(true);
+    let start = system
+        .start(&pericentre::<DoubleDouble>(0.6))
+        .expect("a good start");
+    assert_order(&system, &Gauss::<2>::default(), &start, 2.0, 16);
+    assert_order(
+        &system,
+        &Semiexplicit::<Suzuki4>::default(),
+        &start,
+        2.0,
+        16,
+    );
+}
+
+#[test]
+fn they_are_symplectic() {
+    fn of(scheme: impl Scheme<Dual<f64>, InRadius>, with_momentum: bool) -> f64 {
+        let system = in_radius(with_momentum);
+        let start = system
+            .start(&pericentre::<Dual<f64>>(0.6))
+            .expect("a good start");
+        let name = scheme.entry().name;
+        let defect = defect::<f64>(&tangent(&system, &scheme, &start, 0.1, 3));
+        println!("{name}: {defect:.1e}");
+        defect
+    }
+    let verlet = TransformedVerlet::default();
+    assert!(of(verlet, false) <= 3e-13);
+    assert!(of(KahanLi6.of(verlet), false) <= 3e-13);
+    assert!(of(Gauss::<2>::default(), true) <= 3e-13);
+    assert!(of(Semiexplicit::<Strang>::default(), true) <= 3e-13);
+    // The controls: no symplectic scheme, and steps that are chosen beside the system.
+    assert!(of(RungeKutta4, false) > 1e-7);
+    let scheme = Paced {
+        scheme: StormerVerlet::default(),
+        density: Close,
+    };
+    let start = pericentre::<Dual<f64>>(0.6);
+    let beside = defect::<f64>(&tangent(&Hand(Kepler), &scheme, &start, 0.05, 3));
+    println!("Paced: {beside:.1e}");
+    assert!(beside > 1e-4);
+}
+
+/// The second derivatives of K are those of its first.
+#[test]
+fn derivatives_of_k() {
+    let system = in_radius(true);
+    let mut start = system.start(&pericentre::<f64>(0.6)).expect("a good start");
+    // Beside the shell, where all terms are there.
+    start.p.y[0] += 0.25;
+    start.q.x[1] += 0.125;
+    let directions = [0.5, -0.25, 0.75, 0.125, 1.5, -0.5];
+    let mut moved = State {
+        t: Dual::fixed(0.0),
+        q: System::<Dual<f64>>::zeros(&system),
+        p: System::<Dual<f64>>::zeros(&system),
+    };
+    let (mut vq, mut vp) = (start.q.zeros_like(), start.p.zeros_like());
+    for i in 0..3 {
+        *moved.q.component_mut(i) = Dual::new(start.q.component(i), directions[i]);
+        *moved.p.component_mut(i) = Dual::new(start.p.component(i), directions[i + 3]);
+        *vq.component_mut(i) = directions[i];
+        *vp.component_mut(i) = directions[i + 3];
+    }
+    let along = System::<Dual<f64>>::energy(&system, &moved).eps;
+    let first = System::<f64>::gradient(&system, &start);
+    let second = System::<Dual<f64>>::gradient(&system, &moved);
+    let prepared = System::<f64>::prepare(&system);
+    let (mut out_q, mut out_p) = (vq.zeros_like(), vp.zeros_like());
+    prepared.hessian_vector(0.0, &start.q, &start.p, &vq, &vp, &mut out_q, &mut out_p);
+    let mut field = (vq.zeros_like(), vp.zeros_like());
+    (prepared.field(2.0)).add(0.0, &start.q, &start.p, &mut field.0, &mut field.1);
+    let mut sum = 0.0;
+    for i in 0..3 {
+        sum += first.q.component(i) * directions[i] + first.p.component(i) * directions[i + 3];
+        let apart = (out_q.component(i) - second.q.component(i).eps).abs()
+            + (out_p.component(i) - second.p.component(i).eps).abs()
+            + (field.0.component(i) - 2.0 * first.p.component(i)).abs()
+            + (field.1.component(i) + 2.0 * first.q.component(i)).abs();
+        assert!(apart <= 1e-13, "component {i}: {apart:e}");
+    }
+    assert!((sum - along).abs() <= 1e-14);
+}
+
+#[test]
+fn what_is_no_monitor_is_refused() {
+    let system = in_radius(false);
+    let nowhere = State::new([0.0, 0.0], [0.0, 1.0]);
+    let refused = system.start::<f64, _>(&nowhere).expect_err("g = 0");
+    assert_eq!(
+        refused,
+        Error::Monitor {
+            value: 0.0,
+            reason: "be positive"
+        }
+    );
+    let system = in_radius(true);
+    let start = system.start(&pericentre::<f64>(0.6)).expect("a good start");
+    let mut off = start.clone();
+    let mut run =
+        Integrator::new(&system, TransformedVerlet::default(), start, 0.1).expect("a good start");
+    let error = run
+        .advance(1)
+        .expect_err("a monitor of momenta")
+        .to_string();
+    assert!(
+        error.contains("monitor, which must not depend on momenta"),
+        "{error}"
+    );
+    off.p.y[0] += 0.1;
+    let refused =
+        Integrator::new(&system, Gauss::<2>::default(), off, 0.1).expect_err("off the shell");
+    assert!(
+        matches!(
+            refused,
+            Error::Shell {
+                momentum: "p_t",
+                ..
+            }
+        ),
+        "{refused}"
+    );
+}

@@ -84,6 +84,33 @@ hamiltonian! {
     force(q; p) = -gamma*p - mu*sign(p)
 }
 
+hamiltonian! {
+    /// (34), which is not separable, with friction and a push.
+    pub struct Bound { gamma = 0.3 }
+    H(q; p; t) = 0.5*(q^2 + 1)*(p^2 + 1);
+    force(q; p) = -gamma*(1 + q^2)*p + sin(t)
+}
+
+hamiltonian! {
+    /// A top in air that turns it, in pieces by hand.
+    pub struct Top { w = 0.4 }
+    H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + x^2*y^2*(x*p_y - y*p_x) + x^4/4;
+    split {
+        Kinetic = (p_x^2 + p_y^2)/2;
+        Potential = x^4/4;
+        Along = x^3*y^2*p_y;
+        Across = -x^2*y^3*p_x
+    };
+    force(x, y; p_x, p_y) = [w*p_y, -w*p_x]
+}
+
+hamiltonian! {
+    /// (34) in air.
+    pub struct Windy {}
+    H = 0.5*(q^2 + 1)*(p^2 + 1);
+    force(q; p) = -abs(p)*p/4
+}
+
 type D = DoubleDouble;
 
 /// The slope of every scheme against a run of order 4 with a step 64 times as small.
@@ -170,6 +197,39 @@ fn orders_with_forces() {
     all(turning);
 }
 
+/// Whether rustc knows the flows of a system's pieces as exact.
+macro_rules! is_exact {
+    ($system:ty) => {{
+        struct Probe<T>(core::marker::PhantomData<T>);
+        trait Otherwise {
+            const IS: bool = false;
+        }
+        impl<T> Otherwise for Probe<T> {}
+        impl<T: hamiltonian::Exact> Probe<T> {
+            const IS: bool = true;
+        }
+        Probe::<$system>::IS
+    }};
+}
+
+/// Beside pieces of an H that is not separable the force is a piece of its own.
+#[test]
+fn a_force_is_a_piece_of_its_own() {
+    let small = |q: f64, p: f64| State::new([D::from(q)], [D::from(p)]);
+    let mut bound = Slopes::new(Bound::default(), small(0.3, 0.5));
+    visit_split(&mut bound);
+    bound.visit(Yoshida4);
+    let mut windy = Slopes::new(Windy::default(), small(0.3, 0.5));
+    visit_split(&mut windy);
+    let start = State::new([0.4, -0.3].map(D::from), [0.4, 0.3].map(D::from));
+    let mut top = Slopes::new(Top::default(), start);
+    visit_split(&mut top);
+    top.visit(Yoshida4);
+    assert_eq!(<Top as Split<f64>>::NAMES.last(), Some(&"force"));
+    assert_eq!(<Top as Split<f64>>::NAMES.len(), 5);
+    assert!(is_exact!(Bound) && is_exact!(Top) && !is_exact!(Windy));
+}
+
 /// A charge that turns 400 rad a step and slows down: Strang's step is the kick alone, to rounding.
 #[test]
 fn momenta_that_push_each_other_have_their_exact_flow() {
@@ -192,21 +252,6 @@ fn momenta_that_push_each_other_have_their_exact_flow() {
             assert!((found - exact).abs() < allowed, "h = {h}: {found}, {exact}");
         }
     }
-}
-
-/// Whether rustc knows the flows of a system's pieces as exact.
-macro_rules! is_exact {
-    ($system:ty) => {{
-        struct Probe<T>(core::marker::PhantomData<T>);
-        trait Otherwise {
-            const IS: bool = false;
-        }
-        impl<T> Otherwise for Probe<T> {}
-        impl<T: hamiltonian::Exact> Probe<T> {
-            const IS: bool = true;
-        }
-        Probe::<$system>::IS
-    }};
 }
 
 #[test]

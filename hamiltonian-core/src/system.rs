@@ -250,7 +250,8 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
 /// H as a sum of pieces with exact flows: what splittings and their compositions ask for.
 ///
 /// It is implemented for every [`Separable`] system, with kick and drift as its pieces, and for those
-/// whose author declared pieces, `split { A = …; B = …; }`.
+/// whose author declared pieces, `split { A = …; B = …; }`, or for which the macro found them. A force is
+/// part of the kick; beside other pieces it is the innermost, `force`.
 pub trait Split<T: Real>: System<T> {
     /// The pieces, the outermost first.
     type Pieces: Pieces<T, Self::Prepared, Point = Point<Self::Vector>>;

@@ -112,8 +112,7 @@ fn system(
     );
     text.facts.extend(split.facts);
     let verdicts = verdicts::verdicts(&mut model, &structure, split.verdict);
-    let kick = verdicts.separable.is_ok().then_some(verdicts.kick);
-    let program = derive(checked, &mut model, kick, beyond, report)?;
+    let program = derive(checked, &mut model, &verdicts, beyond, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     let definition = emit::Definition {
@@ -154,7 +153,12 @@ fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
 }
 
 /// The functions of a system. Those of a large one that the gradient can stand in for are left out.
-fn wanted(checked: &Checked, model: &Model, large: bool, kick: Option<emit::Kick>) -> Vec<Purpose> {
+fn wanted(
+    checked: &Checked,
+    model: &Model,
+    large: bool,
+    verdicts: &emit::Structure,
+) -> Vec<Purpose> {
     let mut wanted = vec![
         Purpose::Energy,
         Purpose::EnergyAndGradient,
@@ -168,15 +172,11 @@ fn wanted(checked: &Checked, model: &Model, large: bool, kick: Option<emit::Kick
     if !large || !model.force.is_empty() {
         wanted.push(Purpose::VectorField);
     }
-    match kick {
-        None => {}
-        Some(emit::Kick::Plain) => wanted.extend([Purpose::Kick, Purpose::Drift]),
-        Some(emit::Kick::Damped { rest }) => {
-            wanted.extend([Purpose::Push, Purpose::Drift]);
-            wanted.extend(rest.then_some(Purpose::Kick));
-        }
-        Some(emit::Kick::Coupled) => wanted.extend([Purpose::Linear, Purpose::Drift]),
-        Some(emit::Kick::SubStep) => wanted.push(Purpose::Drift),
+    if let Some(kick) = verdicts.kick {
+        wanted.extend(kick.purposes());
+    }
+    if verdicts.separable.is_ok() {
+        wanted.push(Purpose::Drift);
     }
     if checked.item.is_some() && !checked.parameters.is_empty() {
         wanted.push(Purpose::ParameterGradient);
@@ -201,11 +201,11 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
 fn derive(
     checked: &Checked,
     model: &mut Model,
-    kick: Option<emit::Kick>,
+    verdicts: &emit::Structure,
     beyond: &Beyond,
     report: &mut Report,
 ) -> Option<Program> {
-    let mut wanted = wanted(checked, model, is_large(checked, model), kick);
+    let mut wanted = wanted(checked, model, is_large(checked, model), verdicts);
     let refusal = match pipeline::derive(model, &wanted) {
         Err(Refusal::NoSecondDerivative { .. }) => {
             wanted.retain(|purpose| *purpose != Purpose::HessianVector);

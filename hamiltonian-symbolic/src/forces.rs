@@ -207,16 +207,23 @@ fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
     Ok(Kick::Single { damped, rest })
 }
 
-/// The kick of the model's H, which is separable.
+/// ∂H/∂q where the kick is of H and the force: a force beside pieces of H is a piece of its own.
+#[must_use]
+pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
+    if !model.pieces.is_empty() {
+        return Vec::new();
+    }
+    let h = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
+    let mut gradient = gradient_of(model, String::new(), h).entries;
+    gradient.retain(|entry| entry.side == Side::Q);
+    gradient
+}
+
+/// The kick of the model: of its H, which is separable, and its force, or of the force alone.
 ///
 /// # Errors
 /// Those of [`kick`].
 pub fn kick_of(model: &mut Model) -> Result<Kick, Box<VectorEntry>> {
-    let h = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
-    let gradient = gradient_of(model, String::new(), h).entries;
-    let gradient: Vec<_> = gradient
-        .into_iter()
-        .filter(|entry| entry.side == Side::Q)
-        .collect();
+    let gradient = beside(model);
     kick(model, &gradient)
 }

@@ -244,9 +244,8 @@ pub fn request(
             }
         }
         Purpose::Push | Purpose::Linear | Purpose::Kick if !model.force.is_empty() => {
-            let gradient = along(model, (true, false));
             let missing = |_| internal("this force has no exact flow".to_owned());
-            let entries = match (purpose, forces::kick(model, &gradient).map_err(missing)?) {
+            let entries = match (purpose, forces::kick_of(model).map_err(missing)?) {
                 (Purpose::Push, forces::Kick::Single { damped, .. }) => damped,
                 (Purpose::Kick, forces::Kick::Single { rest, .. }) => rest,
                 (Purpose::Linear, forces::Kick::Coupled { linear }) => linear,
@@ -254,7 +253,15 @@ pub fn request(
             };
             request.stores.extend(entries.into_iter().map(added));
         }
-        Purpose::Push | Purpose::Linear => {
+        Purpose::Rates if !model.force.is_empty() => {
+            let gradient = forces::beside(model);
+            let c = model.dag.coefficient();
+            for entry in forces::slopes(model, &gradient) {
+                let value = model.dag.mul(&[c, entry.value]);
+                request.stores.push(added(VectorEntry { value, ..entry }));
+            }
+        }
+        Purpose::Push | Purpose::Linear | Purpose::Rates => {
             return Err(internal("there is no force".to_owned()));
         }
         Purpose::VectorField | Purpose::Kick | Purpose::Drift => {

@@ -233,6 +233,8 @@ pub enum Purpose {
     VectorField,
     /// The part of the kick of a forced system that reads momenta: `p += w·(f − ∂H/∂q)`.
     Push,
+    /// `into_p += c·(f − ∂V/∂q)`; beside pieces of H `into_p += c·f`.
+    Rates,
     /// Of a force f = A(q, t)·p + b(q, t) whose momenta push each other: `into_p += c·A·p`.
     Linear,
     /// `into_p −= c·∂H/∂q`; of a forced system the part of the kick that reads no momenta.
@@ -255,7 +257,11 @@ impl Purpose {
     pub fn accumulates(self) -> bool {
         matches!(
             self,
-            Purpose::VectorField | Purpose::Linear | Purpose::Kick | Purpose::Drift
+            Purpose::VectorField
+                | Purpose::Rates
+                | Purpose::Linear
+                | Purpose::Kick
+                | Purpose::Drift
         )
     }
 }

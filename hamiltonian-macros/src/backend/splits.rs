@@ -10,7 +10,7 @@ use crate::emit::Reason;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::split::{self, Piece, Refusal, Splitting};
+use hamiltonian_symbolic::split::{self, MOST, Piece, Refusal, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 use proc_macro2::Ident;
 
@@ -73,19 +73,24 @@ pub fn settle(
             });
         }
     }
-    if !model.force.is_empty() {
-        // V and T carry the force; no other piece does.
-        return match &structure.separable {
-            Ok(_) => Found {
-                verdict: Ok(()),
-                facts: Vec::new(),
-            },
-            Err(_) => refused(model, "a force acts that is not of H"),
+    let is_forced = !model.force.is_empty();
+    if is_forced && structure.separable.is_ok() {
+        // The kick carries the force.
+        return Found {
+            verdict: Ok(()),
+            facts: Vec::new(),
         };
     }
     match found {
+        Ok(splitting) if is_forced && splitting.pieces.len() == MOST => refused(
+            model,
+            &format!("with its force it has more than {MOST} pieces"),
+        ),
         Ok(splitting) => {
-            let facts = facts(&splitting);
+            let mut facts = facts(&splitting);
+            if is_forced {
+                facts.push("The force is a piece of its own, the innermost.".to_owned());
+            }
             model.pieces = splitting.pieces;
             Found {
                 verdict: Ok(()),

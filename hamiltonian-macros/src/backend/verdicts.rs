@@ -27,7 +27,7 @@ pub fn verdicts(
         split,
         halves: match &structure.separable {
             Ok(split) => [split.potential, split.kinetic].map(|half| print::text(model, half)),
-            Err(_) => Default::default(),
+            Err(_) => ["force".into(), String::new()],
         },
         quadratic_kinetic: structure
             .quadratic_kinetic
@@ -70,12 +70,13 @@ pub fn verdicts(
     }
 }
 
-/// How V is kicked with the force, and whether that is exact.
-fn kick(model: &mut Model, structure: &Structure) -> (emit::Kick, Result<(), Reason>) {
-    if model.force.is_empty() || structure.separable.is_err() {
-        return (emit::Kick::Plain, Ok(()));
+/// How V is kicked with the force, or pieces of H have it beside them, and whether that is exact.
+fn kick(model: &mut Model, structure: &Structure) -> (Option<emit::Kick>, Result<(), Reason>) {
+    if model.force.is_empty() || (structure.separable.is_err() && model.pieces.is_empty()) {
+        let kick = structure.separable.is_ok().then_some(emit::Kick::Plain);
+        return (kick, Ok(()));
     }
-    match forces::kick_of(model) {
+    let (kick, exact) = match forces::kick_of(model) {
         Ok(forces::Kick::Single { damped, .. }) if damped.is_empty() => (emit::Kick::Plain, Ok(())),
         Ok(forces::Kick::Single { rest, .. }) => {
             let rest = !rest.is_empty();
@@ -97,7 +98,8 @@ fn kick(model: &mut Model, structure: &Structure) -> (emit::Kick, Result<(), Rea
             };
             (emit::Kick::SubStep, Err(reason))
         }
-    }
+    };
+    (Some(kick), exact)
 }
 
 /// `` `Pendulum` ``, or `H`

@@ -62,6 +62,24 @@ pub fn zeros(context: Context, generics: &Generics) -> String {
     }
 }
 
+/// The holder of a field, a kick or a drift, with its inputs and outputs.
+fn signature(
+    purpose: Purpose,
+) -> (
+    &'static str,
+    &'static [&'static str],
+    &'static [&'static str],
+) {
+    match purpose {
+        Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
+        Purpose::Rates => ("__Rates", &["_q", "_p"], &["_oq", "_op"]),
+        Purpose::Linear => ("__Linear", &["_q", "_p"], &["_oq", "_op"]),
+        Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
+        Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
+        _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
+    }
+}
+
 /// Everything a definition implements that is the same in both forms, and the free functions that
 /// long bodies call.
 pub fn implementations(
@@ -89,19 +107,8 @@ pub fn implementations(
         .declare(&mut emission.out, context, generics);
     emission.dynamics();
     emission.flow(Purpose::VectorField);
-    if definition.structure.separable.is_ok() {
-        for purpose in [
-            Purpose::Push,
-            Purpose::Linear,
-            Purpose::Kick,
-            Purpose::Drift,
-        ] {
-            if context.program.function(purpose).is_some() {
-                emission.flow(purpose);
-            }
-        }
-        emission.separable();
-    }
+    emission.kick();
+    emission.separable();
     emission.pieces();
     emission.extras();
     (emission.out, emission.bodies.parts)
@@ -347,13 +354,7 @@ impl<'a> Emission<'a> {
 
     /// The holder of a field, a kick or a drift with its evaluation.
     fn flow(&mut self, purpose: Purpose) {
-        let (name, inputs, outputs): (_, &[&str], &[&str]) = match purpose {
-            Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
-            Purpose::Linear => ("__Linear", &["_q", "_p"], &["_oq", "_op"]),
-            Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
-            Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
-            _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
-        };
+        let (name, inputs, outputs) = signature(purpose);
         let generics = self.generics;
         let Some((function, holder)) = self
             .context
@@ -447,73 +448,57 @@ impl<'a> Emission<'a> {
         )
     }
 
-    /// The pieces V and T, and the splitting into them.
-    fn separable(&mut self) {
-        let generics = self.generics;
-        let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
-        let is_coupled = matches!(self.definition.structure.kick, Kick::Coupled);
-        let kick: &[(Purpose, &'static str)] = match self.definition.structure.kick {
-            Kick::Plain => &[(Purpose::Kick, "__Kick")],
-            Kick::Damped { rest: false } => &[(Purpose::Push, "__Push")],
-            Kick::Damped { rest: true } => &[(Purpose::Push, "__Push"), (Purpose::Kick, "__Kick")],
-            Kick::Coupled | Kick::SubStep => &[],
+    /// The piece that kicks.
+    fn kick(&mut self) {
+        let Some(kick) = self.definition.structure.kick else {
+            return;
         };
-        for (piece, flows) in [
-            ("__KickPiece", kick),
-            ("__DriftPiece", &[(Purpose::Drift, "__Drift")]),
-        ] {
-            let ty = match flows {
-                [(_, only)] => format!("{only}{arguments}"),
-                [(_, first), (_, second)] => {
-                    format!("__h::Both<{first}{arguments}, {second}{arguments}>")
-                }
-                _ if is_coupled => {
-                    format!("__h::Coupled<__Field{arguments}, __Linear{arguments}>")
-                }
-                _ => format!("__h::SubStep<__Field{arguments}>"),
-            };
-            line!(
-                self,
-                "#[doc(hidden)]\n\
-                 #[derive(__h::core::clone::Clone, __h::core::marker::Copy, __h::core::fmt::Debug)]\n\
-                 {visibility} struct {piece};\n\
-                 #[automatically_derived]\n\
-                 impl{declaration} __h::Piece<T, __Prepared{arguments}> for {piece} {{\n\
-                 type Point = __h::Point<{vector}>;\ntype Flow = {ty};\n\
-                 #[inline(always)]\n\
-                 fn flow(&self, _prepared: &__Prepared{arguments}, _c: T) -> {ty} {{\n\
-                 let _self = _prepared;",
-                visibility = generics.visibility,
-                vector = self.vector,
-            );
-            match flows {
-                [(purpose, only)] => self.coefficients(*purpose, only),
-                [(first, one), (second, other)] => {
-                    line!(self, "__h::Both({{");
-                    self.coefficients(*first, one);
-                    line!(self, "}}, {{");
-                    self.coefficients(*second, other);
-                    line!(self, "}})");
-                }
-                _ if is_coupled => {
-                    line!(
-                        self,
-                        "__h::Coupled {{ field: __h::Dynamics::field(_self, _c), linear: {{"
-                    );
-                    self.coefficients(Purpose::Linear, "__Linear");
-                    line!(self, "}} }}");
-                }
-                _ => line!(self, "__h::SubStep(__h::Dynamics::field(_self, _c))"),
-            }
-            line!(self, "}}\n}}");
+        let purposes = kick.purposes();
+        for purpose in purposes {
+            self.flow(*purpose);
         }
+        let (before, between, after) = match kick {
+            Kick::Plain | Kick::Damped { rest: false } => ("", "", ""),
+            Kick::Damped { rest: true } => ("__h::Both({", "}, {", "})"),
+            Kick::Coupled => ("__h::Coupled { field: {", "}, linear: {", "} }"),
+            Kick::SubStep => ("__h::SubStep({", "", "})"),
+        };
+        let holder = |purpose: &Purpose| {
+            let (name, ..) = signature(*purpose);
+            format!("{name}{}", self.generics.holder_arguments())
+        };
+        let holders: Vec<String> = purposes.iter().map(holder).collect();
+        let ty = match kick {
+            Kick::Plain | Kick::Damped { rest: false } => holders.concat(),
+            Kick::Damped { rest: true } => format!("__h::Both<{}>", holders.join(", ")),
+            Kick::Coupled => format!("__h::Coupled<{}>", holders.join(", ")),
+            Kick::SubStep => format!("__h::SubStep<{}>", holders.concat()),
+        };
+        self.begin_piece("__KickPiece", &ty);
+        line!(self, "{before}");
+        for (at, purpose) in purposes.iter().enumerate() {
+            if at > 0 {
+                line!(self, "{between}");
+            }
+            self.coefficients(*purpose, signature(*purpose).0);
+        }
+        line!(self, "{after}\n}}\n}}");
+    }
+
+    /// The piece T, and the splitting into V and T.
+    fn separable(&mut self) {
+        if self.definition.structure.separable.is_err() {
+            return;
+        }
+        self.flow(Purpose::Drift);
+        self.maker(Purpose::Drift, "__Drift", "__DriftPiece");
         line!(
             self,
             "#[automatically_derived]\nimpl{declaration} __h::Separable<T> for {system} {{\n\
              type Kick = __KickPiece;\ntype Drift = __DriftPiece;\n\
              const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}",
-            declaration = generics.declaration_with_scalar(),
-            system = generics.system_type(),
+            declaration = self.generics.declaration_with_scalar(),
+            system = self.generics.system_type(),
         );
         if self.context.model.pieces.is_empty() {
             let halves = self.definition.structure.halves.clone();

@@ -44,7 +44,7 @@ pub use reach::{Bound, Reach};
 pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::program::Program;
+use hamiltonian_symbolic::program::{Program, Purpose};
 use proc_macro2::{Ident, Span, TokenStream};
 
 /// All that emission reads.
@@ -170,8 +170,8 @@ pub struct Structure {
     pub unforced: Result<(), Reason>,
     /// The flows of all pieces are exact.
     pub exact: Result<(), Reason>,
-    /// How V is kicked, with the force.
-    pub kick: Kick,
+    /// How V is kicked, with the force, or the force alone beside pieces of H; none where neither is.
+    pub kick: Option<Kick>,
     /// H does not depend on t
     pub autonomous: Result<(), Reason>,
     /// Coordinates that do not appear in H.
@@ -188,11 +188,24 @@ pub enum Kick {
         /// Whether there is a part that reads none.
         rest: bool,
     },
-    /// Exact by a series over the vector field and its part that is linear in momenta, which push each
-    /// other.
+    /// Exact by a series over the rates of momenta and their linear part: momenta push each other.
     Coupled,
-    /// A symmetric sub-step over the vector field.
+    /// A symmetric sub-step over the rates of momenta.
     SubStep,
+}
+
+impl Kick {
+    /// The functions.
+    #[must_use]
+    pub fn purposes(self) -> &'static [Purpose] {
+        match self {
+            Kick::Plain => &[Purpose::Kick],
+            Kick::Damped { rest: false } => &[Purpose::Push],
+            Kick::Damped { rest: true } => &[Purpose::Push, Purpose::Kick],
+            Kick::Coupled => &[Purpose::Rates, Purpose::Linear],
+            Kick::SubStep => &[Purpose::Rates],
+        }
+    }
 }
 
 /// Why a structure is not there, as rustc says it where a scheme asks for it.

@@ -40,8 +40,14 @@ impl Emission<'_> {
             self.piece(number);
         }
         let names = self.context.model.pieces.iter();
-        let names: Vec<String> = names.map(|piece| piece.name.clone()).collect();
-        self.split(&PIECES[..count], &names);
+        let mut names: Vec<String> = names.map(|piece| piece.name.clone()).collect();
+        let mut pieces = PIECES[..count].to_vec();
+        let structure = &self.definition.structure;
+        if structure.kick.is_some() && structure.separable.is_err() {
+            pieces.push("__KickPiece");
+            names.push(structure.halves[0].clone());
+        }
+        self.split(&pieces, &names);
     }
 
     /// `Split`
@@ -59,6 +65,13 @@ impl Emission<'_> {
 
     /// The unit struct that makes a flow.
     pub(super) fn maker(&mut self, purpose: Purpose, flow: &'static str, name: &str) {
+        self.begin_piece(name, &format!("{flow}{}", self.generics.holder_arguments()));
+        self.coefficients(purpose, flow);
+        line!(self, "}}\n}}");
+    }
+
+    /// A unit struct that makes a flow of a type, up to the body that does.
+    pub(super) fn begin_piece(&mut self, name: &str, flow: &str) {
         let generics = self.generics;
         let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
         line!(
@@ -68,15 +81,13 @@ impl Emission<'_> {
              {visibility} struct {name};\n\
              #[automatically_derived]\n\
              impl{declaration} __h::Piece<T, __Prepared{arguments}> for {name} {{\n\
-             type Point = __h::Point<{vector}>;\ntype Flow = {flow}{arguments};\n\
+             type Point = __h::Point<{vector}>;\ntype Flow = {flow};\n\
              #[inline(always)]\n\
-             fn flow(&self, _prepared: &__Prepared{arguments}, _c: T) -> {flow}{arguments} {{\n\
+             fn flow(&self, _prepared: &__Prepared{arguments}, _c: T) -> {flow} {{\n\
              let _self = _prepared;",
             visibility = generics.visibility,
             vector = self.vector,
         );
-        self.coefficients(purpose, flow);
-        line!(self, "}}\n}}");
     }
 
     fn piece(&mut self, number: usize) {

@@ -118,7 +118,7 @@ fn structure(separable: bool) -> Structure {
         quadratic_kinetic: verdict,
         unforced: Ok(()),
         exact: Ok(()),
-        kick: super::Kick::Plain,
+        kick: separable.then_some(super::Kick::Plain),
         autonomous: Ok(()),
         cyclic: Vec::new(),
     }

@@ -4,6 +4,8 @@
 //! The equations are derived from the piece's name, `Split::NAMES`, by the reader of the engine's
 //! tests: the flow and what it is compared with share the text alone.
 
+#[path = "flows/kepler.rs"]
+mod kepler;
 #[path = "flows/pieces.rs"]
 mod pieces;
 

@@ -409,6 +409,16 @@ impl<T: Real> Real for Dual<T> {
             ),
         }
     }
+    #[inline(always)]
+    fn universal_anomaly(self, b: Self, c: Self) -> Self {
+        // Of the equation itself: 0 = F′·dy + ∂F.
+        let y = self.re.universal_anomaly(b.re, c.re);
+        let (f, slope, _) = crate::kepler::equation(self, b, c, Self::fixed(y));
+        Self {
+            re: y,
+            eps: -f.eps / slope.re,
+        }
+    }
 }
 
 /// `√(1 − x²)`, without cancellation near ±1.

@@ -42,6 +42,8 @@ mod elementary;
 mod float;
 mod word;
 
+mod kepler;
+
 mod double_double;
 mod dual;
 

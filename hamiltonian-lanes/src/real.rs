@@ -313,4 +313,47 @@ pub trait Real:
     fn max(self, other: Self) -> Self {
         Self::select(other.le(self) | !self.equals(self), self, other)
     }
+    /// The universal anomaly y > 0 of Kepler's problem: `y·c₁ + a·y²·c₂ + b·y³·c₃ = 1` with `a = self`
+    /// and Stumpff's functions cₙ at c·y². For r̈ = −μr/r³ from r₀, v₀ over a time t of either sign
+    /// `a = t·(r₀·v₀)/r₀²`, `b = μt²/r₀³`, `c = 2b − v₀²t²/r₀²`; the universal variable of the text
+    /// books is s = y·t/r₀, and `y²·c₂·b` is 1 − f. One equation serves ellipses (c > 0), parabolas
+    /// and hyperbolas, attraction and repulsion (b < 0). NaN where an argument is not finite.
+    ///
+    /// J. M. A. Danby, *Fundamentals of Celestial Mechanics*, 2nd ed., 1988, §6.9;
+    /// J. Wisdom and D. M. Hernandez, *Mon. Not. R. Astron. Soc.* 453, 3015, 2015,
+    /// doi:10.1093/mnras/stv1862.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::Real;
+    ///
+    /// // A circle of radius 1 with μ = 1: the anomaly grows with the time.
+    /// let t = 2.5_f64;
+    /// let y = 0.0.universal_anomaly(t * t, t * t);
+    /// assert!((y - 1.0).abs() < 1e-15);
+    /// ```
+    #[inline(always)]
+    fn universal_anomaly(self, b: Self, c: Self) -> Self {
+        crate::kepler::anomaly(self, b, c)
+    }
+    /// Stumpff's function c₂(ψ) = (1 − cos √ψ)/ψ = ½ − ψ/4! + ψ²/6! − …, for ψ of either sign.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::Real;
+    /// assert_eq!(0f64.stumpff_2(), 0.5);
+    /// assert!((4f64.stumpff_2() - (1.0 - 2f64.cos()) / 4.0).abs() < 1e-16);
+    /// ```
+    #[inline(always)]
+    fn stumpff_2(self) -> Self {
+        crate::kepler::stumpff(self).0
+    }
+    /// Stumpff's function c₃(ψ) = (√ψ − sin √ψ)/√ψ³ = 1/3! − ψ/5! + ψ²/7! − …, for ψ of either sign.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::Real;
+    /// assert!(((-4f64).stumpff_3() - (2f64.sinh() - 2.0) / 8.0).abs() < 1e-16);
+    /// ```
+    #[inline(always)]
+    fn stumpff_3(self) -> Self {
+        crate::kepler::stumpff(self).1
+    }
 }

@@ -4,6 +4,7 @@ mod decimal;
 mod double_double;
 mod dual;
 mod functions;
+mod kepler;
 mod levels;
 mod packs;
 mod scalars;

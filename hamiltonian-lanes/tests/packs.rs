@@ -270,3 +270,27 @@ fn lanes_are_told_apart() {
     assert_eq!((!bad.finite()).first(), Some(1));
     assert!(!bad.is_finite() && Dual::new(Pack(Y), Pack(Y)).is_finite());
 }
+
+#[test]
+fn an_anomaly_does_not_see_its_neighbours() {
+    // A circle, a comet, a hyperbola, and what has no solution; then a parabola and repulsion.
+    let a = Pack([0.0, -3.0, 0.5, f64::NAN]);
+    let b = Pack([0.04, 30.0, 0.1, 1.0]);
+    let c = Pack([0.04, 25.0, -7.0, 1.0]);
+    for turn in 0..LANES {
+        let turned = |x: Pack| Pack(array::from_fn(|i| x.0[(i + turn) % LANES]));
+        let (a, b, c) = (turned(a), turned(b), turned(c));
+        let found = a.universal_anomaly(b, c);
+        let slope =
+            Dual::new(a, Pack([1.0; LANES])).universal_anomaly(Dual::fixed(b), Dual::fixed(c));
+        for i in 0..LANES {
+            let alone = a.0[i].universal_anomaly(b.0[i], c.0[i]);
+            assert_eq!(found.0[i].to_bits(), alone.to_bits());
+            assert_eq!(slope.re.0[i].to_bits(), alone.to_bits());
+            let dual = Dual::variable(a.0[i]);
+            let dual = dual.universal_anomaly(Dual::fixed(b.0[i]), Dual::fixed(c.0[i]));
+            assert_eq!(slope.eps.0[i].to_bits(), dual.eps.to_bits());
+            assert_eq!(alone.is_nan(), a.0[i].is_nan());
+        }
+    }
+}

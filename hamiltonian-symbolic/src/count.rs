@@ -49,6 +49,7 @@ impl Operations {
             | Instruction::Call2(Op::Min | Op::Max, ..) => {}
             Instruction::Call(..)
             | Instruction::Call2(..)
+            | Instruction::Call3(..)
             | Instruction::PairedSin(_)
             | Instruction::External(..) => self.functions += 1,
             _ => {}

@@ -243,6 +243,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Recip(a) => n(a).recip(),
             Instruction::Call(op, a) => op.eval(&[n(a)]),
             Instruction::Call2(op, a, b) => op.eval(&[n(a), n(b)]),
+            Instruction::Call3(op, a, b, c) => op.eval(&[n(a), n(b), n(c)]),
             Instruction::PairedSin(a) => n(a).sin_cos().0,
             Instruction::PairedCos(sin) => match self.program.instruction(*sin) {
                 Instruction::PairedSin(a) => n(a).sin_cos().1,

@@ -80,7 +80,10 @@ impl Placer<'_> {
             Kind::Product(k, factors) => return self.product(steps, k, factors),
             Kind::Call(op, x) => match x.as_slice() {
                 [x] => Instruction::Call(*op, self.value(*x)),
-                [x, y, ..] => Instruction::Call2(*op, self.value(*x), self.value(*y)),
+                [x, y] => Instruction::Call2(*op, self.value(*x), self.value(*y)),
+                [x, y, z, ..] => {
+                    Instruction::Call3(*op, self.value(*x), self.value(*y), self.value(*z))
+                }
                 [] => Instruction::Call(*op, Value::NONE),
             },
             Kind::External(function, part, x) => {

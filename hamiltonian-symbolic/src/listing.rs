@@ -123,6 +123,7 @@ impl Display for Instruction {
             Instruction::Recip(a) => write!(f, "1/{a}"),
             Instruction::Call(op, a) => write!(f, "{}({a})", op.row().name),
             Instruction::Call2(op, a, b) => write!(f, "{}({a}, {b})", op.row().name),
+            Instruction::Call3(op, a, b, c) => write!(f, "{}({a}, {b}, {c})", op.row().name),
             Instruction::PairedSin(a) => write!(f, "sin({a})"),
             Instruction::PairedCos(sine) => write!(f, "cos beside {sine}"),
             Instruction::External(function, part, arguments) => {

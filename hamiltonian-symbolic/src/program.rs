@@ -65,6 +65,8 @@ pub enum Instruction {
     Call(Op, Value),
     /// An elementary function of two arguments.
     Call2(Op, Value, Value),
+    /// One of three arguments.
+    Call3(Op, Value, Value, Value),
     /// sin of an angle whose cosine is needed too: computed together with the [`Instruction::PairedCos`]
     /// that names this value.
     PairedSin(Value),
@@ -115,6 +117,7 @@ impl Instruction {
             Instruction::MulAdd(a, b, c)
             | Instruction::MulSub(a, b, c)
             | Instruction::NegMulAdd(a, b, c)
+            | Instruction::Call3(_, a, b, c)
             | Instruction::Select(a, b, c) => [*a, *b, *c].into_iter().for_each(visit),
             Instruction::External(_, _, arguments) => arguments.iter().copied().for_each(visit),
         }

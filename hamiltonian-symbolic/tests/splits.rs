@@ -144,6 +144,18 @@ const CASES: &[Case] = &[
         rows: "shear",
     },
     Case {
+        signature: "x, y; px, py",
+        parameters: "m k",
+        h: "(px^2 + py^2)/(2*m) - k/sqrt(x^2 + y^2)",
+        rows: "Kepler",
+    },
+    Case {
+        signature: "x, y, z; px, py, pz",
+        parameters: "k",
+        h: "px^2 + py^2 + pz^2 + 1/(k*hypot(hypot(x, y), z))",
+        rows: "Kepler",
+    },
+    Case {
         signature: "r, th; p, pt",
         parameters: "m",
         h: "p^2/(2*m) + pt^2/(2*m*r^2)",

@@ -50,7 +50,7 @@ each!(A 0, B 1, C 2);
 each!(A 0, B 1, C 2, D 3);
 
 /// The point of a system with these numbers, coordinates first.
-fn point<T: Real, S: System<T>>(system: &S, z: &[T]) -> Point<S::Vector> {
+pub fn point<T: Real, S: System<T>>(system: &S, z: &[T]) -> Point<S::Vector> {
     let (mut q, mut p) = (system.zeros(), system.zeros());
     for at in 0..q.len() {
         *q.component_mut(at) = z[at];
@@ -59,7 +59,7 @@ fn point<T: Real, S: System<T>>(system: &S, z: &[T]) -> Point<S::Vector> {
     Point { q, p }
 }
 
-fn flat<V: Vector>(point: &Point<V>) -> Vec<V::Scalar> {
+pub fn flat<V: Vector>(point: &Point<V>) -> Vec<V::Scalar> {
     point.q.components().chain(point.p.components()).collect()
 }
 

@@ -57,7 +57,7 @@ pub(super) const TWO_OVER_PI: [u64; 24] = [
 ];
 
 /// 1/(2k + 1)!, k = 1 to 7: the sine's terms that need two words where |x| ≤ π/4.
-pub(super) const SIN: [(f64, f64); 7] = [
+pub(crate) const SIN: [(f64, f64); 7] = [
     (0.16666666666666666, 9.25185853854297e-18),
     (0.008333333333333333, 1.1564823173178714e-19),
     (0.0001984126984126984, 1.7209558293420705e-22),
@@ -68,7 +68,7 @@ pub(super) const SIN: [(f64, f64); 7] = [
 ];
 
 /// 1/(2k + 1)!, k = 8 to 14: those that one word serves.
-pub(super) const SIN_TAIL: [f64; 7] = [
+pub(crate) const SIN_TAIL: [f64; 7] = [
     2.8114572543455206e-15,
     8.22063524662433e-18,
     1.9572941063391263e-20,
@@ -79,7 +79,7 @@ pub(super) const SIN_TAIL: [f64; 7] = [
 ];
 
 /// 1/(2k)!, k = 1 to 8.
-pub(super) const COS: [(f64, f64); 8] = [
+pub(crate) const COS: [(f64, f64); 8] = [
     (0.5, 0.0),
     (0.041666666666666664, 2.3129646346357427e-18),
     (0.001388888888888889, -5.300543954373577e-20),
@@ -91,7 +91,7 @@ pub(super) const COS: [(f64, f64); 8] = [
 ];
 
 /// 1/(2k)!, k = 9 to 15.
-pub(super) const COS_TAIL: [f64; 7] = [
+pub(crate) const COS_TAIL: [f64; 7] = [
     1.5619206968586225e-16,
     4.110317623312165e-19,
     8.896791392450574e-22,

@@ -5,7 +5,7 @@
 //! `hi` is 0, infinite or NaN.
 
 mod arithmetic;
-mod constants;
+pub(crate) mod constants;
 
 pub(crate) mod reduction;
 mod roots;

@@ -33,7 +33,14 @@ pub fn settle(
 ) -> Found {
     let is_written_so = checked.charts.is_empty() && checked.time_factor.is_none();
     let mut found = if declared.is_empty() {
-        if structure.separable.is_ok() {
+        let alone = if part.is_piece {
+            Some(alone(model))
+        } else {
+            None
+        };
+        // V and T apart are no worse than a piece that moves only one of them.
+        let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
+        if structure.separable.is_ok() && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
             return Found {
                 verdict: Ok(()),
                 facts: Vec::new(),
@@ -42,11 +49,7 @@ pub fn settle(
         if large {
             return refused(model, "it is too long to be searched for exact flows");
         }
-        if part.is_piece {
-            alone(model)
-        } else {
-            split::find(model).map_err(|refusal| (0, refusal))
-        }
+        alone.unwrap_or_else(|| split::find(model).map_err(|refusal| (0, refusal)))
     } else {
         let parts = declared.iter().map(|(name, h)| (name.to_string(), *h));
         let parts: Vec<(String, Node)> = parts.collect();

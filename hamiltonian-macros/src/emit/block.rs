@@ -183,6 +183,9 @@ impl<'a> Writer<'a> {
             Instruction::Recip(a) => format!("{}.recip()", v(a)),
             Instruction::Call(op, a) => format!("{}.{}()", v(a), op.row().name),
             Instruction::Call2(op, a, b) => format!("{}.{}({})", v(a), op.row().name, v(b)),
+            Instruction::Call3(op, a, b, c) => {
+                format!("{}.{}({}, {})", v(a), op.row().name, v(b), v(c))
+            }
             Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
             Instruction::PairedCos(a) => v(a),
             Instruction::External(function, part, arguments) => {

@@ -104,7 +104,15 @@ impl Algebra {
                 let erf = self.call(Op::Erf, x)?;
                 one.sub(&erf)
             }
-            Op::Asin | Op::Acos | Op::Atan | Op::Acosh | Op::Erf | Op::Atan2 => {
+            Op::Asin
+            | Op::Acos
+            | Op::Atan
+            | Op::Acosh
+            | Op::Erf
+            | Op::Atan2
+            | Op::Anomaly
+            | Op::Stumpff2
+            | Op::Stumpff3 => {
                 let mut arguments = vec![first];
                 for other in &x[1..] {
                     arguments.push(self.argument(other)?);

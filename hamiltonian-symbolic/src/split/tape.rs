@@ -110,6 +110,7 @@ impl Tape {
                 Step::Call(op, arguments) => match arguments.as_slice() {
                     [a] => op.eval(&[numbers[*a]]),
                     [a, b] => op.eval(&[numbers[*a], numbers[*b]]),
+                    [a, b, c] => op.eval(&[numbers[*a], numbers[*b], numbers[*c]]),
                     _ => f64::NAN,
                 },
                 Step::Compare(relation, a, b) => {

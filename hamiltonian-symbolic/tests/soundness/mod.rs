@@ -60,7 +60,11 @@ pub fn operands(instruction: &Instruction) -> Vec<Value> {
         | Compare(_, a, b)
         | And(a, b)
         | Or(a, b) => vec![*a, *b],
-        MulAdd(a, b, c) | MulSub(a, b, c) | NegMulAdd(a, b, c) | Select(a, b, c) => {
+        MulAdd(a, b, c)
+        | MulSub(a, b, c)
+        | NegMulAdd(a, b, c)
+        | Call3(_, a, b, c)
+        | Select(a, b, c) => {
             vec![*a, *b, *c]
         }
         External(_, _, list) => list.clone(),

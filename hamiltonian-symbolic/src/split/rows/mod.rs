@@ -8,6 +8,7 @@
 mod axes;
 mod circle;
 mod flight;
+mod kepler;
 mod linear;
 mod monomial;
 mod quadratic;
@@ -149,6 +150,14 @@ pub static ROWS: &[Row] = &[
         domain: "x² + y² > 0",
         source: "a kick along the radius, then a turn about the axis",
         solve: Solve::Whole(rotation::solve),
+    },
+    Row {
+        name: "Kepler",
+        pattern: "a·|p|² − κ/|q| of two or three pairs, κ of either sign",
+        domain: "the centre is not met",
+        source: "universal variables: J. M. A. Danby, Fundamentals of Celestial Mechanics, 1988, §6.9; \
+                 J. Wisdom, D. M. Hernandez, MNRAS 453 (2015) 3015",
+        solve: Solve::Whole(kepler::solve),
     },
     Row {
         name: "spin component",

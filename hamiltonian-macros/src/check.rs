@@ -93,6 +93,8 @@ struct Checker<'a> {
     /// The statement that is being read defines this.
     defining: Option<Symbol>,
     place: Place,
+    /// Whether the statement that is being read is a `split`, which reads new coordinates too.
+    in_split: bool,
     lets: Vec<LetFunction<'a>>,
     /// The affine form of nodes that have one, by node.
     affines: Vec<Option<Affine>>,
@@ -145,6 +147,7 @@ impl<'a> Checker<'a> {
             unknown_sizes: Vec::new(),
             defining: None,
             place: Place::Before,
+            in_split: false,
             lets: Vec::new(),
             affines: Vec::new(),
             scope_loops: vec![None; ast.scopes.len()],

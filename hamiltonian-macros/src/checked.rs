@@ -320,6 +320,10 @@ pub enum Kind {
     Coordinate(GroupId),
     /// X: a whole group of momenta.
     Momentum(GroupId),
+    /// The coordinate that a chart of bodies puts in the place of a group, in a split; of its shape.
+    NewCoordinate(GroupId),
+    /// Its momentum.
+    NewMomentum(GroupId),
     /// X: a whole group of velocities, under a Lagrangian.
     Velocity(GroupId),
     /// S: time.
@@ -396,6 +400,8 @@ impl Kind {
             | Kind::Pi
             | Kind::Coordinate(_)
             | Kind::Momentum(_)
+            | Kind::NewCoordinate(_)
+            | Kind::NewMomentum(_)
             | Kind::Velocity(_)
             | Kind::Time
             | Kind::Parameter(_)

@@ -10,13 +10,16 @@ use crate::report::Report;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
 use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;
+use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::transform::check_split;
 
-/// Proves what the definition claims.
+/// Proves what the definition claims of the declared coordinates.
 pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     invariants(checked, lowered, report);
     events(checked, lowered, report);
-    split(checked, lowered, report);
+    if checked.charts.is_empty() {
+        split(checked, &mut lowered.model, &lowered.split, report);
+    }
 }
 
 fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
@@ -108,13 +111,15 @@ fn events(checked: &Checked, lowered: &Lowered, report: &mut Report) {
     }
 }
 
-fn split(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
+/// That pieces add up to H: of a definition in other coordinates in these, where loops are taken apart
+/// as the coordinates need.
+pub fn split(checked: &Checked, model: &mut Model, pieces: &[Node], report: &mut Report) {
     let Some((first, _)) = checked.split.first() else {
         return;
     };
     let names = checked.split.iter().map(|(name, _)| name.to_string());
-    let pieces: Vec<_> = names.zip(lowered.split.iter().copied()).collect();
-    if let Err(difference) = check_split(&mut lowered.model, &pieces) {
+    let pieces: Vec<_> = names.zip(pieces.iter().copied()).collect();
+    if let Err(difference) = check_split(model, &pieces) {
         let text = shortened(&difference.text);
         match &difference.point {
             Some((point, value)) => report.error(

@@ -5,6 +5,7 @@
 //! functions, what each of them is for, and the pieces of a split. Invariant: signs stay
 //! q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order is coordinates, then time.
 
+use super::proofs;
 use super::surface::CLOCK;
 use crate::ast::ObservableKind;
 use crate::checked::{self, ChartKind, Checked, Definition};
@@ -215,6 +216,8 @@ impl Settling {
         force.extend(transformed.force(&replaced));
         self.model.dag = transformed.model.dag;
         self.force = force;
+        proofs::split(checked, &mut self.model, &self.pieces, report);
+        report.barrier(())?;
         let both = (true, true);
         self.offer(
             VectorItem::of(VectorUse::FromDeclared),

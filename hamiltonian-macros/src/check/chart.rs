@@ -127,6 +127,42 @@ impl Checker<'_> {
         None
     }
 
+    /// The charts of bodies that are written, with the groups they replace.
+    fn charts_of_bodies(&self) -> impl Iterator<Item = (GroupId, String)> {
+        self.ast.statements.iter().filter_map(|s| match &s.kind {
+            StatementKind::Coordinates { chart, arguments } => {
+                let word = chart.to_string();
+                let of_bodies = word == "jacobi" || word == "heliocentric";
+                let mut groups = self.out.groups.iter();
+                let at = groups.position(|g| Some(&g.coordinate) == arguments.first())?;
+                of_bodies.then_some((GroupId(at as u32), word))
+            }
+            _ => None,
+        })
+    }
+
+    /// What a chart puts in the place of a group of bodies: the group, whether the name is of its
+    /// momentum, and the chart's word.
+    pub(super) fn new_of_bodies(&self, name: &str) -> Option<(GroupId, bool, String)> {
+        self.charts_of_bodies().find_map(|(group, word)| {
+            let momentum = [false, true]
+                .into_iter()
+                .find(|momentum| self.new_name(group, *momentum).as_deref() == Some(name))?;
+            Some((group, momentum, word))
+        })
+    }
+
+    /// The name of what stands in the place of a group of bodies.
+    pub(super) fn new_name(&self, group: GroupId, momentum: bool) -> Option<String> {
+        let (_, word) = self.charts_of_bodies().find(|(of, _)| *of == group)?;
+        let group = &self.out.groups[group.0 as usize];
+        let old = match momentum {
+            true => &group.momentum,
+            false => &group.coordinate,
+        };
+        Some(format!("{old}_{word}"))
+    }
+
     /// D scalar coordinates, or one vector of extent D.
     fn cartesian<const D: usize>(
         &mut self,

@@ -127,6 +127,22 @@ impl Checker<'_> {
         if name == "H" {
             return self.hamiltonian(raw);
         }
+        if let Some((group, is_momentum, chart)) = self.new_of_bodies(name) {
+            if self.in_split {
+                let kind = match is_momentum {
+                    true => Kind::NewMomentum(group),
+                    false => Kind::NewCoordinate(group),
+                };
+                let ty = self.out.groups[group.0 as usize].ty;
+                return self.push(raw, kind, ty);
+            }
+            let message = format!(
+                "`{name}` is a variable of `coordinates {chart}`, which only `split` reads"
+            );
+            let help = "write it in the declared coordinates and momenta";
+            self.error(raw, at, &message, help);
+            return None;
+        }
         if let Some(function) = names::function(name) {
             let message = format!("`{name}` is a function, not a value");
             self.error(

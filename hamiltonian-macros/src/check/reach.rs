@@ -173,6 +173,10 @@ impl Checker<'_> {
         match &self.out.nodes[base.0 as usize].kind {
             Kind::Coordinate(group) => self.out.groups[group.0 as usize].coordinate.to_string(),
             Kind::Momentum(group) => self.out.groups[group.0 as usize].momentum.to_string(),
+            Kind::NewCoordinate(group) | Kind::NewMomentum(group) => {
+                let momentum = matches!(self.out.nodes[base.0 as usize].kind, Kind::NewMomentum(_));
+                self.new_name(*group, momentum).unwrap_or_default()
+            }
             Kind::Velocity(group) => {
                 let velocity = &self.out.groups[group.0 as usize].velocity;
                 velocity

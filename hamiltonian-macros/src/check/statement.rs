@@ -299,7 +299,10 @@ impl<'a> Checker<'a> {
                 self.report
                     .error(name.span(), made, "give the piece another name");
             }
-            if let Some(value) = self.scalar_expression(value, &what) {
+            self.in_split = true;
+            let value = self.scalar_expression(value, &what);
+            self.in_split = false;
+            if let Some(value) = value {
                 self.out.split.push((name.clone(), value));
             }
         }

@@ -267,6 +267,8 @@ impl Evaluator<'_> {
             | Kind::Pi
             | Kind::Coordinate(_)
             | Kind::Momentum(_)
+            | Kind::NewCoordinate(_)
+            | Kind::NewMomentum(_)
             | Kind::Velocity(_)
             | Kind::Time
             | Kind::Parameter(_)

@@ -23,6 +23,7 @@ use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::transform::REPLACING;
 
 /// What is said, and advised, of a bracket whose indices are too involved.
 const UNSOLVED: (&str, &str) = (
@@ -270,6 +271,14 @@ impl<'a> Evaluator<'a> {
             }
             (Kind::Momentum(group), _) => {
                 self.phase(model, node, Side::P, group.0 as usize, demand)
+            }
+            (Kind::NewCoordinate(group), _) => {
+                let old = self.phase(model, node, Side::Q, group.0 as usize, demand);
+                replaced(&mut model.dag, old)
+            }
+            (Kind::NewMomentum(group), _) => {
+                let old = self.phase(model, node, Side::P, group.0 as usize, demand);
+                replaced(&mut model.dag, old)
             }
             (Kind::Velocity(group), _) => {
                 let element = self.phase(model, node, Side::P, group.0 as usize, demand);
@@ -590,5 +599,28 @@ fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
             dag.reduce(domain, body)
         }
         _ => dag.linear(&Rational::ZERO, &terms),
+    }
+}
+
+/// The element of what a chart puts in the place of a group of bodies.
+fn replaced(dag: &mut Dag, old: Node) -> Node {
+    match dag.kind(old).clone() {
+        dag::Kind::Element(
+            Array::Phase {
+                side,
+                group,
+                column,
+            },
+            row,
+            _,
+        ) => {
+            let array = Array::Phase {
+                side,
+                group: REPLACING + group,
+                column,
+            };
+            dag.element(array, row, None)
+        }
+        _ => old,
     }
 }

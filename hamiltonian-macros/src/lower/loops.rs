@@ -133,7 +133,11 @@ impl Loops {
         let of = |child: NodeId| self.by_number[child.0 as usize];
         match &node.kind {
             // Columns of coordinates are separate arrays.
-            Kind::Coordinate(_) | Kind::Momentum(_) | Kind::Velocity(_) => {
+            Kind::Coordinate(_)
+            | Kind::Momentum(_)
+            | Kind::NewCoordinate(_)
+            | Kind::NewMomentum(_)
+            | Kind::Velocity(_) => {
                 matches!(node.ty, Type::Matrix(..))
             }
             Kind::Vector(_) | Kind::Call(Builtin::Cross, _) => true,

@@ -8,6 +8,7 @@ use super::walk::{Meaning, Place, walk};
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
+use crate::transform::REPLACING;
 
 /// The most nodes a system unrolled may have.
 pub const LARGEST: usize = 1 << 20;
@@ -139,7 +140,8 @@ impl Meaning for Unroller {
             Kind::Element(array, row, column) => {
                 let (name, shape) = match array {
                     Array::Phase { group, .. } | Array::Direction { group, .. } => {
-                        let group = &self.model.groups[usize::from(*group)];
+                        // What stands in the place of a group is of its shape.
+                        let group = &self.model.groups[usize::from(*group % REPLACING)];
                         (group.coordinate.clone(), group.shape.clone())
                     }
                     Array::Parameter(parameter) => {

@@ -304,9 +304,9 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
 /// A sum of parts that have flows and commute: one flow after the other.
 fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     /// The most parts.
-    const PARTS: usize = 6;
+    const PARTS: usize = 9;
     /// The most terms.
-    const TERMS: usize = 16;
+    const TERMS: usize = 36;
     let terms = terms(space, h);
     if !(2..=TERMS).contains(&terms.len()) {
         return None;

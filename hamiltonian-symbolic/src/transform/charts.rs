@@ -18,6 +18,10 @@ pub struct Component {
     pub row: Option<u32>,
 }
 
+/// The number of what is to stand in the place of a group of bodies, less the number of the group: what
+/// is carried may read it before the change.
+pub const REPLACING: u16 = 1 << 15;
+
 /// Positions `[N]` or `[N][d]` and masses `[N]`; d is literal, and N for Jacobi coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bodies {

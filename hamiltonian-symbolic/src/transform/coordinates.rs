@@ -7,7 +7,7 @@
 
 use super::Refusal;
 use super::bodies::Bodies;
-use super::charts::{self, Chart, Masses, Variables};
+use super::charts::{self, Chart, Masses, REPLACING, Variables};
 use super::layout::{Layout, Slot, coordinate, extents, placements};
 use super::peel::{Below, peel};
 use super::reduce::{self, Rules};
@@ -84,7 +84,13 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         }
     }
 
-    let mut images = images(&mut new.dag, &roots, &inverse, &layout.kept);
+    let mut kept = layout.kept.clone();
+    for (chart, place) in charts.iter().zip(&layout.places) {
+        if let Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) = chart {
+            kept.push((REPLACING + bodies.group, place.first));
+        }
+    }
+    let mut images = images(&mut new.dag, &roots, &inverse, &kept);
     for of in &bodies {
         let dag = &mut new.dag;
         rows(dag, &roots, of, &below, &mut images).ok_or_else(|| Refusal::Wrapped {

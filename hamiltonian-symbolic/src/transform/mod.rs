@@ -16,7 +16,7 @@ pub mod split;
 pub mod time;
 mod verify;
 
-pub use charts::{Bodies, Chart, Component};
+pub use charts::{Bodies, Chart, Component, REPLACING};
 pub use coordinates::{Placement, Transformed, apart, apply};
 pub use split::{Difference, Force, check_forces, check_split};
 pub use time::{Retimed, retime};

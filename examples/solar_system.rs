@@ -1,8 +1,6 @@
 //! The outer solar system for 100 000 years, and why Pluto never meets Neptune.
 //!
-//! Masses, positions and velocities are those of E. Hairer, C. Lubich, G. Wanner, Geometric
-//! Numerical Integration (2006), table I.2.2: astronomical units, days, 5 September 1994; the mass
-//! of the Sun includes the inner planets. The number of bodies is set at run time.
+//! The number of bodies is set at run time; `support/planets.rs` says where their masses are from.
 //!
 //! Prints the periods, found by counting revolutions, beside those of the real planets. Neptune
 //! goes round three times while Pluto does twice: look at `target/solar_system/resonance.svg`, the
@@ -11,12 +9,15 @@
 
 use checks::Checks;
 use hamiltonian::prelude::*;
+use planets::{PLANETS, SUN, start};
 use plot::{Curve, Figure};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
+#[path = "support/planets.rs"]
+mod planets;
 #[path = "support/plot.rs"]
 mod plot;
 
@@ -33,37 +34,6 @@ hamiltonian! {
     invariant total_momentum = sum(i in 0..n) { p[i] };
     invariant angular_momentum = sum(i in 0..n) { cross(q[i], p[i]) }
 }
-
-struct Body {
-    name: &'static str,
-    mass: f64,
-    position: [f64; 3],
-    velocity: [f64; 3],
-    /// Sidereal period in days (NASA planetary fact sheets); of Pluto, which is pushed about, its
-    /// mean, 3/2 of Neptune's.
-    period: f64,
-}
-
-const SUN: f64 = 1.00000597682;
-
-#[rustfmt::skip]
-const PLANETS: [Body; 5] = [
-    Body { name: "Jupiter", mass: 0.000954786104043, period: 4_332.589,
-        position: [-3.5023653, -3.8169847, -1.5507963],
-        velocity: [0.00565429, -0.00412490, -0.00190589] },
-    Body { name: "Saturn", mass: 0.000285583733151, period: 10_759.22,
-        position: [9.0755314, -3.0458353, -1.6483708],
-        velocity: [0.00168318, 0.00483525, 0.00192462] },
-    Body { name: "Uranus", mass: 0.0000437273164546, period: 30_685.4,
-        position: [8.3101420, -16.2901086, -7.2521278],
-        velocity: [0.00354178, 0.00137102, 0.00055029] },
-    Body { name: "Neptune", mass: 0.0000517759138449, period: 60_189.0,
-        position: [11.4707666, -25.7294829, -10.8169456],
-        velocity: [0.00288930, 0.00114527, 0.00039677] },
-    Body { name: "Pluto", mass: 1.0/1.3e8, period: 1.5*60_189.0,
-        position: [-15.5387357, -25.2225594, -3.1902382],
-        velocity: [0.00276725, -0.00170702, -0.00136504] },
-];
 
 const YEAR: f64 = 365.25;
 const END: f64 = 100_000.0 * YEAR;
@@ -109,17 +79,9 @@ fn wrapped(angle: f64) -> f64 {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut masses = vec![SUN];
-    let mut positions = vec![[0.0; 3]];
-    let mut momenta = vec![[0.0; 3]];
-    for planet in &PLANETS {
-        masses.push(planet.mass);
-        positions.push(planet.position);
-        momenta.push(planet.velocity.map(|v| planet.mass * v));
-    }
+    let (masses, start) = start();
     let system = Gravity::new(masses.len(), masses.clone())?;
     // H is separable and the run is long: the explicit symplectic scheme, whose energy error stays.
-    let start = State::new(positions, momenta);
     let mut run = Integrator::new(&system, StormerVerlet::default(), start, STEP)?
         .observe(every(97, (EnergyDrift::new(), Monitors::new())));
 

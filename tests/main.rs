@@ -30,6 +30,7 @@ mod limits;
 pub mod long;
 pub mod order;
 pub mod paper;
+pub mod planets;
 pub mod sizes;
 pub mod splits;
 pub mod systems;

@@ -55,26 +55,28 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
     )
 }
 
-/// Σ (−ψ)ʲ·cⱼ for |ψ| ≤ 1, as far as this scalar tells.
+/// Σ (−ψ)ʲ·cⱼ for |ψ| ≤ 1, as far as this scalar tells: even and odd powers side by side.
 #[inline(always)]
-fn alternating<T: Real>(psi: T, table: &[(f64, f64)], tail: &[f64]) -> T {
-    let x = -psi;
-    let mut sum = T::zero();
-    let mut from = table.len();
-    if T::epsilon() < f64::EPSILON {
-        for c in tail.iter().rev() {
-            sum = sum.fma(x, T::constant(*c, 0.0));
-        }
-    } else {
-        // 1/18! and 1/19! are what a double is short of by a thousandth of its last place.
-        sum = T::constant(tail[0], 0.0);
+fn alternating<T: Real, const N: usize, const M: usize>(
+    psi: T,
+    table: &[(f64, f64); N],
+    tail: &[f64; M],
+) -> T {
+    let square = psi * psi;
+    let mut sums = [T::zero(); 2];
+    // 1/18! and 1/19! are what a double is short of by a thousandth of its last place.
+    let short = if T::epsilon() < f64::EPSILON { M } else { 1 };
+    let mut at = N + short;
+    while at > 0 {
+        at -= 1;
+        let (high, low) = if at < N {
+            table[at]
+        } else {
+            (tail[at - N], 0.0)
+        };
+        sums[at % 2] = sums[at % 2].fma(square, T::constant(high, low));
     }
-    while from > 0 {
-        from -= 1;
-        let (high, low) = table[from];
-        sum = sum.fma(x, T::constant(high, low));
-    }
-    sum
+    (-psi).fma(sums[1], sums[0])
 }
 
 /// Kepler's equation F(y) = y·c₁(ψ) + a·y²·c₂(ψ) + b·y³·c₃(ψ) − 1 with ψ = c·y², and F′, F″.
@@ -103,25 +105,29 @@ pub(crate) fn anomaly<T: Real>(a: T, b: T, c: T) -> T {
     let (zero, one) = (T::zero(), T::one());
     let number = |x: f64| T::constant(x, 0.0);
     let nan = number(f64::NAN);
-    // Cubic convergence, and a step of Newton's after it.
+    // Laguerre's steps converge cubically, and one of Newton's doubles the digits once more.
     let rounding = number(T::epsilon());
-    let tolerance = rounding.cbrt();
-    // Near the start of the motion: its series.
-    let (half, sixth) = (number(0.5), number(1.0 / 6.0));
+    let tolerance = number(if T::epsilon() < 1e-20 { 1e-9 } else { 2e-5 });
+    let half = number(0.5);
     let bent = b - c;
-    let near = one - half * a + (half * a * a - sixth * bent);
-    let far = (one + a.abs().sqrt() + bent.abs().cbrt()).recip();
-    let is_near = (a.abs() + bent.abs()).lt(half);
-    let mut y = T::select(is_near, near, far);
+    let is_near = (a.abs() + bent.abs()).lt(half) & c.abs().lt(one);
+    // Near the start of the motion: its series in the time.
+    let second = half * a * a - number(1.0 / 6.0) * bent;
+    let third = a * (number(5.0 / 12.0) * bent + number(1.0 / 24.0) * c - number(0.625) * a * a);
+    let mut y = one - half * a + (second + third);
+    if !is_near.all() {
+        let far = (one + a.abs().sqrt() + bent.abs().cbrt()).recip();
+        y = T::select(is_near, y, far);
+    }
     let (mut low, mut high) = (zero, number(f64::INFINITY));
-    let is_bound = zero.lt(c) & zero.lt(b);
+    let is_bound = zero.lt(c) & zero.lt(b) & !is_near;
     if is_bound.any() {
         let mean = c / b;
         let off = number(2.0) / c.sqrt();
         high = T::select(is_bound, mean + off, high);
         low = T::select(is_bound & off.lt(mean), mean - off, low);
         // More than a radian away the mean motion is the better guess.
-        let is_far = is_bound & one.lt(c * mean * mean) & !is_near;
+        let is_far = is_bound & one.lt(c * mean * mean);
         y = T::select(is_far, mean, y);
     }
     let mut solved = !(a.finite() & b.finite() & c.finite());

@@ -5,7 +5,7 @@
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::surface::Part;
-use crate::checked::Checked;
+use crate::checked::{self, Checked, Kind};
 use crate::emit::Reason;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
@@ -31,7 +31,10 @@ pub fn settle(
     large: bool,
     report: &mut Report,
 ) -> Found {
-    let is_written_so = checked.charts.is_empty() && checked.time_factor.is_none();
+    let is_new =
+        |node: &checked::Node| matches!(node.kind, Kind::NewCoordinate(_) | Kind::NewMomentum(_));
+    let is_in_these = checked.charts.is_empty() || checked.nodes.iter().any(is_new);
+    let is_written_so = is_in_these && checked.time_factor.is_none();
     let mut found = if declared.is_empty() {
         let alone = if part.is_piece {
             Some(alone(model))
@@ -66,7 +69,7 @@ pub fn settle(
                     refusal.text
                 ),
                 "split it further, or leave the term to a piece with which it is of such a form: \
-                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p, f(q)*p^2, functions of an angular momentum",
+                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p, f(q)*p^2, functions of an angular momentum, Kepler's problem",
             );
         } else if structure.separable.is_ok() {
             // In other variables than those it was written in, V and T still are pieces.

@@ -35,6 +35,18 @@ fn orders_of_a_body() {
     orders(Body::default(), &[0.7, 0.2], &[0.5, 1.3], 1.0);
 }
 
+#[test]
+fn orders_round_a_black_hole() {
+    orders(Schwarzschild::default(), &[5.0, 1.3], &[0.1, 2.0], 4.0);
+}
+
+#[test]
+fn orders_of_vortices() {
+    let strengths = [1.0, 1.2, 0.8].map(DoubleDouble::from).to_vec();
+    let vortices = Vortices::new(3, strengths).expect("three strengths");
+    orders(vortices, &[1.0, -1.0, 0.1], &[0.1, 0.2, 1.3], 4.0);
+}
+
 /// MᵀJM = J of one, two and three steps.
 fn symplectic<S: Split<Dual<f64>> + Exact>(system: S, q: &[f64], p: &[f64], h: f64) {
     let mut geometry = Geometry::new(system, q, p, h);

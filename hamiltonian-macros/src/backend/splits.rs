@@ -129,10 +129,10 @@ fn refused(model: &Model, why: &str) -> Found {
         verdict: Err(Reason {
             message: format!("{name} is not split into exact flows: {why}"),
             label: "needs H = A + B + … whose pieces have exact flows".into(),
-            note: "declare pieces by hand, `split { A = …; B = …; }`, or use a scheme for any H: \
-                   `ImplicitMidpoint`, `Gauss`, `Tao`, `Semiexplicit`, `Pihajoki`, \
-                   `IntersectingSubTrajectories`, `RungeKutta4` (not symplectic)"
-                .into(),
+            note: format!(
+                "declare pieces by hand, `split {{ A = …; B = …; }}`, or use a scheme for any H: {}",
+                super::verdicts::FOR_ANY_H
+            ),
         }),
         facts: vec![format!("H is not split into exact flows: {why}.")],
     }

@@ -119,6 +119,10 @@ pub(super) fn subject(model: &Model) -> String {
     }
 }
 
+/// The schemes that take any H: implicit ones, those on a doubled phase space, and one without a form.
+pub(super) const FOR_ANY_H: &str = "`ImplicitMidpoint`, `Gauss`, `Tao`, `Semiexplicit`, `Pihajoki`, \
+    `IntersectingSubTrajectories`, `RungeKutta4` (not symplectic)";
+
 fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
     let q = first_name(model, coupling.term, Side::Q);
     let p = first_name(model, coupling.term, Side::P);
@@ -128,9 +132,7 @@ fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
             coupling.text
         ),
         label: "needs H = T(p) + V(q)".into(),
-        note: "use a scheme for any H: `ImplicitMidpoint`, `Pihajoki`, `IntersectingSubTrajectories`, \
-               `RungeKutta4` (not symplectic)"
-            .into(),
+        note: format!("use a scheme for any H: {FOR_ANY_H}"),
     }
 }
 

@@ -249,6 +249,17 @@ fn angles_on_the_axes_have_both_words() {
 }
 
 #[test]
+fn subnormal_angles_are_quotients() {
+    for (y, x) in [
+        (3.630080428340714e-216, 3.7124821786949946e94),
+        (-3.1898939823170595e-308, 2.1620040551956266e-257),
+        (5e-324, 1.5),
+    ] {
+        assert_eq!(number(y).atan2(number(x)).hi(), y / x);
+    }
+}
+
+#[test]
 fn sums_and_products_of_words_are_exact() {
     // (2⁵³ + 1)² needs 107 bits, (1 + 2⁻⁵²)² needs 105.
     let x = number(1.0 + f64::EPSILON);

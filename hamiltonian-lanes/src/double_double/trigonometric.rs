@@ -52,8 +52,14 @@ impl DoubleDouble {
         if y.hi == 0.0 || x.hi == 0.0 || y.hi.is_infinite() || x.hi.is_infinite() {
             return axis_angle(y.hi, x.hi);
         }
+        let (height, width) = (exponent(y.hi), exponent(x.hi));
+        if x.hi > 0.0 && height < width - 60 {
+            // The quotient to 120 bits, rounded once where it is subnormal.
+            let quotient = y.scale_by_power(-height) / x.scale_by_power(-width);
+            return quotient.scale_by_power(height - width);
+        }
         // Scaled, so that the products neither overflow nor lose their low words.
-        let shift = -exponent(y.hi.abs().max(x.hi.abs()));
+        let shift = -height.max(width);
         let (y, x) = (y.scale_by_power(shift), x.scale_by_power(shift));
         let start = Real::atan2(y.hi, x.hi);
         let (sin, cos) = Self::from(start).sine_cosine();

@@ -10,6 +10,7 @@ macro_rules! on_every_level {
         struct All;
         impl Kernel for All {
             type Output = ();
+            #[inline(always)]
             fn run<L: Level>(self) {
                 $($check::<$pack>();)*
             }
@@ -268,62 +269,6 @@ fn sizes_are_told_lane_by_lane<P: Pack>() {
 #[test]
 fn sizes_and_the_finite_lanes() {
     on_every_level!(sizes_are_told_lane_by_lane);
-}
-
-/// Every elementary function.
-fn functions<T: Real>(x: T, y: T) -> Vec<(&'static str, T)> {
-    let (sin, cos) = x.sin_cos();
-    vec![
-        ("sin", x.sin()),
-        ("cos", x.cos()),
-        ("sin_cos.0", sin),
-        ("sin_cos.1", cos),
-        ("tan", x.tan()),
-        ("asin", x.asin()),
-        ("acos", x.acos()),
-        ("atan", x.atan()),
-        ("sinh", x.sinh()),
-        ("cosh", x.cosh()),
-        ("tanh", x.tanh()),
-        ("asinh", x.asinh()),
-        ("acosh", x.acosh()),
-        ("atanh", x.atanh()),
-        ("exp", x.exp()),
-        ("exp_m1", x.exp_m1()),
-        ("ln", x.ln()),
-        ("ln_1p", x.ln_1p()),
-        ("cbrt", x.cbrt()),
-        ("atan2", x.atan2(y)),
-        ("hypot", x.hypot(y)),
-        ("pow", x.pow(y)),
-        ("erf", x.erf()),
-        ("erfc", x.erfc()),
-    ]
-}
-
-/// Functions of several packs are those of scalars, also where some lanes are rare and some are not.
-fn functions_are_those_of_f64<P: Pack>() {
-    for round in 0..200 {
-        let (x, y) = (numbers::<P>(round * 200), numbers::<P>(round * 200 + 100));
-        let packed = functions(P::load(&x, 0.0), P::load(&y, 0.0));
-        for k in 0..P::LANES as usize {
-            for ((name, packed), (_, alone)) in packed.iter().zip(functions(x[k], y[k])) {
-                let packed = packed.lane(k as u32);
-                assert_eq!(
-                    bits(packed),
-                    bits(alone),
-                    "{name} of {:e}, {:e} in lane {k}: {packed:e}, not {alone:e}",
-                    x[k],
-                    y[k]
-                );
-            }
-        }
-    }
-}
-
-#[test]
-fn unfused_functions_have_the_bits_of_scalars() {
-    on_every_level!(functions_are_those_of_f64: Nf<W<L::Pack, 2>>);
 }
 
 /// The functions whose derivatives decide lane by lane.

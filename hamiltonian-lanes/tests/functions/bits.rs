@@ -4,10 +4,12 @@
 
 use hamiltonian_lanes::Cpu;
 
-use super::points::{ROWS, Random};
+use super::points::{ROWS, Random, Range::Any};
 
 /// The arguments of a recorded hash.
 const RECORDED: usize = 4_096;
+/// As many of any bits beside them.
+const ANY: usize = 4_096;
 
 fn count() -> usize {
     if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
@@ -44,10 +46,14 @@ fn hash(values: impl IntoIterator<Item = f64>) -> Hash {
 
 #[test]
 fn lanes_have_the_bits_of_scalars() {
-    let mut random = Random(3);
+    let (mut random, mut others) = (Random(3), Random(4));
     let mut made = String::new();
     for row in ROWS {
-        let (x, y): (Vec<f64>, Vec<f64>) = (0..count()).map(|k| row.draw(k, &mut random)).unzip();
+        // After the ranges of the function anything, so that some lanes are rare and some are not.
+        let (x, y): (Vec<f64>, Vec<f64>) = (0..count())
+            .map(|k| row.draw(k, &mut random))
+            .chain((0..ANY).map(|_| (Any.draw(&mut others), Any.draw(&mut others))))
+            .unzip();
         let scalar = hash(x.iter().zip(&y).map(|(&x, &y)| (row.f64)(x, y)));
         made += &format!("{:8} {:016x}\n", row.name, scalar.0);
         println!("{:8} {:016x}", row.name, scalar.0);

@@ -2,7 +2,7 @@
 
 use std::marker::PhantomData;
 
-use hamiltonian_lanes::{Cpu, DoubleDouble, Kernel, Level, Nf, Pack, Real, dispatch_at_most};
+use hamiltonian_lanes::{Cpu, DoubleDouble, Kernel, Level, Nf, Pack, Real, W, dispatch_at_most};
 
 /// A stream of random bits: splitmix64 (Steele, Lea, Flood, 2014, doi:10.1145/2714064.2660195).
 pub struct Random(pub u64);
@@ -35,6 +35,8 @@ pub enum Range {
     NearTurns,
     /// Within a few thousand units in the last place of a number.
     Near(f64),
+    /// Any bits, every fourth time those of a special number.
+    Any,
 }
 use Range::*;
 
@@ -58,9 +60,27 @@ impl Range {
                 let offset = (random.bits() % 8192) as i64 - 4096;
                 f64::from_bits(centre.to_bits().wrapping_add_signed(offset))
             }
+            Any => match random.bits() % 4 {
+                0 => SPECIAL[random.bits() as usize % SPECIAL.len()],
+                _ => f64::from_bits(random.bits()),
+            },
         }
     }
 }
+
+/// Where functions have rules of their own.
+const SPECIAL: [f64; 10] = [
+    0.0,
+    -0.0,
+    1.0,
+    -1.0,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::NAN,
+    f64::MIN_POSITIVE,
+    TINY,
+    LARGEST,
+];
 
 fn between(low: f64, high: f64, random: &mut Random) -> f64 {
     let (low, high) = (low.to_bits(), high.to_bits());
@@ -79,7 +99,8 @@ pub struct Row {
     pub f64: fn(f64, f64) -> f64,
     pub f32: fn(f32, f32) -> f32,
     pub exact: fn(DoubleDouble, DoubleDouble) -> DoubleDouble,
-    /// The values at all arguments in the registers of a level, unfused if asked for.
+    /// The values at all arguments in the registers of a level; if asked for unfused, then two
+    /// registers at a time.
     pub lanes: fn(Cpu, bool, &[f64], &[f64], &mut [f64]),
 }
 
@@ -122,7 +143,7 @@ impl<F: Function> Kernel for Values<'_, F> {
     #[inline(always)]
     fn run<L: Level>(self) {
         if self.unfused {
-            self.fill::<Nf<L::Pack>>();
+            self.fill::<Nf<W<L::Pack, 2>>>();
         } else {
             self.fill::<L::Pack>();
         }

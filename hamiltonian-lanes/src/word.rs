@@ -7,7 +7,7 @@
 
 use core::ops::{BitAnd, BitOr, BitXor};
 
-use crate::real::Real;
+use crate::real::{Mask, Real};
 
 /// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
 pub trait Bits:
@@ -51,6 +51,25 @@ pub trait Word: Real {
     fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;
     /// [`Word::replace`] for functions of two arguments.
     fn replace2(self, mask: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self;
+
+    /// `self` where `plain` is set and `f(x)` elsewhere: on the common path one test.
+    #[inline(always)]
+    fn or_rare(self, plain: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self {
+        let rare = !plain;
+        if rare.any() {
+            return self.replace(rare, x, f);
+        }
+        self
+    }
+    /// [`Word::or_rare`] for functions of two arguments.
+    #[inline(always)]
+    fn or_rare2(self, plain: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self {
+        let rare = !plain;
+        if rare.any() {
+            return self.replace2(rare, x, y, f);
+        }
+        self
+    }
 
     /// Every lane `x`.
     #[inline(always)]

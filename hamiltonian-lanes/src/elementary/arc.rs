@@ -65,11 +65,7 @@ pub(crate) fn atan2<W: Word>(y: W, x: W) -> W {
     // Farther apart the quotient may be subnormal, which two words cannot round once.
     let apart = !(large * least).le(small) & !small.equals(W::zero());
     let plain = large.le(W::splat(PLAIN)) & least.le(large) & !apart;
-    let rare = !plain;
-    if rare.any() {
-        return value.replace2(rare, y, x, atan2_of_rare);
-    }
-    value
+    value.or_rare2(plain, y, x, atan2_of_rare)
 }
 
 #[cold]

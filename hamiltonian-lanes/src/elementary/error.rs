@@ -8,7 +8,6 @@
 use super::coefficients::*;
 use super::exponential::{exp_parts, scale_any, scale_normal};
 use super::pairs::{fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_sum};
-use crate::real::Mask;
 use crate::word::Word;
 
 /// From here on erfc lies near or below the smallest normal number.
@@ -49,11 +48,7 @@ pub(crate) fn erfc<W: Word>(x: W) -> W {
     let (one, cut) = fast_two_sum(W::one(), -x);
     let middle = one + x.fma(-polynomial(x * x, &ERROR), cut);
     let y = W::select(size.le(W::splat(NEAR)), middle, y);
-    let rare = !size.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, erfc_of_large);
-    }
-    y
+    y.or_rare(size.le(W::splat(LARGE)), x, erfc_of_large)
 }
 
 #[cold]

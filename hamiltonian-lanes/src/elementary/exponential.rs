@@ -8,7 +8,6 @@ use super::coefficients::*;
 use super::pairs::{
     ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_sum,
 };
-use crate::real::Mask;
 use crate::word::{Bits, Word};
 
 /// Up to here 2^k and its inverse are normal.
@@ -135,11 +134,7 @@ pub(crate) fn exp<W: Word>(x: W) -> W {
         return y;
     }
     let y = scale_normal(y, reduced.power);
-    let rare = !x.abs().le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, exp_of_large);
-    }
-    y
+    y.or_rare(x.abs().le(W::splat(LARGE)), x, exp_of_large)
 }
 
 #[cold]
@@ -160,11 +155,7 @@ pub(crate) fn exp_m1<W: Word>(x: W) -> W {
     let y = high + scale.fma(c + s, start_cut + (cut + more));
     // The sign of 0, which the sum loses.
     let y = W::from_bits(y.bits() | sign_bit(x));
-    let rare = !x.abs().le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, exp_m1_of_large);
-    }
-    y
+    y.or_rare(x.abs().le(W::splat(LARGE)), x, exp_m1_of_large)
 }
 
 #[cold]
@@ -202,11 +193,7 @@ pub(crate) fn sinh<W: Word>(x: W) -> W {
     let size = x.abs();
     let (high, low) = both(size).0;
     let y = flip(W::splat(0.5) * (high + low), sign_bit(x));
-    let rare = !size.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, sinh_of_large);
-    }
-    y
+    y.or_rare(size.le(W::splat(LARGE)), x, sinh_of_large)
 }
 
 #[cold]
@@ -221,11 +208,7 @@ pub(crate) fn cosh<W: Word>(x: W) -> W {
     let size = x.abs();
     let (high, low) = both(size).1;
     let y = W::splat(0.5) * (high + low);
-    let rare = !size.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, cosh_of_large);
-    }
-    y
+    y.or_rare(size.le(W::splat(LARGE)), x, cosh_of_large)
 }
 
 #[cold]

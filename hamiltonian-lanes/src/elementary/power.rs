@@ -9,7 +9,6 @@ use super::coefficients::*;
 use super::exponential::{exp_any, exp_parts, scale_normal};
 use super::logarithm::{is_plain, ln_pair};
 use super::pairs::{fast_two_sum, flip, sign_bit, two_product};
-use crate::real::Mask;
 use crate::word::{Bits, Word};
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
@@ -30,11 +29,7 @@ pub(crate) fn pow<W: Word>(x: W, y: W) -> W {
     let value = scale_normal(one + rest, power);
     // Splitting the largest exponents overflows.
     let plain = is_plain(x) & high.abs().le(W::splat(708.0)) & y.abs().le(W::splat(1e300));
-    let rare = !plain;
-    if rare.any() {
-        return value.replace2(rare, x, y, pow_of_rare);
-    }
-    value
+    value.or_rare2(plain, x, y, pow_of_rare)
 }
 
 /// The special cases of C17, annex F.10.4.4.
@@ -128,11 +123,7 @@ fn cube_root<W: Word>(x: W) -> W {
 pub(crate) fn cbrt<W: Word>(x: W) -> W {
     let size = x.abs();
     let y = flip(cube_root(size), sign_bit(x));
-    let rare = !is_plain(size);
-    if rare.any() {
-        return y.replace(rare, x, cbrt_of_rare);
-    }
-    y
+    y.or_rare(is_plain(size), x, cbrt_of_rare)
 }
 
 #[cold]
@@ -173,11 +164,7 @@ pub(crate) fn hypot<W: Word>(x: W, y: W) -> W {
     let value = distance(large, small);
     let plain = large.le(W::splat(SQUARABLE)) & W::splat(1.0 / SQUARABLE).le(large);
     // A NaN as the smaller one is asked for: the comparison that orders them is false.
-    let rare = !(plain & small.le(large));
-    if rare.any() {
-        return value.replace2(rare, x, y, hypot_of_rare);
-    }
-    value
+    value.or_rare2(plain & small.le(large), x, y, hypot_of_rare)
 }
 
 #[cold]

@@ -2,7 +2,8 @@
 //!
 //! Input: any double. Output: the function's value. Invariant: `x = k·ln 2 + r` with |r| ≤ ln 2/2;
 //! exp r = cosh r + sinh r by two polynomials, and what a leading sum cuts off is kept. Arguments
-//! at which a power of two leaves the normal range go lane by lane.
+//! at which a power of two leaves the normal range go lane by lane; in exp only where the level has
+//! no instruction that scales by a power.
 
 use super::coefficients::*;
 use super::pairs::{

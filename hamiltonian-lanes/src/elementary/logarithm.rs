@@ -55,12 +55,6 @@ fn ln_of_pair<W: Word>(u: W, more: W) -> W {
     assemble(k, f, rest - rest * f)
 }
 
-/// Whether `x` is positive, normal and finite.
-#[inline(always)]
-pub(super) fn is_plain<W: Word>(x: W) -> W::Mask {
-    W::splat(f64::MIN_POSITIVE).le(x) & x.le(W::splat(f64::MAX))
-}
-
 /// Natural logarithm.
 #[inline(always)]
 pub(crate) fn ln<W: Word>(x: W) -> W {

@@ -7,11 +7,17 @@
 
 use super::coefficients::*;
 use super::exponential::{exp_any, exp_parts, scale_normal};
-use super::logarithm::{is_plain, ln_pair};
+use super::logarithm::ln_pair;
 use super::pairs::{fast_two_sum, flip, sign_bit, two_product};
 use crate::word::{Bits, Word};
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
+
+/// Whether `x` is positive, normal and finite.
+#[inline(always)]
+fn is_plain<W: Word>(x: W) -> W::Mask {
+    W::splat(f64::MIN_POSITIVE).le(x) & x.le(W::splat(f64::MAX))
+}
 
 /// `y·ln x` of two words, for a positive normal `x`.
 #[inline(always)]

@@ -196,17 +196,6 @@ where
             *if of_q { &mut *dq } else { &mut *dp }.component_mut(i) = x;
         });
     }
-    fn energy_and_gradient(
-        &self,
-        t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        dq: &mut Self::Vector,
-        dp: &mut Self::Vector,
-    ) -> T {
-        self.gradient(t, q, p, dq, dp);
-        self.energy(t, q, p)
-    }
     fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         let (prepared, zeros) = &self.first;
         let (q, p) = (

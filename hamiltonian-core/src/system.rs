@@ -203,7 +203,8 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector);
     /// ∂H/∂p into `out`.
     fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector);
-    /// ∂H/∂q and ∂H/∂p, sharing all common work.
+    /// ∂H/∂q and ∂H/∂p; emitted code shares all common work, the provided one none.
+    #[inline(always)]
     fn gradient(
         &self,
         t: T,
@@ -211,8 +212,12 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
         p: &Self::Vector,
         dq: &mut Self::Vector,
         dp: &mut Self::Vector,
-    );
-    /// H, returned, with ∂H/∂q and ∂H/∂p, sharing all common work.
+    ) {
+        self.gradient_q(t, q, p, dq);
+        self.gradient_p(t, q, p, dp);
+    }
+    /// H, returned, with ∂H/∂q and ∂H/∂p; emitted code shares all common work, the provided one none.
+    #[inline(always)]
     fn energy_and_gradient(
         &self,
         t: T,
@@ -220,7 +225,10 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
         p: &Self::Vector,
         dq: &mut Self::Vector,
         dp: &mut Self::Vector,
-    ) -> T;
+    ) -> T {
+        self.gradient(t, q, p, dq, dp);
+        self.energy(t, q, p)
+    }
     /// ∂H/∂t.
     fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
     /// The Hessian of H in (q, p) times (vq, vp): `out_q = H_qq·vq + H_qp·vp`,

@@ -459,28 +459,6 @@ impl<T: Real> Dynamics<T> for Damped {
     fn gradient_p(&self, _: T, _: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
         out[0] = p[0] / number(MASS);
     }
-    fn gradient(
-        &self,
-        t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        dq: &mut Self::Vector,
-        dp: &mut Self::Vector,
-    ) {
-        self.gradient_q(t, q, p, dq);
-        self.gradient_p(t, q, p, dp);
-    }
-    fn energy_and_gradient(
-        &self,
-        t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        dq: &mut Self::Vector,
-        dp: &mut Self::Vector,
-    ) -> T {
-        Dynamics::gradient(self, t, q, p, dq, dp);
-        Dynamics::energy(self, t, q, p)
-    }
     fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
         T::zero()
     }

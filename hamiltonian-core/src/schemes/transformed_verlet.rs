@@ -56,8 +56,6 @@ use nalgebra::SVector;
 /// #     fn energy(&self, _: f64, q: &V, _: &V) -> f64 { 0.5 * q[0] * q[0] }
 /// #     fn gradient_q(&self, _: f64, q: &V, _: &V, out: &mut V) { *out = *q; }
 /// #     fn gradient_p(&self, _: f64, _: &V, _: &V, out: &mut V) { out[0] = 0.0; }
-/// #     fn gradient(&self, _: f64, q: &V, _: &V, dq: &mut V, dp: &mut V) { *dq = *q; dp[0] = 0.0; }
-/// #     fn energy_and_gradient(&self, t: f64, q: &V, p: &V, dq: &mut V, dp: &mut V) -> f64 { Dynamics::gradient(self, t, q, p, dq, dp); Dynamics::energy(self, t, q, p) }
 /// #     fn time_derivative(&self, _: f64, _: &V, _: &V) -> f64 { 0.0 }
 /// #     fn hessian_vector(&self, _: f64, _: &V, _: &V, vq: &V, _: &V, out_q: &mut V, out_p: &mut V) { *out_q = *vq; out_p[0] = 0.0; }
 /// #     fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 { 0.0 }

@@ -3,6 +3,7 @@
 //! makes.
 
 pub mod allocator;
+pub mod chain;
 pub mod four;
 pub mod pieces;
 pub mod systems;

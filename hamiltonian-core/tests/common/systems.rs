@@ -1,6 +1,7 @@
 //! Systems by hand: what the macro would emit, without its care for speed.
 
-use hamiltonian_core::private::{DVector, SVector};
+pub use super::chain::Chain;
+use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
     Dual, Dynamics, Exact, Flow, Group, Observable, ObservableKind, Piece, Point, Real, Separable,
     Split, System, Unforced, VectorField,
@@ -88,17 +89,6 @@ impl<T: Real, H: Formula<N>, const N: usize> Dynamics<T> for Ready<H, N> {
     ) {
         (dq.data.0[0], dp.data.0[0]) = self.0.gradient(t, array(q), array(p));
     }
-    fn energy_and_gradient(
-        &self,
-        t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        dq: &mut Self::Vector,
-        dp: &mut Self::Vector,
-    ) -> T {
-        self.gradient(t, q, p, dq, dp);
-        self.energy(t, q, p)
-    }
     fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
         let (q, p) = (array(q).map(Dual::fixed), array(p).map(Dual::fixed));
         self.0.energy(Dual::variable(t), &q, &p).eps
@@ -153,7 +143,7 @@ impl<T: Real, H: Formula<N>, const N: usize> VectorField<SVector<T, N>> for Scal
 
 /// The flow of V where `KICK`, else of T.
 #[derive(Debug, Clone)]
-pub struct Moving<F, const KICK: bool>(F);
+pub struct Moving<F, const KICK: bool>(pub F);
 
 /// V where `KICK`, else T.
 #[derive(Debug, Clone, Copy)]
@@ -217,7 +207,7 @@ pub const fn scalar(coordinate: &'static str, momentum: &'static str, offset: us
     }
 }
 
-fn number<T: Real>(x: f64) -> T {
+pub fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)
 }
 
@@ -393,184 +383,6 @@ impl Formula<2> for DoublePendulum {
             - g * (two * a.cos() + b.cos())
     }
 }
-
-/// A chain of n sites between fixed ends, sized at run time:
-/// H = Σ p²/2 + Σ (q[i+1] − q[i])²/2 + Σ q⁴/4.
-#[derive(Debug, Clone)]
-pub struct Chain {
-    pub n: usize,
-}
-
-/// A chain with a step coefficient.
-#[derive(Debug, Clone)]
-pub struct ScaledChain<T>(T);
-
-impl<T: Real> System<T> for Chain {
-    type Vector = DVector<T>;
-    type Prepared = Chain;
-    const NAME: &'static str = "Chain";
-    const GROUPS: &'static [Group] = &[Group {
-        coordinate: "q",
-        momentum: "p",
-        rank: 1,
-        part: 0,
-        offset: 0,
-        columns: 1,
-    }];
-    const OBSERVABLES: &'static [Observable] = &[];
-    fn prepare(&self) -> Chain {
-        self.clone()
-    }
-    fn zeros(&self) -> DVector<T> {
-        DVector::from_element(self.n, T::zero())
-    }
-}
-
-impl Chain {
-    fn force<T: Real>(q: &DVector<T>, i: usize) -> T {
-        let left = if i > 0 { q[i] - q[i - 1] } else { q[i] };
-        let right = if i + 1 < q.len() {
-            q[i] - q[i + 1]
-        } else {
-            q[i]
-        };
-        left + right + q[i] * q[i] * q[i]
-    }
-}
-
-impl<T: Real> Dynamics<T> for Chain {
-    type Vector = DVector<T>;
-    type Field = ScaledChain<T>;
-    fn energy(&self, _: T, q: &DVector<T>, p: &DVector<T>) -> T {
-        let (half, quarter) = (number::<T>(0.5), number::<T>(0.25));
-        let mut sum = half * q[self.n - 1] * q[self.n - 1];
-        for i in 0..self.n {
-            let left = if i > 0 { q[i] - q[i - 1] } else { q[i] };
-            let square = q[i] * q[i];
-            sum += half * (p[i] * p[i] + left * left) + quarter * square * square;
-        }
-        sum
-    }
-    fn gradient_q(&self, _: T, q: &DVector<T>, _: &DVector<T>, out: &mut DVector<T>) {
-        for i in 0..self.n {
-            out[i] = Chain::force(q, i);
-        }
-    }
-    fn gradient_p(&self, _: T, _: &DVector<T>, p: &DVector<T>, out: &mut DVector<T>) {
-        out.copy_from_slice(p.as_slice());
-    }
-    fn gradient(
-        &self,
-        t: T,
-        q: &DVector<T>,
-        p: &DVector<T>,
-        dq: &mut DVector<T>,
-        dp: &mut DVector<T>,
-    ) {
-        self.gradient_q(t, q, p, dq);
-        self.gradient_p(t, q, p, dp);
-    }
-    fn energy_and_gradient(
-        &self,
-        t: T,
-        q: &DVector<T>,
-        p: &DVector<T>,
-        dq: &mut DVector<T>,
-        dp: &mut DVector<T>,
-    ) -> T {
-        Dynamics::gradient(self, t, q, p, dq, dp);
-        Dynamics::energy(self, t, q, p)
-    }
-    fn time_derivative(&self, _: T, _: &DVector<T>, _: &DVector<T>) -> T {
-        T::zero()
-    }
-    fn hessian_vector(
-        &self,
-        _: T,
-        q: &DVector<T>,
-        _: &DVector<T>,
-        vq: &DVector<T>,
-        vp: &DVector<T>,
-        out_q: &mut DVector<T>,
-        out_p: &mut DVector<T>,
-    ) {
-        // Nothing may allocate here. The linear part of the force is that of the springs.
-        for i in 0..self.n {
-            let springs = Chain::force(vq, i) - vq[i] * vq[i] * vq[i];
-            out_q[i] = springs + number::<T>(3.0) * q[i] * q[i] * vq[i];
-            out_p[i] = vp[i];
-        }
-    }
-    fn observable(&self, _: usize, _: T, _: &DVector<T>, _: &DVector<T>) -> T {
-        T::zero()
-    }
-    fn field(&self, c: T) -> ScaledChain<T> {
-        ScaledChain(c)
-    }
-}
-
-impl<T: Real> ScaledChain<T> {
-    fn kick(&self, q: &DVector<T>, p: &mut DVector<T>) {
-        for i in 0..q.len() {
-            p[i] -= self.0 * Chain::force(q, i);
-        }
-    }
-    fn drift(&self, p: &DVector<T>, q: &mut DVector<T>) {
-        for i in 0..p.len() {
-            q[i] = self.0.fma(p[i], q[i]);
-        }
-    }
-}
-
-impl<T: Real> VectorField<DVector<T>> for ScaledChain<T> {
-    fn add(
-        &self,
-        _: T,
-        q: &DVector<T>,
-        p: &DVector<T>,
-        into_q: &mut DVector<T>,
-        into_p: &mut DVector<T>,
-    ) {
-        self.drift(p, into_q);
-        self.kick(q, into_p);
-    }
-}
-
-impl<T: Real, const KICK: bool> Piece<T, Chain> for Half<KICK> {
-    type Point = Point<DVector<T>>;
-    type Flow = Moving<ScaledChain<T>, KICK>;
-    fn flow(&self, _: &Chain, c: T) -> Self::Flow {
-        Moving(ScaledChain(c))
-    }
-}
-
-impl<T: Real, const KICK: bool> Flow<Point<DVector<T>>> for Moving<ScaledChain<T>, KICK> {
-    const NAME: &'static str = if KICK { "V" } else { "T" };
-    type Work = ();
-    fn apply(&self, _: T, x: &mut Point<DVector<T>>, _: &mut ()) {
-        if KICK {
-            self.0.kick(&x.q, &mut x.p);
-        } else {
-            self.0.drift(&x.p, &mut x.q);
-        }
-    }
-}
-
-impl<T: Real> Separable<T> for Chain {
-    type Kick = Half<true>;
-    type Drift = Half<false>;
-    const KICK: Half<true> = Half;
-    const DRIFT: Half<false> = Half;
-}
-
-impl<T: Real> Split<T> for Chain {
-    type Pieces = (Half<true>, Half<false>);
-    const PIECES: Self::Pieces = (Half, Half);
-    const NAMES: &'static [&'static str] = &["V", "T"];
-}
-
-impl Unforced for Chain {}
-impl Exact for Chain {}
 
 /// H = p²/2 + q²/2, which counts how often each half moves a point.
 pub mod counting {

@@ -2,26 +2,35 @@
 
 use crate::common::start;
 use crate::common::systems::*;
+use crate::common::walk::{Sample, everywhere};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::*;
-use hamiltonian_core::{CheckpointError, Deviation, DoubleDouble, Every, Listed, Scheme, Vector};
+use hamiltonian_core::{CheckpointError, Deviation, DoubleDouble, Every, Listed, Scheme};
 use std::path::PathBuf;
 
-type Watchers<T> = (EnergyDrift<T>, (Monitors<T>, Every<Recorder>));
+pub type Watchers<T> = (EnergyDrift<T>, (Monitors<T>, Every<Recorder>));
 
-fn watchers<T: Real>() -> Watchers<T> {
+pub fn watchers<T: Real>() -> Watchers<T> {
     let recorder = every(3, Recorder::new().with_energy());
     (EnergyDrift::new(), (Monitors::new(), recorder))
 }
 
-/// Saves at odd and even steps, within a block and beyond, and goes on from the bytes.
-struct Resumes<S>(S);
+impl<T: Real> Sample<T> for Chain {
+    fn sample() -> Self {
+        Chain { n: 2 }
+    }
+    fn begin() -> State<<Self as System<T>>::Vector> {
+        start::<T, Self>(&Chain { n: 2 }, &[0.9, -0.25], &[0.42, 0.1])
+    }
+}
 
-impl<T: Real, S: System<T>> Visitor<T, S> for Resumes<S> {
+/// Saves at odd and even steps, within a block and beyond, and goes on from the bytes.
+struct Resumes;
+
+impl<T: Real, S: Sample<T>> Visitor<T, S> for Resumes {
     fn visit<M: Scheme<T, S>>(&mut self, scheme: M) {
-        let system = &self.0;
-        let n = System::<T>::zeros(system).len();
-        let begin = start::<T, S>(system, &[0.9, -0.25][..n], &[0.42, 0.1][..n]);
+        let system = &S::sample();
+        let begin = S::begin();
         let step = T::constant(0.01, 0.0);
         let name = scheme.entry().name;
         for steps in [0, 1, 7, 8, 1031] {
@@ -55,31 +64,21 @@ impl<T: Real, S: System<T>> Visitor<T, S> for Resumes<S> {
 
 #[test]
 fn every_scheme_goes_on_with_the_same_bits() {
-    let mut pumped = Resumes(Hand(Pumped));
-    visit_any::<f64, _>(&mut pumped);
-    visit_unforced::<f64, _>(&mut pumped);
-    visit_separable::<f64, _>(&mut pumped);
-    visit_split::<f64, _>(&mut pumped);
-    // Other tables are other numbers.
-    Visitor::<f64, _>::visit(&mut pumped, KahanLi8);
-    visit_implicit::<f64, _>(&mut pumped);
-    visit_doubled::<f64, _>(&mut pumped);
-    visit_compensated::<f64, _>(&mut pumped);
-    let mut pendulum = Resumes(pendulum(true));
-    visit_any::<f64, _>(&mut pendulum);
-    visit_unforced::<f64, _>(&mut pendulum);
-    let mut chain = Resumes(Chain { n: 2 });
-    visit_any::<f64, _>(&mut chain);
-    visit_unforced::<f64, _>(&mut chain);
-    visit_split::<f64, _>(&mut chain);
+    everywhere::<f64, _>(&mut Resumes);
+    fn of<T: Real>(scheme: impl Scheme<T, Hand<Pumped, 1>>) {
+        Resumes.visit(scheme);
+    }
     let implicit = Composition::yoshida(ImplicitMidpoint::default());
-    Visitor::<f64, _>::visit(&mut pumped, implicit);
-    Visitor::<f64, _>::visit(&mut pumped, Composition::yoshida(Strang));
-    Visitor::<f64, _>::visit(&mut pumped, Adjoint(RungeKutta4));
-    Visitor::<DoubleDouble, _>::visit(&mut pumped, implicit);
-    Visitor::<DoubleDouble, _>::visit(&mut pumped, IntersectingSubTrajectories::default());
-    Visitor::<Dual<f64>, _>::visit(&mut pumped, Strang);
-    Visitor::<f32, _>::visit(&mut pumped, TwoStepMidpoint::default());
+    of::<f64>(implicit);
+    of::<f64>(Composition::yoshida(Strang));
+    of::<f64>(Adjoint(RungeKutta4));
+    of::<DoubleDouble>(implicit);
+    of::<DoubleDouble>(IntersectingSubTrajectories::default());
+    of::<Dual<f64>>(Strang);
+    of::<f32>(TwoStepMidpoint::default());
+    // Sizes that are set at run time.
+    visit_split::<f64, Chain>(&mut Resumes);
+    visit_any::<f64, Chain>(&mut Resumes);
 }
 
 /// A changed step, an end and a start of the clock are part of a run.

@@ -33,7 +33,7 @@ impl Autonomous for Hand<Kepler, 2> {}
 impl Autonomous for Hand<Radius, 2> {}
 impl QuadraticKinetic for Hand<Kepler, 2> {}
 
-type InRadius = TimeTransformed<Hand<Kepler, 2>, Hand<Radius, 2>>;
+pub type InRadius = TimeTransformed<Hand<Kepler, 2>, Hand<Radius, 2>>;
 
 pub fn in_radius(with_momentum: bool) -> InRadius {
     TimeTransformed::new(Hand(Kepler), Hand(Radius { with_momentum }))

@@ -12,7 +12,7 @@ use super::{
     SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
     SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
 };
-use crate::scheme::{Entry, Listed, Scheme};
+use crate::scheme::{Entry, Listed, OneStep, Scheme};
 use crate::system::{Autonomous, Exact, QuadraticKinetic, Separable, Split, System, Unforced};
 use crate::transformed::TimeTransformed;
 use hamiltonian_lanes::Real;
@@ -21,13 +21,31 @@ use hamiltonian_lanes::Real;
 pub trait Visitor<T: Real, S: System<T>> {
     /// Does it with one.
     fn visit<M: Scheme<T, S>>(&mut self, scheme: M);
+    /// Does it with one that has an adjoint: the same, unless that is wanted.
+    fn visit_one_step<M>(&mut self, scheme: M)
+    where
+        M: Scheme<T, S> + OneStep<Adjoint: Scheme<T, S>>,
+    {
+        self.visit(scheme);
+    }
+}
+
+/// Visits one entry, `carries` if its step depends on more than the state or the state is not all it carries,
+/// so that its adjoint is no scheme.
+macro_rules! visit {
+    ($visitor:ident, $scheme:expr) => {
+        $visitor.visit_one_step($scheme)
+    };
+    ($visitor:ident, carries $scheme:expr) => {
+        $visitor.visit($scheme)
+    };
 }
 
 macro_rules! catalogue {
-    (any { $($any:expr,)+ } unforced { $($unforced:expr,)+ } split { $($split:expr,)+ }
-     exact { $($exact:expr,)+ }
+    (any { $($any:expr,)+ } unforced { $($(@$unforced_kind:ident)? $unforced:expr,)+ }
+     split { $($split:expr,)+ } exact { $($exact:expr,)+ }
      separable { $($separable:expr,)+ } quadratic { $($quadratic:expr,)+ }
-     implicit { $($implicit:expr,)+ } doubled { $($doubled:expr,)+ }
+     implicit { $($implicit:expr,)+ } doubled { $($(@$doubled_kind:ident)? $doubled:expr,)+ }
      compensated { $($compensated:expr,)+ } transformed { $($transformed:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
         ///
@@ -45,42 +63,44 @@ macro_rules! catalogue {
 
         /// Visits the schemes that serve any H, with forces.
         pub fn visit_any<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($any);)+
+            $(visit!(visitor, $any);)+
         }
 
         /// Visits the schemes that ask for no forces.
         pub fn visit_unforced<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($unforced);)+
+            $(visit!(visitor, $($unforced_kind)? $unforced);)+
         }
 
         /// Visits the schemes that ask for pieces.
         pub fn visit_split<T: Real, S: Split<T>>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($split);)+
+            $(visit!(visitor, $split);)+
         }
 
         /// Visits the schemes that ask for pieces whose flows are all exact.
         pub fn visit_exact<T: Real, S: Split<T> + Exact>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($exact);)+
+            $(visit!(visitor, $exact);)+
         }
 
         /// Visits the schemes that ask for H = T(p, t) + V(q, t).
         pub fn visit_separable<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($separable);)+
+            $(visit!(visitor, $separable);)+
         }
 
         /// Visits the schemes of higher order that solve equations.
         pub fn visit_implicit<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($implicit);)+
+            $(visit!(visitor, $implicit);)+
         }
 
         /// Visits the schemes by tables on two copies.
         pub fn visit_doubled<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($doubled);)+
+            $(visit!(visitor, $($doubled_kind)? $doubled);)+
         }
 
         /// Visits the compensated schemes.
-        pub fn visit_compensated<T: Real, S: Separable<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
-            $(visitor.visit($compensated);)+
+        pub fn visit_compensated<T: Real, S: Separable<T> + Unforced>(
+            visitor: &mut impl Visitor<T, S>,
+        ) {
+            $(visit!(visitor, $compensated);)+
         }
 
         /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q) in the time of a monitor function.
@@ -90,14 +110,14 @@ macro_rules! catalogue {
             S: Separable<T> + QuadraticKinetic + Unforced + Autonomous,
             G: System<T, Vector = S::Vector> + Unforced + Autonomous,
         {
-            $(visitor.visit($transformed);)+
+            $(visit!(visitor, $transformed);)+
         }
 
         /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q, t) with constant M.
         pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic + Unforced>(
             visitor: &mut impl Visitor<T, S>,
         ) {
-            $(visitor.visit($quadratic);)+
+            $(visit!(visitor, $quadratic);)+
         }
     };
 }
@@ -108,15 +128,15 @@ any {
     RungeKutta4,
 }
 unforced {
-    TwoStepMidpoint { start: Start::Equal },
-    TwoStepMidpoint { start: Start::HalfEuler },
-    TwoStepMidpoint { start: Start::SecondOrder },
-    ConsecutiveSubTrajectories { start: Start::Equal },
-    ConsecutiveSubTrajectories { start: Start::HalfEuler },
-    ConsecutiveSubTrajectories { start: Start::SecondOrder },
-    IntersectingSubTrajectories { start: Start::Equal },
-    IntersectingSubTrajectories { start: Start::HalfEuler },
-    IntersectingSubTrajectories { start: Start::SecondOrder },
+    @carries TwoStepMidpoint { start: Start::Equal },
+    @carries TwoStepMidpoint { start: Start::HalfEuler },
+    @carries TwoStepMidpoint { start: Start::SecondOrder },
+    @carries ConsecutiveSubTrajectories { start: Start::Equal },
+    @carries ConsecutiveSubTrajectories { start: Start::HalfEuler },
+    @carries ConsecutiveSubTrajectories { start: Start::SecondOrder },
+    @carries IntersectingSubTrajectories { start: Start::Equal },
+    @carries IntersectingSubTrajectories { start: Start::HalfEuler },
+    @carries IntersectingSubTrajectories { start: Start::SecondOrder },
     Pihajoki::CoordinateFirst,
     Pihajoki::MomentumFirst,
 }
@@ -164,8 +184,8 @@ implicit {
 }
 doubled {
     Tao::default(),
-    Mixed::<Strang>::default(),
-    MidpointProjected::<Strang>::default(),
+    @carries Mixed::<Strang>::default(),
+    @carries MidpointProjected::<Strang>::default(),
 }
 compensated {
     Compensated(Strang),

@@ -102,6 +102,8 @@ macro_rules! general {
     )+};
 }
 
+on_exact_pieces!(Reversed<Ruth3>);
+
 /// Compositions of any symmetric scheme by the weights of a table for symmetric maps.
 macro_rules! of_symmetric {
     ($($name:ident: $table:path, $stages:literal;)+) => {$(

@@ -7,6 +7,7 @@ pub mod chain;
 pub mod four;
 pub mod pieces;
 pub mod systems;
+pub mod walk;
 
 use hamiltonian_core::{Real, State, System, Vector};
 

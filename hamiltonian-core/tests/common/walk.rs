@@ -1,0 +1,102 @@
+//! The walk over the whole catalogue: every scheme on a system that has what it asks for.
+//!
+//! Input: what is done with a scheme. Output: that, done with each. Invariant: no entry is left out.
+
+use super::start;
+use super::systems::{Formula, Hand, HenonHeiles, Pumped, scalar};
+use crate::transformed::{InRadius, in_radius, pericentre};
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{Group, OneStep, QuadraticKinetic, Real, Scheme, State, System};
+
+/// H = ½(1 + ½ sin 2t)(q² + 1)(p² + 1): not separable, and with time in it.
+#[derive(Debug, Clone)]
+pub struct Swaying;
+
+impl Formula<1> for Swaying {
+    const NAME: &'static str = "Swaying";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
+        let half = T::constant(0.5, 0.0);
+        let swaying = T::one() + half * (T::constant(2.0, 0.0) * t).sin();
+        half * swaying * (q[0] * q[0] + T::one()) * (p[0] * p[0] + T::one())
+    }
+}
+
+impl QuadraticKinetic for Hand<HenonHeiles, 2> {}
+
+/// A system of the walk, with a start.
+pub trait Sample<T: Real>: System<T> + Sized {
+    /// The system.
+    fn sample() -> Self;
+    /// The start.
+    fn begin() -> State<Self::Vector>;
+}
+
+macro_rules! sample {
+    ($formula:ident, $n:literal, $q:expr, $p:expr) => {
+        impl<T: Real> Sample<T> for Hand<$formula, $n> {
+            fn sample() -> Self {
+                Hand($formula)
+            }
+            fn begin() -> State<Self::Vector> {
+                start::<T, Self>(&Hand($formula), &$q, &$p)
+            }
+        }
+    };
+}
+
+sample!(Swaying, 1, [0.9], [0.4]);
+sample!(Pumped, 1, [0.9], [0.4]);
+sample!(HenonHeiles, 2, [0.12, 0.23], [0.31, -0.17]);
+
+impl<T: Real> Sample<T> for InRadius {
+    fn sample() -> Self {
+        in_radius(false)
+    }
+    fn begin() -> State<<Self as System<T>>::Vector> {
+        (in_radius(false).start(&pericentre::<T>(0.4))).expect("a good start")
+    }
+}
+
+/// Counts.
+struct Walk<'a, V> {
+    visitor: &'a mut V,
+    met: usize,
+}
+
+impl<T: Real, S: System<T>, V: Visitor<T, S>> Visitor<T, S> for Walk<'_, V> {
+    fn visit<M: Scheme<T, S>>(&mut self, scheme: M) {
+        self.met += 1;
+        self.visitor.visit(scheme);
+    }
+    fn visit_one_step<M>(&mut self, scheme: M)
+    where
+        M: Scheme<T, S> + OneStep<Adjoint: Scheme<T, S>>,
+    {
+        self.met += 1;
+        self.visitor.visit_one_step(scheme);
+    }
+}
+
+/// Every scheme of the catalogue, once.
+pub fn everywhere<T, V>(visitor: &mut V)
+where
+    T: Real,
+    V: Visitor<T, Hand<Swaying, 1>>
+        + Visitor<T, Hand<Pumped, 1>>
+        + Visitor<T, Hand<HenonHeiles, 2>>
+        + Visitor<T, InRadius>,
+{
+    let mut walk = Walk { visitor, met: 0 };
+    visit_any::<T, Hand<Swaying, 1>>(&mut walk);
+    visit_unforced::<T, Hand<Swaying, 1>>(&mut walk);
+    visit_implicit::<T, Hand<Swaying, 1>>(&mut walk);
+    visit_doubled::<T, Hand<Swaying, 1>>(&mut walk);
+    visit_split::<T, Hand<Pumped, 1>>(&mut walk);
+    visit_exact::<T, Hand<Pumped, 1>>(&mut walk);
+    visit_separable::<T, Hand<Pumped, 1>>(&mut walk);
+    visit_compensated::<T, Hand<Pumped, 1>>(&mut walk);
+    visit_quadratic::<T, Hand<HenonHeiles, 2>>(&mut walk);
+    visit_transformed(&mut walk);
+    assert_eq!(walk.met, catalogue().count());
+}

@@ -28,27 +28,59 @@ pub enum Side {
     P,
 }
 
+impl Side {
+    /// Momenta for coordinates, coordinates for momenta.
+    #[must_use]
+    pub fn other(self) -> Side {
+        match self {
+            Side::Q => Side::P,
+            Side::P => Side::Q,
+        }
+    }
+}
+
+/// A column of phase space: component `column` (0 where there is one) of the coordinates or momenta
+/// of group `group`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Column {
+    /// Coordinates or momenta.
+    pub side: Side,
+    /// The group of coordinates.
+    pub group: u16,
+    /// The component of a rank-2 group.
+    pub column: u16,
+}
+
+impl Column {
+    /// The first component of a group.
+    #[must_use]
+    pub fn first(side: Side, group: u16) -> Column {
+        let column = 0;
+        Column {
+            side,
+            group,
+            column,
+        }
+    }
+    /// The same component of the other side.
+    #[must_use]
+    pub fn conjugate(self) -> Column {
+        self.on(self.side.other())
+    }
+    /// The same component on a side.
+    #[must_use]
+    pub fn on(self, side: Side) -> Column {
+        Column { side, ..self }
+    }
+}
+
 /// What an array element is read from.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Array {
-    /// Column `column` of group `group` of the coordinates or momenta.
-    Phase {
-        /// Coordinates or momenta.
-        side: Side,
-        /// The group of coordinates.
-        group: u16,
-        /// The column (component) of a rank-2 group; 0 otherwise.
-        column: u16,
-    },
+    /// A column of the coordinates or momenta.
+    Phase(Column),
     /// The same of the direction a Hessian is multiplied with.
-    Direction {
-        /// Coordinates or momenta.
-        side: Side,
-        /// The group of coordinates.
-        group: u16,
-        /// The column.
-        column: u16,
-    },
+    Direction(Column),
     /// A parameter array; rank 2 is indexed by row and column.
     Parameter(Parameter),
 }
@@ -303,6 +335,14 @@ impl Dag {
     #[must_use]
     pub fn stage(&self, node: Node) -> Stage {
         self.dependence(node).stage()
+    }
+    /// The column and the row of an element of phase space.
+    #[must_use]
+    pub fn phase_place(&self, node: Node) -> Option<(Column, &Index)> {
+        match self.kind(node) {
+            Kind::Element(Array::Phase(column), row, _) => Some((*column, row)),
+            _ => None,
+        }
     }
     /// The loop variables a node depends on, as a bit set of domain numbers.
     #[must_use]
@@ -560,9 +600,9 @@ impl Dag {
             Kind::Scalar(_) | Kind::Extent(_) | Kind::Element(Array::Parameter(_), ..) => {
                 Dependence::PARAMETER
             }
-            Kind::Element(Array::Phase { side: Side::Q, .. }, ..) => Dependence::Q,
-            Kind::Element(Array::Phase { side: Side::P, .. }, ..) => Dependence::P,
-            Kind::Element(Array::Direction { .. }, ..) => Dependence::DIRECTION,
+            Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
+            Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,
+            Kind::Element(Array::Direction(_), ..) => Dependence::DIRECTION,
             Kind::Time => Dependence::TIME,
             Kind::Coefficient => Dependence::COEFFICIENT,
             Kind::Count(d) | Kind::Reduce(d, _) => {

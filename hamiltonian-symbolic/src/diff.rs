@@ -257,25 +257,10 @@ fn product_partials(
 /// The derivative of `root` along the direction (vq, vp): Σ ∂root/∂q·vq + ∂root/∂p·vp.
 pub fn along_direction(dag: &mut Dag, root: Node) -> Node {
     let what = Dependence(Dependence::Q.0 | Dependence::P.0);
-    forward(dag, root, what, |dag, leaf| match dag.kind(leaf).clone() {
-        Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            c,
-        ) => Some(dag.element(
-            Array::Direction {
-                side,
-                group,
-                column,
-            },
-            row,
-            c,
-        )),
-        _ => None,
+    forward(dag, root, what, |dag, leaf| {
+        let (column, row) = dag.phase_place(leaf)?;
+        let row = row.clone();
+        Some(dag.element(Array::Direction(column), row, None))
     })
 }
 

@@ -128,15 +128,7 @@ impl<T: Real> Machine<'_, T> {
     /// The columns an array's elements are read from.
     fn columns(&self, array: &Array) -> Option<&Vec<Vec<T>>> {
         match *array {
-            Array::Phase {
-                side,
-                group,
-                column,
-            } if self.is_in_place => self.outputs.get(&Target::Phase {
-                side,
-                group,
-                column,
-            }),
+            Array::Phase(column) if self.is_in_place => self.outputs.get(&Target::Phase(column)),
             _ => self.point.arrays.get(array),
         }
     }

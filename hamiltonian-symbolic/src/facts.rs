@@ -421,7 +421,7 @@ fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
     let Kind::Sum(c, terms) = dag.kind(node) else {
         return None;
     };
-    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase { .. }, ..));
+    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..));
     match terms.as_slice() {
         [(k, a), (l, b)] if c.is_zero() && *k == l.neg() && is_leaf(*a) && is_leaf(*b) => {
             Some((*a.min(b), *a.max(b)))
@@ -452,12 +452,7 @@ fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
 /// Whether a node varies with what moves, whatever the parameters: its zeros are not everything,
 /// but in iterations of loops in which two leaves are the same one and it is 0.
 fn varies(dag: &Dag, node: Node) -> bool {
-    let is_leaf = |n: Node| {
-        matches!(
-            dag.kind(n),
-            Kind::Element(Array::Phase { .. }, ..) | Kind::Time
-        )
-    };
+    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..) | Kind::Time);
     match dag.kind(node) {
         Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
             varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
@@ -501,7 +496,7 @@ fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
 fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
     let leaf = |node: Node| match dag.kind(node) {
         Kind::Time => Some(None),
-        Kind::Element(array @ Array::Phase { .. }, row, _) => {
+        Kind::Element(array @ Array::Phase(_), row, _) => {
             let row = row.modulo.is_none().then(|| row.affine.as_constant());
             Some(Some((*array, row.flatten())))
         }

@@ -8,7 +8,7 @@
 //! is p + w·(f − ∂H/∂q) with w = (eᶜᵃ − 1)/a, which is c where a = 0. Where momenta push each other,
 //! f = b + A·p, the flow is a series in A, which a run sums: the program says A·p.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::model::{Model, VectorEntry};
 use crate::op::Op;
@@ -33,7 +33,7 @@ pub enum Kick {
 
 /// Where two entries add to the same element in the same iteration.
 fn same_place(a: &VectorEntry, b: &VectorEntry) -> bool {
-    (a.group, a.column, &a.row) == (b.group, b.column, &b.row)
+    (a.at.on(Side::P), &a.row) == (b.at.on(Side::P), &b.row)
 }
 
 /// f − ∂H/∂q of momenta, from ∂H/∂q.
@@ -45,7 +45,7 @@ pub fn slopes(model: &mut Model, gradient: &[VectorEntry]) -> Vec<VectorEntry> {
         match slopes.iter_mut().find(|slope| same_place(slope, entry)) {
             Some(slope) => slope.value = model.dag.add(&[slope.value, value]),
             None => slopes.push(VectorEntry {
-                side: Side::P,
+                at: entry.at.on(Side::P),
                 value,
                 ..entry.clone()
             }),
@@ -93,15 +93,7 @@ fn linear(dag: &mut Dag, force: &VectorEntry) -> VectorEntry {
 /// ∂f/∂p of an element by its own momentum, where f is affine in momenta; 0 where it does not depend on
 /// them. An error where other momenta push it.
 fn rate(dag: &mut Dag, force: &VectorEntry) -> Result<Node, ()> {
-    let own = dag.element(
-        Array::Phase {
-            side: Side::P,
-            group: force.group,
-            column: force.column,
-        },
-        force.row.clone(),
-        None,
-    );
+    let own = dag.phase(force.at, force.row.clone());
     match diff::gradient(dag, force.value, Dependence::P).as_slice() {
         [] => Ok(dag.integer(0)),
         [(leaf, rate)] if *leaf == own => Ok(*rate),
@@ -128,10 +120,8 @@ fn weight(dag: &mut Dag, rate: Node) -> Node {
 
 /// Whether an entry is in every row of its group.
 fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
-    use crate::model::Shape;
-    let rows = match &model.groups[usize::from(entry.group)].shape {
-        Shape::Scalar => return true,
-        Shape::Vector(rows) | Shape::Matrix(rows, _) => rows,
+    let Some(rows) = model.groups[usize::from(entry.at.group)].shape.rows() else {
+        return true;
     };
     match (entry.row.affine.loops.as_slice(), &entry.row.modulo) {
         ([(domain, 1)], None) => {
@@ -181,8 +171,7 @@ fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
     let (mut damped, mut rest) = (Vec::new(), Vec::new());
     let c = model.dag.coefficient();
     for entry in slopes(model, gradient) {
-        let of_same =
-            |force: &VectorEntry| (force.group, force.column) == (entry.group, entry.column);
+        let of_same = |force: &VectorEntry| force.at == entry.at;
         let exact = forces.iter().position(|force| same_place(force, &entry));
         let damping = (0..forces.len()).find(|at| weights[*at].1 && of_same(&forces[*at]));
         let (weight, damps) = match (exact, damping) {
@@ -215,7 +204,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
     }
     let h = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let mut gradient = gradient_of(model, String::new(), h).entries;
-    gradient.retain(|entry| entry.side == Side::Q);
+    gradient.retain(|entry| entry.at.side == Side::Q);
     gradient
 }
 

@@ -163,6 +163,14 @@ impl Index {
     pub fn constant(value: i64) -> Index {
         Index::plain(Affine::constant(value))
     }
+    /// The value, if it is a constant without modulus.
+    #[must_use]
+    pub fn as_constant(&self) -> Option<i64> {
+        match self.modulo {
+            None => self.affine.as_constant(),
+            Some(_) => None,
+        }
+    }
     /// The value for given loop variables and sizes.
     pub fn value(&self, variable: &impl Fn(Domain) -> i64, size: &impl Fn(Size) -> i64) -> i64 {
         let value = self.affine.value(variable, size);

@@ -3,7 +3,7 @@
 //! Input: a program. Output: its `Display`. Invariant: numbers of groups, parameters, sizes and loops
 //! instead of names: a program does not know them.
 
-use crate::dag::{Array, Parameter, Part, Relation, Side};
+use crate::dag::{Array, Column, Parameter, Part, Relation, Side};
 use crate::index::{Affine, Index};
 use crate::program::{Instruction, Program, Step, Target, Update, Value};
 use core::fmt::{Display, Formatter, Result, Write};
@@ -54,21 +54,20 @@ impl Display for Index {
     }
 }
 
-fn letter(side: Side) -> char {
-    match side {
-        Side::Q => 'q',
-        Side::P => 'p',
+impl Display for Column {
+    fn fmt(&self, f: &mut Formatter) -> Result {
+        let side = match self.side {
+            Side::Q => 'q',
+            Side::P => 'p',
+        };
+        write!(f, "{side}{}_{}", self.group, self.column)
     }
 }
 
 impl Display for Target {
     fn fmt(&self, f: &mut Formatter) -> Result {
         match self {
-            Target::Phase {
-                side,
-                group,
-                column,
-            } => write!(f, "d{}{group}_{column}", letter(*side)),
+            Target::Phase(column) => write!(f, "d{column}"),
             Target::Parameter(Parameter(number)) => write!(f, "da{number}"),
         }
     }
@@ -77,16 +76,8 @@ impl Display for Target {
 impl Display for Array {
     fn fmt(&self, f: &mut Formatter) -> Result {
         match self {
-            Array::Phase {
-                side,
-                group,
-                column,
-            } => write!(f, "{}{group}_{column}", letter(*side)),
-            Array::Direction {
-                side,
-                group,
-                column,
-            } => write!(f, "v{}{group}_{column}", letter(*side)),
+            Array::Phase(column) => write!(f, "{column}"),
+            Array::Direction(column) => write!(f, "v{column}"),
             Array::Parameter(Parameter(number)) => write!(f, "a{number}"),
         }
     }

@@ -4,19 +4,75 @@
 //! `print` makes text. Invariant: numbers of groups, parameters, sizes and external functions used
 //! in the arena index the lists here.
 
-use crate::dag::{Array, Dag, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Node, Parameter, Side};
 use crate::index::{Affine, Index};
 use crate::split::Piece;
+use crate::transform::REPLACING;
+use std::fmt::Display;
 
-/// The shape of a group of coordinates or of a parameter.
+/// The shape of a parameter, or, with columns of a literal number `C`, of a group of coordinates.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Shape {
+pub enum Shape<C = Affine> {
     /// One number.
     Scalar,
     /// `[rows]`
     Vector(Affine),
     /// `[rows][columns]`
-    Matrix(Affine, Affine),
+    Matrix(Affine, C),
+}
+
+impl<C> Shape<C> {
+    /// The rows of an array.
+    #[must_use]
+    pub fn rows(&self) -> Option<&Affine> {
+        match self {
+            Shape::Scalar => None,
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => Some(rows),
+        }
+    }
+    /// The same, to be changed.
+    pub fn rows_mut(&mut self) -> Option<&mut Affine> {
+        match self {
+            Shape::Scalar => None,
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => Some(rows),
+        }
+    }
+    /// `q`, `q[2]`, `q[2][0]`
+    pub fn element(&self, name: &str, row: impl Display, column: impl Display) -> String {
+        match self {
+            Shape::Scalar => name.to_owned(),
+            Shape::Vector(_) => format!("{name}[{row}]"),
+            Shape::Matrix(..) => format!("{name}[{row}][{column}]"),
+        }
+    }
+}
+
+impl Shape<u16> {
+    /// How many columns there are; 1 of a scalar and of a vector.
+    #[must_use]
+    pub fn columns(&self) -> u16 {
+        match self {
+            Shape::Scalar | Shape::Vector(_) => 1,
+            Shape::Matrix(_, columns) => *columns,
+        }
+    }
+    /// Rows, 1 of a scalar, and columns, where the rows are literal.
+    #[must_use]
+    pub fn literal(&self) -> Option<(i64, u16)> {
+        let rows = self.rows().map_or(Some(1), Affine::as_constant)?;
+        Some((rows, self.columns()))
+    }
+    /// The same as a shape that a parameter may have.
+    #[must_use]
+    pub fn of_parameter(&self) -> Shape {
+        match self {
+            Shape::Scalar => Shape::Scalar,
+            Shape::Vector(rows) => Shape::Vector(rows.clone()),
+            Shape::Matrix(rows, columns) => {
+                Shape::Matrix(rows.clone(), Affine::constant(i64::from(*columns)))
+            }
+        }
+    }
 }
 
 /// A group of coordinates with its conjugate momenta.
@@ -26,8 +82,27 @@ pub struct Group {
     pub coordinate: String,
     /// The momentum's name.
     pub momentum: String,
-    /// The shape of both; the columns of a matrix are a literal.
-    pub shape: Shape,
+    /// The shape of both.
+    pub shape: Shape<u16>,
+}
+
+impl Group {
+    /// A coordinate and its momentum.
+    pub fn scalar(coordinate: impl Into<String>, momentum: impl Into<String>) -> Group {
+        Group {
+            coordinate: coordinate.into(),
+            momentum: momentum.into(),
+            shape: Shape::Scalar,
+        }
+    }
+    /// The name of one side.
+    #[must_use]
+    pub fn name(&self, side: Side) -> &str {
+        match side {
+            Side::Q => &self.coordinate,
+            Side::P => &self.momentum,
+        }
+    }
 }
 
 /// A parameter.
@@ -88,12 +163,8 @@ pub struct VectorFunction {
 /// A contribution to an element of a vector function.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct VectorEntry {
-    /// The part.
-    pub side: Side,
-    /// The group.
-    pub group: u16,
-    /// The column of a rank-2 group; 0 otherwise.
-    pub column: u16,
+    /// The column.
+    pub at: Column,
     /// The row.
     pub row: Index,
     /// The value.
@@ -134,15 +205,74 @@ pub struct Model {
 impl Model {
     /// The scalar coordinate or momentum of a scalar group.
     pub fn scalar(&mut self, side: Side, group: usize) -> Node {
-        self.dag.element(
-            Array::Phase {
-                side,
-                group: group as u16,
-                column: 0,
-            },
-            Index::constant(0),
-            None,
-        )
+        self.dag
+            .phase(Column::first(side, group as u16), Index::constant(0))
+    }
+    /// The columns of all groups on one side, with their rows; none of a scalar.
+    #[must_use]
+    pub fn columns(&self, side: Side) -> Vec<(Column, Option<Affine>)> {
+        let groups = self.groups.iter().zip(0..);
+        let of_group = |(declared, group): (&Group, u16)| {
+            let rows = declared.shape.rows().cloned();
+            let of = move |column| {
+                (
+                    Column {
+                        side,
+                        group,
+                        column,
+                    },
+                    rows.clone(),
+                )
+            };
+            (0..declared.shape.columns()).map(of)
+        };
+        groups.flat_map(of_group).collect()
+    }
+    /// The group of a column; what stands in the place of a group is of its shape.
+    fn group_of(&self, group: u16) -> &Group {
+        &self.groups[usize::from(group % REPLACING)]
+    }
+    /// The shape of an array.
+    #[must_use]
+    pub fn shape(&self, array: Array) -> Shape {
+        match array {
+            Array::Phase(Column { group, .. }) | Array::Direction(Column { group, .. }) => {
+                self.group_of(group).shape.of_parameter()
+            }
+            Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.clone(),
+        }
+    }
+    /// The name of an array.
+    #[must_use]
+    pub fn array_name(&self, array: Array) -> String {
+        match array {
+            Array::Phase(at) => self.group_of(at.group).name(at.side).to_owned(),
+            Array::Direction(at) => {
+                format!("v_{}", self.group_of(at.group).name(at.side))
+            }
+            Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].name.clone(),
+        }
+    }
+    /// H and the components of observables.
+    #[must_use]
+    pub fn roots(&self) -> Vec<Node> {
+        let observables = self.observables.iter().flat_map(|o| &o.components);
+        self.hamiltonian
+            .iter()
+            .chain(observables)
+            .copied()
+            .collect()
+    }
+    /// Puts other expressions in the places of [`Model::roots`]; gives back those that are left.
+    pub fn set_roots(&mut self, roots: Vec<Node>) -> Vec<Node> {
+        let mut roots = roots.into_iter();
+        let places = self.observables.iter_mut().flat_map(|o| &mut o.components);
+        for place in self.hamiltonian.iter_mut().chain(places) {
+            if let Some(root) = roots.next() {
+                *place = root;
+            }
+        }
+        roots.collect()
     }
     /// Puts other expressions in the places of all of its own: `pass` is given them in a fixed order.
     pub fn map_roots(&mut self, pass: impl FnOnce(&mut Dag, &mut [Node])) {

@@ -235,9 +235,9 @@ fn for_reads(program: &Program, step: &Step, visit: impl FnMut(Value)) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dag::{Array, Side};
-    use crate::index::Index;
-    use crate::model::{Group, Model, Shape};
+    use crate::dag::Side;
+
+    use crate::model::{Group, Model};
     use crate::op::Op;
     use crate::pipeline;
     use crate::program::Purpose;
@@ -247,20 +247,11 @@ mod tests {
     /// Value and gradient of Σ sin(k·q).
     fn waves(count: i64) -> Program {
         let mut model = Model {
-            groups: vec![Group {
-                coordinate: "q".into(),
-                momentum: "p".into(),
-                shape: Shape::Scalar,
-            }],
+            groups: vec![Group::scalar("q", "p")],
             ..Model::default()
         };
-        let q = Array::Phase {
-            side: Side::Q,
-            group: 0,
-            column: 0,
-        };
+        let q = model.scalar(Side::Q, 0);
         let dag = &mut model.dag;
-        let q = dag.element(q, Index::constant(0), None);
         let waves: Vec<_> = (1..=count)
             .map(|k| {
                 let angle = dag.scale(&Rational::integer(k), q);

@@ -8,7 +8,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
 use crate::forces;
-use crate::index::Index;
+use crate::index::{Affine, Index};
 use crate::model::{Model, Shape, VectorEntry, VectorFunction};
 use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
@@ -186,7 +186,7 @@ pub fn request(
     };
     let mut along = |model: &mut Model, sides: (bool, bool)| {
         let entries = gradient.get_or_insert_with(|| partials(model, h));
-        let is_wanted = |entry: &&VectorEntry| match entry.side {
+        let is_wanted = |entry: &&VectorEntry| match entry.at.side {
             Side::Q => sides.0,
             Side::P => sides.1,
         };
@@ -280,48 +280,13 @@ pub fn request(
     Ok(request)
 }
 
-/// The columns of all groups on one side, with the shape of each.
-fn columns(model: &Model, side: Side) -> Vec<(Target, Shape)> {
-    let mut all = Vec::new();
-    for (group, declaration) in model.groups.iter().enumerate() {
-        let count = match &declaration.shape {
-            Shape::Matrix(_, columns) => columns.as_constant().unwrap_or(1),
-            Shape::Scalar | Shape::Vector(_) => 1,
-        };
-        for column in 0..count {
-            all.push((
-                Target::Phase {
-                    side,
-                    group: group as u16,
-                    column: column as u16,
-                },
-                declaration.shape.clone(),
-            ));
-        }
-    }
-    all
-}
-
 /// The partial derivatives of a scalar by coordinates and momenta, element by element.
 fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
     let adjoints = diff::gradient(&mut model.dag, root, BOTH);
-    let entry = |(leaf, value): (Node, Node)| match model.dag.kind(leaf).clone() {
-        Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            _,
-        ) => Some(VectorEntry {
-            side,
-            group,
-            column,
-            row,
-            value,
-        }),
-        _ => None,
+    let entry = |(leaf, value): (Node, Node)| {
+        let (at, row) = model.dag.phase_place(leaf)?;
+        let row = row.clone();
+        Some(VectorEntry { at, row, value })
     };
     adjoints.into_iter().filter_map(entry).collect()
 }
@@ -346,11 +311,7 @@ pub fn gradient_of(model: &mut Model, name: String, root: Node) -> VectorFunctio
 /// The store that adds an entry.
 fn added(entry: VectorEntry) -> Store {
     Store {
-        target: Target::Phase {
-            side: entry.side,
-            group: entry.group,
-            column: entry.column,
-        },
+        target: Target::Phase(entry.at),
         row: entry.row,
         column: None,
         value: entry.value,
@@ -374,9 +335,10 @@ fn vector(
         if !wanted {
             continue;
         }
-        for (target, shape) in columns(model, side) {
+        for (column, rows) in model.columns(side) {
+            let target = Target::Phase(column);
             let own = places.get(&target).map_or(&[][..], Vec::as_slice);
-            overwrite(&mut model.dag, target, &shape, own, &mut stores, request);
+            overwrite(&mut model.dag, target, rows, own, &mut stores, request);
         }
     }
     request.stores.append(&mut stores);
@@ -386,12 +348,12 @@ fn vector(
 fn scaled(dag: &mut Dag, entry: VectorEntry) -> VectorEntry {
     let c = dag.coefficient();
     let value = dag.mul(&[c, entry.value]);
-    let (side, value) = match entry.side {
-        Side::Q => (Side::P, dag.neg(value)),
-        Side::P => (Side::Q, value),
+    let value = match entry.at.side {
+        Side::Q => dag.neg(value),
+        Side::P => value,
     };
     VectorEntry {
-        side,
+        at: entry.at.conjugate(),
         value,
         ..entry
     }
@@ -402,12 +364,12 @@ fn scaled(dag: &mut Dag, entry: VectorEntry) -> VectorEntry {
 fn overwrite(
     dag: &mut Dag,
     target: Target,
-    shape: &Shape,
+    rows: Option<Affine>,
     own: &[usize],
     stores: &mut Vec<Store>,
     request: &mut Request,
 ) {
-    if *shape == Shape::Scalar {
+    let Some(rows) = rows else {
         match own.first() {
             Some(&at) => stores[at].add = false,
             None => stores.push(Store {
@@ -419,10 +381,6 @@ fn overwrite(
             }),
         }
         return;
-    }
-    let rows = match shape {
-        Shape::Vector(rows) | Shape::Matrix(rows, _) => rows,
-        Shape::Scalar => return,
     };
     if let [at] = own {
         let store = &mut stores[*at];
@@ -433,9 +391,8 @@ fn overwrite(
             store.row.affine.constant,
         ) {
             let range = dag.range(*domain);
-            let whole = range.start.as_constant() == Some(0)
-                && range.end == *rows
-                && range.parent.is_none();
+            let whole =
+                range.start.as_constant() == Some(0) && range.end == rows && range.parent.is_none();
             if whole && dag.variables(store.value) & !(1u64 << domain.0) == 0 {
                 store.add = false;
                 return;

@@ -6,7 +6,9 @@
 //! depends on parameters alone in [`Program::prepare`], on parameters and the step coefficient in
 //! [`Function::coefficient`], the rest in [`Function::evaluation`].
 
-use crate::dag::{Array, Parameter, Part, Relation, Side};
+#[cfg(doc)]
+use crate::dag::Side;
+use crate::dag::{Array, Column, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -140,16 +142,9 @@ impl Instruction {
 /// What a function writes.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Target {
-    /// Column `column` of group `group` of the output vector that belongs to coordinates
-    /// ([`Side::Q`]: ∂H/∂q, or the coordinates a drift or flow adds to) or to momenta.
-    Phase {
-        /// Which output vector.
-        side: Side,
-        /// The group.
-        group: u16,
-        /// The column.
-        column: u16,
-    },
+    /// A column of the output vector that belongs to coordinates ([`Side::Q`]: ∂H/∂q, or the
+    /// coordinates a drift or flow adds to) or to momenta.
+    Phase(Column),
     /// The derivative with respect to a parameter; arrays element by element.
     Parameter(Parameter),
 }
@@ -254,18 +249,6 @@ impl Purpose {
     #[must_use]
     pub fn is_in_place(self) -> bool {
         matches!(self, Purpose::Piece(_))
-    }
-    /// Whether outputs are added to instead of overwritten.
-    #[must_use]
-    pub fn accumulates(self) -> bool {
-        matches!(
-            self,
-            Purpose::VectorField
-                | Purpose::Rates
-                | Purpose::Linear
-                | Purpose::Kick
-                | Purpose::Drift
-        )
     }
 }
 

@@ -1,4 +1,4 @@
-//! Expressions made again over other children: substitution, import, renaming of loops.
+//! Expressions made again over other children: substitution, renaming of loops.
 //!
 //! Input: nodes, and what takes the place of some of them. Output: nodes through the constructors
 //! of `simplify`, so in canonical form. Invariant: what does not change keeps its node.
@@ -18,17 +18,8 @@ impl Dag {
         }
     }
 
-    /// An expression of another arena, which must not have loops.
-    pub fn import(&mut self, other: &Dag, root: Node) -> Node {
-        let mut new: Map<Node, Node> = Map::default();
-        for node in other.reachable(&[root]) {
-            let image = self.construct(other.kind(node).clone(), &|child| new[&child]);
-            new.insert(node, image);
-        }
-        new[&root]
-    }
-
-    pub(crate) fn construct(&mut self, kind: Kind, new: &impl Fn(Node) -> Node) -> Node {
+    /// The node of a kind whose children are nodes of this arena or become such by `new`.
+    pub(crate) fn construct(&mut self, kind: Kind, new: &dyn Fn(Node) -> Node) -> Node {
         match kind {
             Kind::Sum(c, terms) => {
                 let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, new(n))).collect();

@@ -5,7 +5,7 @@
 //! `x/x = 1`, `√(x²) = |x|`. Half-integer powers are integer powers of a square root, so that
 //! `√x·√x` keeps the domain of `√x`.
 
-use crate::dag::{Array, Dag, Kind, Map, Node, Parameter, Part, Relation};
+use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::rational::{LONGEST, Rational};
@@ -44,6 +44,10 @@ impl Dag {
     /// An array element.
     pub fn element(&mut self, array: Array, row: Index, column: Option<Index>) -> Node {
         self.intern(Kind::Element(array, row, column))
+    }
+    /// An element of phase space.
+    pub fn phase(&mut self, column: Column, row: Index) -> Node {
+        self.element(Array::Phase(column), row, None)
     }
     /// A size as a real.
     pub fn extent(&mut self, size: Size) -> Node {

@@ -119,17 +119,13 @@ fn define(value: Value, scope: &mut Scope, computed: &mut Scope) -> Result<(), S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::dag::Side;
+    use crate::dag::{Column, Side};
     use crate::program::Purpose;
     use crate::rational::Rational;
 
     /// 2 + 2 into an output.
     fn program() -> Program {
-        let target = Target::Phase {
-            side: Side::Q,
-            group: 0,
-            column: 0,
-        };
+        let target = Target::Phase(Column::first(Side::Q, 0));
         Program {
             instructions: vec![
                 Instruction::Constant(Rational::integer(2)),

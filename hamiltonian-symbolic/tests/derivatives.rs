@@ -14,7 +14,7 @@ use crate::common;
 use crate::tape::{self, Traced};
 use crate::tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, grow, standing};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
-use hamiltonian_symbolic::dag::{Array, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::pipeline::{Refusal, derive};
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
@@ -154,19 +154,19 @@ fn lifted<T: Real>(case: &Case, lift: impl Fn(f64) -> T) -> Point<T> {
         let side = if at < PAIRS { Side::Q } else { Side::P };
         let (group, column) = ((at % PAIRS) as u16, 0);
         point.arrays.insert(
-            Array::Phase {
+            Array::Phase(Column {
                 side,
                 group,
                 column,
-            },
+            }),
             vec![vec![lift(case.point[at])]],
         );
         point.arrays.insert(
-            Array::Direction {
+            Array::Direction(Column {
                 side,
                 group,
                 column,
-            },
+            }),
             vec![vec![lift(case.direction[at])]],
         );
         point
@@ -182,11 +182,11 @@ fn lifted<T: Real>(case: &Case, lift: impl Fn(f64) -> T) -> Point<T> {
 }
 
 fn phase(side: Side, group: u16) -> Target {
-    Target::Phase {
+    Target::Phase(Column {
         side,
         group,
         column: 0,
-    }
+    })
 }
 
 fn parameter(at: usize) -> Target {
@@ -549,11 +549,11 @@ fn edges_of_domains() {
         let mut point = Point::<f64>::new();
         for (side, x) in [(Side::Q, *q), (Side::P, *p)] {
             let (group, column) = (0, 0);
-            let array = Array::Phase {
+            let array = Array::Phase(Column {
                 side,
                 group,
                 column,
-            };
+            });
             point.arrays.insert(array, vec![vec![x]]);
             point.outputs.insert(phase(side, 0), vec![vec![0.0]]);
         }

@@ -2,7 +2,7 @@
 
 use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
-use hamiltonian_symbolic::dag::Side;
+use hamiltonian_symbolic::dag::{Column, Side};
 use hamiltonian_symbolic::index::Index;
 use hamiltonian_symbolic::model::{Model, VectorEntry};
 
@@ -190,9 +190,7 @@ fn with_a_force_nothing_is_kept_away() {
     accepted(&mut well, "sign(q)");
     let drag = parse(&mut well, "-p");
     well.force = vec![VectorEntry {
-        side: Side::P,
-        group: 0,
-        column: 0,
+        at: Column::first(Side::P, 0),
         row: Index::constant(0),
         value: drag,
     }];

@@ -1,7 +1,7 @@
 //! Lagrangians become Hamiltonians, or are refused with the reason.
 
 use crate::common::{model, parse};
-use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::legendre::{Component, Legendre, transform};
@@ -240,7 +240,7 @@ fn arrays_stay_loops() {
         "sum(i in 0..N) { p_q[i]^2/m[i] }/2 + sum(i in 0..N) { exp(q[i] - q[(i + 1) % N]) }"
     );
     assert!(legendre.velocities[0].domain.is_some());
-    let Kind::Element(Array::Phase { side: Side::P, .. }, ..) =
+    let Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) =
         m.dag.kind(legendre.velocities[0].element)
     else {
         panic!()

@@ -2,7 +2,7 @@
 //! derivatives of the written-out system.
 
 use crate::common::{model, parse, system};
-use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::loops::{Sample, field, sample, unroll, unroll_nodes, write_out};
@@ -204,11 +204,11 @@ fn derivatives_by_element_are_those_of_the_system_written_out() {
             };
             let k = field::elements(&mut m.dag, &rows);
             for column in 0..columns {
-                let array = Array::Phase {
+                let array = Array::Phase(Column {
                     side,
                     group: 0,
                     column,
-                };
+                });
                 let Some(derivative) = field::field(&mut m.dag, &leaves, array, &rows) else {
                     panic!("{h}")
                 };

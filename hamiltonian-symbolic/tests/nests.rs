@@ -8,7 +8,7 @@ use crate::tape;
 use crate::tape::Traced;
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
-use hamiltonian_symbolic::dag::{Array, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
@@ -185,26 +185,26 @@ fn against_written_out(system: &System, n: usize) {
                 continue;
             };
             let (group, column) = (number as u16, 0);
-            let phase = Array::Phase {
+            let phase = Array::Phase(Column {
                 side,
                 group,
                 column,
-            };
-            let direction = Array::Direction {
+            });
+            let direction = Array::Direction(Column {
                 side,
                 group,
                 column,
-            };
+            });
             let along = instance.values[&Place::Direction(side, g, c, r)];
             point
                 .arrays
                 .insert(phase, vec![vec![instance.values[&place]]]);
             point.arrays.insert(direction, vec![vec![along]]);
-            let target = Target::Phase {
+            let target = Target::Phase(Column {
                 side,
                 group,
                 column,
-            };
+            });
             point.outputs.insert(target, vec![vec![instance.start]]);
         }
     }

@@ -4,7 +4,7 @@
 use crate::common;
 use crate::soundness;
 use crate::tree::{Random, grow};
-use hamiltonian_symbolic::dag::{Array, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Side};
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::op::Op;
@@ -103,11 +103,11 @@ fn energy(h: &str, q: f64, p: f64) -> f64 {
     let program = program("q; p", "", h, &[Purpose::Energy]);
     let mut point = Point::<f64>::new();
     for (side, x) in [(Side::Q, q), (Side::P, p)] {
-        let array = Array::Phase {
+        let array = Array::Phase(Column {
             side,
             group: 0,
             column: 0,
-        };
+        });
         point.arrays.insert(array, vec![vec![x]]);
     }
     run(&program, &program.functions[0], &point).results[0]

@@ -5,7 +5,7 @@ use crate::common;
 use crate::flows::{Case, check};
 use crate::tree::{Random, grow};
 use hamiltonian_lanes::{DoubleDouble, Real};
-use hamiltonian_symbolic::dag::{Array, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::eval::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::op::Op;
@@ -328,11 +328,11 @@ fn slope(found: &Found) -> Option<f64> {
                 (Side::Q, 2.9 - 0.8 * group as f64),
                 (Side::P, 0.3 + 0.2 * group as f64),
             ] {
-                let target = Target::Phase {
+                let target = Target::Phase(Column {
                     side,
                     group: group as u16,
                     column: 0,
-                };
+                });
                 point
                     .outputs
                     .insert(target, vec![vec![DoubleDouble::from(value)]]);
@@ -378,10 +378,12 @@ fn short_flows_round_to_both_sides() {
     let mut model = common::system("q; p", "", "", "0.5*q^2*(p^2 + 1)");
     model.pieces = find(&mut model).unwrap().pieces;
     let program = derive(&mut model, &[Purpose::Piece(0)]).unwrap();
-    let target = |side| Target::Phase {
-        side,
-        group: 0,
-        column: 0,
+    let target = |side| {
+        Target::Phase(Column {
+            side,
+            group: 0,
+            column: 0,
+        })
     };
     let mut point = Point::<f64>::new();
     point.outputs.insert(target(Side::Q), vec![vec![0.7]]);
@@ -492,11 +494,11 @@ fn ring_slope(model: &mut Model) -> f64 {
             .arrays
             .insert(Array::Parameter(Parameter(0)), vec![circulations.collect()]);
         for (side, shift) in [(Side::Q, 0.3), (Side::P, 1.1)] {
-            let target = Target::Phase {
+            let target = Target::Phase(Column {
                 side,
                 group: 0,
                 column: 0,
-            };
+            });
             let values = (0..N).map(|i| DoubleDouble::from((1.7 * i as f64 + shift).sin() + 0.2));
             point.outputs.insert(target, vec![values.collect()]);
         }

@@ -1,12 +1,12 @@
 //! Another time: what H becomes, and what is carried along; splits and forces as they are checked.
 
-use crate::common::{model, parse, system, values};
-use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use crate::common::{parse, system, values};
+use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
-use hamiltonian_symbolic::index::{Affine, Index};
+use hamiltonian_symbolic::index::Index;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry};
 use hamiltonian_symbolic::print;
-use hamiltonian_symbolic::transform::{Force, check_forces, check_split, retime};
+use hamiltonian_symbolic::transform::{check_split, retime};
 
 #[test]
 fn another_time_adds_the_old_one_as_a_coordinate() {
@@ -49,11 +49,11 @@ fn another_time_adds_the_old_one_as_a_coordinate() {
     let slopes = diff::gradient(&mut new.model.dag, h, both);
     let old = diff::gradient(&mut new.model.dag, new.energy, both);
     let read = |new: &mut Model, side, group| {
-        let array = Array::Phase {
+        let array = Array::Phase(Column {
             side,
             group,
             column: 0,
-        };
+        });
         new.dag.element(array, Index::constant(0), None)
     };
     let p_t = read(&mut new.model, Side::P, 2);
@@ -143,10 +143,8 @@ fn a_force_in_another_time_keeps_the_shell() {
     let mut new = retime(&model, g, &[f]).unwrap();
     let force = new
         .force(&[VectorEntry {
-            side: Side::P,
-            group: 0,
+            at: Column::first(Side::P, 0),
             row: Index::constant(0),
-            column: 0,
             value: new.carried[0],
         }])
         .unwrap();
@@ -155,7 +153,7 @@ fn a_force_in_another_time_keeps_the_shell() {
         parse(&mut new.model, "(1 + x^2)*c*p*p"),
     ];
     assert_eq!([force[0].value, force[1].value], expected);
-    assert_eq!(force[1].group, new.group);
+    assert_eq!(force[1].at.group, new.group);
 }
 
 #[test]
@@ -200,52 +198,4 @@ fn a_split_adds_up_or_is_refused_with_the_difference() {
     let named = |a, b| [("T".to_owned(), a), ("V".to_owned(), b)];
     assert_eq!(check_split(&mut chain, &named(kinetic, potential)), Ok(()));
     assert!(check_split(&mut chain, &named(kinetic, kinetic)).is_err());
-}
-
-#[test]
-fn forces_act_on_every_momentum_once() {
-    let mut model = model("x, q[2], w[n][3]; p_x, p[2], v[n][3]", "n", "");
-    let value = model.dag.integer(1);
-    let force = |group: u16, row: Index, column: u16| Force {
-        group,
-        row,
-        column,
-        value,
-    };
-    let whole = model.dag.domain(
-        None,
-        Affine::constant(0),
-        Affine::size(hamiltonian_symbolic::index::Size(0)),
-    );
-    let part = model.dag.domain(
-        None,
-        Affine::constant(1),
-        Affine::size(hamiltonian_symbolic::index::Size(0)),
-    );
-    let all = |domain| Index::plain(Affine::variable(domain));
-    let mut forces = vec![
-        force(0, Index::constant(0), 0),
-        force(1, Index::constant(0), 0),
-        force(1, Index::constant(1), 0),
-        force(2, all(whole), 0),
-        force(2, all(whole), 1),
-        force(2, all(whole), 2),
-    ];
-    assert_eq!(check_forces(&model, &forces), Ok(()));
-    let missing = &forces[..5];
-    assert_eq!(
-        check_forces(&model, missing),
-        Err("no force acts on all of `v`".into())
-    );
-    forces[5] = force(2, all(part), 2);
-    assert!(check_forces(&model, &forces).unwrap_err().contains("rows"));
-    forces[5] = force(2, all(whole), 1);
-    assert_eq!(
-        check_forces(&model, &forces),
-        Err("two forces act on `v`".into())
-    );
-    forces[5] = force(2, all(whole), 3);
-    assert!(check_forces(&model, &forces).is_err());
-    forces[2] = force(1, Index::constant(2), 0);
-    assert!(check_forces(&model, &forces).unwrap_err().contains("`p`"));
 }

@@ -2,7 +2,7 @@
 //! inverse, and what is refused.
 
 use crate::common::{parse, system, values};
-use hamiltonian_symbolic::dag::{Array, Dependence, Node, Parameter, Side};
+use hamiltonian_symbolic::dag::{Column, Dependence, Node, Parameter, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Index;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry};
@@ -186,12 +186,7 @@ fn a_vector_is_replaced_as_well_as_scalars_and_other_groups_stay() {
 }
 
 fn leaf(model: &mut Model, entry: &VectorEntry) -> Node {
-    let array = Array::Phase {
-        side: entry.side,
-        group: entry.group,
-        column: entry.column,
-    };
-    model.dag.element(array, entry.row.clone(), None)
+    model.dag.phase(entry.at, entry.row.clone())
 }
 
 /// Max |MᵀJM − J| of a map whose entries are coordinates, then momenta, in conjugate order, with
@@ -230,7 +225,7 @@ fn defect(model: &mut Model, map: &[Node], arguments: &[Node], given: &[(Node, f
 fn assert_canonical(transformed: &mut Transformed) {
     let sorted = |entries: &[VectorEntry]| {
         let mut entries = entries.to_vec();
-        entries.sort_by_key(|e| (e.side, e.group, e.column, e.row.clone()));
+        entries.sort_by_key(|e| (e.at, e.row.clone()));
         entries
     };
     let (forward, inverse) = (sorted(&transformed.forward), sorted(&transformed.inverse));
@@ -285,7 +280,7 @@ fn every_map_is_canonical_and_has_its_inverse() {
     let entry = wrong
         .inverse
         .iter()
-        .position(|e| e.side == Side::P)
+        .position(|e| e.at.side == Side::P)
         .unwrap();
     let value = wrong.inverse[entry].value;
     wrong.inverse[entry].value = wrong.model.dag.scale(&half, value);
@@ -478,10 +473,8 @@ fn forces_are_transformed_with_the_momenta() {
     let force: Vec<VectorEntry> = [(0, new.carried[0]), (1, new.carried[1])]
         .into_iter()
         .map(|(group, value)| VectorEntry {
-            side: Side::P,
-            group,
+            at: Column::first(Side::P, group),
             row: Index::constant(0),
-            column: 0,
             value,
         })
         .collect();
@@ -491,7 +484,7 @@ fn forces_are_transformed_with_the_momenta() {
         .map(|e| print::text(&new.model, e.value))
         .collect();
     assert_eq!(text, ["-c*p_r", "-c*p_phi"]);
-    assert_eq!((found[0].group, found[1].group), (0, 1));
+    assert_eq!((found[0].at.group, found[1].at.group), (0, 1));
 }
 
 #[test]

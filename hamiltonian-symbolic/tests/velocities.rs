@@ -2,7 +2,7 @@
 
 use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant_of_lagrangian};
-use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::legendre::{Legendre, transform};
 use hamiltonian_symbolic::model::Model;
 
@@ -24,19 +24,19 @@ fn verdict(model: &mut Model, legendre: &Legendre, source: &str) -> Verdict {
         .dag
         .substitute(node, |dag, node| match dag.kind(node).clone() {
             Kind::Element(
-                Array::Phase {
+                Array::Phase(Column {
                     side: Side::P,
                     group,
                     column,
-                },
+                }),
                 row,
                 None,
             ) => {
-                let array = Array::Direction {
+                let array = Array::Direction(Column {
                     side: Side::P,
                     group,
                     column,
-                };
+                });
                 Some(dag.element(array, row, None))
             }
             _ => None,

@@ -2,7 +2,7 @@
 
 use super::{At, Outputs};
 use crate::tree::{PAIRS, PARAMETERS, Tree};
-use hamiltonian_symbolic::dag::{Array, Dependence, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dependence, Parameter, Side};
 use hamiltonian_symbolic::eval::{Outcome, Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
@@ -147,11 +147,7 @@ fn sides(names: [&'static str; 2]) -> [(&'static str, Side); 2] {
 }
 
 fn phase(side: Side, group: u16) -> Target {
-    Target::Phase {
-        side,
-        group,
-        column: 0,
-    }
+    Target::Phase(Column::first(side, group))
 }
 
 /// The point as the interpreter reads it; outputs that are not added to start as NaN.
@@ -168,19 +164,14 @@ fn point(at: &At, adds: bool) -> Point<f64> {
             } else {
                 f64::NAN
             };
-            let (group, column) = (group as u16, 0);
-            let array = Array::Phase {
-                side,
-                group,
-                column,
-            };
-            point.arrays.insert(array, vec![vec![values]]);
-            let array = Array::Direction {
-                side,
-                group,
-                column,
-            };
-            point.arrays.insert(array, vec![vec![direction]]);
+            let group = group as u16;
+            let column = Column::first(side, group);
+            point
+                .arrays
+                .insert(Array::Phase(column), vec![vec![values]]);
+            point
+                .arrays
+                .insert(Array::Direction(column), vec![vec![direction]]);
             point.outputs.insert(phase(side, group), vec![vec![into]]);
         }
     }

@@ -6,9 +6,9 @@ mod text;
 
 use crate::common::geometry::{defect, one_point};
 use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Scratch, Split, System, Vector};
-use hamiltonian_symbolic::dag::{Array, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::eval::{self, run};
-use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 
@@ -74,18 +74,14 @@ impl Equations {
     fn of(case: &Case, text: &str) -> Equations {
         let names: Vec<&str> = case.parameters.iter().map(|(name, _)| *name).collect();
         let mut model = text::model(case.signature, "N n", &names.join(" "));
-        let rows = |shape: &Shape| match shape {
-            Shape::Scalar => 1,
-            Shape::Vector(rows) => rows.as_constant().expect("a number"),
-            Shape::Matrix(..) => panic!("no matrices here"),
-        };
         for (parameter, (_, values)) in model.parameters.iter_mut().zip(case.parameters) {
             if values.len() > 1 {
                 let rows = hamiltonian_symbolic::index::Affine::constant(values.len() as i64);
                 parameter.shape = Shape::Vector(rows);
             }
         }
-        assert!(model.groups.iter().all(|group| rows(&group.shape) > 0));
+        let is_literal = |group: &Group| matches!(group.shape.literal(), Some((1.., 1)));
+        assert!(model.groups.iter().all(is_literal));
         let h = text::parse(&mut model, text);
         model.hamiltonian = Some(h);
         let wanted = [Purpose::VectorField, Purpose::Energy];
@@ -114,21 +110,11 @@ impl Equations {
                     Shape::Vector(rows) => rows.as_constant().expect("a number") as usize,
                     _ => 1,
                 };
-                let (group, column) = (group as u16, 0);
+                let column = Column::first(side, group as u16);
                 let values: Vec<_> = left.by_ref().take(rows).collect();
                 let nothing = vec![DoubleDouble::zero(); rows];
-                let array = Array::Phase {
-                    side,
-                    group,
-                    column,
-                };
-                point.arrays.insert(array, vec![values]);
-                let target = Target::Phase {
-                    side,
-                    group,
-                    column,
-                };
-                point.outputs.insert(target, vec![nothing]);
+                point.arrays.insert(Array::Phase(column), vec![values]);
+                point.outputs.insert(Target::Phase(column), vec![nothing]);
             }
         }
         let function = self.program.function(purpose).expect("it was asked for");
@@ -143,11 +129,7 @@ impl Equations {
         let mut all = Vec::with_capacity(z.len());
         for side in [Side::Q, Side::P] {
             for group in 0..self.model.groups.len() {
-                let target = Target::Phase {
-                    side,
-                    group: group as u16,
-                    column: 0,
-                };
+                let target = Target::Phase(Column::first(side, group as u16));
                 all.extend(&outputs[&target][0]);
             }
         }

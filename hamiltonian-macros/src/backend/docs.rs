@@ -102,19 +102,10 @@ fn row(method: &str, count: &Count) -> String {
 
 /// `H(x, q[N]; p_x, p[N]; t)`
 fn signature(model: &Model) -> String {
-    let extent = |affine: &hamiltonian_symbolic::index::Affine| match affine.as_constant() {
-        Some(number) => number.to_string(),
-        None => {
-            let size = affine.sizes.first().map(|(size, _)| usize::from(size.0));
-            size.and_then(|size| model.sizes.get(size))
-                .cloned()
-                .unwrap_or_default()
-        }
-    };
-    let shape = |shape: &Shape| match shape {
+    let shape = |shape: &Shape<u16>| match shape {
         Shape::Scalar => String::new(),
-        Shape::Vector(rows) => format!("[{}]", extent(rows)),
-        Shape::Matrix(rows, columns) => format!("[{}][{}]", extent(rows), extent(columns)),
+        Shape::Vector(rows) => format!("[{}]", print::extent(model, rows)),
+        Shape::Matrix(rows, columns) => format!("[{}][{columns}]", print::extent(model, rows)),
     };
     let list = |name: fn(&hamiltonian_symbolic::model::Group) -> &String| {
         let names = model

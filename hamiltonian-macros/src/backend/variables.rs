@@ -12,9 +12,9 @@ use crate::checked::{self, ChartKind, Checked, Definition};
 use crate::emit::{Declared, VectorItem, VectorUse};
 use crate::lower::Lowered;
 use crate::report::Report;
-use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
+use hamiltonian_symbolic::dag::{Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::model::{Model, Shape, VectorEntry, VectorFunction};
+use hamiltonian_symbolic::model::{Model, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
 use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Placement, Refusal};
 use proc_macro2::Ident;
@@ -205,9 +205,9 @@ impl Settling {
         let mut force = Vec::new();
         let mut replaced = Vec::new();
         for entry in std::mem::take(&mut self.force) {
-            match number(entry.group) {
-                Some((_, new)) => force.push(VectorEntry {
-                    group: *new,
+            match number(entry.at.group) {
+                Some(&(_, group)) => force.push(VectorEntry {
+                    at: Column { group, ..entry.at },
                     ..entry
                 }),
                 None => replaced.push(entry),
@@ -271,9 +271,7 @@ impl Settling {
         for (item, vector) in self.vectors.iter().zip(&mut self.model.vectors) {
             if item.usage == VectorUse::Velocity {
                 vector.entries.push(VectorEntry {
-                    side: Side::Q,
-                    group,
-                    column: 0,
+                    at: Column::first(Side::Q, group),
                     row: Index::constant(0),
                     value: one,
                 });
@@ -281,9 +279,7 @@ impl Settling {
         }
         let mut on_shell = identity(&mut self.model, Side::P, &|other| other != group);
         on_shell.push(VectorEntry {
-            side: Side::P,
-            group,
-            column: 0,
+            at: Column::first(Side::P, group),
             row: Index::constant(0),
             value: start,
         });
@@ -370,11 +366,8 @@ fn map(transformed: &mut transform::Transformed, images: Vec<VectorEntry>) -> Ve
 fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<VectorEntry> {
     let mut all = Vec::new();
     for group in (0..model.groups.len() as u16).filter(|group| wanted(*group)) {
-        let (rows, columns) = match model.groups[usize::from(group)].shape.clone() {
-            Shape::Scalar => (None, 1),
-            Shape::Vector(rows) => (Some(rows), 1),
-            Shape::Matrix(rows, columns) => (Some(rows), columns.as_constant().unwrap_or(1)),
-        };
+        let shape = &model.groups[usize::from(group)].shape;
+        let (rows, columns) = (shape.rows().cloned(), shape.columns());
         let row = match rows {
             None => Index::constant(0),
             Some(rows) => {
@@ -382,20 +375,15 @@ fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<
                 Index::plain(Affine::variable(domain))
             }
         };
-        for column in 0..columns as u16 {
-            let array = Array::Phase {
+        for column in 0..columns {
+            let at = Column {
                 side,
                 group,
                 column,
             };
-            let value = model.dag.element(array, row.clone(), None);
-            all.push(VectorEntry {
-                side,
-                group,
-                column,
-                row: row.clone(),
-                value,
-            });
+            let row = row.clone();
+            let value = model.dag.phase(at, row.clone());
+            all.push(VectorEntry { at, row, value });
         }
     }
     all

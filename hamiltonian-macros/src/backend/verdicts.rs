@@ -5,7 +5,7 @@
 
 use crate::emit;
 use crate::emit::Reason;
-use hamiltonian_symbolic::dag::{Array, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::forces;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
@@ -139,7 +139,7 @@ fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
 /// The first coordinate or momentum that a node depends on.
 fn first_name(model: &Model, node: Node, wanted: Side) -> String {
     for leaf in model.dag.reachable(&[node]) {
-        if let Kind::Element(Array::Phase { side, group, .. }, ..) = model.dag.kind(leaf)
+        if let Kind::Element(Array::Phase(Column { side, group, .. }), ..) = model.dag.kind(leaf)
             && *side == wanted
         {
             let group = &model.groups[usize::from(*group)];

@@ -7,7 +7,7 @@
 use super::index::{Indices, variable};
 use super::layout::{Layout, Slice};
 use super::number::{self, Numbers};
-use hamiltonian_symbolic::dag::{Array, Part, Relation};
+use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
@@ -41,18 +41,9 @@ impl Context<'_> {
     /// The slice an array's elements are read from.
     pub fn read(self, array: Array) -> Slice {
         match array {
-            Array::Phase {
-                side,
-                group,
-                column,
-            } if self.in_place => Slice::write(
-                self.layout,
-                Target::Phase {
-                    side,
-                    group,
-                    column,
-                },
-            ),
+            Array::Phase(column) if self.in_place => {
+                Slice::write(self.layout, Target::Phase(column))
+            }
             _ => Slice::read(self.layout, array),
         }
     }
@@ -230,7 +221,7 @@ impl<'a> Writer<'a> {
     fn element(&self, array: Array, row: &Index, column: Option<&Index>) -> String {
         let slice = self.context.read(array);
         match array {
-            Array::Phase { group, .. } | Array::Direction { group, .. } => {
+            Array::Phase(Column { group, .. }) | Array::Direction(Column { group, .. }) => {
                 self.place(slice, Some(group), row)
             }
             Array::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
@@ -240,7 +231,7 @@ impl<'a> Writer<'a> {
     fn target(&self, target: Target, row: &Index, column: Option<&Index>) -> String {
         let slice = Slice::write(self.context.layout, target);
         match target {
-            Target::Phase { group, .. } => self.place(slice, Some(group), row),
+            Target::Phase(Column { group, .. }) => self.place(slice, Some(group), row),
             Target::Parameter(parameter) => {
                 match self.context.model.parameters[usize::from(parameter.0)].shape {
                     Shape::Scalar => format!("*{}", slice.name()),
@@ -270,12 +261,13 @@ impl<'a> Writer<'a> {
         let Some(column) = column else {
             return self.place(slice, None, row);
         };
-        let rows = match &self.context.model.parameters[usize::from(parameter)].shape {
-            Shape::Matrix(rows, _) | Shape::Vector(rows) => match rows.as_constant() {
-                Some(number) => number.to_string(),
-                None => self.context.indices.modulus(rows),
-            },
-            Shape::Scalar => "0".into(),
+        let shape = &self.context.model.parameters[usize::from(parameter)].shape;
+        let Some(extent) = shape.rows() else {
+            return self.place(slice, None, row);
+        };
+        let rows = match extent.as_constant() {
+            Some(number) => number.to_string(),
+            None => self.context.indices.modulus(extent),
         };
         let numbers = [&row.affine, &column.affine].map(Affine::as_constant);
         let place = match (numbers, rows.parse::<i64>()) {
@@ -411,7 +403,7 @@ impl<'a> Writer<'a> {
 /// How a part of a slice is borrowed.
 fn reference(slice: &Slice) -> &'static str {
     match slice {
-        Slice::Output(..) | Slice::Derivative(_) => "&mut ",
+        Slice::Output(_) | Slice::Derivative(_) => "&mut ",
         _ => "&",
     }
 }
@@ -549,10 +541,10 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
     for target in targets {
         let slice = Slice::write(context.layout, *target);
         let _ = match target {
-            Target::Phase { group, .. } if context.layout == Layout::Scalars => {
+            Target::Phase(Column { group, .. }) if context.layout == Layout::Scalars => {
                 writeln!(out, "{}[{group}] = T::constant(0.0, 0.0);", slice.name())
             }
-            Target::Phase { .. } => writeln!(out, "{}.fill(T::constant(0.0, 0.0));", slice.name()),
+            Target::Phase(_) => writeln!(out, "{}.fill(T::constant(0.0, 0.0));", slice.name()),
             // Derivatives with respect to parameters start at 0.
             Target::Parameter(_) => Ok(()),
         };
@@ -563,7 +555,7 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
 pub fn cleared(context: Context, targets: &[Target]) -> Vec<Slice> {
     let phase = targets
         .iter()
-        .filter(|target| matches!(target, Target::Phase { .. }));
+        .filter(|target| matches!(target, Target::Phase(_)));
     phase
         .map(|target| Slice::write(context.layout, *target))
         .collect()

@@ -22,8 +22,8 @@ pub fn vector(context: Context, generics: &Generics, scalar: &str, root: &str) -
     match context.layout {
         Layout::Scalars => format!("{root}::SVector<{scalar}, {}>", context.model.groups.len()),
         Layout::Array => {
-            let shape = &context.model.groups[0].shape;
-            layout::storage(shape, scalar, context.indices, context.is_run_time, root)
+            let shape = context.model.groups[0].shape.of_parameter();
+            layout::storage(&shape, scalar, context.indices, context.is_run_time, root)
         }
         Layout::Mixed => mixed::ty(context, generics, scalar),
     }
@@ -31,9 +31,9 @@ pub fn vector(context: Context, generics: &Generics, scalar: &str, root: &str) -
 
 /// The expression of the zero vector, where run-time sizes are called as in bodies.
 pub fn zeros(context: Context, generics: &Generics) -> String {
-    let filled = |shape: &Shape| {
+    let filled = |shape: &Shape<u16>| {
         layout::filled(
-            shape,
+            &shape.of_parameter(),
             "T::constant(0.0, 0.0)",
             context.indices,
             context.is_run_time,
@@ -628,10 +628,11 @@ pub(super) fn evaluation(
 fn groups(model: &Model, layout: Layout) -> String {
     let mut out = String::new();
     for (at, group) in model.groups.iter().enumerate() {
-        let (rank, columns) = match &group.shape {
-            Shape::Scalar => (0, 1),
-            Shape::Vector(_) => (1, 1),
-            Shape::Matrix(..) => (2, layout::columns(&group.shape)),
+        let columns = group.shape.columns();
+        let rank = match &group.shape {
+            Shape::Scalar => 0,
+            Shape::Vector(_) => 1,
+            Shape::Matrix(..) => 2,
         };
         let (part, offset) = match layout {
             Layout::Scalars => (0, at),

@@ -5,7 +5,7 @@
 //! of the slice of its column; scalar coordinates share one vector, in the order of their groups.
 
 use super::index::Indices;
-use hamiltonian_symbolic::dag::{Array, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::program::Target;
@@ -19,6 +19,14 @@ pub enum Layout {
     Array,
     /// Anything else: a generated struct with one part a group.
     Mixed,
+}
+
+/// The column of the vector that is stored: scalar coordinates share one.
+fn stored(layout: Layout, column: Column) -> Column {
+    match layout {
+        Layout::Scalars => Column { group: 0, ..column },
+        Layout::Array | Layout::Mixed => column,
+    }
 }
 
 /// The storage of a group.
@@ -131,25 +139,17 @@ pub fn filled(
     format!("{root}::Matrix::from_element_generic({rows}, {columns}, {value})")
 }
 
-/// How many columns a group has.
-pub fn columns(shape: &Shape) -> i64 {
-    match shape {
-        Shape::Scalar | Shape::Vector(_) => 1,
-        Shape::Matrix(_, columns) => columns.as_constant().unwrap_or(1),
-    }
-}
-
 /// A slice that a function body reads or writes: a column of a group, a parameter array.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slice {
     /// Coordinates or momenta.
-    Input(Side, u16, u16),
+    Input(Column),
     /// The direction of a Hessian product.
-    Direction(Side, u16, u16),
+    Direction(Column),
     /// A parameter array.
     Parameter(u16),
     /// An output vector.
-    Output(Side, u16, u16),
+    Output(Column),
     /// The derivative with respect to a parameter.
     Derivative(u16),
 }
@@ -157,18 +157,9 @@ pub enum Slice {
 impl Slice {
     /// The slice an array's elements are read from.
     pub fn read(layout: Layout, array: Array) -> Slice {
-        let flat = layout == Layout::Scalars;
         match array {
-            Array::Phase {
-                side,
-                group,
-                column,
-            } => Slice::Input(side, if flat { 0 } else { group }, column),
-            Array::Direction {
-                side,
-                group,
-                column,
-            } => Slice::Direction(side, if flat { 0 } else { group }, column),
+            Array::Phase(column) => Slice::Input(stored(layout, column)),
+            Array::Direction(column) => Slice::Direction(stored(layout, column)),
             Array::Parameter(Parameter(number)) => Slice::Parameter(number),
         }
     }
@@ -176,40 +167,32 @@ impl Slice {
     /// The slice a target's elements are written to.
     pub fn write(layout: Layout, target: Target) -> Slice {
         match target {
-            Target::Phase {
-                side,
-                group,
-                column,
-            } => Slice::Output(
-                side,
-                if layout == Layout::Scalars { 0 } else { group },
-                column,
-            ),
+            Target::Phase(column) => Slice::Output(stored(layout, column)),
             Target::Parameter(Parameter(number)) => Slice::Derivative(number),
         }
     }
 
     /// Its name in a function body.
     pub fn name(self) -> String {
-        let letter = |side| if side == Side::Q { 'q' } else { 'p' };
-        match self {
-            Slice::Input(side, group, column) => format!("_{}{group}_{column}", letter(side)),
-            Slice::Direction(side, group, column) => format!("_v{}{group}_{column}", letter(side)),
-            Slice::Parameter(number) => format!("_a{number}"),
-            Slice::Output(side, group, column) => format!("_o{}{group}_{column}", letter(side)),
-            Slice::Derivative(number) => format!("_d{number}"),
-        }
+        let number = match self {
+            Slice::Input(at) | Slice::Direction(at) | Slice::Output(at) => {
+                format!("{}_{}", at.group, at.column)
+            }
+            Slice::Parameter(number) => return format!("_a{number}"),
+            Slice::Derivative(number) => return format!("_d{number}"),
+        };
+        format!("{}{number}", self.vector())
     }
 
     /// The name of the vector it is a part of.
     fn vector(self) -> &'static str {
         match self {
-            Slice::Input(Side::Q, ..) => "_q",
-            Slice::Input(Side::P, ..) => "_p",
-            Slice::Direction(Side::Q, ..) => "_vq",
-            Slice::Direction(Side::P, ..) => "_vp",
-            Slice::Output(Side::Q, ..) => "_oq",
-            Slice::Output(Side::P, ..) => "_op",
+            Slice::Input(at) if at.side == Side::Q => "_q",
+            Slice::Input(_) => "_p",
+            Slice::Direction(at) if at.side == Side::Q => "_vq",
+            Slice::Direction(_) => "_vp",
+            Slice::Output(at) if at.side == Side::Q => "_oq",
+            Slice::Output(_) => "_op",
             Slice::Parameter(_) | Slice::Derivative(_) => "",
         }
     }
@@ -224,8 +207,9 @@ pub fn bind(
     indices: Indices,
     is_run_time: &[bool],
 ) {
-    for run in slices.chunk_by(|a, b| a.vector() == b.vector() && part_of(*a) == part_of(*b)) {
-        let Some((mutable, group)) = part_of(run[0]) else {
+    let part = |slice: &Slice| part_of(*slice).map(|(_, at)| (slice.vector(), at.group));
+    for run in slices.chunk_by(|a, b| part(a) == part(b)) {
+        let Some((mutable, Column { group, .. })) = part_of(run[0]) else {
             continue;
         };
         let vector = run[0].vector();
@@ -244,23 +228,23 @@ pub fn bind(
             (Layout::Mixed, _) => format!("{vector}.{}.as{suffix}_slice()", field.coordinate),
             _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
         };
-        let shape = &model.groups[usize::from(group)].shape;
-        if layout == Layout::Scalars || *shape == Shape::Scalar {
-            out.push_str(&format!("let {} = {whole};\n", run[0].name()));
-            continue;
-        }
-        let rows = match shape {
-            Shape::Vector(rows) | Shape::Matrix(rows, _) => indices.plain(rows, None),
-            Shape::Scalar => String::new(),
+        let (rows, columns) = match field.shape.rows() {
+            Some(rows) if layout != Layout::Scalars => (rows, field.shape.columns()),
+            _ => {
+                out.push_str(&format!("let {} = {whole};\n", run[0].name()));
+                continue;
+            }
         };
-        let columns = columns(shape);
-        if columns == 1 && !is_dynamic(shape, is_run_time) {
+        let rows = indices.plain(rows, None);
+        if columns == 1 && !is_dynamic(&field.shape.of_parameter(), is_run_time) {
             out.push_str(&format!("let {} = {whole};\n", run[0].name()));
             continue;
         }
+        let is_of =
+            |slice: &Slice, column| part_of(*slice).is_some_and(|(_, at)| at.column == column);
         let names: Vec<String> = (0..columns)
             .map(|column| {
-                let wanted = run.iter().find(|slice| column_of(**slice) == column);
+                let wanted = run.iter().find(|slice| is_of(slice, column));
                 wanted.map_or_else(|| "_".to_owned(), |slice| slice.name())
             })
             .collect();
@@ -271,20 +255,11 @@ pub fn bind(
     }
 }
 
-fn column_of(slice: Slice) -> i64 {
+/// Whether it is written, and its column; `None` for parameters.
+fn part_of(slice: Slice) -> Option<(bool, Column)> {
     match slice {
-        Slice::Input(_, _, column)
-        | Slice::Direction(_, _, column)
-        | Slice::Output(_, _, column) => i64::from(column),
-        Slice::Parameter(_) | Slice::Derivative(_) => 0,
-    }
-}
-
-/// Whether it is written, and the group of which it is a column; `None` for parameters.
-fn part_of(slice: Slice) -> Option<(bool, u16)> {
-    match slice {
-        Slice::Input(_, group, _) | Slice::Direction(_, group, _) => Some((false, group)),
-        Slice::Output(_, group, _) => Some((true, group)),
+        Slice::Input(column) | Slice::Direction(column) => Some((false, column)),
+        Slice::Output(column) => Some((true, column)),
         Slice::Parameter(_) | Slice::Derivative(_) => None,
     }
 }

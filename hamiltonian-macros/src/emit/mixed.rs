@@ -27,7 +27,8 @@ pub fn ty(context: Context, generics: &Generics, scalar: &str) -> String {
 
 /// The traits the struct derives: it is `Copy` where static vectors are.
 pub fn derives(context: Context, root: &str) -> String {
-    let is_static = |group: &Group| !layout::is_dynamic(&group.shape, context.is_run_time);
+    let is_static =
+        |group: &Group| !layout::is_dynamic(&group.shape.of_parameter(), context.is_run_time);
     let copy = if context.model.groups.iter().all(is_static) {
         format!("{root}::core::marker::Copy, ")
     } else {
@@ -51,7 +52,7 @@ pub fn declaration(context: Context, generics: &Generics, root: &str) -> String 
     let mut fields = String::new();
     for group in &context.model.groups {
         let ty = layout::storage(
-            &group.shape,
+            &group.shape.of_parameter(),
             "T",
             context.indices,
             context.is_run_time,
@@ -93,7 +94,7 @@ fn arguments(context: Context) -> Arguments {
             fields.push(format!("{field}: _{at}"));
         } else {
             let storage = layout::storage(
-                &group.shape,
+                &group.shape.of_parameter(),
                 "T",
                 context.indices,
                 context.is_run_time,

@@ -165,8 +165,8 @@ impl Emission<'_> {
     fn one_way(&self, function: &Function) -> Option<Side> {
         let slices = scan(self.context, &function.evaluation, &function.results).slices;
         let touched = |side: Side| {
-            let reads = |slice: &Slice| matches!(slice, Slice::Input(of, ..) if *of == side);
-            let writes = |slice: &Slice| matches!(slice, Slice::Output(of, ..) if *of == side);
+            let reads = |slice: &Slice| matches!(slice, Slice::Input(of) if of.side == side);
+            let writes = |slice: &Slice| matches!(slice, Slice::Output(of) if of.side == side);
             (slices.iter().any(reads), slices.iter().any(writes))
         };
         match (touched(Side::Q), touched(Side::P)) {

@@ -4,7 +4,7 @@ use super::{
     Definition, Field, Form, Item, ObservableItem, ParameterItem, Reason, SizeItem, Structure,
     Text, closed,
 };
-use hamiltonian_symbolic::dag::{Array, Dag, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dag, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, Size};
 use hamiltonian_symbolic::model::{
     Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape,
@@ -182,7 +182,7 @@ pub fn nonseparable() -> TokenStream {
     emit(&mut model, Form::Expression(captures), false)
 }
 
-fn arrays(name: &str, shape: Shape, size: &str) -> Model {
+fn arrays(name: &str, shape: Shape<u16>, size: &str) -> Model {
     Model {
         name: name.into(),
         groups: vec![Group {
@@ -196,11 +196,11 @@ fn arrays(name: &str, shape: Shape, size: &str) -> Model {
 }
 
 fn phase(side: Side, column: u16) -> Array {
-    Array::Phase {
+    Array::Phase(Column {
         side,
         group: 0,
         column,
-    }
+    })
 }
 
 pub fn toda() -> TokenStream {
@@ -231,11 +231,7 @@ pub fn toda() -> TokenStream {
 
 pub fn gravity() -> TokenStream {
     let n = Affine::size(Size(0));
-    let mut model = arrays(
-        "Gravity",
-        Shape::Matrix(n.clone(), Affine::constant(3)),
-        "n",
-    );
+    let mut model = arrays("Gravity", Shape::Matrix(n.clone(), 3), "n");
     model.parameters = vec![
         ParameterDeclaration {
             name: "G".into(),

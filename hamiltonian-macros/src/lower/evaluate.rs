@@ -15,7 +15,7 @@ use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
-use hamiltonian_symbolic::dag::{self, Array, Dag, Map, Node, Parameter, Part, Side};
+use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
 use hamiltonian_symbolic::index::{Domain, Index, LOOPS, Size};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
@@ -452,13 +452,11 @@ impl<'a> Evaluator<'a> {
         let spans = self.checked.node(node).spans;
         let column = match &model.groups[group].shape {
             Shape::Matrix(_, columns) => {
-                let length = columns.as_constant().and_then(|n| usize::try_from(n).ok());
-                let column = length.and_then(|length| self.number(spans, demand, 1, length));
-                match column {
+                match self.number(spans, demand, 1, usize::from(*columns)) {
                     Some(column) => column,
                     // Refused already.
                     None if self.refused => 0,
-                    None => return self.fault(node, "its columns are not a literal"),
+                    None => return self.fault(node, "its column is not a literal"),
                 }
             }
             Shape::Scalar | Shape::Vector(_) => 0,
@@ -468,12 +466,15 @@ impl<'a> Evaluator<'a> {
             .first()
             .cloned()
             .unwrap_or_else(|| Index::constant(0));
-        let array = Array::Phase {
-            side,
-            group: group as u16,
-            column: column as u16,
-        };
-        model.dag.element(array, row, None)
+        let (group, column) = (group as u16, column as u16);
+        model.dag.phase(
+            Column {
+                side,
+                group,
+                column,
+            },
+            row,
+        )
     }
 
     fn call(
@@ -604,23 +605,11 @@ fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
 
 /// The element of what a chart puts in the place of a group of bodies.
 fn replaced(dag: &mut Dag, old: Node) -> Node {
-    match dag.kind(old).clone() {
-        dag::Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            _,
-        ) => {
-            let array = Array::Phase {
-                side,
-                group: REPLACING + group,
-                column,
-            };
-            dag.element(array, row, None)
+    match dag.phase_place(old) {
+        Some((column, row)) => {
+            let (group, row) = (REPLACING + column.group, row.clone());
+            dag.phase(Column { group, ..column }, row)
         }
-        _ => old,
+        None => old,
     }
 }

@@ -20,7 +20,7 @@ use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
 use evaluate::{Derived, Evaluator};
-use hamiltonian_symbolic::dag::{Dag, Node, Side};
+use hamiltonian_symbolic::dag::{Column, Dag, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
@@ -28,7 +28,8 @@ use hamiltonian_symbolic::model::{
     VectorFunction,
 };
 use hamiltonian_symbolic::rational::Rational;
-use scope::{shape, size_affine};
+use proc_macro2::Span;
+use scope::{group_shape, shape, size_affine};
 
 /// The way out of too many loops.
 pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
@@ -66,7 +67,13 @@ pub struct Lowered {
 
 /// The mathematics of a definition, if it could be made; what is wrong goes into the report.
 pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
-    let mut model = declarations(checked);
+    let Some(mut model) = declarations(checked) else {
+        report.internal(
+            Span::call_site(),
+            "the columns of a group are not a literal",
+        );
+        return None;
+    };
     let mut evaluator = Evaluator::new(checked, report);
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
@@ -225,13 +232,7 @@ impl Rest<'_> {
         let mut entries = Vec::new();
         for (group, root) in self.checked.force.iter().enumerate() {
             let shape = model.groups[group].shape.clone();
-            let (rows, columns) = match &shape {
-                Shape::Scalar => (None, 1),
-                Shape::Vector(rows) => (Some(rows.clone()), 1),
-                Shape::Matrix(rows, columns) => {
-                    (Some(rows.clone()), columns.as_constant().unwrap_or(1))
-                }
-            };
+            let (rows, columns) = (shape.rows().cloned(), shape.columns());
             // Into other coordinates a force is carried element by element, and of some vectors the
             // components are there by number only.
             let by_number = !self.checked.charts.is_empty()
@@ -255,16 +256,16 @@ impl Rest<'_> {
                     demand.indices.push(row.clone());
                 }
                 if matches!(shape, Shape::Matrix(..)) {
-                    demand.indices.push(Index::constant(column));
+                    demand.indices.push(Index::constant(i64::from(column)));
                 }
                 let value = self.values(model, &[(*root, demand)])?.first().copied()?;
-                entries.push(VectorEntry {
+                let at = Column {
                     side: Side::P,
                     group: group as u16,
-                    column: column as u16,
-                    row: row.clone(),
-                    value,
-                });
+                    column,
+                };
+                let row = row.clone();
+                entries.push(VectorEntry { at, row, value });
             }
         }
         Some(entries)
@@ -272,7 +273,7 @@ impl Rest<'_> {
 }
 
 /// Names and shapes.
-fn declarations(checked: &Checked) -> Model {
+fn declarations(checked: &Checked) -> Option<Model> {
     let parameters = checked
         .parameters
         .iter()
@@ -284,20 +285,19 @@ fn declarations(checked: &Checked) -> Model {
         name: name.to_string(),
         shape: shape(Type::Scalar),
     });
-    Model {
+    let group = |group: &crate::checked::Group| {
+        Some(Group {
+            coordinate: group.coordinate.to_string(),
+            momentum: group.momentum.to_string(),
+            shape: group_shape(group.ty)?,
+        })
+    };
+    Some(Model {
         name: checked
             .item
             .as_ref()
             .map_or_else(|| "H".to_owned(), |item| item.name.to_string()),
-        groups: checked
-            .groups
-            .iter()
-            .map(|group| Group {
-                coordinate: group.coordinate.to_string(),
-                momentum: group.momentum.to_string(),
-                shape: shape(group.ty),
-            })
-            .collect(),
+        groups: checked.groups.iter().map(group).collect::<Option<_>>()?,
         parameters: parameters.chain(captures).collect(),
         sizes: checked
             .sizes
@@ -315,7 +315,7 @@ fn declarations(checked: &Checked) -> Model {
             })
             .collect(),
         ..Model::default()
-    }
+    })
 }
 
 /// The roots of a value: itself, or its components.

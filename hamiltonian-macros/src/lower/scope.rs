@@ -26,6 +26,19 @@ pub fn shape(ty: Type) -> Shape {
     }
 }
 
+/// The shape of a group of coordinates, whose columns are literal; `None` where they are not, which
+/// check refuses.
+pub fn group_shape(ty: Type) -> Option<Shape<u16>> {
+    Some(match ty {
+        Type::Bool | Type::Scalar => Shape::Scalar,
+        Type::Vector(rows) => Shape::Vector(size_affine(rows)),
+        Type::Matrix(rows, Extent::Literal(columns)) => {
+            Shape::Matrix(size_affine(rows), u16::try_from(columns).ok()?)
+        }
+        Type::Matrix(_, Extent::Size(_)) => return None,
+    })
+}
+
 /// A number, exactly.
 pub fn number(number: &Number) -> Rational {
     // Its digits are digits, and its exponent is that of a finite f64.

@@ -5,7 +5,7 @@
 //! Invariant: until then a velocity is an element of the direction that Hessians are multiplied
 //! with, which nothing else in a definition reads.
 
-use hamiltonian_symbolic::dag::{Array, Dag, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::write_out;
@@ -13,16 +13,12 @@ use hamiltonian_symbolic::model::{Model, VectorEntry};
 
 /// The mark of a velocity, from the momentum element of its place.
 pub fn marked(dag: &mut Dag, momentum: Node) -> Node {
-    match dag.kind(momentum).clone() {
-        Kind::Element(Array::Phase { group, column, .. }, row, None) => {
-            let array = Array::Direction {
-                side: Side::P,
-                group,
-                column,
-            };
-            dag.element(array, row, None)
+    match dag.phase_place(momentum) {
+        Some((column, row)) => {
+            let row = row.clone();
+            dag.element(Array::Direction(column), row, None)
         }
-        _ => momentum,
+        None => momentum,
     }
 }
 
@@ -30,19 +26,19 @@ pub fn marked(dag: &mut Dag, momentum: Node) -> Node {
 pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
     dag.substitute(root, |dag, node| match dag.kind(node).clone() {
         Kind::Element(
-            Array::Direction {
+            Array::Direction(Column {
                 side: Side::P,
                 group,
                 column,
-            },
+            }),
             row,
             None,
         ) => {
-            let array = Array::Phase {
+            let array = Array::Phase(Column {
                 side: Side::P,
                 group,
                 column,
-            };
+            });
             Some(dag.element(array, row, None))
         }
         _ => None,
@@ -56,7 +52,7 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
     let dag = &mut model.dag;
     let mut whole = true;
     let image = dag.substitute(root, |dag, node| {
-        let Kind::Element(Array::Direction { group, column, .. }, row, None) =
+        let Kind::Element(Array::Direction(Column { group, column, .. }), row, None) =
             dag.kind(node).clone()
         else {
             return None;
@@ -65,11 +61,11 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
             let Kind::Element(array, place, _) = dag.kind(component.element).clone() else {
                 continue;
             };
-            let wanted = Array::Phase {
+            let wanted = Array::Phase(Column {
                 side: Side::P,
                 group,
                 column,
-            };
+            });
             if array != wanted {
                 continue;
             }
@@ -99,14 +95,14 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
     let is_written_out = |wanted: u16| {
         velocities.iter().any(|component| {
             let group = match dag.kind(component.element) {
-                Kind::Element(Array::Phase { group, .. }, ..) => *group,
+                Kind::Element(Array::Phase(Column { group, .. }), ..) => *group,
                 _ => return false,
             };
             group == wanted && component.domain.is_none()
         })
     };
     let is_looped = |node: Node| match dag.kind(node) {
-        Kind::Element(Array::Direction { group, .. }, row, _) => {
+        Kind::Element(Array::Direction(Column { group, .. }), row, _) => {
             row.variables() != 0 && is_written_out(*group)
         }
         _ => false,
@@ -162,15 +158,13 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
 
 /// The components as entries of a vector on one side.
 pub fn entries(dag: &Dag, components: &[Component], side: Side) -> Vec<VectorEntry> {
-    let entry = |component: &Component| match dag.kind(component.element).clone() {
-        Kind::Element(Array::Phase { group, column, .. }, row, _) => Some(VectorEntry {
-            side,
-            group,
-            column,
-            row,
+    let entry = |component: &Component| {
+        let (column, row) = dag.phase_place(component.element)?;
+        Some(VectorEntry {
+            at: column.on(side),
+            row: row.clone(),
             value: component.value,
-        }),
-        _ => None,
+        })
     };
     components.iter().filter_map(entry).collect()
 }

@@ -15,7 +15,7 @@
 //! Invariant: no rule here looks at points.
 
 use super::pair::bracket;
-use crate::dag::{self, Array, Dag, Dependence, Kind, Map, Node};
+use crate::dag::{self, Column, Dag, Dependence, Kind, Map, Node};
 use crate::diff;
 use crate::facts::{Facts, Known, Locus, Regular};
 use crate::index::Index;
@@ -453,12 +453,7 @@ impl Place {
 
 /// A leaf that nothing else reads.
 fn distance(arena: &mut Dag) -> Node {
-    let array = Array::Phase {
-        side: dag::Side::Q,
-        group: u16::MAX,
-        column: 0,
-    };
-    arena.element(array, Index::constant(0), None)
+    arena.phase(Column::first(dag::Side::Q, u16::MAX), Index::constant(0))
 }
 
 /// One side of an expression.

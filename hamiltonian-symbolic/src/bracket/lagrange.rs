@@ -6,7 +6,7 @@
 //! and −∂I/∂v, with (∂I/∂q)·v + ∂I/∂t in the corner: a polynomial in M, which is never inverted.
 //! Invariant: M has a determinant that is not 0 everywhere (the Legendre transform saw to it).
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::legendre::Legendre;
 use crate::model::Model;
@@ -81,19 +81,19 @@ fn in_velocities(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Node {
         .collect();
     dag.substitute(expression, |dag, node| match dag.kind(node).clone() {
         Kind::Element(
-            Array::Direction {
+            Array::Direction(Column {
                 side: Side::P,
                 group,
                 column,
-            },
+            }),
             row,
             None,
         ) => {
-            let array = Array::Phase {
+            let array = Array::Phase(Column {
                 side: Side::P,
                 group,
                 column,
-            };
+            });
             Some(dag.element(array, row, None))
         }
         _ => momenta.get(&node).copied(),
@@ -122,16 +122,9 @@ fn gradient(dag: &mut Dag, root: Node, what: Dependence) -> Map<Node, Node> {
 
 /// The coordinate of a velocity.
 fn coordinate(dag: &mut Dag, velocity: Node) -> Option<Node> {
-    let Kind::Element(Array::Phase { group, column, .. }, row, None) = dag.kind(velocity).clone()
-    else {
-        return None;
-    };
-    let array = Array::Phase {
-        side: Side::Q,
-        group,
-        column,
-    };
-    Some(dag.element(array, row, None))
+    let (column, row) = dag.phase_place(velocity)?;
+    let row = row.clone();
+    Some(dag.phase(column.on(Side::Q), row))
 }
 
 /// The determinant, by minors of the last rows, each of which is computed once.

@@ -9,7 +9,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, write_out};
-use crate::model::{Model, Shape, VectorEntry};
+use crate::model::{Model, VectorEntry};
 use crate::rational::Rational;
 
 /// {a, b}; `None` where an array's derivatives cannot be brought together, as their indices
@@ -36,7 +36,7 @@ pub fn along_flow(model: &mut Model, a: Node, h: Node) -> Option<Node> {
 
 /// {a, b}, loops as loops, with a force f that acts as if ∂b/∂q were ∂b/∂q − f.
 fn in_loops(model: &mut Model, a: Node, b: Node, force: &[VectorEntry]) -> Option<Node> {
-    let shapes: Vec<Shape> = model.groups.iter().map(|g| g.shape.clone()).collect();
+    let columns = model.columns(Side::Q);
     let dag = &mut model.dag;
     let (aq, ap) = (
         diff::gradient(dag, a, Dependence::Q),
@@ -47,40 +47,24 @@ fn in_loops(model: &mut Model, a: Node, b: Node, force: &[VectorEntry]) -> Optio
         diff::gradient(dag, b, Dependence::P),
     );
     for entry in force {
-        let conjugate = Array::Phase {
-            side: Side::Q,
-            group: entry.group,
-            column: entry.column,
-        };
-        let leaf = dag.element(conjugate, entry.row.clone(), None);
+        let leaf = dag.phase(entry.at.on(Side::Q), entry.row.clone());
         bq.push((leaf, dag.neg(entry.value)));
     }
     let mut terms: Vec<(Rational, Node)> = Vec::new();
-    for (group, shape) in shapes.iter().enumerate() {
-        let (rows, columns) = match shape {
-            Shape::Scalar => (Affine::constant(1), 1),
-            Shape::Vector(rows) => (rows.clone(), 1),
-            Shape::Matrix(rows, columns) => (rows.clone(), columns.as_constant()?),
-        };
-        for column in 0..u16::try_from(columns).ok()? {
-            let array = |side| Array::Phase {
-                side,
-                group: group as u16,
-                column,
+    for (q, rows) in columns {
+        let rows = rows.unwrap_or_else(|| Affine::constant(1));
+        for (x, y, side) in [(&aq, &bp, Side::Q), (&ap, &bq, Side::P)] {
+            let sign = match side {
+                Side::Q => Rational::ONE,
+                Side::P => Rational::MINUS_ONE,
             };
-            for (x, y, sign) in [(&aq, &bp, Rational::ONE), (&ap, &bq, Rational::MINUS_ONE)] {
-                let sides = if sign.is_one() {
-                    [Side::Q, Side::P]
-                } else {
-                    [Side::P, Side::Q]
-                };
-                let (x, y) = (
-                    scatters(dag, x, array(sides[0])),
-                    scatters(dag, y, array(sides[1])),
-                );
-                for term in paired(dag, &x, &y, &rows)? {
-                    terms.push((sign.clone(), term));
-                }
+            let at = q.on(side);
+            let (x, y) = (
+                scatters(dag, x, Array::Phase(at)),
+                scatters(dag, y, Array::Phase(at.conjugate())),
+            );
+            for term in paired(dag, &x, &y, &rows)? {
+                terms.push((sign.clone(), term));
             }
         }
     }

@@ -4,7 +4,7 @@
 //! of the shell where it does not. Invariant: a polynomial vanishes on the shell if, after
 //! multiplication with the leading coefficient in some momentum, it is a multiple of H − e.
 
-use crate::dag::{Array, Dag, Kind, Node, Side};
+use crate::dag::{Array, Column, Dag, Kind, Node, Side};
 use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
@@ -29,7 +29,7 @@ pub(super) fn vanishes(
         let is_momentum = match algebra.entry(atom).key {
             Key::Leaf(node) => matches!(
                 dag.kind(node),
-                Kind::Element(Array::Phase { side: Side::P, .. }, ..)
+                Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..)
             ),
             _ => false,
         };
@@ -93,7 +93,7 @@ pub(super) fn witness(
         .filter(|n| {
             matches!(
                 model.dag.kind(*n),
-                Kind::Element(Array::Phase { side: Side::P, .. }, ..)
+                Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..)
             )
         })
         .collect();

@@ -12,7 +12,7 @@
 mod elements;
 mod form;
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, write_out};
@@ -161,17 +161,14 @@ impl Transform<'_> {
         let mut scalars = Block::default();
         let mut arrays: Vec<Block> = Vec::new();
         for group in 0..self.model.groups.len() {
-            let (rows, columns) = match self.model.groups[group].shape.clone() {
-                Shape::Scalar => {
-                    let element = self.model.scalar(Side::P, group);
-                    scalars.push(&mut self.model.dag, element, &leaves);
-                    continue;
-                }
-                Shape::Vector(rows) => (rows, 1),
-                Shape::Matrix(rows, columns) => (rows, columns.as_constant().unwrap_or(0)),
+            let shape = self.model.groups[group].shape.clone();
+            let Some(rows) = shape.rows() else {
+                let element = self.model.scalar(Side::P, group);
+                scalars.push(&mut self.model.dag, element, &leaves);
+                continue;
             };
             let dag = &mut self.model.dag;
-            let k = field::elements(dag, &rows);
+            let k = field::elements(dag, rows);
             let at = arrays
                 .iter()
                 .position(|block| block.domain == Some(k))
@@ -182,18 +179,16 @@ impl Transform<'_> {
                     });
                     arrays.len() - 1
                 });
-            for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
-                let array = Array::Phase {
-                    side: Side::P,
-                    group: group as u16,
+            for column in 0..shape.columns() {
+                let (side, of) = (Side::P, group as u16);
+                let at_column = Column {
+                    side,
+                    group: of,
                     column,
                 };
-                arrays[at].elements.push(dag.element(
-                    array,
-                    Index::plain(Affine::variable(k)),
-                    None,
-                ));
-                let momentum = field::field(dag, &leaves, array, &rows);
+                let element = dag.phase(at_column, Index::plain(Affine::variable(k)));
+                arrays[at].elements.push(element);
+                let momentum = field::field(dag, &leaves, Array::Phase(at_column), rows);
                 let name = &self.velocities[group];
                 arrays[at].momenta.push(momentum.ok_or_else(|| format!("no element of `{name}` has a momentum of its own: its indices cannot be solved"))?);
             }
@@ -254,16 +249,12 @@ impl Transform<'_> {
     }
 
     /// Rows and columns of each group, where these are few enough to be unrolled.
-    fn extents(&self) -> Option<Vec<(i64, i64)>> {
+    fn extents(&self) -> Option<Vec<(i64, u16)>> {
         let mut extents = Vec::new();
         let mut count = 0i64;
         for group in &self.model.groups {
-            let (rows, columns) = match &group.shape {
-                Shape::Scalar => (1, 1),
-                Shape::Vector(rows) => (rows.as_constant()?, 1),
-                Shape::Matrix(rows, columns) => (rows.as_constant()?, columns.as_constant()?),
-            };
-            count = count.saturating_add(rows.saturating_mul(columns));
+            let (rows, columns) = group.shape.literal()?;
+            count = count.saturating_add(rows.saturating_mul(columns.into()));
             extents.push((rows, columns));
         }
         if count > LONGEST || self.model.groups.iter().all(|g| g.shape == Shape::Scalar) {
@@ -281,13 +272,14 @@ impl Transform<'_> {
         let mut block = Block::default();
         for (group, (rows, columns)) in extents.into_iter().enumerate() {
             for row in 0..rows {
-                for column in 0..columns as u16 {
-                    let array = Array::Phase {
-                        side: Side::P,
-                        group: group as u16,
+                for column in 0..columns {
+                    let (side, group) = (Side::P, group as u16);
+                    let at = Column {
+                        side,
+                        group,
                         column,
                     };
-                    let element = self.model.dag.element(array, Index::constant(row), None);
+                    let element = self.model.dag.phase(at, Index::constant(row));
                     block.push(&mut self.model.dag, element, &leaves);
                 }
             }
@@ -465,7 +457,7 @@ fn at_rest(dag: &mut Dag, root: Node) -> Node {
     let mut new: Map<Node, Node> = Map::default();
     for node in dag.reachable(&[root]) {
         let image = match dag.kind(node) {
-            Kind::Element(Array::Phase { side: Side::P, .. }, ..) => dag.integer(0),
+            Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => dag.integer(0),
             _ => dag.rebuild(node, &|child| new[&child]),
         };
         new.insert(node, image);

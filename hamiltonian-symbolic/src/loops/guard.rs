@@ -61,16 +61,10 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
 
 /// How many rows and columns an array has; nothing of what has no such index.
 fn extents(model: &Model, array: Array) -> (Option<Affine>, Option<Affine>) {
-    let shape = match array {
-        Array::Phase { group, .. } | Array::Direction { group, .. } => {
-            &model.groups[usize::from(group)].shape
-        }
-        Array::Parameter(parameter) => &model.parameters[usize::from(parameter.0)].shape,
-    };
-    match shape {
+    match model.shape(array) {
         Shape::Scalar => (None, None),
-        Shape::Vector(rows) => (Some(rows.clone()), None),
-        Shape::Matrix(rows, columns) => (Some(rows.clone()), Some(columns.clone())),
+        Shape::Vector(rows) => (Some(rows), None),
+        Shape::Matrix(rows, columns) => (Some(rows), Some(columns)),
     }
 }
 

@@ -5,7 +5,7 @@
 //! means that the expression is not identically zero.
 
 use super::walk::{Meaning, Place, walk};
-use crate::dag::{Array, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
+use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
 use crate::model::{Model, Shape};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -25,11 +25,6 @@ impl Sampled {
     #[must_use]
     pub fn is_nonzero(self) -> bool {
         self.value.is_finite() && self.value.abs() > 16.0 * self.error
-    }
-    /// Whether there is a value, and it is 0 as far as can be told.
-    #[must_use]
-    pub fn looks_zero(self) -> bool {
-        self.value.is_finite() && self.error.is_finite() && !self.is_nonzero()
     }
 }
 
@@ -169,52 +164,25 @@ impl Numbers<'_> {
         let key = (array, row, column);
         let value = match (self.given.get(&key), array) {
             (Some(value), _) => *value,
-            (None, Array::Phase { side: Side::Q, .. }) => {
+            (None, Array::Phase(Column { side: Side::Q, .. })) => {
                 self.leaf(&key, self.how.q, self.how.signed)
             }
-            (None, Array::Phase { side: Side::P, .. }) => {
+            (None, Array::Phase(Column { side: Side::P, .. })) => {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
-            (None, Array::Direction { .. }) => self.leaf(&key, 0, self.how.signed),
+            (None, Array::Direction(_)) => self.leaf(&key, 0, self.how.signed),
             (None, Array::Parameter(parameter)) => {
                 let value = self.leaf(&key, 0, self.how.signs.of(parameter));
                 self.given_parameter(value)
             }
         };
         if self.read.insert(key, ()).is_none() {
-            let group = |side: Side, group: u16| {
-                let group = &self.model.groups[usize::from(group)];
-                (
-                    if side == Side::Q {
-                        &group.coordinate
-                    } else {
-                        &group.momentum
-                    },
-                    &group.shape,
-                )
+            let column = match array {
+                Array::Phase(at) | Array::Direction(at) => i64::from(at.column),
+                Array::Parameter(_) => column,
             };
-            let name = match array {
-                Array::Phase {
-                    side,
-                    group: g,
-                    column,
-                } => {
-                    let (name, shape) = group(side, g);
-                    element_name(name, shape, row, i64::from(column))
-                }
-                Array::Direction {
-                    side,
-                    group: g,
-                    column,
-                } => {
-                    let (name, shape) = group(side, g);
-                    element_name(&format!("v_{name}"), shape, row, i64::from(column))
-                }
-                Array::Parameter(parameter) => {
-                    let declared = &self.model.parameters[usize::from(parameter.0)];
-                    element_name(&declared.name, &declared.shape, row, column)
-                }
-            };
+            let name = self.model.array_name(array);
+            let name = self.model.shape(array).element(&name, row, column);
             self.point.push((name, value));
         }
         value
@@ -230,27 +198,12 @@ impl Numbers<'_> {
 
 /// Whether an array has that element.
 fn is_within(model: &Model, array: Array, (row, column): (i64, i64), place: &Place) -> bool {
-    let shape = match array {
-        Array::Phase { group, .. } | Array::Direction { group, .. } => {
-            &model.groups[usize::from(group)].shape
-        }
-        Array::Parameter(parameter) => &model.parameters[usize::from(parameter.0)].shape,
-    };
-    let (rows, columns) = match shape {
+    let (rows, columns) = match model.shape(array) {
         Shape::Scalar => (1, 1),
-        Shape::Vector(rows) => (place.affine(rows), 1),
-        Shape::Matrix(rows, columns) => (place.affine(rows), place.affine(columns)),
+        Shape::Vector(rows) => (place.affine(&rows), 1),
+        Shape::Matrix(rows, columns) => (place.affine(&rows), place.affine(&columns)),
     };
     (0..rows).contains(&row) && (0..columns).contains(&column)
-}
-
-/// `q`, `q[2]`, `q[2][0]`
-pub(crate) fn element_name(name: &str, shape: &Shape, row: i64, column: i64) -> String {
-    match shape {
-        Shape::Scalar => name.to_owned(),
-        Shape::Vector(_) => format!("{name}[{row}]"),
-        Shape::Matrix(..) => format!("{name}[{row}][{column}]"),
-    }
 }
 
 const UNIT: f64 = f64::EPSILON / 2.0;

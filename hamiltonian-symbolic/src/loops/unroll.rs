@@ -8,7 +8,6 @@ use super::walk::{Meaning, Place, walk};
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
-use crate::transform::REPLACING;
 
 /// The most nodes a system unrolled may have.
 pub const LARGEST: usize = 1 << 20;
@@ -18,16 +17,8 @@ pub const LARGEST: usize = 1 << 20;
 /// # Errors
 /// A sentence, where an index is outside its array at these sizes or the result is too large.
 pub fn unroll(model: &Model, sizes: &[i64]) -> Result<Model, String> {
-    let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
-    for observable in &model.observables {
-        roots.extend(&observable.components);
-    }
-    let (mut unrolled, images) = unroll_nodes(model, sizes, &roots)?;
-    let mut images = images.into_iter();
-    unrolled.hamiltonian = model.hamiltonian.and_then(|_| images.next());
-    for observable in &mut unrolled.observables {
-        observable.components = images.by_ref().take(observable.components.len()).collect();
-    }
+    let (mut unrolled, images) = unroll_nodes(model, sizes, &model.roots())?;
+    unrolled.set_roots(images);
     Ok(unrolled)
 }
 
@@ -46,22 +37,16 @@ pub fn unroll_nodes(
     unrolled.dag = Dag::new();
     unrolled.sizes.clear();
     let place = Place::new(sizes);
-    let literal = |shape: &mut Shape| match shape {
-        Shape::Scalar => {}
-        Shape::Vector(rows) => *rows = Affine::constant(place.affine(rows)),
-        Shape::Matrix(rows, columns) => {
-            *rows = Affine::constant(place.affine(rows));
-            *columns = Affine::constant(place.affine(columns));
+    let literal = |rows: &mut Affine| *rows = Affine::constant(place.affine(rows));
+    for group in &mut unrolled.groups {
+        group.shape.rows_mut().map(literal);
+    }
+    for parameter in &mut unrolled.parameters {
+        parameter.shape.rows_mut().map(literal);
+        if let Shape::Matrix(_, columns) = &mut parameter.shape {
+            literal(columns);
         }
-    };
-    unrolled
-        .groups
-        .iter_mut()
-        .for_each(|g| literal(&mut g.shape));
-    unrolled
-        .parameters
-        .iter_mut()
-        .for_each(|p| literal(&mut p.shape));
+    }
     let (images, unroller) = walk(
         &model.dag,
         roots,
@@ -85,29 +70,10 @@ pub fn write_out(model: &mut Model, root: Node) -> Result<Node, String> {
     let (unrolled, images) = unroll_nodes(model, &[], &[root])?;
     let mut new: Map<Node, Node> = Map::default();
     for node in unrolled.dag.reachable(&images) {
-        let kind = with_children(unrolled.dag.kind(node), &|child| new[&child]);
-        new.insert(node, model.dag.of_kind(kind));
+        let kind = unrolled.dag.kind(node).clone();
+        new.insert(node, model.dag.construct(kind, &|child| new[&child]));
     }
     Ok(new[&images[0]])
-}
-
-/// A kind over other children.
-fn with_children(kind: &Kind, child: &dyn Fn(Node) -> Node) -> Kind {
-    let mut kind = kind.clone();
-    match &mut kind {
-        Kind::Sum(_, terms) => terms.iter_mut().for_each(|(_, n)| *n = child(*n)),
-        Kind::Product(_, factors) => factors.iter_mut().for_each(|(n, _)| *n = child(*n)),
-        Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
-            arguments.iter_mut().for_each(|n| *n = child(*n));
-        }
-        Kind::Not(a) => *a = child(*a),
-        Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
-            (*a, *b) = (child(*a), child(*b));
-        }
-        Kind::Select(c, a, b) => (*c, *a, *b) = (child(*c), child(*a), child(*b)),
-        _ => {}
-    }
-    kind
 }
 
 struct Unroller {
@@ -117,9 +83,9 @@ struct Unroller {
 
 impl Unroller {
     /// The value of an index, which must be inside its extent.
-    fn inside(&mut self, name: &str, index: i64, extent: &Affine) -> i64 {
-        let extent = extent.as_constant().unwrap_or(0);
+    fn inside(&mut self, array: Array, index: i64, extent: i64) -> i64 {
         if self.trouble.is_none() && !(0..extent).contains(&index) {
+            let name = self.model.array_name(array);
             self.trouble = Some(format!("`{name}[{index}]` is outside 0..{extent}"));
         }
         index
@@ -138,25 +104,14 @@ impl Meaning for Unroller {
     ) -> Node {
         match dag.kind(node) {
             Kind::Element(array, row, column) => {
-                let (name, shape) = match array {
-                    Array::Phase { group, .. } | Array::Direction { group, .. } => {
-                        // What stands in the place of a group is of its shape.
-                        let group = &self.model.groups[usize::from(*group % REPLACING)];
-                        (group.coordinate.clone(), group.shape.clone())
-                    }
-                    Array::Parameter(parameter) => {
-                        let declared = &self.model.parameters[usize::from(parameter.0)];
-                        (declared.name.clone(), declared.shape.clone())
-                    }
-                };
                 let mut row = place.index(row);
                 let mut column = column.as_ref().map(|c| place.index(c));
-                match shape {
+                match self.model.shape(*array) {
                     Shape::Scalar => {}
-                    Shape::Vector(rows) => row = self.inside(&name, row, &rows),
+                    Shape::Vector(rows) => row = self.inside(*array, row, place.affine(&rows)),
                     Shape::Matrix(rows, columns) => {
-                        row = self.inside(&name, row, &rows);
-                        column = column.map(|c| self.inside(&name, c, &columns));
+                        row = self.inside(*array, row, place.affine(&rows));
+                        column = column.map(|c| self.inside(*array, c, place.affine(&columns)));
                     }
                 }
                 self.model
@@ -166,7 +121,7 @@ impl Meaning for Unroller {
             Kind::Variable(domain) => self.model.dag.integer(place.variable(*domain)),
             Kind::Extent(size) => self.model.dag.integer(place.size(*size)),
             Kind::Count(domain) => self.model.dag.integer(place.count(dag, *domain)),
-            kind => self.model.dag.of_kind(with_children(kind, child)),
+            kind => self.model.dag.construct(kind.clone(), child),
         }
     }
 
@@ -176,23 +131,5 @@ impl Meaning for Unroller {
 
     fn is_done(&self) -> bool {
         self.trouble.is_some() || self.model.dag.len() > LARGEST
-    }
-}
-
-impl Dag {
-    /// The node of a kind whose children are nodes of this arena, by the constructors' rules.
-    fn of_kind(&mut self, kind: Kind) -> Node {
-        match kind {
-            Kind::Constant(value) => self.constant(value),
-            Kind::Sum(c, terms) => self.linear(&c, &terms),
-            Kind::Product(k, factors) => self.product(&k, &factors),
-            Kind::Call(op, arguments) => self.call(op, &arguments),
-            Kind::External(function, part, arguments) => self.external(function, part, &arguments),
-            Kind::Not(a) => self.not(a),
-            Kind::And(a, b) => self.and(a, b),
-            Kind::Or(a, b) => self.or(a, b),
-            Kind::Select(c, a, b) => self.select(c, a, b),
-            other => self.intern(other),
-        }
     }
 }

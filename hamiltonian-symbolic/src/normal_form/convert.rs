@@ -42,10 +42,9 @@ impl Algebra {
             | Kind::Variable(_)
             | Kind::Extent(_)
             | Kind::Count(_)
-            | Kind::Element(
-                Array::Phase { .. } | Array::Direction { .. } | Array::Parameter(_),
-                ..,
-            ) => Poly::atom(self.leaf(dag, node), 1),
+            | Kind::Element(Array::Phase(_) | Array::Direction(_) | Array::Parameter(_), ..) => {
+                Poly::atom(self.leaf(dag, node), 1)
+            }
             Kind::Sum(c, terms) => {
                 let mut sum = Sum::default();
                 sum.add(&Poly::constant(c.clone()), &Rational::ONE);

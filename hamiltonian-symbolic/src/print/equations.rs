@@ -8,7 +8,7 @@ use super::lagrangian::multiplied;
 use super::layout::Writer;
 use super::names::is_taken;
 use super::{Notation, latex, write_within};
-use crate::dag::{Array, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::field;
@@ -56,9 +56,9 @@ pub fn hamilton_equations(model: &Model) -> Equations {
 
 /// The equations of all coordinates, or of all momenta.
 fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Vec<Equation>) {
-    let (other, what, sign) = match side {
-        Side::Q => (Side::P, Dependence::P, Rational::ONE),
-        Side::P => (Side::Q, Dependence::Q, Rational::MINUS_ONE),
+    let (what, sign) = match side {
+        Side::Q => (Dependence::P, Rational::ONE),
+        Side::P => (Dependence::Q, Rational::MINUS_ONE),
     };
     let leaves = if is_large {
         Vec::new()
@@ -69,48 +69,30 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
             .map(|(leaf, value)| (leaf, multiplied(&mut model.dag, value)))
             .collect()
     };
-    let mut of_array: Map<Array, Vec<(Index, Node)>> = Map::default();
+    let mut of_array: Map<Column, Vec<(Index, Node)>> = Map::default();
     for &(leaf, adjoint) in &leaves {
-        if let Kind::Element(of, row, None) = model.dag.kind(leaf) {
-            of_array
-                .entry(*of)
-                .or_default()
-                .push((row.clone(), adjoint));
+        if let Some((column, row)) = model.dag.phase_place(leaf) {
+            let own = of_array.entry(column).or_default();
+            own.push((row.clone(), adjoint));
         }
     }
     let is_large = is_large || model.dag.has_too_many_loops();
-    for group in 0..model.groups.len() {
-        let (rows, columns) = match &model.groups[group].shape {
-            Shape::Scalar => (None, 1),
-            Shape::Vector(rows) => (Some(rows.clone()), 1),
-            Shape::Matrix(rows, columns) => {
-                (Some(rows.clone()), columns.as_constant().unwrap_or(0))
-            }
+    for (at, rows) in model.columns(side) {
+        let own = of_array.remove(&at.conjugate()).unwrap_or_default();
+        let of = Derivative {
+            at,
+            sign: sign.clone(),
         };
-        for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
-            let array = Array::Phase {
-                side: other,
-                group: group as u16,
-                column,
-            };
-            let own = of_array.remove(&array).unwrap_or_default();
-            let of = Derivative {
-                side,
-                group,
-                column,
-                sign: sign.clone(),
-            };
-            match &rows {
-                _ if is_large => {
-                    let row = rows.as_ref().map(|_| Row::any(model, None));
-                    list.push(of.equation(row, None));
-                }
-                None => {
-                    let value = of.signed(model, own.first().map(|(_, adjoint)| *adjoint));
-                    list.push(of.equation(None, Some(value)));
-                }
-                Some(rows) => of.of_array(model, rows, array, &leaves, &own, list),
+        match &rows {
+            _ if is_large => {
+                let row = rows.as_ref().map(|_| Row::any(model, None));
+                list.push(of.equation(row, None));
             }
+            None => {
+                let value = of.signed(model, own.first().map(|(_, adjoint)| *adjoint));
+                list.push(of.equation(None, Some(value)));
+            }
+            Some(rows) => of.of_array(model, rows, &leaves, &own, list),
         }
     }
 }
@@ -124,9 +106,7 @@ pub(super) fn scalar_equation(
     value: Node,
 ) -> (String, String) {
     let derivative = Derivative {
-        side,
-        group,
-        column: 0,
+        at: Column::first(side, group as u16),
         sign: Rational::ONE,
     };
     derivative
@@ -162,9 +142,7 @@ impl Row {
 /// What is on the left side of an equation, and the sign of the derivative on the right.
 #[derive(Clone, Debug)]
 struct Derivative {
-    side: Side,
-    group: usize,
-    column: u16,
+    at: Column,
     sign: Rational,
 }
 
@@ -208,21 +186,11 @@ impl Derivative {
         &self,
         model: &mut Model,
         rows: &Affine,
-        array: Array,
         leaves: &[(Node, Node)],
         own: &[(Index, Node)],
         list: &mut Vec<Equation>,
     ) {
-        let numbered: Option<Vec<i64>> = own
-            .iter()
-            .map(|(row, _)| {
-                if row.modulo.is_none() {
-                    row.affine.as_constant()
-                } else {
-                    None
-                }
-            })
-            .collect();
+        let numbered: Option<Vec<i64>> = own.iter().map(|(row, _)| row.as_constant()).collect();
         // A short array that is read by number has an equation for each element.
         if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant())
             && !own.is_empty()
@@ -247,7 +215,12 @@ impl Derivative {
         let value = if is_listed {
             None
         } else {
-            field::field(&mut model.dag, leaves, array, rows)
+            field::field(
+                &mut model.dag,
+                leaves,
+                Array::Phase(self.at.conjugate()),
+                rows,
+            )
         };
         let value = value.map(|value| self.signed(model, Some(value)));
         list.push(self.equation(Some(Row::any(model, Some(domain))), value));
@@ -265,20 +238,12 @@ impl Derivative {
 impl Equation {
     /// `dq[k]/dt`, or `dq[k]/ds` in another time, and its value.
     fn written(&self, model: &Model, notation: Notation) -> (String, String) {
-        let Derivative {
-            side,
-            group,
-            column,
-            ..
-        } = self.of;
-        let group = &model.groups[group];
-        let (own, conjugate) = match side {
-            Side::Q => (&group.coordinate, &group.momentum),
-            Side::P => (&group.momentum, &group.coordinate),
-        };
+        let at = self.of.at;
+        let group = &model.groups[usize::from(at.group)];
+        let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
         let mut indices: Vec<String> = self.row.iter().map(|row| row.name.clone()).collect();
         if matches!(group.shape, Shape::Matrix(..)) {
-            indices.push(column.to_string());
+            indices.push(at.column.to_string());
         }
         let element = |name: &str| match notation {
             Notation::Text => indices
@@ -303,7 +268,7 @@ impl Equation {
         let right = match self.value {
             Some(value) => write_within(model, value, notation, &bound),
             None => {
-                let sign = if side == Side::P { "-" } else { "" };
+                let sign = if at.side == Side::P { "-" } else { "" };
                 match notation {
                     Notation::Text => format!("{sign}∂H/∂{}", element(conjugate)),
                     Notation::Latex => format!(

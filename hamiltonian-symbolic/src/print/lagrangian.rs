@@ -9,7 +9,7 @@
 use super::equations::{Equations, hamilton_equations, scalar_equation};
 use super::names::is_taken;
 use super::{Notation, latex, text};
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::legendre::{Legendre, Mass};
 use crate::model::{Model, ParameterDeclaration, Shape};
@@ -368,34 +368,27 @@ impl Readable {
 
     /// What distinguishes the names that belong to an element.
     fn suffix(&self, element: Node) -> String {
-        match self.model.dag.kind(element) {
-            Kind::Element(Array::Phase { group, column, .. }, row, _) => {
-                let group = &self.model.groups[usize::from(*group)];
-                let (name, row) = (&group.coordinate, row.affine.constant);
-                match group.shape {
-                    Shape::Scalar => name.clone(),
-                    Shape::Vector(_) => format!("{name}_{row}"),
-                    Shape::Matrix(..) => format!("{name}_{row}_{column}"),
-                }
-            }
-            _ => String::new(),
+        let Some((column, row)) = self.model.dag.phase_place(element) else {
+            return String::new();
+        };
+        let group = &self.model.groups[usize::from(column.group)];
+        let (name, row) = (&group.coordinate, row.affine.constant);
+        match group.shape {
+            Shape::Scalar => name.clone(),
+            Shape::Vector(_) => format!("{name}_{row}"),
+            Shape::Matrix(..) => format!("{name}_{row}_{}", column.column),
         }
     }
 }
 
 /// The name of the velocity in the place of a momentum of a scalar coordinate.
 fn velocity_of(dag: &Dag, velocities: &[Node], element: Node) -> Option<Node> {
-    match dag.kind(element) {
-        Kind::Element(
-            Array::Phase {
-                side: Side::P,
-                group,
-                ..
-            },
-            ..,
-        ) => velocities.get(usize::from(*group)).copied(),
-        _ => None,
-    }
+    let (column, _) = dag.phase_place(element)?;
+    let is_momentum = column.side == Side::P;
+    velocities
+        .get(usize::from(column.group))
+        .filter(|_| is_momentum)
+        .copied()
 }
 
 /// The rows of a matrix in groups that nothing couples, each in order.

@@ -7,7 +7,7 @@
 
 use super::names::Scope;
 use super::{Notation, latex, text};
-use crate::dag::{Array, Dag, Kind, Node, Parameter, Side};
+use crate::dag::{Array, Dag, Kind, Node, Parameter};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
@@ -286,44 +286,6 @@ impl<'a> Writer<'a> {
             .unwrap_or_else(|| format!("size{}", size.0))
     }
 
-    /// The name and shape of an array.
-    pub(super) fn array(&self, array: Array) -> (String, &'a Shape, u16) {
-        let of_group = |side: Side, group: u16| {
-            let group = &self.model.groups[usize::from(group)];
-            (
-                if side == Side::Q {
-                    &group.coordinate
-                } else {
-                    &group.momentum
-                },
-                &group.shape,
-            )
-        };
-        match array {
-            Array::Phase {
-                side,
-                group,
-                column,
-            } => {
-                let (name, shape) = of_group(side, group);
-                (name.clone(), shape, column)
-            }
-            Array::Direction {
-                side,
-                group,
-                column,
-            } => {
-                let (name, shape) = of_group(side, group);
-                (format!("v_{name}"), shape, column)
-            }
-            Array::Parameter(parameter) => (
-                self.parameter(parameter),
-                &self.model.parameters[usize::from(parameter.0)].shape,
-                0,
-            ),
-        }
-    }
-
     /// The name of a parameter.
     pub(super) fn parameter(&self, parameter: Parameter) -> String {
         self.model.parameters[usize::from(parameter.0)].name.clone()
@@ -336,13 +298,16 @@ impl<'a> Writer<'a> {
         row: &Index,
         column: Option<&Index>,
     ) -> (String, Vec<String>) {
-        let (name, shape, fixed) = self.array(array);
-        let indices = match (shape, column) {
-            (Shape::Scalar, _) => Vec::new(),
-            (Shape::Vector(_), _) => vec![self.index(row)],
-            (Shape::Matrix(..), Some(column)) => vec![self.index(row), self.index(column)],
-            (Shape::Matrix(..), None) => vec![self.index(row), fixed.to_string()],
+        let column = match array {
+            Array::Phase(at) | Array::Direction(at) => at.column.to_string(),
+            Array::Parameter(_) => column.map_or_else(String::new, |column| self.index(column)),
         };
+        let indices = match self.model.shape(array) {
+            Shape::Scalar => Vec::new(),
+            Shape::Vector(_) => vec![self.index(row)],
+            Shape::Matrix(..) => vec![self.index(row), column],
+        };
+        let name = self.model.array_name(array);
         (name, indices)
     }
 

@@ -17,7 +17,7 @@ pub use lagrangian::Readable;
 pub use operations::{Count, operations};
 
 use crate::dag::Node;
-use crate::index::Domain;
+use crate::index::{Affine, Domain};
 use crate::model::Model;
 
 /// Which notation to write.
@@ -46,6 +46,12 @@ pub fn latex(model: &Model, node: Node) -> String {
 #[must_use]
 pub fn write(model: &Model, node: Node, notation: Notation) -> String {
     write_within(model, node, notation, &[])
+}
+
+/// An extent in the language's own notation: `3`, `N`.
+#[must_use]
+pub fn extent(model: &Model, extent: &Affine) -> String {
+    layout::Writer::new(model, Notation::Text, &[]).affine(extent)
 }
 
 /// A node that stands inside loops whose variables have names already.

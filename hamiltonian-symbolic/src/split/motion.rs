@@ -5,7 +5,7 @@
 //! conditions everything that moves becomes NaN.
 
 use super::space::{Set, Space};
-use crate::dag::{Array, Dag, Kind, Node};
+use crate::dag::{Dag, Node};
 use crate::op::Op;
 use crate::program::Target;
 use crate::schedule::Store;
@@ -113,26 +113,10 @@ impl Motion {
         let nan = dag.call(Op::Sqrt, &[minus]);
         let mut stores = Vec::with_capacity(self.moves.len());
         for m in &self.moves {
-            let Kind::Element(
-                Array::Phase {
-                    side,
-                    group,
-                    column,
-                },
-                row,
-                _,
-            ) = dag.kind(m.leaf)
-            else {
+            let Some((column, row)) = dag.phase_place(m.leaf) else {
                 continue;
             };
-            let (target, row) = (
-                Target::Phase {
-                    side: *side,
-                    group: *group,
-                    column: *column,
-                },
-                row.clone(),
-            );
+            let (target, row) = (Target::Phase(column), row.clone());
             stores.push(Store {
                 target,
                 row,

@@ -10,7 +10,7 @@ use super::motion::Motion;
 use super::solve::Flow;
 use super::table::{Near, POINTS, Table};
 use super::tape::Tape;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::index::Index;
 use crate::loops::Sample;
@@ -67,7 +67,7 @@ impl Space {
         let mut places: Vec<(u16, u16, i64)> = Vec::new();
         for node in model.dag.reachable(roots) {
             match model.dag.kind(node) {
-                Kind::Element(Array::Phase { group, column, .. }, row, None) => {
+                Kind::Element(Array::Phase(Column { group, column, .. }), row, None) => {
                     let row = (row.modulo.is_none()).then(|| row.affine.as_constant())??;
                     places.push((*group, *column, row));
                 }
@@ -83,11 +83,11 @@ impl Space {
         let mut pairs = Vec::with_capacity(places.len());
         for (group, column, row) in places {
             let mut leaf = |side| {
-                let array = Array::Phase {
+                let array = Array::Phase(Column {
                     side,
                     group,
                     column,
-                };
+                });
                 let row = Index::constant(row);
                 model.dag.element(array, row, None)
             };
@@ -130,7 +130,7 @@ impl Space {
         for number in self.sets.len()..=root.0 as usize {
             let node = Node(number as u32);
             let mut set = 0;
-            if let Kind::Element(Array::Phase { .. }, ..) = self.model.dag.kind(node) {
+            if let Kind::Element(Array::Phase(_), ..) = self.model.dag.kind(node) {
                 let at = |(q, p): &(Node, Node)| *q == node || *p == node;
                 if let Some(pair) = self.pairs.iter().position(at) {
                     set |= 1 << (2 * pair + usize::from(self.pairs[pair].1 == node));
@@ -324,7 +324,9 @@ impl Space {
                 Kind::Element(array, row, column) => {
                     // The arena has seen other models, with more groups.
                     let is_declared = match array {
-                        Array::Phase { group, .. } => usize::from(*group) < model.groups.len(),
+                        Array::Phase(Column { group, .. }) => {
+                            usize::from(*group) < model.groups.len()
+                        }
                         Array::Parameter(p) => usize::from(p.0) < model.parameters.len(),
                         _ => false,
                     };

@@ -9,7 +9,7 @@ use super::motion::{Motion, Move};
 use super::space::Space;
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
@@ -207,20 +207,11 @@ fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
 }
 
 /// The elements of phase space that an expression names, without what stands in its own loops.
-fn elements(dag: &Dag, root: Node) -> Vec<(Node, Side, u16, u16, Index)> {
+fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
     let mut found = Vec::new();
     for node in dag.reachable(&[root]) {
-        if let Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            None,
-        ) = dag.kind(node)
-        {
-            found.push((node, *side, *group, *column, row.clone()));
+        if let Some((column, row)) = dag.phase_place(node) {
+            found.push((node, column, row.clone()));
         }
     }
     found
@@ -228,7 +219,7 @@ fn elements(dag: &Dag, root: Node) -> Vec<(Node, Side, u16, u16, Index)> {
 
 /// The rows it names, sorted.
 fn rows(dag: &Dag, body: Node) -> Vec<Index> {
-    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.4).collect();
+    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.2).collect();
     rows.sort_unstable();
     rows.dedup();
     rows
@@ -382,32 +373,23 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
 fn scratch(model: &Model, body: Node) -> (Model, Map<Node, Node>) {
     let mut small = model.clone();
     let mut images: Map<Node, Node> = Map::default();
-    let mut places: Vec<(u16, u16, Index)> = Vec::new();
-    for (node, side, group, column, row) in elements(&model.dag, body) {
-        let place = (group, column, row);
+    let mut places: Vec<(Column, Index)> = Vec::new();
+    for (node, column, row) in elements(&model.dag, body) {
+        let side = column.side;
+        let place = (column.on(Side::Q), row.clone());
         let at = places.iter().position(|known| *known == place);
         let at = at.unwrap_or_else(|| {
             let number = places.len();
-            small.groups.push(Group {
-                coordinate: format!("q{number}"),
-                momentum: format!("p{number}"),
-                shape: Shape::Scalar,
-            });
+            let scalar = Group::scalar(format!("q{number}"), format!("p{number}"));
+            small.groups.push(scalar);
             places.push(place);
             number
         });
         let own = model.groups.len() + at;
         images.insert(node, small.scalar(side, own));
         // The partner is an element too, whether it is named or not.
-        let other = if side == Side::Q { Side::P } else { Side::Q };
-        let (group, column, row) = places[at].clone();
-        let array = Array::Phase {
-            side: other,
-            group,
-            column,
-        };
-        let partner = small.dag.element(array, row, None);
-        let image = small.scalar(other, own);
+        let partner = small.dag.phase(column.conjugate(), row);
+        let image = small.scalar(side.other(), own);
         images.insert(partner, image);
     }
     for node in model.dag.reachable(&[body]) {

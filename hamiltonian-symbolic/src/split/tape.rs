@@ -41,7 +41,7 @@ impl Tape {
                 Kind::Constant(value) => Step::Number(number(&value)),
                 Kind::Pi => Step::Number(std::f64::consts::PI),
                 Kind::Coefficient => Step::Coefficient,
-                Kind::Element(Array::Phase { .. }, ..) => {
+                Kind::Element(Array::Phase(_), ..) => {
                     let bit = space.set(node).trailing_zeros();
                     Step::Variable(bit as usize)
                 }

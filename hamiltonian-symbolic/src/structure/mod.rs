@@ -10,8 +10,9 @@ mod separate;
 
 pub use expand::{Term, expand};
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
-use crate::model::{Model, Shape};
+use crate::dag::{Column, Dag, Dependence, Kind, Map, Node, Side};
+use crate::index::Affine;
+use crate::model::Model;
 use crate::print;
 
 /// H = T(p, t) + V(q, t).
@@ -215,68 +216,47 @@ fn degree(dag: &Dag, root: Node) -> Option<u32> {
 
 /// The coordinates that do not occur in H.
 fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
-    let mut read: Map<(u16, u16), Vec<Option<i64>>> = Map::default();
+    let mut read: Map<Column, Vec<Option<i64>>> = Map::default();
     for node in model.dag.reachable(&[h]) {
-        if let Kind::Element(
-            Array::Phase {
-                side: Side::Q,
-                group,
-                column,
-            },
-            row,
-            _,
-        ) = model.dag.kind(node)
+        if let Some((column, row)) = model.dag.phase_place(node)
+            && column.side == Side::Q
         {
-            let row = if row.modulo.is_none() {
-                row.affine.as_constant()
-            } else {
-                None
-            };
-            read.entry((*group, *column)).or_default().push(row);
+            read.entry(column).or_default().push(row.as_constant());
         }
     }
     // Under a force a momentum is not conserved, whatever H looks at.
     for entry in &model.force {
         if !model.dag.is_zero(entry.value) {
-            let rows = read.entry((entry.group, entry.column)).or_default();
-            let row = &entry.row;
-            rows.push(
-                row.modulo
-                    .is_none()
-                    .then(|| row.affine.as_constant())
-                    .flatten(),
-            );
+            let rows = read.entry(entry.at.on(Side::Q)).or_default();
+            rows.push(entry.row.as_constant());
         }
     }
     let mut found = Vec::new();
     for (number, group) in model.groups.iter().enumerate() {
-        let (rows, columns) = match &group.shape {
-            Shape::Scalar => (None, 1),
-            Shape::Vector(rows) => (Some(rows), 1),
-            Shape::Matrix(rows, columns) => (Some(rows), columns.as_constant().unwrap_or(0)),
-        };
-        for column in 0..columns.clamp(0, i64::from(u16::MAX)) as u16 {
+        let rows = group.shape.rows();
+        for column in 0..group.shape.columns() {
             let mut push = |row: Option<i64>| {
-                let name = |name: &str| match (&group.shape, row) {
-                    (Shape::Scalar, _) => name.to_owned(),
-                    (Shape::Vector(_), Some(row)) => format!("{name}[{row}]"),
-                    (Shape::Vector(_), None) => format!("{name}[i]"),
-                    (Shape::Matrix(..), Some(row)) => format!("{name}[{row}][{column}]"),
-                    (Shape::Matrix(..), None) => format!("{name}[i][{column}]"),
-                };
+                let index = row.map_or_else(|| "i".to_owned(), |row| row.to_string());
                 found.push(Cyclic {
                     group: number as u16,
                     row: row.and_then(|row| u32::try_from(row).ok()),
                     column,
-                    coordinate: name(&group.coordinate),
-                    momentum: name(&group.momentum),
+                    coordinate: group.shape.element(&group.coordinate, &index, column),
+                    momentum: group.shape.element(&group.momentum, &index, column),
                 });
             };
-            match read.get(&(number as u16, column)) {
+            let at = Column {
+                side: Side::Q,
+                group: number as u16,
+                column,
+            };
+            match read.get(&at) {
                 None => push(None),
                 // Rows can be told apart where all are named by number.
                 Some(used) if used.iter().all(Option::is_some) => {
-                    let literal = rows.and_then(|rows| rows.as_constant()).unwrap_or(0);
+                    let Some(literal) = rows.and_then(Affine::as_constant) else {
+                        continue;
+                    };
                     let mut used = used.clone();
                     used.sort_unstable();
                     (0..literal.min(1024))

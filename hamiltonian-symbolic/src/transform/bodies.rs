@@ -5,9 +5,9 @@
 //! loop.
 
 use super::peel::Below;
-use crate::dag::{Array, Dag, Node, Side};
+use crate::dag::{Column, Dag, Node, Side};
 use crate::index::{Affine, Domain, Index};
-use crate::model::{Model, Shape, VectorEntry};
+use crate::model::{Model, VectorEntry};
 use crate::rational::Rational;
 
 /// A group of bodies whose number is a size.
@@ -25,11 +25,8 @@ impl Bodies {
     /// The group, if its number of rows is not literal; both loops over it are made in the arena,
     /// so that they have the same numbers in copies of it.
     pub(super) fn new(model: &mut Model, old: u16, new: u16) -> Option<Bodies> {
-        let (rows, columns) = match &model.groups[usize::from(old)].shape {
-            Shape::Scalar => return None,
-            Shape::Vector(rows) => (rows.clone(), 1),
-            Shape::Matrix(rows, columns) => (rows.clone(), columns.as_constant().unwrap_or(1)),
-        };
+        let shape = &model.groups[usize::from(old)].shape;
+        let (rows, columns) = (shape.rows()?.clone(), shape.columns());
         if rows.as_constant().is_some() {
             return None;
         }
@@ -37,7 +34,7 @@ impl Bodies {
             old,
             new,
             rows,
-            columns: columns as u16,
+            columns,
         };
         bodies.all(&mut model.dag);
         bodies.others(&mut model.dag);
@@ -55,29 +52,19 @@ impl Bodies {
     }
 
     fn element(dag: &mut Dag, side: Side, group: u16, column: u16, row: Affine) -> Node {
-        let array = Array::Phase {
-            side,
-            group,
-            column,
-        };
-        dag.element(array, Index::plain(row), None)
+        dag.phase(
+            Column {
+                side,
+                group,
+                column,
+            },
+            Index::plain(row),
+        )
     }
 
     /// Both entries of a column: `first` of row 0, `other` of the rows of the loop.
-    fn entries(
-        &self,
-        dag: &mut Dag,
-        (side, group, column): (Side, u16, u16),
-        first: Node,
-        other: Node,
-    ) -> [VectorEntry; 2] {
-        let entry = |row, value| VectorEntry {
-            side,
-            group,
-            column,
-            row,
-            value,
-        };
+    fn entries(&self, dag: &mut Dag, at: Column, first: Node, other: Node) -> [VectorEntry; 2] {
+        let entry = |row, value| VectorEntry { at, row, value };
         let others = Affine::variable(self.others(dag));
         [
             entry(Index::constant(0), first),
@@ -96,10 +83,13 @@ impl Bodies {
             let each = old(Side::P, Affine::variable(all));
             let momentum = old(Side::P, Affine::variable(others));
             let (other, total) = (dag.sub(other, first), dag.reduce(all, each));
-            let q = (Side::Q, self.new, column);
-            let p = (Side::P, self.new, column);
+            let q = Column {
+                side: Side::Q,
+                group: self.new,
+                column,
+            };
             entries.extend(self.entries(dag, q, first, other));
-            entries.extend(self.entries(dag, p, total, momentum));
+            entries.extend(self.entries(dag, q.conjugate(), total, momentum));
         }
         entries
     }
@@ -112,7 +102,13 @@ impl Bodies {
             for side in [Side::Q, Side::P] {
                 let first = self.first(dag, side, column);
                 let other = self.other(dag, side, column, others.clone());
-                entries.extend(self.entries(dag, (side, self.old, column), first, other));
+                let group = self.old;
+                let at = Column {
+                    side,
+                    group,
+                    column,
+                };
+                entries.extend(self.entries(dag, at, first, other));
             }
         }
         entries
@@ -188,14 +184,13 @@ impl Bodies {
     /// A force on all rows as one on row 0 and one on the others.
     pub(super) fn apart(&self, dag: &mut Dag, force: &VectorEntry) -> Vec<VectorEntry> {
         let all = self.all(dag);
-        if force.group != self.old || force.row != Index::plain(Affine::variable(all)) {
+        if force.at.group != self.old || force.row != Index::plain(Affine::variable(all)) {
             return vec![force.clone()];
         }
         let others = Affine::variable(self.others(dag));
         let first = dag.replace(force.value, all, &Affine::constant(0));
         let other = dag.replace(force.value, all, &others);
-        let place = (force.side, force.group, force.column);
-        self.entries(dag, place, first, other).to_vec()
+        self.entries(dag, force.at, first, other).to_vec()
     }
 
     /// The part of a force on old momenta ([`Bodies::apart`]) in that on the new ones:
@@ -203,7 +198,10 @@ impl Bodies {
     pub(super) fn force(&self, dag: &mut Dag, force: &VectorEntry, found: &mut Vec<VectorEntry>) {
         let others = self.others(dag);
         let moved = VectorEntry {
-            group: self.new,
+            at: Column {
+                group: self.new,
+                ..force.at
+            },
             ..force.clone()
         };
         let mut to_first = force.value;
@@ -211,9 +209,9 @@ impl Bodies {
             to_first = dag.reduce(others, to_first);
             found.push(moved.clone());
         }
-        let of_first = found.iter_mut().find(|entry| {
-            (entry.group, entry.column, &entry.row) == (self.new, force.column, &Index::constant(0))
-        });
+        let is_first =
+            |entry: &&mut VectorEntry| entry.at == moved.at && entry.row == Index::constant(0);
+        let of_first = found.iter_mut().find(is_first);
         match of_first {
             Some(entry) => {
                 let terms = [(Rational::ONE, entry.value), (Rational::ONE, to_first)];

@@ -8,13 +8,13 @@
 use super::Refusal;
 use super::bodies::Bodies;
 use super::charts::{self, Chart, Masses, REPLACING, Variables};
-use super::layout::{Layout, Slot, coordinate, extents, placements};
+use super::layout::{Layout, Slot, coordinate, placements};
 use super::peel::{Below, peel};
 use super::reduce::{self, Rules};
 use super::verify::check;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
-use crate::index::Index;
+use crate::index::{Affine, Index};
 use crate::loops;
 use crate::model::{Model, VectorEntry};
 
@@ -100,7 +100,7 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         inverse.extend(of.inverse(&mut new.dag));
     }
     let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
-    let carried = distribute(&mut new, roots);
+    let carried = new.set_roots(roots);
     let mut places: Vec<Placement> = charts
         .iter()
         .zip(&layout.places)
@@ -133,18 +133,22 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
 
 impl Transformed {
     /// Where an element of the old variables stands among the new ones.
-    fn place(&self, group: u16, row: &Index) -> (u16, Index) {
-        let at = row.affine.as_constant().map(|row| row as u32);
+    fn place(&self, at: Column, row: &Index) -> (Column, Index) {
+        let number = row.affine.as_constant().map(|row| row as u32);
         for place in &self.places {
+            let to = Column {
+                group: place.new,
+                ..at
+            };
             match place.old {
-                (old, None) if old == group => return (place.new, row.clone()),
-                (old, Some(own)) if old == group && at == Some(own) => {
-                    return (place.new, Index::constant(0));
+                (old, None) if old == at.group => return (to, row.clone()),
+                (old, Some(own)) if old == at.group && number == Some(own) => {
+                    return (to, Index::constant(0));
                 }
                 _ => {}
             }
         }
-        (group, row.clone())
+        (at, row.clone())
     }
 
     /// The map to the new coordinates, in the arena of `model`: the old ones are read where
@@ -154,22 +158,9 @@ impl Transformed {
         let values: Vec<Node> = self.forward.iter().map(|entry| entry.value).collect();
         for node in self.source.dag.reachable(&values) {
             let image = match self.source.dag.kind(node) {
-                Kind::Element(
-                    Array::Phase {
-                        side,
-                        group,
-                        column,
-                    },
-                    row,
-                    _,
-                ) => {
-                    let (group, row) = self.place(*group, row);
-                    let array = Array::Phase {
-                        side: *side,
-                        group,
-                        column: *column,
-                    };
-                    self.model.dag.element(array, row, None)
+                Kind::Element(Array::Phase(column), row, _) => {
+                    let (column, row) = self.place(*column, row);
+                    self.model.dag.phase(column, row)
                 }
                 kind => {
                     let kind = kind.clone();
@@ -189,12 +180,9 @@ impl Transformed {
     #[must_use]
     pub fn inverse_placed(&self) -> Vec<VectorEntry> {
         let moved = |entry: &VectorEntry| {
-            let (group, row) = self.place(entry.group, &entry.row);
-            VectorEntry {
-                group,
-                row,
-                ..entry.clone()
-            }
+            let (at, row) = self.place(entry.at, &entry.row);
+            let value = entry.value;
+            VectorEntry { at, row, value }
         };
         self.inverse.iter().map(moved).collect()
     }
@@ -206,49 +194,38 @@ impl Transformed {
         let mut found: Vec<VectorEntry> = Vec::new();
         let dag = &mut self.model.dag;
         for entry in force {
-            if let Some(bodies) = self.bodies.iter().find(|b| b.old == entry.group) {
+            if let Some(bodies) = self.bodies.iter().find(|b| b.old == entry.at.group) {
                 bodies.force(dag, entry, &mut found);
                 continue;
             }
-            let old = self.inverse.iter().find(|e| {
-                e.side == Side::Q
-                    && (e.group, &e.row, e.column) == (entry.group, &entry.row, entry.column)
-            });
+            let of_q = (entry.at.on(Side::Q), &entry.row);
+            let old = self.inverse.iter().find(|e| (e.at, &e.row) == of_q);
             let Some(old) = old else { continue };
             for (leaf, slope) in diff::gradient(dag, old.value, Dependence::Q) {
-                let Kind::Element(Array::Phase { group, column, .. }, row, _) = dag.kind(leaf)
-                else {
+                let Some((column, row)) = dag.phase_place(leaf) else {
                     continue;
                 };
-                let (group, row, column) = (*group, row.clone(), *column);
-                let part = dag.mul(&[slope, entry.value]);
-                match found
-                    .iter_mut()
-                    .find(|e| (e.group, &e.row, e.column) == (group, &row, column))
-                {
-                    Some(sum) => sum.value = dag.add(&[sum.value, part]),
-                    None => found.push(VectorEntry {
-                        side: Side::P,
-                        group,
-                        row,
-                        column,
-                        value: part,
-                    }),
+                let (at, row) = (column.on(Side::P), row.clone());
+                let value = dag.mul(&[slope, entry.value]);
+                match found.iter_mut().find(|e| (e.at, &e.row) == (at, &row)) {
+                    Some(sum) => sum.value = dag.add(&[sum.value, value]),
+                    None => found.push(VectorEntry { at, row, value }),
                 }
             }
         }
         for entry in &mut found {
             entry.value = reduce::reduce(dag, entry.value, &self.rules);
         }
-        found.sort_by_key(|e| (e.group, e.column, e.row.clone()));
+        found.sort_by_key(|e| (e.at, e.row.clone()));
         found
     }
 }
 
 fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> Masses {
     let shape = &model.parameters[usize::from(parameter.0)].shape;
-    let (rows, _) = extents(shape).unwrap_or((0, 0));
-    let each = (0..rows)
+    // Jacobi's are for a literal number of bodies ([`Refusal::Number`]).
+    let rows = shape.rows().and_then(Affine::as_constant);
+    let each = (0..rows.into_iter().sum())
         .map(|row| dag.element(Array::Parameter(parameter), Index::constant(row), None))
         .collect();
     Masses::new(dag, each)
@@ -292,10 +269,8 @@ fn entries<'a>(slots: &'a [Slot], values: &'a Variables) -> impl Iterator<Item =
                 .iter()
                 .zip(values)
                 .map(move |(slot, value)| VectorEntry {
-                    side,
-                    group: slot.group,
+                    at: slot.at(side),
                     row: Index::constant(i64::from(slot.row)),
-                    column: slot.column,
                     value: *value,
                 })
         })
@@ -336,10 +311,7 @@ fn written_out(
     bodies: &[Bodies],
     carried: &[Node],
 ) -> Result<(Model, Vec<Node>), Refusal> {
-    let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
-    for observable in &model.observables {
-        roots.extend(&observable.components);
-    }
+    let mut roots = model.roots();
     roots.extend(carried);
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
     let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).collect();
@@ -350,7 +322,7 @@ fn written_out(
                 .reachable(&roots)
                 .into_iter()
                 .find_map(|node| match model.dag.kind(node) {
-                    Kind::Element(Array::Phase { group, .. }, row, _)
+                    Kind::Element(Array::Phase(Column { group, .. }), row, _)
                         if written.contains(group)
                             && (row.modulo.is_some() || row.affine.as_constant().is_none()) =>
                     {
@@ -381,18 +353,12 @@ fn rows(
     images: &mut Map<Node, Node>,
 ) -> Option<()> {
     for node in dag.reachable(roots) {
-        if let Kind::Element(
-            Array::Phase {
-                side,
-                group,
-                column,
-            },
-            row,
-            _,
-        ) = dag.kind(node).clone()
-            && group == bodies.old
-        {
-            let image = bodies.image(dag, below, (side, column), &row)?;
+        let Some((column, row)) = dag.phase_place(node) else {
+            continue;
+        };
+        if column.group == bodies.old {
+            let row = row.clone();
+            let image = bodies.image(dag, below, (column.side, column.column), &row)?;
             images.insert(node, image);
         }
     }
@@ -409,49 +375,22 @@ fn images(
 ) -> Map<Node, Node> {
     let mut images: Map<Node, Node> = Map::default();
     for entry in inverse {
-        let array = Array::Phase {
-            side: entry.side,
-            group: entry.group,
-            column: entry.column,
-        };
-        let old = dag.element(array, entry.row.clone(), None);
+        let old = dag.phase(entry.at, entry.row.clone());
         images.insert(old, entry.value);
     }
     for node in dag.reachable(roots) {
         if images.contains_key(&node) {
             continue;
         }
-        let Kind::Element(array, row, _) = dag.kind(node).clone() else {
+        let Some((column, row)) = dag.phase_place(node) else {
             continue;
         };
-        let Array::Phase {
-            side,
-            group,
-            column,
-        } = array
-        else {
+        let Some(&(_, group)) = kept.iter().find(|(old, _)| *old == column.group) else {
             continue;
         };
-        let Some((_, group)) = kept.iter().find(|(old, _)| *old == group) else {
-            continue;
-        };
-        let moved = Array::Phase {
-            side,
-            group: *group,
-            column,
-        };
-        let moved = dag.element(moved, row, None);
+        let row = row.clone();
+        let moved = dag.phase(Column { group, ..column }, row);
         images.insert(node, moved);
     }
     images
-}
-
-/// Puts the images of the roots where they belong; the rest is what was carried.
-fn distribute(model: &mut Model, roots: Vec<Node>) -> Vec<Node> {
-    let mut roots = roots.into_iter();
-    model.hamiltonian = model.hamiltonian.and_then(|_| roots.next());
-    for observable in &mut model.observables {
-        observable.components = roots.by_ref().take(observable.components.len()).collect();
-    }
-    roots.collect()
 }

@@ -6,7 +6,7 @@
 use super::charts::{Chart, Component, Variables};
 use super::coordinates::Placement;
 use super::{Refusal, element, is_taken};
-use crate::dag::{Dag, Side};
+use crate::dag::{Column, Dag, Side};
 use crate::model::{Group, Model, Shape};
 
 /// A scalar place of phase space.
@@ -15,6 +15,18 @@ pub(super) struct Slot {
     pub(super) group: u16,
     pub(super) row: u32,
     pub(super) column: u16,
+}
+
+impl Slot {
+    /// Its column on a side.
+    pub(super) fn at(self, side: Side) -> Column {
+        let Slot { group, column, .. } = self;
+        Column {
+            side,
+            group,
+            column,
+        }
+    }
 }
 
 /// One set of variables that a chart maps as a whole: bodies are mapped component by component.
@@ -169,7 +181,7 @@ fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
             Chart::Polar(components) => components,
             Chart::Spherical(components) => components,
             Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
-                let (Shape::Vector(rows) | Shape::Matrix(rows, _)) = shape else {
+                let Some(rows) = shape.rows() else {
                     return Err(refused("an array of bodies"));
                 };
                 let masses = model.parameters.get(usize::from(bodies.masses.0));
@@ -186,7 +198,7 @@ fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
                 continue;
             }
         };
-        let count = match extents(shape) {
+        let count = match shape.literal() {
             Some((rows, 1)) => rows,
             _ => return Err(refused("a number or a vector of literal length")),
         };
@@ -205,21 +217,8 @@ fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
     Ok(groups)
 }
 
-/// Rows and columns, where both are literal.
-pub(super) fn extents(shape: &Shape) -> Option<(i64, i64)> {
-    match shape {
-        Shape::Scalar => Some((1, 1)),
-        Shape::Vector(rows) => Some((rows.as_constant()?, 1)),
-        Shape::Matrix(rows, columns) => Some((rows.as_constant()?, columns.as_constant()?)),
-    }
-}
-
 fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
-    let scalar = |name: &&str| Group {
-        coordinate: (*name).to_owned(),
-        momentum: format!("p_{name}"),
-        shape: Shape::Scalar,
-    };
+    let scalar = |name: &&str| Group::scalar(*name, format!("p_{name}"));
     let bodies = |group: u16| {
         let old = &model.groups[usize::from(group)];
         vec![Group {
@@ -259,13 +258,15 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
         Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
             let shape = &model.groups[usize::from(bodies.group)].shape;
             // Where their number is not literal there are no blocks: `bodies` maps them in loops.
-            let (rows, columns) = extents(shape).unwrap_or((0, 0));
-            let column = |group: u16, column: i64| -> Vec<Slot> {
+            let Some((rows, columns)) = shape.literal() else {
+                return Vec::new();
+            };
+            let column = |group: u16, column: u16| -> Vec<Slot> {
                 (0..rows)
                     .map(|row| Slot {
                         group,
                         row: row as u32,
-                        column: column as u16,
+                        column,
                     })
                     .collect()
             };

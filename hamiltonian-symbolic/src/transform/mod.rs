@@ -18,11 +18,11 @@ mod verify;
 
 pub use charts::{Bodies, Chart, Component, REPLACING};
 pub use coordinates::{Placement, Transformed, apart, apply};
-pub use split::{Difference, Force, check_forces, check_split};
+pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;
 
-use crate::dag::{Array, Dag, Node, Side};
+use crate::dag::{Column, Dag, Node, Side};
 use crate::index::{Index, LOOPS};
 use crate::loops::Point;
 use crate::model::Model;
@@ -151,10 +151,10 @@ fn is_taken(model: &Model, name: &str) -> bool {
 
 /// The scalar at a literal place of phase space.
 fn element(dag: &mut Dag, side: Side, group: u16, row: u32, column: u16) -> Node {
-    let array = Array::Phase {
+    let column = Column {
         side,
         group,
         column,
     };
-    dag.element(array, Index::constant(i64::from(row)), None)
+    dag.phase(column, Index::constant(i64::from(row)))
 }

@@ -8,9 +8,9 @@
 use super::Refusal;
 use super::bodies::Bodies;
 use super::layout::coordinate;
-use crate::dag::{Array, Dag, Kind, Node};
+use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
-use crate::model::{Model, Shape};
+use crate::model::Model;
 
 /// The most nodes that loops are unrolled to.
 const LARGEST: usize = 1 << 20;
@@ -26,11 +26,7 @@ impl Below {
     /// What the number of rows of bodies says.
     pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
         let rows = bodies.iter().filter_map(|b| {
-            let (Shape::Vector(rows) | Shape::Matrix(rows, _)) =
-                &model.groups[usize::from(b.old)].shape
-            else {
-                return None;
-            };
+            let rows = model.groups[usize::from(b.old)].shape.rows()?;
             match (rows.constant, rows.loops.as_slice(), rows.sizes.as_slice()) {
                 (0, [], [(size, 1)]) => Some(size.0),
                 _ => None,
@@ -129,10 +125,8 @@ pub(super) fn peel(
 
 /// The group and the row of an element of phase space.
 fn read(dag: &Dag, node: Node) -> Option<(u16, &Index)> {
-    match dag.kind(node) {
-        Kind::Element(Array::Phase { group, .. }, row, _) => Some((*group, row)),
-        _ => None,
-    }
+    dag.phase_place(node)
+        .map(|(column, row)| (column.group, row))
 }
 
 /// The next loop to peel, the outermost first: what is inside may then be peeled too.

@@ -15,11 +15,11 @@
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
 use super::{Refusal, element, is_taken};
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::{Affine, Index};
 use crate::loops::field::{elements, field};
 use crate::loops::guarded;
-use crate::model::{Group, Model, Shape, VectorEntry};
+use crate::model::{Group, Model, VectorEntry};
 use crate::rational::Rational;
 
 /// A system in another time.
@@ -76,11 +76,7 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
     let wanted = new.time.take().unwrap_or_else(|| "t".to_owned());
     let coordinate = free(&new, &wanted);
     let momentum = free(&new, &format!("p_{wanted}"));
-    new.groups.push(Group {
-        coordinate,
-        momentum,
-        shape: Shape::Scalar,
-    });
+    new.groups.push(Group::scalar(coordinate, momentum));
     new.evolution = Some(free(&new, "s"));
 
     let time = element(&mut new.dag, Side::Q, group, 0, 0);
@@ -89,21 +85,17 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
         Some(h) => h,
         None => new.dag.integer(0),
     };
-    let mut roots = vec![h, g];
-    for observable in &new.observables {
-        roots.extend(&observable.components);
-    }
+    new.hamiltonian = Some(h);
+    let mut roots = vec![g];
+    roots.extend(new.roots());
     roots.extend(carried);
     let roots = at_coordinate(&mut new.dag, &roots, time);
-    let (energy, factor) = (roots[0], roots[1]);
-    let mut rest = roots.into_iter().skip(2);
-    for observable in &mut new.observables {
-        observable.components = rest.by_ref().take(observable.components.len()).collect();
-    }
+    let (factor, energy) = (roots[0], roots[1]);
+    let carried = new.set_roots(roots[1..].to_vec());
     let start = new.dag.neg(energy);
     new.hamiltonian = Some(product(&mut new.dag, factor, energy, p_t));
     Ok(Retimed {
-        carried: rest.collect(),
+        carried,
         model: new,
         group,
         factor,
@@ -161,10 +153,8 @@ impl Retimed {
             });
         }
         all.push(VectorEntry {
-            side: Side::P,
-            group: self.group,
+            at: Column::first(Side::P, self.group),
             row: Index::constant(0),
-            column: 0,
             value: self.model.dag.linear(&Rational::ZERO, &work),
         });
         Ok(all)
@@ -174,32 +164,24 @@ impl Retimed {
 /// ∂H/∂p, an array's as an expression of the row.
 struct Velocities {
     leaves: Vec<(Node, Node)>,
-    known: Map<(u16, u16), Node>,
+    known: Map<Column, Node>,
 }
 
 impl Velocities {
     /// What belongs to the momentum that an entry of a force acts on.
     fn of(&mut self, model: &mut Model, entry: &VectorEntry) -> Result<Node, Refusal> {
-        let (group, column) = (entry.group, entry.column);
-        let declared = &model.groups[usize::from(group)];
-        let rows = match &declared.shape {
-            Shape::Scalar => {
-                let momentum = element(&mut model.dag, Side::P, group, 0, 0);
-                let found = self.leaves.iter().find(|(leaf, _)| *leaf == momentum);
-                return Ok(found.map_or_else(|| model.dag.integer(0), |(_, slope)| *slope));
-            }
-            Shape::Vector(rows) | Shape::Matrix(rows, _) => rows.clone(),
+        let at = entry.at.on(Side::P);
+        let group = usize::from(at.group);
+        let Some(rows) = model.groups[group].shape.rows().cloned() else {
+            let momentum = model.scalar(Side::P, group);
+            let found = self.leaves.iter().find(|(leaf, _)| *leaf == momentum);
+            return Ok(found.map_or_else(|| model.dag.integer(0), |(_, slope)| *slope));
         };
-        let whole = match self.known.get(&(group, column)) {
+        let whole = match self.known.get(&at) {
             Some(known) => *known,
             None => {
-                let array = Array::Phase {
-                    side: Side::P,
-                    group,
-                    column,
-                };
                 // A neighbour's momentum is read under a condition, where it need not exist.
-                let found = field(&mut model.dag, &self.leaves, array, &rows);
+                let found = field(&mut model.dag, &self.leaves, Array::Phase(at), &rows);
                 let found = match found {
                     Some(found) => guarded(model, found, &|_| false),
                     None => None,
@@ -208,9 +190,9 @@ impl Velocities {
                     return Err(Refusal::TooManyLoops);
                 }
                 let found = found.ok_or_else(|| Refusal::Power {
-                    momentum: model.groups[usize::from(group)].momentum.clone(),
+                    momentum: model.groups[group].momentum.clone(),
                 })?;
-                self.known.insert((group, column), found);
+                self.known.insert(at, found);
                 found
             }
         };

@@ -7,10 +7,10 @@
 use super::coordinates::Transformed;
 use super::layout::Slot;
 use super::{Refusal, element};
-use crate::dag::{Array, Node, Side};
+use crate::dag::{Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample, Signs};
-use crate::model::{Model, Shape, VectorEntry};
+use crate::model::{Model, VectorEntry};
 
 /// How many points [`check`] compares at certain sizes,
 const POINTS: usize = 3;
@@ -138,12 +138,7 @@ fn check_at(
         };
         let mut old_given: Vec<(Node, f64)> = Vec::new();
         for (entry, value) in inverse.iter().zip(&values[new_roots.len()..]) {
-            let array = Array::Phase {
-                side: entry.side,
-                group: entry.group,
-                column: entry.column,
-            };
-            let node = old.dag.element(array, entry.row.clone(), None);
+            let node = old.dag.phase(entry.at, entry.row.clone());
             old_given.push((node, value.value));
         }
         for (&(side, slot), (_, value)) in new_slots.iter().zip(&given) {
@@ -218,18 +213,14 @@ fn slots(model: &Model, sizes: &[i64]) -> Vec<(Side, Slot)> {
     let extent = |affine: &Affine| extent(affine, sizes);
     let mut all = Vec::new();
     for (number, group) in model.groups.iter().enumerate() {
-        let (rows, columns) = match &group.shape {
-            Shape::Scalar => (1, 1),
-            Shape::Vector(rows) => (extent(rows), 1),
-            Shape::Matrix(rows, columns) => (extent(rows), extent(columns)),
-        };
+        let rows = group.shape.rows().map_or(1, extent);
         for side in [Side::Q, Side::P] {
-            for column in 0..columns {
+            for column in 0..group.shape.columns() {
                 for row in 0..rows {
                     let slot = Slot {
                         group: number as u16,
                         row: row as u32,
-                        column: column as u16,
+                        column,
                     };
                     all.push((side, slot));
                 }

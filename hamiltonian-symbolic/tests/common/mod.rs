@@ -3,7 +3,7 @@
 //! Input: declarations and expressions as text. Output: a [`Model`] and nodes of its arena. It
 //! panics on what it does not know; the real front end is the macro's.
 
-use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 use hamiltonian_symbolic::loops::{Sample, sample};
 use hamiltonian_symbolic::model::{External, Group, Model, ParameterDeclaration, Shape};
@@ -39,6 +39,13 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
     for (q, p) in q.split(',').zip(p.split(',')) {
         let (coordinate, shape) = declared(&model, q.trim());
         let (momentum, _) = declared(&model, p.trim());
+        let shape = match shape {
+            Shape::Scalar => Shape::Scalar,
+            Shape::Vector(rows) => Shape::Vector(rows),
+            Shape::Matrix(rows, columns) => {
+                Shape::Matrix(rows, columns.as_constant().unwrap() as u16)
+            }
+        };
         model.groups.push(Group {
             coordinate,
             momentum,
@@ -309,11 +316,11 @@ impl Parser<'_> {
                     indices.remove(0)
                 };
                 return self.model.dag.element(
-                    Array::Phase {
+                    Array::Phase(Column {
                         side,
                         group: group as u16,
                         column,
-                    },
+                    }),
                     row,
                     None,
                 );

@@ -2,7 +2,7 @@
 
 use crate::common::{self, parse};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
-use hamiltonian_symbolic::dag::{Array, Dependence, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::model::Model;
@@ -39,11 +39,11 @@ impl Values {
         point.scalars = parameters.iter().map(|x| T::constant(*x, 0.0)).collect();
         for group in 0..model.groups.len() {
             for (side, at) in [(Side::Q, 0), (Side::P, 1)] {
-                let array = Array::Phase {
+                let array = Array::Phase(Column {
                     side,
                     group: group as u16,
                     column: 0,
-                };
+                });
                 point.arrays.insert(array, vec![vec![z[2 * group + at]]]);
             }
         }

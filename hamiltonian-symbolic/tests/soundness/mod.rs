@@ -177,8 +177,7 @@ pub fn loops(steps: &[Step]) -> Vec<&Loop> {
 fn of(instruction: &Instruction) -> u8 {
     match instruction {
         Instruction::Coefficient => 1,
-        Instruction::Time
-        | Instruction::Load(Array::Phase { .. } | Array::Direction { .. }, ..) => 2,
+        Instruction::Time | Instruction::Load(Array::Phase(_) | Array::Direction(_), ..) => 2,
         _ => 0,
     }
 }

@@ -5,7 +5,7 @@ use crate::common;
 use crate::sums::{Numbers, World, read};
 use crate::tree::Random;
 use hamiltonian_lanes::Real;
-use hamiltonian_symbolic::dag::{Array, Node, Parameter, Side};
+use hamiltonian_symbolic::dag::{Array, Column, Node, Parameter, Side};
 use hamiltonian_symbolic::eval::{Outcome, Point};
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};
@@ -64,7 +64,7 @@ impl Instance {
     pub fn places(&self) -> Vec<Place> {
         let mut all = vec![Place::Time];
         for (number, group) in self.model.groups.iter().enumerate() {
-            let (rows, columns) = extents(&group.shape, self.n);
+            let (rows, columns) = extents(&group.shape.of_parameter(), self.n);
             for side in [Side::Q, Side::P] {
                 for column in 0..columns {
                     all.extend((0..rows).map(|row| Place::Phase(side, number, column, row)));
@@ -107,7 +107,7 @@ impl Instance {
         for (number, group) in self.model.groups.iter().enumerate() {
             for (side, name) in [(Side::Q, &group.coordinate), (Side::P, &group.momentum)] {
                 let place = |column, row| Place::Phase(side, number, column, row);
-                let columns = self.columns(&group.shape, place, &mut lift);
+                let columns = self.columns(&group.shape.of_parameter(), place, &mut lift);
                 world.values.insert(name.clone(), columns);
             }
         }
@@ -135,7 +135,7 @@ impl Instance {
         point.t = lift(Place::Time, self.values[&Place::Time]);
         let start = lift(Place::Time, self.start);
         for (number, declared) in self.model.groups.iter().enumerate() {
-            let (rows, columns) = extents(&declared.shape, self.n);
+            let (rows, columns) = extents(&declared.shape.of_parameter(), self.n);
             let group = number as u16;
             for side in [Side::Q, Side::P] {
                 for at in 0..columns {
@@ -147,27 +147,27 @@ impl Instance {
                         vec![list.collect::<Vec<T>>()]
                     };
                     point.arrays.insert(
-                        Array::Phase {
+                        Array::Phase(Column {
                             side,
                             group,
                             column,
-                        },
+                        }),
                         read(&place),
                     );
                     point.arrays.insert(
-                        Array::Direction {
+                        Array::Direction(Column {
                             side,
                             group,
                             column,
-                        },
+                        }),
                         read(&along),
                     );
                     point.outputs.insert(
-                        Target::Phase {
+                        Target::Phase(Column {
                             side,
                             group,
                             column,
-                        },
+                        }),
                         vec![vec![start; rows]],
                     );
                 }
@@ -237,11 +237,11 @@ pub fn at<T: Copy>(outcome: &Outcome<T>, place: Place) -> T {
     match place {
         Place::Phase(side, group, column, row) => {
             let (group, column) = (group as u16, column as u16);
-            outcome.outputs[&Target::Phase {
+            outcome.outputs[&Target::Phase(Column {
                 side,
                 group,
                 column,
-            }][0][row]
+            })][0][row]
         }
         Place::Parameter(number, column, row) => {
             outcome.outputs[&Target::Parameter(Parameter(number as u16))][column][row]

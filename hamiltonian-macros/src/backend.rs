@@ -15,7 +15,7 @@ mod verdicts;
 
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::{Beyond, SHARE_LOOPS, ends, lower, velocity_names};
+use crate::lower::{Beyond, SHARE_LOOPS, ends, lower};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::index::LOOPS;
@@ -42,8 +42,7 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> T
         // In other variables than those of L, H is a formula like any other.
         let is_declared = checked.charts.is_empty() && checked.time_factor.is_none();
         let readable = lowered.legendre.as_ref().filter(|_| is_declared);
-        let readable = readable
-            .map(|legendre| Readable::of(&lowered.model, legendre, &velocity_names(checked)));
+        let readable = readable.map(|legendre| Readable::of(&lowered.model, legendre));
         if ends::guard(&mut lowered).is_none() {
             let reason = "this Lagrangian has no Hamiltonian: the momentum of an element has a sum that starts below 0 for the first elements";
             let help = "let the sum start at 0, with a condition in it: `sum(j in 0..n) { if i <= j { … } else { 0 } }`; else give H(q; p)";

@@ -83,6 +83,9 @@ pub enum Array {
     Direction(Column),
     /// A parameter array; rank 2 is indexed by row and column.
     Parameter(Parameter),
+    /// The velocities of a column of coordinates, in what was said of a Lagrangian: no program
+    /// reads them.
+    Velocity(Column),
 }
 
 /// A comparison.
@@ -167,6 +170,8 @@ impl Dependence {
     pub const COEFFICIENT: Dependence = Dependence(16);
     /// On the direction of a Hessian product.
     pub const DIRECTION: Dependence = Dependence(32);
+    /// On velocities that stand for themselves.
+    pub const VELOCITY: Dependence = Dependence(64);
     /// On what moves along a trajectory.
     pub const MOVING: Dependence = Dependence(1 | 2 | 4);
 
@@ -178,7 +183,7 @@ impl Dependence {
     /// When it can be computed.
     #[must_use]
     pub fn stage(self) -> Stage {
-        if self.0 & 0b10_0111 != 0 {
+        if self.0 & 0b110_0111 != 0 {
             Stage::Evaluation
         } else if self.0 & 16 != 0 {
             Stage::Coefficient
@@ -603,6 +608,7 @@ impl Dag {
             Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
             Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,
             Kind::Element(Array::Direction(_), ..) => Dependence::DIRECTION,
+            Kind::Element(Array::Velocity(_), ..) => Dependence::VELOCITY,
             Kind::Time => Dependence::TIME,
             Kind::Coefficient => Dependence::COEFFICIENT,
             Kind::Count(d) | Kind::Reduce(d, _) => {

@@ -78,6 +78,7 @@ impl Display for Array {
         match self {
             Array::Phase(column) => write!(f, "{column}"),
             Array::Direction(column) => write!(f, "v{column}"),
+            Array::Velocity(column) => write!(f, "velocity {column}"),
             Array::Parameter(Parameter(number)) => write!(f, "a{number}"),
         }
     }

@@ -82,7 +82,9 @@ pub struct Group {
     pub coordinate: String,
     /// The momentum's name.
     pub momentum: String,
-    /// The shape of both.
+    /// The velocity's name, of a Lagrangian.
+    pub velocity: Option<String>,
+    /// The shape of all.
     pub shape: Shape<u16>,
 }
 
@@ -92,6 +94,7 @@ impl Group {
         Group {
             coordinate: coordinate.into(),
             momentum: momentum.into(),
+            velocity: None,
             shape: Shape::Scalar,
         }
     }
@@ -236,8 +239,8 @@ impl Model {
     #[must_use]
     pub fn shape(&self, array: Array) -> Shape {
         match array {
-            Array::Phase(Column { group, .. }) | Array::Direction(Column { group, .. }) => {
-                self.group_of(group).shape.of_parameter()
+            Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
+                self.group_of(at.group).shape.of_parameter()
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.clone(),
         }
@@ -249,6 +252,11 @@ impl Model {
             Array::Phase(at) => self.group_of(at.group).name(at.side).to_owned(),
             Array::Direction(at) => {
                 format!("v_{}", self.group_of(at.group).name(at.side))
+            }
+            Array::Velocity(at) => {
+                let group = &self.groups[usize::from(at.group)];
+                let derivative = || format!("d{}/dt", group.coordinate);
+                group.velocity.clone().unwrap_or_else(derivative)
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].name.clone(),
         }
@@ -285,6 +293,19 @@ impl Model {
         for (place, root) in places.iter_mut().zip(roots) {
             **place = root;
         }
+    }
+    /// Whether something is declared under a name.
+    #[must_use]
+    pub fn declares(&self, name: &str) -> bool {
+        let of_group = |g: &Group| {
+            g.coordinate == name || g.momentum == name || g.velocity.as_deref() == Some(name)
+        };
+        self.groups.iter().any(of_group)
+            || self.parameters.iter().any(|p| p.name == name)
+            || self.sizes.iter().any(|s| s == name)
+            || self.externals.iter().any(|e| e.name == name)
+            || self.observables.iter().any(|o| o.name == name)
+            || self.time.as_deref() == Some(name)
     }
     /// The number of the parameter of that name.
     #[must_use]

@@ -5,7 +5,7 @@
 //! `x/x = 1`, `√(x²) = |x|`. Half-integer powers are integer powers of a square root, so that
 //! `√x·√x` keeps the domain of `√x`.
 
-use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Relation};
+use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Relation, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::rational::{LONGEST, Rational};
@@ -48,6 +48,15 @@ impl Dag {
     /// An element of phase space.
     pub fn phase(&mut self, column: Column, row: Index) -> Node {
         self.element(Array::Phase(column), row, None)
+    }
+    /// The momentum in the place of a velocity, as the Legendre transform takes velocities.
+    pub fn momentum_in_place(&mut self, node: Node) -> Option<Node> {
+        match self.kind(node).clone() {
+            Kind::Element(Array::Velocity(column), row, _) => {
+                Some(self.phase(column.on(Side::P), row))
+            }
+            _ => None,
+        }
     }
     /// A size as a real.
     pub fn extent(&mut self, size: Size) -> Node {

@@ -3,7 +3,7 @@
 //! Input: a program. Output: nothing, or what is wrong with it, which is a fault of the engine.
 //! Invariant: knows the form of programs only, nothing of how they are made.
 
-use crate::dag::Map;
+use crate::dag::{Array, Map};
 use crate::index::Index;
 use crate::program::{Function, Instruction, Program, Step, Target, Update, Value};
 
@@ -64,6 +64,9 @@ impl Program {
                     });
                     if let Some(operand) = missing {
                         return Err(format!("{value} reads {operand} before it is computed"));
+                    }
+                    if let Instruction::Load(Array::Velocity(_), ..) = instruction {
+                        return Err(format!("{value} reads a velocity"));
                     }
                     if let Instruction::PairedCos(sine) = instruction
                         && !matches!(self.instruction(*sine), Instruction::PairedSin(_))
@@ -181,5 +184,10 @@ mod tests {
             |p| p.instructions[1] = Instruction::PairedCos(Value(0)),
             "_1 is the cosine of no sine in GradientQ",
         );
+        let velocity = |p: &mut Program| {
+            let velocity = Array::Velocity(Column::first(Side::Q, 0));
+            p.instructions[0] = Instruction::Load(velocity, Index::constant(0), None);
+        };
+        faulty(velocity, "_0 reads a velocity in GradientQ");
     }
 }

@@ -10,32 +10,26 @@ use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print::text;
 
-/// A model whose momenta are called by the names of velocities, as its L is read.
-fn lagrangian(
-    signature: &str,
-    sizes: &str,
-    parameters: &str,
-    l: &str,
-) -> (Model, Node, Vec<String>) {
+/// A model whose velocities stand in the place of momenta, as its L is read.
+fn lagrangian(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Node) {
     let mut m = model(signature, sizes, parameters);
     let node = parse(&mut m, l);
-    let names = m.groups.iter().map(|g| g.momentum.clone()).collect();
     for group in &mut m.groups {
-        group.momentum = format!("p_{}", group.coordinate);
+        let momentum = format!("p_{}", group.coordinate);
+        group.velocity = Some(std::mem::replace(&mut group.momentum, momentum));
     }
-    (m, node, names)
+    (m, node)
 }
 
 fn transformed(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Legendre, Node) {
-    let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
-    let legendre =
-        transform(&mut m, node, &names).unwrap_or_else(|reason| panic!("{l}: {reason:?}"));
+    let (mut m, node) = lagrangian(signature, sizes, parameters, l);
+    let legendre = transform(&mut m, node).unwrap_or_else(|reason| panic!("{l}: {reason:?}"));
     (m, legendre, node)
 }
 
 fn refused(signature: &str, sizes: &str, parameters: &str, l: &str) -> String {
-    let (mut m, node, names) = lagrangian(signature, sizes, parameters, l);
-    transform(&mut m, node, &names).expect_err(l).reason
+    let (mut m, node) = lagrangian(signature, sizes, parameters, l);
+    transform(&mut m, node).expect_err(l).reason
 }
 
 fn substituted(m: &mut Model, node: Node, values: &[(Node, Node)]) -> Node {

@@ -44,7 +44,7 @@ fn everything(m: &mut Model, h: Node) {
     let _ = text(m, h);
     let _ = latex(m, h);
     let _ = hamilton_equations(m).written(Notation::Text);
-    let _ = transform(m, h, &["v".into(), "w".into()]);
+    let _ = transform(m, h);
 }
 
 #[test]

@@ -12,12 +12,12 @@ use hamiltonian_symbolic::print::{Notation, Readable};
 fn read(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Readable) {
     let mut m = model(signature, sizes, parameters);
     let node = parse(&mut m, l);
-    let names: Vec<String> = m.groups.iter().map(|g| g.momentum.clone()).collect();
     for group in &mut m.groups {
-        group.momentum = format!("p_{}", group.coordinate);
+        let momentum = format!("p_{}", group.coordinate);
+        group.velocity = Some(std::mem::replace(&mut group.momentum, momentum));
     }
-    let legendre = transform(&mut m, node, &names).unwrap();
-    let readable = Readable::of(&m, &legendre, &names);
+    let legendre = transform(&mut m, node).unwrap();
+    let readable = Readable::of(&m, &legendre);
     m.hamiltonian = Some(legendre.hamiltonian);
     (m, readable)
 }

@@ -2,7 +2,7 @@
 
 use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant_of_lagrangian};
-use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
+use hamiltonian_symbolic::dag::{Array, Node, Side};
 use hamiltonian_symbolic::legendre::{Legendre, transform};
 use hamiltonian_symbolic::model::Model;
 
@@ -10,9 +10,7 @@ use hamiltonian_symbolic::model::Model;
 fn lagrangian(signature: &str, parameters: &str, l: &str) -> (Model, Legendre) {
     let mut model = system(signature, "", parameters, l);
     let lagrangian = model.hamiltonian.unwrap();
-    let momenta = signature.split(';').nth(1).unwrap();
-    let names: Vec<String> = momenta.split(',').map(|v| v.trim().to_owned()).collect();
-    let legendre = transform(&mut model, lagrangian, &names).unwrap();
+    let legendre = transform(&mut model, lagrangian).unwrap();
     model.hamiltonian = Some(legendre.hamiltonian);
     (model, legendre)
 }
@@ -20,27 +18,12 @@ fn lagrangian(signature: &str, parameters: &str, l: &str) -> (Model, Legendre) {
 /// The verdict on an expression of velocities.
 fn verdict(model: &mut Model, legendre: &Legendre, source: &str) -> Verdict {
     let node = parse(model, source);
-    let in_velocities = model
-        .dag
-        .substitute(node, |dag, node| match dag.kind(node).clone() {
-            Kind::Element(
-                Array::Phase(Column {
-                    side: Side::P,
-                    group,
-                    column,
-                }),
-                row,
-                None,
-            ) => {
-                let array = Array::Direction(Column {
-                    side: Side::P,
-                    group,
-                    column,
-                });
-                Some(dag.element(array, row, None))
-            }
-            _ => None,
-        });
+    let in_velocities = model.dag.substitute(node, |dag, node| {
+        let (column, row) = dag.phase_place(node)?;
+        let velocity = Array::Velocity(column.on(Side::Q));
+        let row = row.clone();
+        (column.side == Side::P).then(|| dag.element(velocity, row, None))
+    });
     let velocity = |node: Node| {
         let mut velocities = legendre.velocities.iter();
         velocities.find(|v| v.element == node).map(|v| v.value)

@@ -221,8 +221,8 @@ impl<'a> Writer<'a> {
     fn element(&self, array: Array, row: &Index, column: Option<&Index>) -> String {
         let slice = self.context.read(array);
         match array {
-            Array::Phase(Column { group, .. }) | Array::Direction(Column { group, .. }) => {
-                self.place(slice, Some(group), row)
+            Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
+                self.place(slice, Some(at.group), row)
             }
             Array::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
         }

@@ -160,6 +160,7 @@ impl Slice {
         match array {
             Array::Phase(column) => Slice::Input(stored(layout, column)),
             Array::Direction(column) => Slice::Direction(stored(layout, column)),
+            Array::Velocity(_) => unreachable!("`validate` finds velocities in a program"),
             Array::Parameter(Parameter(number)) => Slice::Parameter(number),
         }
     }

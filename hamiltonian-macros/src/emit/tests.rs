@@ -20,14 +20,7 @@ use quote::quote;
 fn scalars(name: &str, groups: &[(&str, &str)], parameters: &[&str]) -> Model {
     Model {
         name: name.into(),
-        groups: groups
-            .iter()
-            .map(|(q, p)| Group {
-                coordinate: (*q).into(),
-                momentum: (*p).into(),
-                shape: Shape::Scalar,
-            })
-            .collect(),
+        groups: groups.iter().map(|(q, p)| Group::scalar(*q, *p)).collect(),
         parameters: parameters
             .iter()
             .map(|name| ParameterDeclaration {
@@ -186,6 +179,7 @@ fn arrays(name: &str, shape: Shape<u16>, size: &str) -> Model {
     Model {
         name: name.into(),
         groups: vec![Group {
+            velocity: None,
             coordinate: "q".into(),
             momentum: "p".into(),
             shape,

@@ -267,22 +267,19 @@ impl<'a> Evaluator<'a> {
             (Kind::Number(value), _) => dag.constant(number(value)),
             (Kind::Pi, _) => dag.pi(),
             (Kind::Coordinate(group), _) => {
-                self.phase(model, node, Side::Q, group.0 as usize, demand)
+                self.phase(model, node, group.0, demand, |at| Array::Phase(at))
             }
-            (Kind::Momentum(group), _) => {
-                self.phase(model, node, Side::P, group.0 as usize, demand)
-            }
-            (Kind::NewCoordinate(group), _) => {
-                let old = self.phase(model, node, Side::Q, group.0 as usize, demand);
-                replaced(&mut model.dag, old)
-            }
-            (Kind::NewMomentum(group), _) => {
-                let old = self.phase(model, node, Side::P, group.0 as usize, demand);
-                replaced(&mut model.dag, old)
-            }
+            (Kind::Momentum(group), _) => self.phase(model, node, group.0, demand, |at| {
+                Array::Phase(at.conjugate())
+            }),
+            (Kind::NewCoordinate(group), _) => self.phase(model, node, group.0, demand, |at| {
+                Array::Phase(replaced(at))
+            }),
+            (Kind::NewMomentum(group), _) => self.phase(model, node, group.0, demand, |at| {
+                Array::Phase(replaced(at).conjugate())
+            }),
             (Kind::Velocity(group), _) => {
-                let element = self.phase(model, node, Side::P, group.0 as usize, demand);
-                velocity::marked(&mut model.dag, element)
+                self.phase(model, node, group.0, demand, |at| Array::Velocity(at))
             }
             (Kind::Time, _) => dag.time(),
             (Kind::Parameter(parameter), _) => {
@@ -440,17 +437,17 @@ impl<'a> Evaluator<'a> {
         image
     }
 
-    /// An element of a group.
+    /// An element of a group, of the array that belongs to a column of its coordinates.
     fn phase(
         &mut self,
         model: &mut Model,
         node: NodeId,
-        side: Side,
-        group: usize,
+        group: u32,
         demand: &Demand,
+        array: fn(Column) -> Array,
     ) -> Node {
         let spans = self.checked.node(node).spans;
-        let column = match &model.groups[group].shape {
+        let column = match &model.groups[group as usize].shape {
             Shape::Matrix(_, columns) => {
                 match self.number(spans, demand, 1, usize::from(*columns)) {
                     Some(column) => column,
@@ -461,20 +458,15 @@ impl<'a> Evaluator<'a> {
             }
             Shape::Scalar | Shape::Vector(_) => 0,
         };
-        let row = demand
-            .indices
-            .first()
-            .cloned()
-            .unwrap_or_else(|| Index::constant(0));
-        let (group, column) = (group as u16, column as u16);
-        model.dag.phase(
-            Column {
-                side,
-                group,
-                column,
-            },
-            row,
-        )
+        let row = demand.indices.first().cloned();
+        let at = Column {
+            side: Side::Q,
+            group: group as u16,
+            column: column as u16,
+        };
+        // A scalar is at row 0.
+        let row = row.unwrap_or_else(|| Index::constant(0));
+        model.dag.element(array(at), row, None)
     }
 
     fn call(
@@ -603,13 +595,8 @@ fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
     }
 }
 
-/// The element of what a chart puts in the place of a group of bodies.
-fn replaced(dag: &mut Dag, old: Node) -> Node {
-    match dag.phase_place(old) {
-        Some((column, row)) => {
-            let (group, row) = (REPLACING + column.group, row.clone());
-            dag.phase(Column { group, ..column }, row)
-        }
-        None => old,
-    }
+/// The column of what a chart puts in the place of a group of bodies.
+fn replaced(at: Column) -> Column {
+    let group = REPLACING + at.group;
+    Column { group, ..at }
 }

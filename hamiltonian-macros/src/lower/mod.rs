@@ -81,7 +81,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
         let before = model.dag.len();
-        match legendre(checked, &mut model) {
+        match legendre(&mut model) {
             Ok(legendre) => {
                 evaluator.derived.since(before, &model);
                 evaluator.velocities = Some(legendre.velocities.clone());
@@ -168,11 +168,10 @@ pub fn constants(
 }
 
 /// H in the place of L; p(q, v) and v(q, p) become vector functions.
-fn legendre(checked: &Checked, model: &mut Model) -> Result<Legendre, Refusal> {
+fn legendre(model: &mut Model) -> Result<Legendre, Refusal> {
     let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
-    let names = velocity_names(checked);
-    let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian, &names)?;
+    let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
     for (name, components, side) in [
         ("conjugate_momentum", &legendre.momenta, Side::P),
@@ -187,17 +186,6 @@ fn legendre(checked: &Checked, model: &mut Model) -> Result<Legendre, Refusal> {
         });
     }
     Ok(legendre)
-}
-
-/// The names of the velocities of a Lagrangian, one for each group.
-pub fn velocity_names(checked: &Checked) -> Vec<String> {
-    let name = |group: &crate::checked::Group| {
-        group
-            .velocity
-            .as_ref()
-            .map_or_else(String::new, ToString::to_string)
-    };
-    checked.groups.iter().map(name).collect()
 }
 
 /// What is declared beside H.
@@ -289,6 +277,7 @@ fn declarations(checked: &Checked) -> Option<Model> {
         Some(Group {
             coordinate: group.coordinate.to_string(),
             momentum: group.momentum.to_string(),
+            velocity: group.velocity.as_ref().map(ToString::to_string),
             shape: group_shape(group.ty)?,
         })
     };

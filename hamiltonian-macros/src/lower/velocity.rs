@@ -1,9 +1,7 @@
 //! Velocities: variables of a Lagrangian, and functions of (q, p, t) everywhere else.
 //!
-//! Input: expressions in which velocities are marked elements. Output: expressions in which they
+//! Input: expressions of velocities. Output: expressions in which they
 //! are elements in the place of momenta (for the Legendre transform), or what it made of them.
-//! Invariant: until then a velocity is an element of the direction that Hessians are multiplied
-//! with, which nothing else in a definition reads.
 
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
@@ -11,38 +9,9 @@ use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::write_out;
 use hamiltonian_symbolic::model::{Model, VectorEntry};
 
-/// The mark of a velocity, from the momentum element of its place.
-pub fn marked(dag: &mut Dag, momentum: Node) -> Node {
-    match dag.phase_place(momentum) {
-        Some((column, row)) => {
-            let row = row.clone();
-            dag.element(Array::Direction(column), row, None)
-        }
-        None => momentum,
-    }
-}
-
 /// The expression with velocities in the place of momenta.
 pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
-    dag.substitute(root, |dag, node| match dag.kind(node).clone() {
-        Kind::Element(
-            Array::Direction(Column {
-                side: Side::P,
-                group,
-                column,
-            }),
-            row,
-            None,
-        ) => {
-            let array = Array::Phase(Column {
-                side: Side::P,
-                group,
-                column,
-            });
-            Some(dag.element(array, row, None))
-        }
-        _ => None,
-    })
+    dag.substitute(root, Dag::momentum_in_place)
 }
 
 /// The expression with velocities as functions of (q, p, t); `None` where one stands at an index
@@ -52,25 +21,18 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
     let dag = &mut model.dag;
     let mut whole = true;
     let image = dag.substitute(root, |dag, node| {
-        let Kind::Element(Array::Direction(Column { group, column, .. }), row, None) =
-            dag.kind(node).clone()
-        else {
+        let Kind::Element(Array::Velocity(velocity), row, None) = dag.kind(node).clone() else {
             return None;
         };
         for component in velocities {
-            let Kind::Element(array, place, _) = dag.kind(component.element).clone() else {
+            let Some((column, place)) = dag.phase_place(component.element) else {
                 continue;
             };
-            let wanted = Array::Phase(Column {
-                side: Side::P,
-                group,
-                column,
-            });
-            if array != wanted {
+            if column != velocity.on(Side::P) {
                 continue;
             }
             match component.domain {
-                None if place == row => return Some(component.value),
+                None if *place == row => return Some(component.value),
                 Some(domain) if row.modulo.is_none() => {
                     return Some(dag.replace(component.value, domain, &row.affine));
                 }
@@ -94,15 +56,13 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
     let dag = &model.dag;
     let is_written_out = |wanted: u16| {
         velocities.iter().any(|component| {
-            let group = match dag.kind(component.element) {
-                Kind::Element(Array::Phase(Column { group, .. }), ..) => *group,
-                _ => return false,
-            };
-            group == wanted && component.domain.is_none()
+            let column = dag.phase_place(component.element);
+            let is_of = |(column, _): (Column, &Index)| column.group == wanted;
+            column.is_some_and(is_of) && component.domain.is_none()
         })
     };
     let is_looped = |node: Node| match dag.kind(node) {
-        Kind::Element(Array::Direction(Column { group, .. }), row, _) => {
+        Kind::Element(Array::Velocity(Column { group, .. }), row, _) => {
             row.variables() != 0 && is_written_out(*group)
         }
         _ => false,

@@ -6,7 +6,7 @@
 //! and −∂I/∂v, with (∂I/∂q)·v + ∂I/∂t in the corner: a polynomial in M, which is never inverted.
 //! Invariant: M has a determinant that is not 0 everywhere (the Legendre transform saw to it).
 
-use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::legendre::Legendre;
 use crate::model::Model;
@@ -16,7 +16,7 @@ use crate::rational::Rational;
 /// Determinants of at most this many velocities are written out.
 const MOST: usize = 6;
 
-/// Whether an expression, in which velocities are elements of the direction of momenta, does not
+/// Whether an expression, in which velocities stand for themselves, does not
 /// change along the motion. Not where loops are left.
 pub(super) fn vanishes(model: &Model, legendre: &Legendre, expression: Node) -> bool {
     let mut dag = model.dag.clone();
@@ -79,24 +79,9 @@ fn in_velocities(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Node {
         .iter()
         .map(|momentum| (momentum.element, momentum.value))
         .collect();
-    dag.substitute(expression, |dag, node| match dag.kind(node).clone() {
-        Kind::Element(
-            Array::Direction(Column {
-                side: Side::P,
-                group,
-                column,
-            }),
-            row,
-            None,
-        ) => {
-            let array = Array::Phase(Column {
-                side: Side::P,
-                group,
-                column,
-            });
-            Some(dag.element(array, row, None))
-        }
-        _ => momenta.get(&node).copied(),
+    dag.substitute(expression, |dag, node| {
+        let momentum = momenta.get(&node).copied();
+        momentum.or_else(|| dag.momentum_in_place(node))
     })
 }
 

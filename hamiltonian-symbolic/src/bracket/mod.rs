@@ -63,7 +63,7 @@ pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Ver
 }
 
 /// The same for a model that a Lagrangian became. `in_velocities` is the expression as it was
-/// before velocities became functions of momenta, as elements of the direction of momenta: proofs
+/// before velocities became functions of momenta: proofs
 /// in them need no inverse of the mass matrix.
 #[must_use]
 pub fn is_invariant_of_lagrangian(
@@ -72,10 +72,7 @@ pub fn is_invariant_of_lagrangian(
     legendre: &Legendre,
     in_velocities: Node,
 ) -> Verdict {
-    let has_velocities = model
-        .dag
-        .dependence(in_velocities)
-        .on(Dependence::DIRECTION);
+    let has_velocities = model.dag.dependence(in_velocities).on(Dependence::VELOCITY);
     let is_free = model.force.is_empty();
     let verdict = if is_free && has_velocities && lagrange::vanishes(model, legendre, in_velocities)
     {

@@ -80,21 +80,16 @@ pub struct Refusal {
     pub help: &'static str,
 }
 
-/// The Legendre transform of a Lagrangian in the model's arena; `velocities` names them, one for
-/// each group.
+/// The Legendre transform of a Lagrangian in the model's arena.
 ///
 /// # Errors
 /// [`Refusal`]
-pub fn transform(
-    model: &mut Model,
-    lagrangian: Node,
-    velocities: &[String],
-) -> Result<Legendre, Refusal> {
+pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     let refusal = |reason: String| Refusal {
         reason,
         help: "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)",
     };
-    let mut transform = Transform { model, velocities };
+    let mut transform = Transform { model };
     if !transform.model.dag.dependence(lagrangian).on(Dependence::P) {
         return Err(refusal("L has no velocities".to_owned()));
     }
@@ -127,7 +122,6 @@ struct Block {
 
 struct Transform<'a> {
     model: &'a mut Model,
-    velocities: &'a [String],
 }
 
 impl Transform<'_> {
@@ -167,6 +161,9 @@ impl Transform<'_> {
                 scalars.push(&mut self.model.dag, element, &leaves);
                 continue;
             };
+            let name = self
+                .model
+                .array_name(Array::Velocity(Column::first(Side::Q, group as u16)));
             let dag = &mut self.model.dag;
             let k = field::elements(dag, rows);
             let at = arrays
@@ -189,7 +186,6 @@ impl Transform<'_> {
                 let element = dag.phase(at_column, Index::plain(Affine::variable(k)));
                 arrays[at].elements.push(element);
                 let momentum = field::field(dag, &leaves, Array::Phase(at_column), rows);
-                let name = &self.velocities[group];
                 arrays[at].momenta.push(momentum.ok_or_else(|| format!("no element of `{name}` has a momentum of its own: its indices cannot be solved"))?);
             }
         }
@@ -420,8 +416,10 @@ impl Transform<'_> {
     /// A velocity as the user wrote it, in backticks.
     fn name(&self, element: Node, domain: Option<Domain>) -> String {
         let mut named = self.model.clone();
-        for (group, name) in named.groups.iter_mut().zip(self.velocities) {
-            group.momentum.clone_from(name);
+        for group in &mut named.groups {
+            if let Some(velocity) = group.velocity.take() {
+                group.momentum = velocity;
+            }
         }
         let bound: Vec<(Domain, &str)> = domain.iter().map(|d| (*d, "k")).collect();
         format!(

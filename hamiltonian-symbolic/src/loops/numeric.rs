@@ -170,7 +170,7 @@ impl Numbers<'_> {
             (None, Array::Phase(Column { side: Side::P, .. })) => {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
-            (None, Array::Direction(_)) => self.leaf(&key, 0, self.how.signed),
+            (None, Array::Direction(_) | Array::Velocity(_)) => self.leaf(&key, 0, self.how.signed),
             (None, Array::Parameter(parameter)) => {
                 let value = self.leaf(&key, 0, self.how.signs.of(parameter));
                 self.given_parameter(value)
@@ -178,7 +178,9 @@ impl Numbers<'_> {
         };
         if self.read.insert(key, ()).is_none() {
             let column = match array {
-                Array::Phase(at) | Array::Direction(at) => i64::from(at.column),
+                Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
+                    i64::from(at.column)
+                }
                 Array::Parameter(_) => column,
             };
             let name = self.model.array_name(array);

@@ -5,7 +5,7 @@
 
 use super::atoms::{Algebra, Key, Scope};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
-use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
+use crate::dag::{Dag, Kind, Map, Node, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
@@ -42,9 +42,7 @@ impl Algebra {
             | Kind::Variable(_)
             | Kind::Extent(_)
             | Kind::Count(_)
-            | Kind::Element(Array::Phase(_) | Array::Direction(_) | Array::Parameter(_), ..) => {
-                Poly::atom(self.leaf(dag, node), 1)
-            }
+            | Kind::Element(..) => Poly::atom(self.leaf(dag, node), 1),
             Kind::Sum(c, terms) => {
                 let mut sum = Sum::default();
                 sum.add(&Poly::constant(c.clone()), &Rational::ONE);

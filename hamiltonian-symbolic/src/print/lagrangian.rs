@@ -9,7 +9,7 @@
 use super::equations::{Equations, hamilton_equations, scalar_equation};
 use super::names::is_taken;
 use super::{Notation, latex, text};
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::legendre::{Legendre, Mass};
 use crate::model::{Model, ParameterDeclaration, Shape};
@@ -36,25 +36,18 @@ pub struct Readable {
     /// H.
     hamiltonian: Node,
     motion: Motion,
-    /// The velocity of each coordinate as a name.
-    velocities: Vec<Node>,
 }
 
 impl Readable {
-    /// The formulas of a system; `velocities` names the velocity of each group.
+    /// The formulas of a system.
     #[must_use]
-    pub fn of(model: &Model, legendre: &Legendre, velocities: &[String]) -> Readable {
+    pub fn of(model: &Model, legendre: &Legendre) -> Readable {
         let mut readable = Readable {
             model: model.clone(),
             names: Vec::new(),
             hamiltonian: legendre.hamiltonian,
             motion: Motion::Computed,
-            velocities: Vec::new(),
         };
-        for name in velocities {
-            let velocity = readable.parameter(name.clone());
-            readable.velocities.push(velocity);
-        }
         let (mut kinetic, mut rates) = (Vec::new(), Map::default());
         for mass in &legendre.masses {
             kinetic.extend(readable.kinetic(mass, &mut rates));
@@ -154,8 +147,10 @@ impl Readable {
         lines.extend(self.shown(notation));
         let roots: Vec<Node> = motion.iter().flat_map(|(q, p)| [*q, *p]).collect();
         let used = self.model.dag.reachable(&roots);
-        for (group, velocity) in self.velocities.iter().enumerate() {
-            if used.contains(velocity) {
+        for group in 0..self.model.groups.len() {
+            let own = Array::Velocity(Column::first(Side::Q, group as u16));
+            let is_own = |node: &&Node| matches!(self.model.dag.kind(**node), Kind::Element(array, ..) if *array == own);
+            if let Some(velocity) = used.iter().find(is_own) {
                 let name = super::write(&self.model, *velocity, notation);
                 let (left, _) = scalar_equation(&self.model, Side::Q, group, notation, *velocity);
                 lines.push(match notation {
@@ -291,8 +286,9 @@ impl Readable {
         for (at, &i) in order.iter().enumerate() {
             let mut rest = vec![(Rational::ONE, right[i])];
             for &k in &order[at + 1..] {
-                let velocity = self.velocity(mass.elements[k]);
-                let product = self.model.dag.mul(&[matrix[i][k], velocity]);
+                let dag = &mut self.model.dag;
+                let velocity = dag.substitute(mass.elements[k], velocity_of);
+                let product = dag.mul(&[matrix[i][k], velocity]);
                 rest.push((Rational::MINUS_ONE, product));
             }
             let dag = &mut self.model.dag;
@@ -322,20 +318,11 @@ impl Readable {
                 Some((_, slope)) => *slope,
                 None => self.model.dag.integer(0),
             };
-            let velocities = &self.velocities;
-            let force = self
-                .model
-                .dag
-                .substitute(slope, |dag, node| velocity_of(dag, velocities, node));
+            let force = self.model.dag.substitute(slope, velocity_of);
             let force = multiplied(&mut self.model.dag, force);
             motion.push((*rates.get(&momentum)?, force));
         }
         Some(motion)
-    }
-
-    /// The name of the velocity in the place of a momentum.
-    fn velocity(&self, element: Node) -> Node {
-        velocity_of(&self.model.dag, &self.velocities, element).unwrap_or(element)
     }
 
     /// A sum by a name of its own, its common factors beside it; other things as they are.
@@ -381,14 +368,12 @@ impl Readable {
     }
 }
 
-/// The name of the velocity in the place of a momentum of a scalar coordinate.
-fn velocity_of(dag: &Dag, velocities: &[Node], element: Node) -> Option<Node> {
-    let (column, _) = dag.phase_place(element)?;
-    let is_momentum = column.side == Side::P;
-    velocities
-        .get(usize::from(column.group))
-        .filter(|_| is_momentum)
-        .copied()
+/// The velocity in the place of a momentum.
+fn velocity_of(dag: &mut Dag, element: Node) -> Option<Node> {
+    let (column, row) = dag.phase_place(element)?;
+    let row = row.clone();
+    let velocity = Array::Velocity(column.on(Side::Q));
+    (column.side == Side::P).then(|| dag.element(velocity, row, None))
 }
 
 /// The rows of a matrix in groups that nothing couples, each in order.

@@ -299,7 +299,7 @@ impl<'a> Writer<'a> {
         column: Option<&Index>,
     ) -> (String, Vec<String>) {
         let column = match array {
-            Array::Phase(at) | Array::Direction(at) => at.column.to_string(),
+            Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => at.column.to_string(),
             Array::Parameter(_) => column.map_or_else(String::new, |column| self.index(column)),
         };
         let indices = match self.model.shape(array) {

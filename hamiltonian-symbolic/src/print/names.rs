@@ -85,14 +85,5 @@ impl<'a> Scope<'a> {
 
 /// Whether the model or the language uses a name.
 pub(super) fn is_taken(model: &Model, name: &str) -> bool {
-    model
-        .groups
-        .iter()
-        .any(|g| g.coordinate == name || g.momentum == name)
-        || model.parameters.iter().any(|p| p.name == name)
-        || model.sizes.iter().any(|s| s == name)
-        || model.externals.iter().any(|e| e.name == name)
-        || model.time.as_deref() == Some(name)
-        || name == "pi"
-        || Op::named(name).is_some()
+    model.declares(name) || name == "pi" || Op::named(name).is_some()
 }

@@ -5,7 +5,7 @@
 
 use super::charts::{Chart, Component, Variables};
 use super::coordinates::Placement;
-use super::{Refusal, element, is_taken};
+use super::{Refusal, element};
 use crate::dag::{Column, Dag, Side};
 use crate::model::{Group, Model, Shape};
 
@@ -101,7 +101,7 @@ impl Layout {
         for chart in charts {
             for group in new_groups(model, chart) {
                 for name in [&group.coordinate, &group.momentum] {
-                    if is_taken(&left, name) {
+                    if left.declares(name) {
                         return Err(Refusal::NameTaken {
                             name: name.clone(),
                             by: chart.word(),
@@ -224,6 +224,7 @@ fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
         vec![Group {
             coordinate: format!("{}_{}", old.coordinate, chart.word()),
             momentum: format!("{}_{}", old.momentum, chart.word()),
+            velocity: None,
             shape: old.shape.clone(),
         }]
     };

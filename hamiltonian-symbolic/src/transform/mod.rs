@@ -25,7 +25,6 @@ pub use verify::check;
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::{Index, LOOPS};
 use crate::loops::Point;
-use crate::model::Model;
 use std::fmt;
 
 /// Why a transformation is refused.
@@ -135,19 +134,6 @@ impl fmt::Display for Refusal {
 }
 
 impl std::error::Error for Refusal {}
-
-/// Whether a name is declared in a model.
-fn is_taken(model: &Model, name: &str) -> bool {
-    model
-        .groups
-        .iter()
-        .any(|g| g.coordinate == name || g.momentum == name)
-        || model.parameters.iter().any(|p| p.name == name)
-        || model.sizes.iter().any(|s| s == name)
-        || model.externals.iter().any(|e| e.name == name)
-        || model.observables.iter().any(|o| o.name == name)
-        || model.time.as_deref() == Some(name)
-}
 
 /// The scalar at a literal place of phase space.
 fn element(dag: &mut Dag, side: Side, group: u16, row: u32, column: u16) -> Node {

@@ -14,7 +14,7 @@
 //! Numerical Integration, 2nd ed. 2006, §VIII.2 for the extended Hamiltonian (there with −p_t).
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
-use super::{Refusal, element, is_taken};
+use super::{Refusal, element};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::{Affine, Index};
 use crate::loops::field::{elements, field};
@@ -60,7 +60,8 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
             reason: "is never positive, so that time runs backwards or stands still",
         });
     }
-    let strange = Dependence(Dependence::COEFFICIENT.0 | Dependence::DIRECTION.0);
+    let known = Dependence(Dependence::MOVING.0 | Dependence::PARAMETER.0);
+    let strange = Dependence(!known.0);
     if model.dag.dependence(g).on(strange) {
         return Err(Refusal::Factor {
             reason: "is no function of coordinates, momenta, time and parameters",
@@ -208,7 +209,7 @@ impl Velocities {
 fn free(model: &Model, name: &str) -> String {
     let mut candidate = name.to_owned();
     let mut number = 2u32;
-    while is_taken(model, &candidate) {
+    while model.declares(&candidate) {
         candidate = format!("{name}_{number}");
         number += 1;
     }

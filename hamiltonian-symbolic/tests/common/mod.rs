@@ -49,6 +49,7 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
         model.groups.push(Group {
             coordinate,
             momentum,
+            velocity: None,
             shape,
         });
     }

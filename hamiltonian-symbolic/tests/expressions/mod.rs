@@ -12,11 +12,7 @@ pub fn model(q: &[&str], p: &[&str], text: &str) -> Model {
         ..Model::default()
     };
     for (q, p) in q.iter().zip(p) {
-        model.groups.push(Group {
-            coordinate: (*q).into(),
-            momentum: (*p).into(),
-            shape: Shape::Scalar,
-        });
+        model.groups.push(Group::scalar(*q, *p));
     }
     let h = parse(&mut model, text);
     model.hamiltonian = Some(h);

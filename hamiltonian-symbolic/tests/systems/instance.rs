@@ -203,11 +203,8 @@ impl Instance {
                     let momentum = Place::Phase(Side::P, group, column, row);
                     pairs.push([place, momentum]);
                     let number = model.groups.len();
-                    model.groups.push(Group {
-                        coordinate: format!("q{number}"),
-                        momentum: format!("p{number}"),
-                        shape: Shape::Scalar,
-                    });
+                    let group = Group::scalar(format!("q{number}"), format!("p{number}"));
+                    model.groups.push(group);
                     leaves.insert(place, model.scalar(Side::Q, number));
                     leaves.insert(momentum, model.scalar(Side::P, number));
                 }

@@ -191,11 +191,9 @@ impl Tree {
             ..Model::default()
         };
         for pair in 0..PAIRS {
-            model.groups.push(Group {
-                coordinate: NAMES[pair].into(),
-                momentum: NAMES[PAIRS + pair].into(),
-                shape: Shape::Scalar,
-            });
+            model
+                .groups
+                .push(Group::scalar(NAMES[pair], NAMES[PAIRS + pair]));
         }
         for parameter in 0..PARAMETERS {
             model.parameters.push(ParameterDeclaration {

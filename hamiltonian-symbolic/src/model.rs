@@ -294,6 +294,11 @@ impl Model {
             **place = root;
         }
     }
+    /// The name of time: the declared one, or `t`.
+    #[must_use]
+    pub fn time_name(&self) -> &str {
+        self.time.as_deref().unwrap_or("t")
+    }
     /// Whether something is declared under a name.
     #[must_use]
     pub fn declares(&self, name: &str) -> bool {

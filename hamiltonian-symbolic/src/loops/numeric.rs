@@ -317,7 +317,7 @@ impl Meaning for Numbers<'_> {
                 exact(self.named(&name, value))
             }
             Kind::Time => {
-                let name = self.model.time.clone().unwrap_or_else(|| "t".to_owned());
+                let name = self.model.time_name().to_owned();
                 let value = self.time.unwrap_or_else(|| {
                     let is_signed = self.how.signs != Signs::default();
                     self.leaf(&2u8, 0, is_signed)

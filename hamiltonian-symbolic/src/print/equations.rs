@@ -7,7 +7,7 @@
 use super::lagrangian::multiplied;
 use super::layout::Writer;
 use super::names::is_taken;
-use super::{Notation, latex, write_within};
+use super::{Notation, write_within};
 use crate::dag::{Array, Column, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
@@ -245,14 +245,9 @@ impl Equation {
         if matches!(group.shape, Shape::Matrix(..)) {
             indices.push(at.column.to_string());
         }
-        let element = |name: &str| match notation {
-            Notation::Text => indices
-                .iter()
-                .fold(name.to_owned(), |text, index| format!("{text}[{index}]")),
-            Notation::Latex => latex::indexed(name, &indices),
-        };
-        let time = model.evolution.as_deref().or(model.time.as_deref());
-        let time = Writer::new(model, notation, &[]).named(time.unwrap_or("t"));
+        let writer = Writer::new(model, notation, &[]);
+        let element = |name: &str| writer.indexed(name, &indices);
+        let time = writer.named(model.evolution.as_deref().unwrap_or(model.time_name()));
         let left = match notation {
             Notation::Text => format!("d{}/d{time}", element(own)),
             Notation::Latex => format!(

@@ -3,9 +3,8 @@
 //! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
 //! Greek letters become the letters, what follows `_` or trailing digits become subscripts.
 
-use super::layout::{Level, Piece, Writer, fraction, negated_sum};
-use crate::dag::{Dag, Kind, Node, Part, Relation};
-use crate::index::Affine;
+use super::layout::{Level, Piece, Writer, fraction};
+use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -17,12 +16,8 @@ const GREEK: &[&str] = &[
     "Omega",
 ];
 
-/// A declared name: `theta` is θ, `p_x` and `q1` have subscripts, longer words are upright.
-pub(super) fn symbol(name: &str) -> String {
-    indexed(name, &[])
-}
-
-/// A declared name with indices.
+/// A declared name with indices: `theta` is θ, `p_x` and `q1` have subscripts, longer words are
+/// upright.
 pub(super) fn indexed(name: &str, indices: &[String]) -> String {
     let mut parts = name.split('_').filter(|part| !part.is_empty());
     let Some(head) = parts.next() else {
@@ -105,7 +100,7 @@ fn parts(value: &Rational) -> (String, String) {
 }
 
 /// How tightly a call holds together.
-pub(super) fn call_level(op: Op, _arguments: &[Node]) -> Level {
+pub(super) fn call_level(op: Op) -> Level {
     if matches!(op, Op::Pow | Op::Exp) {
         Level::Power
     } else {
@@ -131,106 +126,25 @@ pub(super) fn loop_head(name: &str, start: &str, last: &str) -> String {
     format!("\\sum_{{{name}={start}}}^{{{last}}} ")
 }
 
-/// A node without parentheses around it.
-pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
-    let dag = writer.dag();
-    match dag.kind(node) {
-        Kind::Constant(value) => vec![Piece::Owned(number(value))],
-        Kind::Pi => vec![Piece::Static("\\pi")],
-        Kind::Scalar(parameter) => vec![Piece::Owned(symbol(&writer.parameter(*parameter)))],
-        Kind::Time => vec![Piece::Owned(symbol(
-            writer.model.time.as_deref().unwrap_or("t"),
-        ))],
-        Kind::Coefficient => vec![Piece::Static("h")],
-        Kind::Variable(domain) => vec![Piece::Owned(writer.variable(*domain))],
-        Kind::Extent(size) => vec![Piece::Owned(symbol(&writer.size(*size)))],
-        Kind::Element(array, row, column) => {
-            let (name, indices) = writer.indices(*array, row, column.as_ref());
-            vec![Piece::Owned(indexed(&name, &indices))]
-        }
-        Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
-        Kind::Product(k, factors) => {
-            if let Some(sum) = negated_sum(dag, node) {
-                return vec![Piece::Terms(sum, 0, true)];
-            }
-            let mut pieces = Vec::new();
-            if k.is_negative() {
-                pieces.push(Piece::Static("-"));
-            }
-            pieces.push(Piece::Product(k.abs(), factors.clone()));
-            pieces
-        }
-        Kind::Call(op, arguments) => call(dag, *op, arguments, None),
-        Kind::External(function, part, arguments) => {
-            let of = &writer.model.externals[usize::from(*function)];
-            listed(external(of, *part), arguments)
-        }
-        Kind::Reduce(domain, body) => vec![
-            Piece::Open(*domain),
-            Piece::Node(*body, Level::Product),
-            Piece::Close,
-        ],
-        Kind::Count(domain) => {
-            let range = dag.range(*domain);
-            if range.start == Affine::constant(0) {
-                vec![Piece::Owned(writer.affine(&range.end))]
-            } else {
-                vec![Piece::Open(*domain), Piece::Close, Piece::Static("1")]
-            }
-        }
-        Kind::Compare(relation, a, b) => compare(
-            match relation {
-                Relation::Less => " < ",
-                Relation::LessEqual => " \\le ",
-                Relation::Equal => " = ",
-            },
-            *a,
-            *b,
-        ),
-        Kind::Not(inner) => match dag.kind(*inner) {
-            Kind::Compare(relation, a, b) => compare(
-                match relation {
-                    Relation::Less => " \\ge ",
-                    Relation::LessEqual => " > ",
-                    Relation::Equal => " \\ne ",
-                },
-                *a,
-                *b,
-            ),
-            _ => vec![Piece::Static("\\lnot "), Piece::Node(*inner, Level::Atom)],
-        },
-        Kind::And(a, b) => vec![
-            Piece::Node(*a, Level::And),
-            Piece::Static(" \\land "),
-            Piece::Node(*b, Level::And),
-        ],
-        Kind::Or(a, b) => vec![
-            Piece::Node(*a, Level::Loose),
-            Piece::Static(" \\lor "),
-            Piece::Node(*b, Level::Loose),
-        ],
-        Kind::Select(c, yes, no) => vec![
-            Piece::Static("\\begin{cases} "),
-            Piece::Node(*yes, Level::Loose),
-            Piece::Static(" & \\text{if } "),
-            Piece::Node(*c, Level::Loose),
-            Piece::Static(" \\\\ "),
-            Piece::Node(*no, Level::Loose),
-            Piece::Static(" & \\text{otherwise} \\end{cases}"),
-        ],
-    }
-}
-
-fn compare(relation: &'static str, a: Node, b: Node) -> Vec<Piece> {
+/// Cases, a condition behind each value.
+pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
     vec![
-        Piece::Node(a, Level::Sum),
-        Piece::Static(relation),
-        Piece::Node(b, Level::Sum),
+        Piece::Static("\\begin{cases} "),
+        Piece::Node(yes, Level::Loose),
+        Piece::Static(" & \\text{if } "),
+        Piece::Node(c, Level::Loose),
+        Piece::Static(" \\\\ "),
+        Piece::Node(no, Level::Loose),
+        Piece::Static(" & \\text{otherwise} \\end{cases}"),
     ]
 }
 
 /// A function, to a power that stands after its name.
-fn call(dag: &Dag, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
+pub(super) fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
+    let within = |open, close| {
+        let argument = Piece::Node(x[0], Level::Loose);
+        vec![Piece::Static(open), argument, Piece::Static(close)]
+    };
     match op {
         Op::Pow => vec![
             Piece::Node(x[0], Level::Atom),
@@ -238,38 +152,19 @@ fn call(dag: &Dag, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
             Piece::Node(x[1], Level::Loose),
             Piece::Static("}"),
         ],
-        Op::Exp => vec![
-            Piece::Static("e^{"),
-            Piece::Node(x[0], Level::Loose),
-            Piece::Static("}"),
-        ],
-        Op::Sqrt => vec![
-            Piece::Static("\\sqrt{"),
-            Piece::Node(x[0], Level::Loose),
-            Piece::Static("}"),
-        ],
-        Op::Cbrt => vec![
-            Piece::Static("\\sqrt[3]{"),
-            Piece::Node(x[0], Level::Loose),
-            Piece::Static("}"),
-        ],
-        Op::Abs => vec![
-            Piece::Static("\\left|"),
-            Piece::Node(x[0], Level::Loose),
-            Piece::Static("\\right|"),
-        ],
+        Op::Exp => within("e^{", "}"),
+        Op::Sqrt => within("\\sqrt{", "}"),
+        Op::Cbrt => within("\\sqrt[3]{", "}"),
+        Op::Abs => within("\\left|", "\\right|"),
         _ => {
             let name = op.row().latex;
             let name = power.map_or_else(|| name.to_owned(), |n| format!("{name}^{{{n}}}"));
-            if let ([argument], true) = (x, x.first().is_some_and(|x| is_name(dag, *x))) {
-                return vec![
-                    Piece::Owned(name),
-                    Piece::Static("("),
-                    Piece::Node(*argument, Level::Loose),
-                    Piece::Static(")"),
-                ];
+            if x.len() == 1 && is_name(writer.dag(), x[0]) {
+                let mut pieces = within("(", ")");
+                pieces.insert(0, Piece::Owned(name));
+                return pieces;
             }
-            listed(name, x)
+            writer.listed(name, x)
         }
     }
 }
@@ -282,9 +177,9 @@ fn is_name(dag: &Dag, node: Node) -> bool {
 }
 
 /// A function in Rust, or a derivative of it.
-fn external(of: &External, part: Part) -> String {
-    let name = symbol(&of.name);
-    let argument = |at: u16| symbol(&of.arguments[usize::from(at)]);
+pub(super) fn external(of: &External, part: Part) -> String {
+    let name = indexed(&of.name, &[]);
+    let argument = |at: u16| indexed(&of.arguments[usize::from(at)], &[]);
     let partial = |above: &str, below: String| format!("\\frac{{{above} {name}}}{{{below}}}");
     match (part, of.arguments.len()) {
         (Part::Value, _) => name,
@@ -301,21 +196,10 @@ fn external(of: &External, part: Part) -> String {
     }
 }
 
-fn listed(name: String, arguments: &[Node]) -> Vec<Piece> {
-    let mut pieces = vec![Piece::Owned(name), Piece::Static("\\left(")];
-    for (at, argument) in arguments.iter().enumerate() {
-        if at > 0 {
-            pieces.push(Piece::Static(", "));
-        }
-        pieces.push(Piece::Node(*argument, Level::Loose));
-    }
-    pieces.push(Piece::Static("\\right)"));
-    pieces
-}
-
 /// `k·Π` with k ≥ 0: one fraction, unless a sum stands above the line beside numbers only below
 /// it.
-pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+pub(super) fn product(writer: &Writer<'_>, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+    let dag = writer.dag();
     let (above, below) = fraction(factors);
     let (n, d) =
         if is_fraction(k) || !below.is_empty() && k.to_small().is_some_and(|(_, d)| d <= 64) {
@@ -331,15 +215,15 @@ pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<P
     };
     let mut pieces = Vec::new();
     if below.is_empty() && d == "1" {
-        line(dag, &n, &above, false, &mut pieces);
+        line(writer, &n, &above, false, &mut pieces);
     } else if below.is_empty() && above.iter().any(|(node, _)| is_large(*node)) {
         pieces.push(Piece::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
-        line(dag, "1", &above, false, &mut pieces);
+        line(writer, "1", &above, false, &mut pieces);
     } else {
         pieces.push(Piece::Static("\\frac{"));
-        line(dag, &n, &above, true, &mut pieces);
+        line(writer, &n, &above, true, &mut pieces);
         pieces.push(Piece::Static("}{"));
-        line(dag, &d, &below, true, &mut pieces);
+        line(writer, &d, &below, true, &mut pieces);
         pieces.push(Piece::Static("}"));
     }
     pieces
@@ -347,7 +231,14 @@ pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<P
 
 /// One side of a fraction, or all of a product without one. Sums over loops go last, where they
 /// need no parentheses; a sum needs none where it is alone and `enclosed` by the fraction.
-fn line(dag: &Dag, number: &str, factors: &[(Node, i32)], enclosed: bool, pieces: &mut Vec<Piece>) {
+fn line(
+    writer: &Writer<'_>,
+    number: &str,
+    factors: &[(Node, i32)],
+    enclosed: bool,
+    pieces: &mut Vec<Piece>,
+) {
+    let dag = writer.dag();
     let mut any = false;
     if number != "1" || factors.is_empty() {
         pieces.push(Piece::Owned(number.to_owned()));
@@ -375,7 +266,7 @@ fn line(dag: &Dag, number: &str, factors: &[(Node, i32)], enclosed: bool, pieces
                 }));
             }
             Kind::Call(op, x) if n > 1 && takes_power(*op) => {
-                pieces.append(&mut call(dag, *op, x, Some(n)))
+                pieces.append(&mut call(writer, *op, x, Some(n)))
             }
             Kind::Reduce(..) if n == 1 && at + 1 == count => {
                 pieces.push(Piece::Node(node, Level::Sum))

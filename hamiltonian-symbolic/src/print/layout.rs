@@ -91,12 +91,14 @@ impl<'a> Writer<'a> {
             match piece {
                 Piece::Static(text) => self.out.push_str(text),
                 Piece::Owned(text) => self.out.push_str(&text),
-                Piece::Node(..) if self.is_long() => self.out.push_str(self.ellipsis()),
+                Piece::Node(..) if self.is_long() => {
+                    self.out.push_str(self.notation.words().ellipsis)
+                }
                 Piece::Node(node, level) => self.node(node, level),
                 Piece::Product(k, factors) => {
                     let pieces = match self.notation {
                         Notation::Text => text::product(self.dag(), &k, &factors),
-                        Notation::Latex => latex::product(self.dag(), &k, &factors),
+                        Notation::Latex => latex::product(&self, &k, &factors),
                     };
                     self.push(pieces);
                 }
@@ -129,32 +131,108 @@ impl<'a> Writer<'a> {
         self.out.len() > LONGEST
     }
 
-    fn ellipsis(&self) -> &'static str {
-        match self.notation {
-            Notation::Text => "…",
-            Notation::Latex => "\\dots",
-        }
-    }
-
     /// Pieces to be written next, in order.
     fn push(&mut self, pieces: Vec<Piece>) {
         self.stack.extend(pieces.into_iter().rev());
     }
 
     fn node(&mut self, node: Node, level: Level) {
-        let mut pieces = match self.notation {
-            Notation::Text => text::pieces(self, node),
-            Notation::Latex => latex::pieces(self, node),
-        };
+        let mut pieces = self.pieces(node);
         if self.level(node) < level {
-            let (open, close) = match self.notation {
-                Notation::Text => ("(", ")"),
-                Notation::Latex => ("\\left(", "\\right)"),
-            };
-            pieces.insert(0, Piece::Static(open));
-            pieces.push(Piece::Static(close));
+            let words = self.notation.words();
+            pieces.insert(0, Piece::Static(words.open));
+            pieces.push(Piece::Static(words.close));
         }
         self.push(pieces);
+    }
+
+    /// A node without parentheses around it.
+    fn pieces(&self, node: Node) -> Vec<Piece> {
+        let dag = self.dag();
+        let words = self.notation.words();
+        let pair = |a: Node, word: &'static str, b: Node, level: Level| {
+            let (a, b) = (Piece::Node(a, level), Piece::Node(b, level));
+            vec![a, Piece::Static(word), b]
+        };
+        match dag.kind(node) {
+            Kind::Constant(value) => self.number(value),
+            Kind::Pi => vec![Piece::Static(words.pi)],
+            Kind::Scalar(parameter) => vec![self.name(&self.parameter(*parameter))],
+            Kind::Time => vec![self.name(self.model.time_name())],
+            Kind::Coefficient => vec![Piece::Static("h")],
+            Kind::Variable(domain) => vec![Piece::Owned(self.variable(*domain))],
+            Kind::Extent(size) => vec![self.name(&self.size(*size))],
+            Kind::Element(array, row, column) => {
+                let indices = self.indices(*array, row, column.as_ref());
+                let name = self.model.array_name(*array);
+                vec![Piece::Owned(self.indexed(&name, &indices))]
+            }
+            Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
+            Kind::Product(k, factors) => {
+                if let Some(sum) = negated_sum(dag, node) {
+                    return vec![Piece::Terms(sum, 0, true)];
+                }
+                let mut pieces = Vec::new();
+                if k.is_negative() {
+                    pieces.push(Piece::Static("-"));
+                }
+                pieces.push(Piece::Product(k.abs(), factors.clone()));
+                pieces
+            }
+            Kind::Call(op, arguments) => match self.notation {
+                Notation::Text => text::call(self, *op, arguments),
+                Notation::Latex => latex::call(self, *op, arguments, None),
+            },
+            Kind::External(function, part, arguments) => {
+                let of = &self.model.externals[usize::from(*function)];
+                let name = match self.notation {
+                    Notation::Text => text::external(of, *part),
+                    Notation::Latex => latex::external(of, *part),
+                };
+                self.listed(name, arguments)
+            }
+            Kind::Reduce(domain, body) => vec![
+                Piece::Open(*domain),
+                Piece::Node(*body, words.body),
+                Piece::Close,
+                Piece::Static(words.end),
+            ],
+            Kind::Count(domain) => {
+                let range = dag.range(*domain);
+                if range.start == Affine::constant(0) {
+                    return vec![Piece::Owned(self.affine(&range.end))];
+                }
+                let open = vec![Piece::Open(*domain), Piece::Close, Piece::Static("1")];
+                open.into_iter().chain([Piece::Static(words.end)]).collect()
+            }
+            Kind::Compare(relation, a, b) => pair(*a, words.relation(*relation), *b, Level::Sum),
+            Kind::Not(inner) => match dag.kind(*inner) {
+                Kind::Compare(relation, a, b) => {
+                    pair(*a, words.opposite(*relation), *b, Level::Sum)
+                }
+                _ => vec![Piece::Static(words.not), Piece::Node(*inner, Level::Atom)],
+            },
+            Kind::And(a, b) => pair(*a, words.and, *b, Level::And),
+            Kind::Or(a, b) => pair(*a, words.or, *b, Level::Loose),
+            Kind::Select(c, yes, no) => match self.notation {
+                Notation::Text => text::select(*c, *yes, *no),
+                Notation::Latex => latex::select(*c, *yes, *no),
+            },
+        }
+    }
+
+    /// A function with its arguments.
+    pub(super) fn listed(&self, name: String, arguments: &[Node]) -> Vec<Piece> {
+        let words = self.notation.words();
+        let mut pieces = vec![Piece::Owned(name), Piece::Static(words.open)];
+        for (at, argument) in arguments.iter().enumerate() {
+            if at > 0 {
+                pieces.push(Piece::Static(", "));
+            }
+            pieces.push(Piece::Node(*argument, Level::Loose));
+        }
+        pieces.push(Piece::Static(words.close));
+        pieces
     }
 
     /// How tightly a node holds together as it is written.
@@ -182,9 +260,9 @@ impl<'a> Writer<'a> {
                 }
                 _ => Level::Product,
             },
-            Kind::Call(op, arguments) => match self.notation {
+            Kind::Call(op, _) => match self.notation {
                 Notation::Text => text::call_level(*op),
-                Notation::Latex => latex::call_level(*op, arguments),
+                Notation::Latex => latex::call_level(*op),
             },
             Kind::Reduce(..) => match self.notation {
                 Notation::Text => Level::Unary,
@@ -230,7 +308,7 @@ impl<'a> Writer<'a> {
         }
         if at > 0 && self.is_long() {
             self.out.push_str(" + ");
-            self.out.push_str(self.ellipsis());
+            self.out.push_str(self.notation.words().ellipsis);
             return;
         }
         let term = if first {
@@ -278,41 +356,46 @@ impl<'a> Writer<'a> {
     }
 
     /// The name of a size.
-    pub(super) fn size(&self, size: crate::index::Size) -> String {
-        self.model
-            .sizes
-            .get(size.0 as usize)
-            .cloned()
-            .unwrap_or_else(|| format!("size{}", size.0))
+    fn size(&self, size: crate::index::Size) -> String {
+        self.model.sizes[usize::from(size.0)].clone()
     }
 
     /// The name of a parameter.
-    pub(super) fn parameter(&self, parameter: Parameter) -> String {
+    fn parameter(&self, parameter: Parameter) -> String {
         self.model.parameters[usize::from(parameter.0)].name.clone()
     }
 
     /// The indices of an element as text: none of a scalar, a row, a row and a column.
-    pub(super) fn indices(
-        &self,
-        array: Array,
-        row: &Index,
-        column: Option<&Index>,
-    ) -> (String, Vec<String>) {
+    fn indices(&self, array: Array, row: &Index, column: Option<&Index>) -> Vec<String> {
         let column = match array {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => at.column.to_string(),
             Array::Parameter(_) => column.map_or_else(String::new, |column| self.index(column)),
         };
-        let indices = match self.model.shape(array) {
+        match self.model.shape(array) {
             Shape::Scalar => Vec::new(),
             Shape::Vector(_) => vec![self.index(row)],
             Shape::Matrix(..) => vec![self.index(row), column],
-        };
-        let name = self.model.array_name(array);
-        (name, indices)
+        }
+    }
+
+    /// A declared name with indices: `q[2][0]`.
+    pub(super) fn indexed(&self, name: &str, indices: &[String]) -> String {
+        match self.notation {
+            Notation::Text => {
+                let append = |text, index| format!("{text}[{index}]");
+                indices.iter().fold(name.to_owned(), append)
+            }
+            Notation::Latex => latex::indexed(name, indices),
+        }
+    }
+
+    /// A declared name as a piece.
+    fn name(&self, name: &str) -> Piece {
+        Piece::Owned(self.named(name))
     }
 
     /// An index.
-    pub(super) fn index(&self, index: &Index) -> String {
+    fn index(&self, index: &Index) -> String {
         let inner = self.affine(&index.affine);
         let Some(modulo) = &index.modulo else {
             return inner;
@@ -332,10 +415,7 @@ impl<'a> Writer<'a> {
                 format!("({})", self.affine(modulo))
             },
         );
-        match self.notation {
-            Notation::Text => format!("{inner} % {modulo}"),
-            Notation::Latex => format!("{inner} \\bmod {modulo}"),
-        }
+        format!("{inner} {} {modulo}", self.notation.words().modulo)
     }
 
     fn affine_level(&self, affine: &Affine) -> Level {
@@ -379,11 +459,10 @@ impl<'a> Writer<'a> {
                 (_, negative) => text.push_str(if negative { " - " } else { " + " }),
             }
             let size = k.unsigned_abs();
-            match self.notation {
+            match size {
                 _ if name.is_empty() => text.push_str(&size.to_string()),
-                _ if size == 1 => text.push_str(name),
-                Notation::Text => text.push_str(&format!("{size}*{name}")),
-                Notation::Latex => text.push_str(&format!("{size} {name}")),
+                1 => text.push_str(name),
+                _ => text.push_str(&format!("{size}{}{name}", self.notation.words().times)),
             }
         }
         text
@@ -391,10 +470,7 @@ impl<'a> Writer<'a> {
 
     /// A declared name as this notation writes it.
     pub(super) fn named(&self, name: &str) -> String {
-        match self.notation {
-            Notation::Text => name.to_owned(),
-            Notation::Latex => latex::symbol(name),
-        }
+        self.indexed(name, &[])
     }
 }
 

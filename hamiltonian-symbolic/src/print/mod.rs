@@ -11,6 +11,7 @@ mod layout;
 mod names;
 mod operations;
 mod text;
+mod words;
 
 pub use equations::{Equations, hamilton_equations};
 pub use lagrangian::Readable;

@@ -2,9 +2,8 @@
 //!
 //! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
 
-use super::layout::{Level, Piece, Writer, fraction, negated_sum};
-use crate::dag::{Dag, Kind, Node, Part, Relation};
-use crate::index::Affine;
+use super::layout::{Level, Piece, Writer, fraction};
+use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -28,108 +27,34 @@ pub(super) fn loop_head(name: &str, start: &str, end: &str) -> String {
     format!("sum({name} in {start}..{end}) {{ ")
 }
 
-/// A node without parentheses around it.
-pub(super) fn pieces(writer: &Writer<'_>, node: Node) -> Vec<Piece> {
-    let dag = writer.dag();
-    match dag.kind(node) {
-        Kind::Constant(value) => vec![Piece::Owned(number(value))],
-        Kind::Pi => vec![Piece::Static("pi")],
-        Kind::Scalar(parameter) => vec![Piece::Owned(writer.parameter(*parameter))],
-        Kind::Time => vec![Piece::Owned(
-            writer.model.time.clone().unwrap_or_else(|| "t".to_owned()),
-        )],
-        Kind::Coefficient => vec![Piece::Static("h")],
-        Kind::Variable(domain) => vec![Piece::Owned(writer.variable(*domain))],
-        Kind::Extent(size) => vec![Piece::Owned(writer.size(*size))],
-        Kind::Element(array, row, column) => {
-            let (mut name, indices) = writer.indices(*array, row, column.as_ref());
-            for index in indices {
-                name.push_str(&format!("[{index}]"));
-            }
-            vec![Piece::Owned(name)]
-        }
-        Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
-        Kind::Product(k, factors) => {
-            if let Some(sum) = negated_sum(dag, node) {
-                return vec![Piece::Terms(sum, 0, true)];
-            }
-            let mut pieces = Vec::new();
-            if k.is_negative() {
-                pieces.push(Piece::Static("-"));
-            }
-            pieces.push(Piece::Product(k.abs(), factors.clone()));
-            pieces
-        }
-        Kind::Call(Op::Pow, x) => vec![
+/// `if c { yes } else { no }`
+pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
+    vec![
+        Piece::Static("if "),
+        Piece::Node(c, Level::Loose),
+        Piece::Static(" { "),
+        Piece::Node(yes, Level::Loose),
+        Piece::Static(" } else { "),
+        Piece::Node(no, Level::Loose),
+        Piece::Static(" }"),
+    ]
+}
+
+/// A function of the language.
+pub(super) fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Piece> {
+    match op {
+        Op::Pow => vec![
             Piece::Node(x[0], Level::Atom),
             Piece::Static("^"),
-            exponent(dag, x[1]),
+            exponent(writer.dag(), x[1]),
         ],
-        Kind::Call(op, arguments) => call(op.row().name.to_owned(), arguments),
-        Kind::External(function, part, arguments) => {
-            let of = &writer.model.externals[usize::from(*function)];
-            call(external(of, *part), arguments)
-        }
-        Kind::Reduce(domain, body) => vec![
-            Piece::Open(*domain),
-            Piece::Node(*body, Level::Loose),
-            Piece::Close,
-            Piece::Static(" }"),
-        ],
-        Kind::Count(domain) => {
-            let range = dag.range(*domain);
-            if range.start == Affine::constant(0) {
-                vec![Piece::Owned(writer.affine(&range.end))]
-            } else {
-                vec![Piece::Open(*domain), Piece::Close, Piece::Static("1 }")]
-            }
-        }
-        Kind::Compare(relation, a, b) => compare(
-            match relation {
-                Relation::Less => " < ",
-                Relation::LessEqual => " <= ",
-                Relation::Equal => " == ",
-            },
-            *a,
-            *b,
-        ),
-        Kind::Not(inner) => match dag.kind(*inner) {
-            Kind::Compare(relation, a, b) => compare(
-                match relation {
-                    Relation::Less => " >= ",
-                    Relation::LessEqual => " > ",
-                    Relation::Equal => " != ",
-                },
-                *a,
-                *b,
-            ),
-            _ => vec![Piece::Static("!"), Piece::Node(*inner, Level::Atom)],
-        },
-        Kind::And(a, b) => vec![
-            Piece::Node(*a, Level::And),
-            Piece::Static(" && "),
-            Piece::Node(*b, Level::And),
-        ],
-        Kind::Or(a, b) => vec![
-            Piece::Node(*a, Level::Loose),
-            Piece::Static(" || "),
-            Piece::Node(*b, Level::Loose),
-        ],
-        Kind::Select(c, yes, no) => vec![
-            Piece::Static("if "),
-            Piece::Node(*c, Level::Loose),
-            Piece::Static(" { "),
-            Piece::Node(*yes, Level::Loose),
-            Piece::Static(" } else { "),
-            Piece::Node(*no, Level::Loose),
-            Piece::Static(" }"),
-        ],
+        _ => writer.listed(op.row().name.to_owned(), x),
     }
 }
 
 /// A function in Rust, or a derivative of it, which the language has no way to say: `f'(x)` of one
 /// argument, `(∂f/∂y)(x, y)` of several.
-fn external(of: &External, part: Part) -> String {
+pub(super) fn external(of: &External, part: Part) -> String {
     let name = &of.name;
     let argument = |at: u16| &of.arguments[usize::from(at)];
     match (part, of.arguments.len()) {
@@ -140,26 +65,6 @@ fn external(of: &External, part: Part) -> String {
         (Part::Second(i, j), _) if i == j => format!("(∂²{name}/∂{}²)", argument(i)),
         (Part::Second(i, j), _) => format!("(∂²{name}/∂{}∂{})", argument(i), argument(j)),
     }
-}
-
-fn compare(relation: &'static str, a: Node, b: Node) -> Vec<Piece> {
-    vec![
-        Piece::Node(a, Level::Sum),
-        Piece::Static(relation),
-        Piece::Node(b, Level::Sum),
-    ]
-}
-
-fn call(name: String, arguments: &[Node]) -> Vec<Piece> {
-    let mut pieces = vec![Piece::Owned(name), Piece::Static("(")];
-    for (at, argument) in arguments.iter().enumerate() {
-        if at > 0 {
-            pieces.push(Piece::Static(", "));
-        }
-        pieces.push(Piece::Node(*argument, Level::Loose));
-    }
-    pieces.push(Piece::Static(")"));
-    pieces
 }
 
 /// The right of `^` takes a sign and further powers.

@@ -87,7 +87,7 @@ pub fn analyse(model: &mut Model) -> Structure {
 fn is_autonomous(model: &Model, h: Node) -> Result<(), String> {
     let mut forces = model.force.iter().map(|entry| entry.value);
     if let Some(force) = forces.find(|f| model.dag.dependence(*f).on(Dependence::TIME)) {
-        let time = model.time.as_deref().unwrap_or("t");
+        let time = model.time_name();
         return Err(format!(
             "the force `{}` depends on `{time}`",
             print::text(model, force)
@@ -98,7 +98,7 @@ fn is_autonomous(model: &Model, h: Node) -> Result<(), String> {
     }) {
         None => Ok(()),
         Some(term) => {
-            let time = model.time.as_deref().unwrap_or("t");
+            let time = model.time_name();
             Err(format!(
                 "the term `{}` depends on `{time}`",
                 print::text(model, term)

@@ -74,7 +74,8 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
     }
     let mut new = model.clone();
     let group = new.groups.len() as u16;
-    let wanted = new.time.take().unwrap_or_else(|| "t".to_owned());
+    let wanted = new.time_name().to_owned();
+    new.time = None;
     let coordinate = free(&new, &wanted);
     let momentum = free(&new, &format!("p_{wanted}"));
     new.groups.push(Group::scalar(coordinate, momentum));

@@ -86,6 +86,8 @@ pub enum Array {
     /// The velocities of a column of coordinates, in what was said of a Lagrangian: no program
     /// reads them.
     Velocity(Column),
+    /// An array that preparation fills, by its number in the program.
+    Held(u16),
 }
 
 /// A comparison.
@@ -602,9 +604,9 @@ impl Dag {
             }
         };
         let own = match kind {
-            Kind::Scalar(_) | Kind::Extent(_) | Kind::Element(Array::Parameter(_), ..) => {
-                Dependence::PARAMETER
-            }
+            Kind::Scalar(_)
+            | Kind::Extent(_)
+            | Kind::Element(Array::Parameter(_) | Array::Held(_), ..) => Dependence::PARAMETER,
             Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
             Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,
             Kind::Element(Array::Direction(_), ..) => Dependence::DIRECTION,

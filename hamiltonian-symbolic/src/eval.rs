@@ -98,6 +98,11 @@ fn run_in_order<T: Real>(
             column.fill(T::zero());
         }
     }
+    for (held, number) in program.held.iter().zip(0..) {
+        let rows = usize::try_from(machine.affine(&held.rows)).unwrap_or(0);
+        let empty = vec![vec![T::constant(f64::NAN, 0.0); rows]];
+        machine.outputs.insert(Target::Held(number), empty);
+    }
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
     machine.reversed = reversed;
@@ -129,6 +134,7 @@ impl<T: Real> Machine<'_, T> {
     fn columns(&self, array: &Array) -> Option<&Vec<Vec<T>>> {
         match *array {
             Array::Phase(column) if self.is_in_place => self.outputs.get(&Target::Phase(column)),
+            Array::Held(number) => self.outputs.get(&Target::Held(number)),
             _ => self.point.arrays.get(array),
         }
     }

@@ -11,6 +11,7 @@ pub mod eval;
 pub mod factor;
 pub mod facts;
 pub mod forces;
+pub mod hold;
 pub mod index;
 mod instruct;
 pub mod legendre;

@@ -69,6 +69,7 @@ impl Display for Target {
         match self {
             Target::Phase(column) => write!(f, "d{column}"),
             Target::Parameter(Parameter(number)) => write!(f, "da{number}"),
+            Target::Held(number) => write!(f, "held{number}"),
         }
     }
 }
@@ -80,6 +81,7 @@ impl Display for Array {
             Array::Direction(column) => write!(f, "v{column}"),
             Array::Velocity(column) => write!(f, "velocity {column}"),
             Array::Parameter(Parameter(number)) => write!(f, "a{number}"),
+            Array::Held(number) => write!(f, "held{number}"),
         }
     }
 }

@@ -243,6 +243,7 @@ impl Model {
                 self.group_of(at.group).shape.of_parameter()
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].shape.clone(),
+            Array::Held(_) => unreachable!("only programs read held arrays"),
         }
     }
     /// The name of an array.
@@ -259,6 +260,7 @@ impl Model {
                 group.velocity.clone().unwrap_or_else(derivative)
             }
             Array::Parameter(parameter) => self.parameters[usize::from(parameter.0)].name.clone(),
+            Array::Held(_) => unreachable!("only programs read held arrays"),
         }
     }
     /// H and the components of observables.

@@ -8,6 +8,7 @@ use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
 use crate::forces;
+use crate::hold::Arrays;
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape, VectorEntry, VectorFunction};
 use crate::program::{Program, Purpose, Step, Target};
@@ -48,15 +49,17 @@ pub enum Refusal {
     },
 }
 
-/// H → requests → factored → shared → scheduled.
+/// H → requests → arrays held → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
     model.map_roots(balance);
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
     let mut gradient = None;
+    let mut arrays = Arrays::default();
     for &purpose in wanted {
         let mut request = request(model, purpose, &mut gradient)?;
         let mut roots = request.roots();
         refuse(model, &roots)?;
+        arrays.hold(&mut model.dag, &model.parameters, &mut roots);
         factor(&mut model.dag, &mut roots);
         in_range(&model.dag, &roots)?;
         share(&mut model.dag, &mut roots, Stage::Evaluation);
@@ -65,7 +68,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     }
     refuse(model, &[])?;
     let images = shared_preparation(&mut model.dag, &requests);
-    let program = schedule(&model.dag, &requests, &images);
+    let program = schedule(&model.dag, &requests, &images, arrays.held);
     program.validate().map_err(internal)?;
     for (function, request) in program.functions.iter().zip(&requests) {
         if stores(&function.evaluation) != request.stores.len() {

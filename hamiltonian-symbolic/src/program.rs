@@ -9,6 +9,7 @@
 #[cfg(doc)]
 use crate::dag::Side;
 use crate::dag::{Array, Column, Parameter, Part, Relation};
+use crate::hold::Held;
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -147,6 +148,8 @@ pub enum Target {
     Phase(Column),
     /// The derivative with respect to a parameter; arrays element by element.
     Parameter(Parameter),
+    /// An array that preparation fills, by its number in the program.
+    Held(u16),
 }
 
 /// How an element is updated.
@@ -274,6 +277,8 @@ pub struct Program {
     pub instructions: Vec<Instruction>,
     /// Work done once, from parameters alone, for all functions.
     pub prepare: Vec<Step>,
+    /// The arrays that `prepare` fills, by number.
+    pub held: Vec<Held>,
     /// The values of `prepare` that functions read, in order of computation.
     pub prepared: Vec<Value>,
     /// The functions.

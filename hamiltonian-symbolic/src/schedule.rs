@@ -7,7 +7,8 @@
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::factor::count_uses;
-use crate::index::{Domain, Index};
+use crate::hold::Held;
+use crate::index::{Affine, Domain, Index};
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 
@@ -85,22 +86,31 @@ pub fn prepared(dag: &Dag, requests: &[Request]) -> Vec<Node> {
 /// Schedules the functions: first what is prepared for all of them, then each one's coefficient
 /// stage, then its evaluation.
 #[must_use]
-pub fn schedule(dag: &Dag, requests: &[Request], images: &Images) -> Program {
+pub fn schedule(dag: &Dag, requests: &[Request], images: &Images, held: Vec<Held>) -> Program {
     let mut program = Program::default();
     let wanted = prepared(dag, requests);
     let image = |node: &Node| images.get(node).copied().unwrap_or(*node);
     let computed: Vec<Node> = wanted.iter().map(image).collect();
     let nothing = Numbers::new(dag);
+    let fill = |(held, number): (&Held, u16)| Store {
+        target: Target::Held(number),
+        row: Index::plain(Affine::variable(held.domain)),
+        column: None,
+        value: held.value,
+        add: false,
+    };
+    let fills: Vec<Store> = held.iter().zip(0..).map(fill).collect();
     let (prepare, computed) = stage(
         dag,
         &mut program,
         Stage::Parameters,
         &computed,
-        &[],
+        &fills,
         None,
         nothing.clone(),
     );
     program.prepare = prepare;
+    program.held = held;
     // Only what is wanted is handed on, not what it was computed from.
     let mut prepared = nothing;
     for &node in &wanted {

@@ -263,6 +263,44 @@ fn work_goes_where_it_is_due() {
 
 /// A chain of conditions, each taking the one before twice.
 #[test]
+fn arrays_of_parameters_alone_are_computed_once() {
+    let wanted = [Purpose::Kick, Purpose::Drift, Purpose::Energy];
+    let divisions = |h: &str, parameters: &str| -> Vec<usize> {
+        let mut model = common::system("q[n][3]; p[n][3]; t", "n", parameters, h);
+        let program = derive(&mut model, &wanted).unwrap();
+        soundness::check(&program);
+        let of = |purpose| {
+            let function = program.function(purpose).unwrap();
+            program.operations(function).divisions
+        };
+        let mut all = vec![program.held.len()];
+        all.extend(wanted.map(of));
+        all
+    };
+    let gravity = |mass: &str, pair: &str| {
+        format!(
+            "sum(i in 0..n) {{ (p[i][0]^2 + p[i][1]^2 + p[i][2]^2)/(2*{mass}) }} \
+             - sum(i in 0..n) {{ sum(j in 0..i) {{ {pair}/sqrt((q[i][0] - q[j][0])^2 \
+             + (q[i][1] - q[j][1])^2 + (q[i][2] - q[j][2])^2) }} }}"
+        )
+    };
+    // 1/m[i] is held; the distance is the one division of a pair.
+    let plain = gravity("m[i]", "m[i]*m[j]");
+    assert_eq!(divisions(&plain, "m[n]"), [1, 1, 0, 1]);
+    // One function of the row, read at i and at j, is one array.
+    let charged = gravity("m[i]", "a/m[i]*a/m[j]");
+    assert_eq!(divisions(&charged, "m[n] a"), [1, 1, 0, 1]);
+    let rooted = gravity("sqrt(1 + m[i]^2)", "m[i]*m[j]");
+    assert_eq!(divisions(&rooted, "m[n]"), [1, 1, 0, 1]);
+    // What moves, or is of two rows, is not: each of these divides in its loop.
+    assert_eq!(
+        divisions(&gravity("(m[i] + t)", "m[i]*m[j]"), "m[n]"),
+        [0, 1, 1, 2]
+    );
+    assert_eq!(divisions(&gravity("2", "1/(m[i] + m[j])"), "m[n]")[0], 0);
+}
+
+#[test]
 fn nested_conditions_are_differentiated_once() {
     let mut h = "q^2".to_owned();
     for level in 0..40 {

@@ -225,6 +225,7 @@ impl<'a> Writer<'a> {
                 self.place(slice, Some(at.group), row)
             }
             Array::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
+            Array::Held(_) => self.place(slice, None, row),
         }
     }
 
@@ -232,6 +233,7 @@ impl<'a> Writer<'a> {
         let slice = Slice::write(self.context.layout, target);
         match target {
             Target::Phase(Column { group, .. }) => self.place(slice, Some(group), row),
+            Target::Held(_) => self.place(slice, None, row),
             Target::Parameter(parameter) => {
                 match self.context.model.parameters[usize::from(parameter.0)].shape {
                     Shape::Scalar => format!("*{}", slice.name()),
@@ -403,7 +405,7 @@ impl<'a> Writer<'a> {
 /// How a part of a slice is borrowed.
 fn reference(slice: &Slice) -> &'static str {
     match slice {
-        Slice::Output(_) | Slice::Derivative(_) => "&mut ",
+        Slice::Output(_) | Slice::Derivative(_) | Slice::Filled(_) => "&mut ",
         _ => "&",
     }
 }
@@ -546,7 +548,7 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
             }
             Target::Phase(_) => writeln!(out, "{}.fill(T::constant(0.0, 0.0));", slice.name()),
             // Derivatives with respect to parameters start at 0.
-            Target::Parameter(_) => Ok(()),
+            Target::Parameter(_) | Target::Held(_) => Ok(()),
         };
     }
 }

@@ -8,7 +8,7 @@
 use super::block::Context;
 use super::function::{Bodies, Body, results};
 use super::generics::{Generics, list};
-use super::holder::{Holder, Receiver};
+use super::holder::{Holder, Receiver, field, shape};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
@@ -121,8 +121,8 @@ fn prepared(context: Context) -> Holder {
     for function in &program.functions {
         for steps in [&function.coefficient, &function.evaluation] {
             for slice in scan(context, steps, &[]).slices {
-                if let Slice::Parameter(array) = slice {
-                    arrays.push(array);
+                if let Slice::Parameter(_) | Slice::Held(_) = slice {
+                    arrays.push(slice);
                 }
             }
         }
@@ -192,21 +192,28 @@ impl<'a> Emission<'a> {
         self.out
             .push_str(&reach::asked(&self.definition.reaches, context));
         let results: Vec<_> = self.prepared.values().collect();
+        let arguments = self.held();
+        let read: Vec<Slice> = (self.prepared.arrays.iter().copied())
+            .filter(|array| matches!(array, Slice::Parameter(_)))
+            .collect();
         let body = Body {
             name: "prepare",
             receiver: Receiver::System,
-            arguments: &[],
+            arguments: &arguments,
             steps: &context.program.prepare,
             cleared: &[],
             results: &results,
-            arrays: &self.prepared.arrays,
+            arrays: &read,
         };
         self.bodies.write(&mut self.out, body);
         let fill = self.prepared.fill(context, |array| {
-            let shape = &context.model.parameters[usize::from(array)].shape;
-            match layout::is_dynamic(shape, context.is_run_time) {
-                true => format!("__h::Arc::new(_b{array})"),
-                false => format!("_b{array}"),
+            let place = match array {
+                Slice::Held(number) => format!("_made.{number}"),
+                _ => format!("_b{}", field(array).trim_start_matches('a')),
+            };
+            match layout::is_dynamic(&shape(context, array), context.is_run_time) {
+                true => format!("__h::Arc::new({place})"),
+                false => place,
             }
         });
         line!(self, "{fill}\n}}");
@@ -220,6 +227,31 @@ impl<'a> Emission<'a> {
             }
         }
         line!(self, "{}\n}}\n}}", zeros(context, generics));
+    }
+
+    /// The arrays that preparation fills, as an argument of its parts; made as `_made`.
+    fn held(&mut self) -> Vec<(&'static str, String)> {
+        let context = self.context;
+        if context.program.held.is_empty() {
+            return Vec::new();
+        }
+        let (mut types, mut values) = (String::new(), String::new());
+        for number in 0..context.program.held.len() {
+            let shape = shape(context, Slice::Held(number as u16));
+            let (indices, is_run_time) = (context.indices, context.is_run_time);
+            let ty = layout::storage(&shape, "T", indices, is_run_time, "__h");
+            let zero = "T::constant(0.0, 0.0)";
+            let value = layout::filled(&shape, zero, indices, is_run_time, "__h");
+            types.push_str(&format!("{ty}, "));
+            values.push_str(&format!("{value}, "));
+        }
+        for (size, run_time) in context.is_run_time.iter().enumerate() {
+            if *run_time {
+                Receiver::System.bind_size(&mut self.out, self.generics, size);
+            }
+        }
+        line!(self, "let mut _made = ({values});\nlet _held = &mut _made;");
+        vec![("_held", format!("&mut ({types})"))]
     }
 
     fn dynamics(&mut self) {
@@ -314,10 +346,8 @@ impl<'a> Emission<'a> {
     pub(super) fn holder(&self, purpose: Purpose, name: &'static str) -> Option<Holder> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);
-        let arrays = scan.slices.iter().filter_map(|slice| match slice {
-            Slice::Parameter(array) => Some(*array),
-            _ => None,
-        });
+        let is_array = |slice: &Slice| matches!(slice, Slice::Parameter(_) | Slice::Held(_));
+        let arrays = scan.slices.iter().copied().filter(is_array);
         Some(Holder::new(
             self.context,
             name,
@@ -348,7 +378,9 @@ impl<'a> Emission<'a> {
             arrays: &[],
         };
         self.bodies.write(&mut text, body);
-        let fill = holder.fill(self.context, |array| format!("_self.a{array}.clone()"));
+        let fill = holder.fill(self.context, |array| {
+            format!("_self.{}.clone()", field(array))
+        });
         line!(self, "{text}{fill}");
     }
 

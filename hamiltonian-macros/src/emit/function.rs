@@ -30,7 +30,7 @@ pub struct Body<'a> {
     /// Values it ends with; they are in scope where `tail` stands.
     pub results: &'a [Value],
     /// Parameter arrays that are bound as slices although no step reads them.
-    pub arrays: &'a [u16],
+    pub arrays: &'a [Slice],
 }
 
 /// Writes bodies, and gathers their parts.
@@ -55,7 +55,7 @@ impl Bodies<'_> {
         let scan = scan(context, body.steps, body.results);
         let mut slices = scan.slices;
         slices.extend(block::cleared(context, body.cleared));
-        slices.extend(body.arrays.iter().map(|array| Slice::Parameter(*array)));
+        slices.extend(body.arrays);
         self.bind(out, body.receiver, slices);
         self.read(out, body.receiver, &scan.reads);
         block::clear(out, context, body.cleared);
@@ -87,7 +87,13 @@ impl Bodies<'_> {
         );
         for slice in &slices {
             match slice {
-                Slice::Parameter(array) => receiver.bind_array(out, self.generics, *array),
+                Slice::Parameter(_) | Slice::Held(_) => {
+                    receiver.bind_array(out, self.generics, *slice);
+                }
+                Slice::Filled(number) => {
+                    let name = slice.name();
+                    let _ = writeln!(out, "let {name} = _held.{number}.as_mut_slice();");
+                }
                 Slice::Derivative(number) => {
                     let field = self.generics.field(*number);
                     let access = match context.model.parameters[usize::from(*number)].shape {

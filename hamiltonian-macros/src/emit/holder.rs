@@ -7,8 +7,9 @@
 
 use super::block::{Context, name};
 use super::generics::Generics;
-use super::layout;
+use super::layout::{self, Slice};
 use super::parts::{self, Wanted};
+use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
 
@@ -19,13 +20,18 @@ pub struct Holder {
     pub name: &'static str,
     values: Vec<Value>,
     masks: Vec<Value>,
-    /// Parameter arrays, lifted to the state's scalar.
-    pub arrays: Vec<u16>,
+    /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
+    pub arrays: Vec<Slice>,
 }
 
 impl Holder {
     /// A holder of these values.
-    pub fn new(context: Context, name: &'static str, values: &[Value], arrays: Vec<u16>) -> Holder {
+    pub fn new(
+        context: Context,
+        name: &'static str,
+        values: &[Value],
+        arrays: Vec<Slice>,
+    ) -> Holder {
         let is_mask = |value: &Value| context.program.instruction(*value).is_mask();
         let (masks, values) = values.iter().copied().partition(is_mask);
         Holder {
@@ -59,12 +65,12 @@ impl Holder {
             }
         }
         for &array in &self.arrays {
-            let shape = &context.model.parameters[usize::from(array)].shape;
-            let ty = layout::storage(shape, "T", context.indices, context.is_run_time, "__h");
+            let shape = shape(context, array);
+            let ty = layout::storage(&shape, "T", context.indices, context.is_run_time, "__h");
             // All holders of a run share what is sized at run time.
-            let _ = match layout::is_dynamic(shape, context.is_run_time) {
-                true => writeln!(out, "a{array}: __h::Arc<{ty}>,"),
-                false => writeln!(out, "a{array}: {ty},"),
+            let _ = match layout::is_dynamic(&shape, context.is_run_time) {
+                true => writeln!(out, "{}: __h::Arc<{ty}>,", field(array)),
+                false => writeln!(out, "{}: {ty},", field(array)),
             };
         }
         out.push_str("}\n");
@@ -72,7 +78,7 @@ impl Holder {
 
     /// The expression that makes one where all its values are in scope; `array` says how an array
     /// is had.
-    pub fn fill(&self, context: Context, array: impl Fn(u16) -> String) -> String {
+    pub fn fill(&self, context: Context, array: impl Fn(Slice) -> String) -> String {
         let list = |values: &[Value]| {
             values
                 .iter()
@@ -93,8 +99,8 @@ impl Holder {
                 let _ = write!(out, "n{size}: _n{size}, ");
             }
         }
-        for &number in &self.arrays {
-            let _ = write!(out, "a{number}: {}, ", array(number));
+        for &own in &self.arrays {
+            let _ = write!(out, "{}: {}, ", field(own), array(own));
         }
         out.push('}');
         out
@@ -115,6 +121,22 @@ impl Holder {
         }
         let is_missing = |value: &Value| rest.contains_key(value);
         reads.iter().copied().filter(is_missing).collect()
+    }
+}
+
+/// The field of an array in a holder.
+pub fn field(array: Slice) -> String {
+    array.name().trim_start_matches('_').to_owned()
+}
+
+/// The shape of an array that a holder has.
+pub fn shape(context: Context, array: Slice) -> Shape {
+    match array {
+        Slice::Held(number) => {
+            Shape::Vector(context.program.held[usize::from(number)].rows.clone())
+        }
+        Slice::Parameter(number) => context.model.parameters[usize::from(number)].shape.clone(),
+        _ => unreachable!("a holder has no parts of vectors"),
     }
 }
 
@@ -172,19 +194,16 @@ impl Receiver<'_> {
         let _ = writeln!(out, "let _n{size} = _self.{field};");
     }
 
-    /// The `let` of a parameter array as a slice.
-    pub fn bind_array(self, out: &mut String, generics: &Generics, array: u16) {
-        match self {
-            Receiver::System => {
-                let _ = writeln!(
-                    out,
-                    "let _b{array} = {};\nlet _a{array} = _b{array}.as_slice();",
-                    generics.lifted_array(array)
-                );
-            }
-            Receiver::Holder(_) => {
-                let _ = writeln!(out, "let _a{array} = _self.a{array}.as_slice();");
-            }
-        }
+    /// The `let` of a parameter array, or of an array that preparation filled, as a slice.
+    pub fn bind_array(self, out: &mut String, generics: &Generics, array: Slice) {
+        let name = array.name();
+        let _ = match (self, array) {
+            (Receiver::System, Slice::Parameter(number)) => writeln!(
+                out,
+                "let _b{number} = {};\nlet {name} = _b{number}.as_slice();",
+                generics.lifted_array(number)
+            ),
+            _ => writeln!(out, "let {name} = _self.{}.as_slice();", field(array)),
+        };
     }
 }

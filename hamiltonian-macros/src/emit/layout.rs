@@ -152,6 +152,10 @@ pub enum Slice {
     Output(Column),
     /// The derivative with respect to a parameter.
     Derivative(u16),
+    /// An array that preparation filled.
+    Held(u16),
+    /// The same while it is filled.
+    Filled(u16),
 }
 
 impl Slice {
@@ -162,6 +166,7 @@ impl Slice {
             Array::Direction(column) => Slice::Direction(stored(layout, column)),
             Array::Velocity(_) => unreachable!("`validate` finds velocities in a program"),
             Array::Parameter(Parameter(number)) => Slice::Parameter(number),
+            Array::Held(number) => Slice::Held(number),
         }
     }
 
@@ -170,6 +175,7 @@ impl Slice {
         match target {
             Target::Phase(column) => Slice::Output(stored(layout, column)),
             Target::Parameter(Parameter(number)) => Slice::Derivative(number),
+            Target::Held(number) => Slice::Filled(number),
         }
     }
 
@@ -181,6 +187,8 @@ impl Slice {
             }
             Slice::Parameter(number) => return format!("_a{number}"),
             Slice::Derivative(number) => return format!("_d{number}"),
+            Slice::Held(number) => return format!("_h{number}"),
+            Slice::Filled(number) => return format!("_u{number}"),
         };
         format!("{}{number}", self.vector())
     }
@@ -194,7 +202,7 @@ impl Slice {
             Slice::Direction(_) => "_vp",
             Slice::Output(at) if at.side == Side::Q => "_oq",
             Slice::Output(_) => "_op",
-            Slice::Parameter(_) | Slice::Derivative(_) => "",
+            _ => "",
         }
     }
 }
@@ -261,6 +269,6 @@ fn part_of(slice: Slice) -> Option<(bool, Column)> {
     match slice {
         Slice::Input(column) | Slice::Direction(column) => Some((false, column)),
         Slice::Output(column) => Some((true, column)),
-        Slice::Parameter(_) | Slice::Derivative(_) => None,
+        _ => None,
     }
 }

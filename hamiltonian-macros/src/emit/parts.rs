@@ -7,7 +7,6 @@
 
 use super::block::{self, name};
 use super::function::{Bodies, Body};
-use super::layout::Slice;
 use super::scan::{Scan, scan};
 use hamiltonian_symbolic::dag::Map;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
@@ -138,8 +137,7 @@ impl Bodies<'_> {
             };
             earlier.push(given);
         }
-        let arrays = body.arrays.iter().map(|array| Slice::Parameter(*array));
-        self.bind(out, body.receiver, arrays.collect());
+        self.bind(out, body.receiver, body.arrays.to_vec());
         let wanted = scans.last().map_or(&[][..], |scan| &scan.reads);
         self.bind_live(out, body, wanted, &earlier);
     }

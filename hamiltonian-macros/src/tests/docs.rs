@@ -89,13 +89,13 @@ fn operations_of_nested_loops() {
         operations(GRAVITY),
         [
             "| `energy` | 3 | 0 | 0 | 0 | 3 |",
-            "| each i in 0..n | 8 | 1 | 0 | 0 | 9 |",
+            "| each i in 0..n | 9 | 0 | 0 | 0 | 9 |",
             "| each i in 0..n, j in 0..i | 9 | 1 | 1 | 0 | 11 |",
             "| `gradient` | 0 | 0 | 0 | 0 | 0 |",
-            "| each i in 0..n | 7 | 1 | 0 | 0 | 8 |",
+            "| each i in 0..n | 7 | 0 | 0 | 0 | 7 |",
             "| each i in 0..n, j in 0..i | 20 | 1 | 1 | 0 | 22 |",
             "| `energy_and_gradient` | 3 | 0 | 0 | 0 | 3 |",
-            "| each i in 0..n | 16 | 1 | 0 | 0 | 17 |",
+            "| each i in 0..n | 16 | 0 | 0 | 0 | 16 |",
             "| each i in 0..n, j in 0..i | 22 | 1 | 1 | 0 | 24 |",
         ]
     );

@@ -170,7 +170,9 @@ impl Numbers<'_> {
             (None, Array::Phase(Column { side: Side::P, .. })) => {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
-            (None, Array::Direction(_) | Array::Velocity(_)) => self.leaf(&key, 0, self.how.signed),
+            (None, Array::Direction(_) | Array::Velocity(_) | Array::Held(_)) => {
+                self.leaf(&key, 0, self.how.signed)
+            }
             (None, Array::Parameter(parameter)) => {
                 let value = self.leaf(&key, 0, self.how.signs.of(parameter));
                 self.given_parameter(value)
@@ -181,7 +183,7 @@ impl Numbers<'_> {
                 Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
                     i64::from(at.column)
                 }
-                Array::Parameter(_) => column,
+                Array::Parameter(_) | Array::Held(_) => column,
             };
             let name = self.model.array_name(array);
             let name = self.model.shape(array).element(&name, row, column);

@@ -369,7 +369,9 @@ impl<'a> Writer<'a> {
     fn indices(&self, array: Array, row: &Index, column: Option<&Index>) -> Vec<String> {
         let column = match array {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => at.column.to_string(),
-            Array::Parameter(_) => column.map_or_else(String::new, |column| self.index(column)),
+            Array::Parameter(_) | Array::Held(_) => {
+                column.map_or_else(String::new, |column| self.index(column))
+            }
         };
         match self.model.shape(array) {
             Shape::Scalar => Vec::new(),

@@ -30,7 +30,12 @@ impl Values {
             cleared: Vec::new(),
             pinned: None,
         };
-        Values(schedule(&model.dag, &[request], &Images::default()))
+        Values(schedule(
+            &model.dag,
+            &[request],
+            &Images::default(),
+            Vec::new(),
+        ))
     }
     /// At coordinates and momenta (interleaved), parameters and a step coefficient.
     pub fn at<T: Real>(&self, model: &Model, z: &[T], parameters: &[f64], c: T) -> Vec<T> {

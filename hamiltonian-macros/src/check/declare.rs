@@ -381,9 +381,12 @@ impl Checker<'_> {
         word: &str,
     ) -> bool {
         let all = || coordinates.iter().chain(others);
+        let names: Vec<(&Variable, String)> = all().map(|v| (v, v.name.to_string())).collect();
         let owner = |variable: &Variable| {
             let name = variable.name.to_string();
-            all().find(|of| is_partner_of(&name, &of.name.to_string(), word))
+            let mut names = names.iter();
+            let found = names.find(|(_, of)| is_partner_of(&name, of, word));
+            found.map(|(variable, _)| *variable)
         };
         let mut found = false;
         for (coordinate, other) in coordinates.iter().zip(others) {

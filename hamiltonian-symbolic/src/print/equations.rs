@@ -17,6 +17,9 @@ use crate::rational::Rational;
 
 /// An H of more nodes than this is differentiated by nobody by hand.
 const LARGEST: usize = 2048;
+/// Nor are equations read that have more nodes than this together: those of a product of n
+/// coordinates have n² factors.
+const LONGEST: usize = 8192;
 
 /// Hamilton's equations, to be written in any notation.
 #[derive(Debug)]
@@ -60,15 +63,20 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
         Side::Q => (Dependence::P, Rational::ONE),
         Side::P => (Dependence::Q, Rational::MINUS_ONE),
     };
-    let leaves = if is_large {
-        Vec::new()
-    } else {
-        let leaves = diff::gradient(&mut model.dag, h, what).into_iter();
-        // What differentiation multiplies one after another is one product to a reader.
-        leaves
-            .map(|(leaf, value)| (leaf, multiplied(&mut model.dag, value)))
-            .collect()
-    };
+    let mut leaves = Vec::new();
+    let (mut is_large, mut length) = (is_large, 0);
+    if !is_large {
+        for (leaf, value) in diff::gradient(&mut model.dag, h, what) {
+            // What differentiation multiplies one after another is one product to a reader.
+            let value = multiplied(&mut model.dag, value);
+            leaves.push((leaf, value));
+            length += model.dag.reachable(&[value]).len();
+            if length > LONGEST {
+                is_large = true;
+                break;
+            }
+        }
+    }
     let mut of_array: Map<Column, Vec<(Index, Node)>> = Map::default();
     for &(leaf, adjoint) in &leaves {
         if let Some((column, row)) = model.dag.phase_place(leaf) {
@@ -76,7 +84,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
             own.push((row.clone(), adjoint));
         }
     }
-    let is_large = is_large || model.dag.has_too_many_loops();
+    is_large |= model.dag.has_too_many_loops();
     for (at, rows) in model.columns(side) {
         let own = of_array.remove(&at.conjugate()).unwrap_or_default();
         let of = Derivative {

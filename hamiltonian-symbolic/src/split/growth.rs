@@ -104,15 +104,20 @@ impl Growth {
         }
     }
 
-    /// Σ zⁿ/(2n + k)!
+    /// Σ zⁿ/(2n + k)!, k = 2 or 3
     fn series(space: &mut Space, z: Node, k: i64) -> Node {
         let dag = space.dag();
-        let factorial = |n: i64| (1..=n).fold(Rational::ONE, |f, i| f.mul(&Rational::integer(i)));
-        let term = |n: i64| factorial(2 * n + k).recip().unwrap_or(Rational::ZERO);
-        let mut sum = dag.constant(term(TERMS));
-        for n in (0..TERMS).rev() {
+        let mut terms = Vec::new();
+        let mut term = Rational::new(1, k * (k - 1));
+        for n in 0..=TERMS {
+            let next = Rational::new(1, (2 * n + k + 1) * (2 * n + k + 2));
+            let after = term.mul(&next);
+            terms.push(std::mem::replace(&mut term, after));
+        }
+        let mut sum = dag.constant(terms.pop().unwrap_or(Rational::ZERO));
+        for term in terms.iter().rev() {
             let higher = dag.mul(&[z, sum]);
-            sum = dag.linear(&term(n), &[(Rational::ONE, higher)]);
+            sum = dag.linear(term, &[(Rational::ONE, higher)]);
         }
         sum
     }

@@ -186,6 +186,9 @@ fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64
             results[0]
         };
         let first = value(&z);
+        if !first.is_finite() {
+            continue;
+        }
         let mut largest: f64 = 0.0;
         let (mut scratch, mut out) = (Vec::new(), Vec::new());
         let mut act = |z: &mut Vec<f64>, at: usize, c: f64| {
@@ -207,17 +210,15 @@ fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64
                 act(&mut z, *at, STEP / 2.0);
             }
             let off = (value(&z) - first).abs();
-            largest = if off.is_finite() {
-                largest.max(off)
-            } else {
-                f64::INFINITY
-            };
+            if !off.is_finite() {
+                largest = f64::INFINITY;
+                break;
+            }
+            largest = largest.max(off);
         }
-        if first.is_finite() {
-            // An orbit that ends is an error of the size of H.
-            sum += largest.min(first.abs() + 1.0).max(1e-14).ln();
-            count += 1;
-        }
+        // An orbit that ends is an error of the size of H.
+        sum += largest.min(first.abs() + 1.0).max(1e-14).ln();
+        count += 1;
     }
     if count == 0 {
         f64::NAN

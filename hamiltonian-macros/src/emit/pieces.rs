@@ -4,6 +4,8 @@
 //! Input: a model with pieces. Output: text of the implementations. Invariant: a flow reads and
 //! writes one point; where it leaves its domain, all it moves becomes NaN, which the program says.
 
+use super::Form;
+use super::construct::over_f64;
 use super::dynamics::{Emission, evaluation};
 use super::holder::Receiver;
 use super::layout::Slice;
@@ -61,6 +63,17 @@ impl Emission<'_> {
             declaration = self.generics.declaration_with_scalar(),
             system = self.generics.system_type(),
         );
+        // Over one scalar only, so that `Name::NAMES` is decided.
+        if let Form::Item(_) = self.definition.form {
+            let (constants, system) = over_f64(self.generics);
+            line!(
+                self,
+                "impl{constants} {system} {{\n/// The pieces of H with exact flows, the outermost first.\n\
+                 {visibility} const NAMES: &'static [&'static __h::core::primitive::str] = \
+                 <Self as __h::Split<__h::core::primitive::f64>>::NAMES;\n}}",
+                visibility = self.generics.visibility,
+            );
+        }
     }
 
     /// The unit struct that makes a flow.

@@ -1,11 +1,13 @@
 //! Compositions, adjoints and splittings into any number of pieces: order, form, symmetry, bits.
 
+use crate::checkpoint::watchers;
 use crate::common::pieces::{Loops, Polar};
 use crate::common::systems::*;
+use crate::common::walk::{Sample, everywhere};
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Reversed, Table, Weight};
-use hamiltonian_core::{DoubleDouble, OneStep, Scheme, Vector};
+use hamiltonian_core::schemes::{Reversed, Table, Visitor, Weight};
+use hamiltonian_core::{DoubleDouble, Form, OneStep, Scheme, Vector};
 
 /// The slope of the error at t = 1 between two steps, in double-double, against a fourth-order
 /// method with a step 64 times smaller, whose error is below a thousandth of any here.
@@ -59,6 +61,58 @@ fn yoshidas_composition_of_a_symmetric_scheme_has_order_4() {
     // What is not symmetric gains one order at most, here none: the control.
     let euler = Composition::yoshida(SymplecticEuler::KickDrift);
     is(1.0, slope(&relativistic, euler, q, p));
+}
+
+/// A step of the adjoint with h undoes one with −h.
+struct Adjoints {
+    /// Those that do not undo their own.
+    others: Vec<&'static str>,
+    missed: Vec<String>,
+}
+
+impl<S: Sample<f64>> Visitor<f64, S> for Adjoints {
+    fn visit<M: Scheme<f64, S>>(&mut self, _: M) {}
+    fn visit_one_step<M>(&mut self, scheme: M)
+    where
+        M: Scheme<f64, S> + OneStep<Adjoint: Scheme<f64, S>>,
+    {
+        fn step<S: Sample<f64>>(
+            scheme: impl Scheme<f64, S>,
+            from: &State<S::Vector>,
+            h: f64,
+        ) -> State<S::Vector> {
+            let run = Integrator::new(&S::sample(), scheme, from.clone(), h);
+            let mut run = run.unwrap().observe(watchers());
+            run.advance(1).unwrap().clone()
+        }
+        let entry = scheme.entry();
+        // Of two copies one is not the state.
+        if entry.preserves == Form::TwoCopies {
+            return;
+        }
+        let begin = S::begin();
+        let away = step::<S>(scheme.clone(), &begin, -0.05);
+        let back = difference(&step::<S>(scheme.adjoint(), &away, 0.05), &begin);
+        if back > 1e-14 {
+            self.missed.push(format!("{entry:?}: {back:e}"));
+        }
+        if difference(&step::<S>(scheme, &away, 0.05), &begin) > 1e-12 {
+            self.others.push(entry.name);
+        }
+    }
+}
+
+#[test]
+fn every_adjoint_undoes_a_step() {
+    let mut adjoints = Adjoints {
+        others: Vec::new(),
+        missed: Vec::new(),
+    };
+    everywhere::<f64, _>(&mut adjoints);
+    assert!(adjoints.missed.is_empty(), "{:#?}", adjoints.missed);
+    // The control: these are not symmetric.
+    let euler = "SymplecticEuler";
+    assert_eq!(adjoints.others, ["RungeKutta4", "Ruth3", euler, euler]);
 }
 
 /// How far the derivative M of some steps is from symplectic: the largest component of MᵀJM − J.

@@ -22,6 +22,12 @@ pub struct Held {
     pub value: Node,
 }
 
+/// Nodes with their powers.
+type Factors = Vec<(Node, i32)>;
+
+/// An index, and how many rows the arrays have that it is of.
+type Row = (Index, Affine);
+
 /// What an expression depends on.
 #[derive(Clone, PartialEq)]
 enum Reads {
@@ -66,8 +72,8 @@ impl Arrays {
             let image = match dag.kind(node).clone() {
                 _ if reads[&node] != Reads::More => node,
                 Kind::Product(k, factors) if !dag.is_sealed(node) => {
-                    let mut rest: Vec<(Node, i32)> = Vec::new();
-                    let mut groups: Vec<((Index, Affine), Vec<(Node, i32)>)> = Vec::new();
+                    let mut rest: Factors = Vec::new();
+                    let mut groups: Vec<(Row, Factors)> = Vec::new();
                     for (base, n) in factors {
                         match row(base) {
                             None => rest.push((new[&base], n)),

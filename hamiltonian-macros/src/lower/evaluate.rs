@@ -266,9 +266,7 @@ impl<'a> Evaluator<'a> {
         match (&this.kind, values) {
             (Kind::Number(value), _) => dag.constant(number(value)),
             (Kind::Pi, _) => dag.pi(),
-            (Kind::Coordinate(group), _) => {
-                self.phase(model, node, group.0, demand, |at| Array::Phase(at))
-            }
+            (Kind::Coordinate(group), _) => self.phase(model, node, group.0, demand, Array::Phase),
             (Kind::Momentum(group), _) => self.phase(model, node, group.0, demand, |at| {
                 Array::Phase(at.conjugate())
             }),
@@ -278,9 +276,7 @@ impl<'a> Evaluator<'a> {
             (Kind::NewMomentum(group), _) => self.phase(model, node, group.0, demand, |at| {
                 Array::Phase(replaced(at).conjugate())
             }),
-            (Kind::Velocity(group), _) => {
-                self.phase(model, node, group.0, demand, |at| Array::Velocity(at))
-            }
+            (Kind::Velocity(group), _) => self.phase(model, node, group.0, demand, Array::Velocity),
             (Kind::Time, _) => dag.time(),
             (Kind::Parameter(parameter), _) => {
                 let parameter = Parameter(parameter.0 as u16);

@@ -201,10 +201,12 @@ fn orders_with_forces() {
 macro_rules! is_exact {
     ($system:ty) => {{
         struct Probe<T>(core::marker::PhantomData<T>);
+        #[allow(dead_code)]
         trait Otherwise {
             const IS: bool = false;
         }
         impl<T> Otherwise for Probe<T> {}
+        #[allow(dead_code)]
         impl<T: hamiltonian::Exact> Probe<T> {
             const IS: bool = true;
         }

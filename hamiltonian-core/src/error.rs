@@ -144,11 +144,22 @@ pub enum Error {
     OffGrid {
         /// The time asked for.
         target: f64,
-        /// The last reachable time that is not beyond it; the present time if it lies behind.
+        /// The last reachable time that is not beyond it.
         before: f64,
-        /// The first reachable time beyond it; the present time if it lies behind.
+        /// The first reachable time beyond it.
         after: f64,
     },
+    /// A time that lies behind the run.
+    #[error("t = {target} lies behind the run, which is at t = {now}")]
+    Behind {
+        /// The time asked for.
+        target: f64,
+        /// The present time.
+        now: f64,
+    },
+    /// No number of steps is known to lead to a time.
+    #[error("steps of this scheme vary in time: `advance_until` goes to any time")]
+    Uneven,
     /// A time more than one step from the present one.
     #[error(
         "t = {target} is more than one step from the present: from {from} to {to} can be asked for"

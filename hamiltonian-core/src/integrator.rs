@@ -290,13 +290,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 
     /// Parts of a step from the present state.
     pub(crate) fn part(&self) -> Part<'_, T, S, R> {
-        part(
-            &self.prepared,
-            &*self.recipe,
-            &self.state,
-            self.step,
-            self.clock,
-        )
+        Part {
+            prepared: &self.prepared,
+            recipe: &*self.recipe,
+            state: &self.state,
+            step: self.step,
+            clock: self.clock,
+            duration: self.carried.duration(self.clock.interval),
+        }
     }
 
     /// The present state as observers see it.
@@ -370,23 +371,6 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integr
             .field("state", &self.state)
             .field("observer", &self.observer)
             .finish_non_exhaustive()
-    }
-}
-
-/// Parts of a step from `state`.
-fn part<'a, T: Real, S: System<T>, R: MapOf<T, S>>(
-    prepared: &'a S::Prepared,
-    recipe: &'a dyn Recipe<T, S, R>,
-    state: &'a State<S::Vector>,
-    step: T,
-    clock: Clock<T>,
-) -> Part<'a, T, S, R> {
-    Part {
-        prepared,
-        recipe,
-        state,
-        step,
-        clock,
     }
 }
 

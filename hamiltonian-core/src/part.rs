@@ -58,22 +58,28 @@ pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
     pub(crate) state: &'a State<S::Vector>,
     pub(crate) step: T,
     pub(crate) clock: Clock<T>,
+    /// About how long the next step is, where it is not the clock's interval.
+    pub(crate) duration: Option<T>,
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
     fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         let now = self.state.t;
-        let part = (t - now) / self.clock.interval;
+        // Where durations are carried the step before and the one after are longer or shorter.
+        let (step, most) = match self.duration {
+            Some(duration) => (duration, 2.0),
+            None => (self.clock.interval, 1.0),
+        };
         // False for NaN.
-        let is_near = part.magnitude() <= 1.0 + self.rounding(now, t);
+        let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
                 target: t.to_f64(),
-                from: (now - self.clock.interval).to_f64(),
-                to: (now + self.clock.interval).to_f64(),
+                from: (now - step).to_f64(),
+                to: (now + step).to_f64(),
             });
         }
-        self.at(self.state, t, part)
+        self.at(self.state, t, (t - now) / self.clock.interval)
     }
 
     fn part(&self, from: &State<S::Vector>, time: T) -> Result<State<S::Vector>, Error> {
@@ -205,13 +211,19 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// ahead: the last part of a step is made on a copy. Observers see whole steps alone: an event in
     /// that part is found by the step that makes it whole.
     ///
+    /// A run whose steps vary in time passes `t` by a part of a step: how long the next one is, is known
+    /// when it is made.
+    ///
     /// Where an observer ends the run before, the state at which it did is returned; see
     /// [`has_ended`](Integrator::has_ended).
     ///
     /// # Errors
-    /// [`Error::OffGrid`] for a time behind the present one or none at all; those of
+    /// [`Error::Behind`], [`Error::OffGrid`] for what is no time; those of
     /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
     pub fn advance_until(&mut self, t: T) -> Result<State<S::Vector>, Error> {
+        if self.varies() {
+            return self.past(t);
+        }
         let (before, after) = self.whole_steps(t)?;
         self.advance(before.unwrap_or(after))?;
         match before {
@@ -222,6 +234,30 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         }
     }
 
+    /// Whether steps differ in time.
+    fn varies(&self) -> bool {
+        self.carried.duration(self.clock.interval).is_some()
+    }
+
+    /// Makes steps of unknown duration until `t` is passed.
+    fn past(&mut self, t: T) -> Result<State<S::Vector>, Error> {
+        if !t.is_finite() {
+            return self.state_at(t);
+        }
+        let is_forward = T::zero().lt(self.clock.interval).all();
+        while !self.ended {
+            let (behind, ahead) = match is_forward {
+                true => (self.state.t, t),
+                false => (t, self.state.t),
+            };
+            if !behind.lt(ahead).any() {
+                return self.state_at(t);
+            }
+            self.advance(1)?;
+        }
+        Ok(self.state.clone())
+    }
+
     /// Makes the whole number of steps that leads to the time `t`.
     ///
     /// The step size is never changed, and a state at another time is never passed off as one at
@@ -230,9 +266,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// goes to any time.
     ///
     /// # Errors
-    /// [`Error::OffGrid`] with the reachable times on both sides; those of
-    /// [`advance`](Integrator::advance).
+    /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Uneven`] where steps have no
+    /// known duration; those of [`advance`](Integrator::advance).
     pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
+        if self.varies() {
+            return Err(Error::Uneven);
+        }
         match self.whole_steps(t)? {
             (None, steps) => self.advance(steps),
             (Some(before), after) => {
@@ -267,15 +306,20 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             return Ok((None, nearest - made));
         }
         let behind = count < made as f64;
+        if behind {
+            return Err(Error::Behind {
+                target: t.to_f64(),
+                now: self.clock.at(made).to_f64(),
+            });
+        }
         let before = (count.clamp(0.0, MOST) as u64).max(made);
-        if counted && !behind {
+        if counted {
             return Ok((Some(before - made), before + 1 - made));
         }
-        let after = if behind { before } else { before + 1 };
         Err(Error::OffGrid {
             target: t.to_f64(),
             before: self.clock.at(before).to_f64(),
-            after: self.clock.at(after).to_f64(),
+            after: self.clock.at(before + 1).to_f64(),
         })
     }
 

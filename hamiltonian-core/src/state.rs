@@ -162,6 +162,10 @@ pub trait Carried: Vector {
     fn time(&self, clock: Self::Scalar) -> Self::Scalar {
         clock
     }
+    /// About how long a step of the parameter `interval` takes from here where the time is carried.
+    fn duration(&self, _interval: Self::Scalar) -> Option<Self::Scalar> {
+        None
+    }
 }
 
 impl<V: Vector> Carried for Point<V> {

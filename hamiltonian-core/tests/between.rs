@@ -167,7 +167,13 @@ fn any_time_on_request() {
     assert_eq!(run.state(), new().advance(100).unwrap());
     // Again from the middle of the step, then behind.
     assert_eq!(run.advance_until(1.005).unwrap(), off);
-    for t in [0.99, f64::NAN, f64::INFINITY] {
+    let behind = run.advance_until(0.99).unwrap_err();
+    assert!(
+        behind
+            .to_string()
+            .contains("0.99 lies behind the run, which is at t = 1")
+    );
+    for t in [f64::NAN, f64::INFINITY] {
         assert!(matches!(run.advance_until(t), Err(Error::OffGrid { .. })));
     }
     assert_eq!(run.steps(), 100);
@@ -184,7 +190,7 @@ fn any_time_on_request() {
     let mut run = new();
     let items: Vec<_> = run.states_at([0.1, 0.05, 0.2]).collect();
     assert_eq!(items.len(), 2);
-    assert!(items[0].is_ok() && matches!(items[1], Err(Error::OffGrid { .. })));
+    assert!(items[0].is_ok() && matches!(items[1], Err(Error::Behind { .. })));
     // Backwards.
     let mut back = Integrator::new(&Hand(HenonHeiles), RungeKutta4, begin(), -0.01).unwrap();
     assert_eq!(back.advance_until(-0.335).unwrap().t, -0.335);

@@ -9,7 +9,7 @@ use super::common::systems::{
 use super::common::{difference, start};
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    DoubleDouble, Group, Integrator, Map, Real, Scheme, Scratch, State, Step, System, Vector,
+    DoubleDouble, Error, Group, Integrator, Map, Real, Scheme, Scratch, State, Step, System, Vector,
 };
 
 /// The Jacobi function cn(u | m), by the arithmetic–geometric mean (Abramowitz and Stegun, 16.4).
@@ -234,6 +234,44 @@ fn variable_steps_of_keplers_problem_do_not_drift() {
     let (fixed, _) = tenths(StormerVerlet::default(), end / steps as f64, end / 100.0);
     println!("fixed steps: {:.3e}", fixed[0]);
     assert!(fixed[0] > 20.0 * largest, "{fixed:?}");
+}
+
+/// Any time is reached by a part of a step, whatever the steps' durations; times of one are no steps.
+#[test]
+fn any_time_with_variable_steps() {
+    let scheme = Paced {
+        scheme: Suzuki4,
+        density: Close,
+    };
+    let fine = |t: f64| {
+        let mut run =
+            Integrator::new(&Hand(Kepler), KahanLi8, kepler_start(), t / 65536.0).unwrap();
+        run.advance(65536).unwrap().clone()
+    };
+    for sign in [1.0, -1.0] {
+        let new = || Integrator::new(&Hand(Kepler), scheme, kepler_start(), sign * 1e-3).unwrap();
+        let times = [0.0, 0.1, 0.1001, 0.7, 3.0].map(|t| sign * t);
+        let mut run = new();
+        let states: Vec<_> = run.states_at(times).map(Result::unwrap).collect();
+        for (state, t) in states.iter().zip(times) {
+            assert!((state.t - t).abs() < 1e-14, "{} for {t}", state.t);
+            assert_eq!(state, &new().advance_until(t).unwrap());
+            if t != 0.0 {
+                let exact = fine(t);
+                let error = (state.q - exact.q).norm();
+                println!("{error:.1e} at {t}");
+                assert!(error < 1e-5, "{error:e} at {t}");
+            }
+        }
+        // The run made whole steps alone.
+        let mut beside = new();
+        assert_eq!(beside.advance(run.steps()).unwrap(), run.state());
+        let far = run.state_at(times[1]).unwrap_err();
+        assert!(matches!(far, Error::Far { .. }), "{far}");
+        assert!(matches!(run.advance_until(0.0), Err(Error::Far { .. })));
+        assert_eq!(run.advance_to(4.0).unwrap_err(), Error::Uneven);
+        assert!(run.advance_until(f64::NAN).is_err());
+    }
 }
 
 #[test]

@@ -124,13 +124,12 @@ fn advance_to_takes_whole_steps_or_none() {
     );
     assert_eq!(
         run.advance_to(0.5).unwrap_err(),
-        Error::OffGrid {
+        Error::Behind {
             target: 0.5,
-            before: 1.0,
-            after: 1.0
+            now: 1.0,
         }
     );
-    assert!(matches!(run.advance_to(-3.0), Err(Error::OffGrid { .. })));
+    assert!(matches!(run.advance_to(-3.0), Err(Error::Behind { .. })));
     assert!(matches!(
         run.advance_to(f64::NAN),
         Err(Error::OffGrid { .. })

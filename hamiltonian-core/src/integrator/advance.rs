@@ -4,10 +4,11 @@
 //! Invariant: a state that is not finite is never shown; a run that failed stands at the last good
 //! state.
 
-use super::{Integrator, MapOf, numbers, part};
+use super::{Integrator, MapOf, numbers};
 use crate::error::Error;
 use crate::map::Cause;
 use crate::observe::{Observer, View};
+use crate::part::Part;
 use crate::state::{Carried, State};
 use crate::system::System;
 use crate::vector::Vector;
@@ -35,13 +36,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                 .saturating_mul(interval);
             self.run_to(due.min(end))?;
             if self.steps == due {
-                let part = part(
-                    &self.prepared,
-                    &*self.recipe,
-                    &self.state,
-                    self.step,
-                    self.clock,
-                );
+                let part = Part {
+                    prepared: &self.prepared,
+                    recipe: &*self.recipe,
+                    state: &self.state,
+                    step: self.step,
+                    clock: self.clock,
+                    duration: self.carried.duration(self.clock.interval),
+                };
                 let view = View {
                     step: self.steps,
                     state: &self.state,

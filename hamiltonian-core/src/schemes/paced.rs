@@ -109,6 +109,9 @@ impl<V: Vector> Carried for Pace<V> {
     fn time(&self, _: V::Scalar) -> V::Scalar {
         self.pace[2]
     }
+    fn duration(&self, interval: V::Scalar) -> Option<V::Scalar> {
+        Some(interval / self.pace[0])
+    }
 }
 
 /// G at a point.

@@ -1,7 +1,9 @@
 //! Between steps: states by parts of a step, roots of events, times off the grid, other steps, ends.
 
+use crate::checkpoint::watchers;
+use crate::common::difference;
 use crate::common::systems::*;
-use crate::common::{difference, start};
+use crate::common::walk::{Sample, everywhere};
 use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
@@ -84,12 +86,13 @@ fn roots_of_events_by_parts_of_steps() {
 /// Every scheme makes parts of its step, forwards and backwards, of its own order.
 struct Parts;
 
-impl Visitor<f64, Hand<Pumped, 1>> for Parts {
-    fn visit<M: Scheme<f64, Hand<Pumped, 1>>>(&mut self, scheme: M) {
+impl<S: Sample<f64>> Visitor<f64, S> for Parts {
+    fn visit<M: Scheme<f64, S>>(&mut self, scheme: M) {
         let entry = scheme.entry();
         let name = (entry.name, entry.variant);
-        let start = start::<f64, _>(&Hand(Pumped), &[1.1], &[0.7]);
-        let mut run = Integrator::new(&Hand(Pumped), scheme, start.clone(), 0.01).unwrap();
+        // Observed as the runs that are saved are: the same code.
+        let run = Integrator::new(&S::sample(), scheme, S::begin(), 0.01);
+        let mut run = run.unwrap().observe(watchers());
         run.advance(3).unwrap();
         let (third, time, interval) = (run.state().clone(), run.time(), run.interval());
         assert_eq!(run.state_at(time).unwrap(), third);
@@ -97,7 +100,7 @@ impl Visitor<f64, Hand<Pumped, 1>> for Parts {
             let t = time + part * interval;
             let state = run.state_at(t).unwrap();
             let step = (t - time) / 8.0;
-            let fine = Integrator::new(&Hand(Pumped), RungeKutta4, third.clone(), step);
+            let fine = Integrator::new(&S::sample(), RungeKutta4, third.clone(), step);
             let mut fine = fine.unwrap();
             // One step of h = 0.01 of order 1 errs by a few h², one of order 2 by a few h³.
             let size = match entry.name {
@@ -125,15 +128,7 @@ impl Visitor<f64, Hand<Pumped, 1>> for Parts {
 
 #[test]
 fn every_scheme_makes_parts_of_its_step() {
-    visit_any(&mut Parts);
-    visit_unforced(&mut Parts);
-    visit_separable(&mut Parts);
-    visit_split(&mut Parts);
-    // Other tables are other numbers.
-    Parts.visit(KahanLi8);
-    visit_implicit(&mut Parts);
-    visit_doubled(&mut Parts);
-    visit_compensated(&mut Parts);
+    everywhere(&mut Parts);
 }
 
 /// A part that fails says so; the run stands where it stood.

@@ -327,3 +327,45 @@ fn a_kick_with_friction_allocates_nothing() {
     });
     assert_eq!(count, 0);
 }
+
+/// A run that was saved under one force, or one order of pieces, does not go on under another.
+#[test]
+fn a_saved_run_knows_its_force_and_its_pieces() {
+    mod other {
+        hamiltonian::hamiltonian! {
+            /// The damped oscillator, driven.
+            pub struct Damped { gamma = 0.3, omega = 1.2 }
+            H = p^2/2 + omega^2*q^2/2;
+            force(q; p) = -gamma*p + cos(q)
+        }
+    }
+    let start = State::new([1.0], [0.0]);
+    let mut run = Integrator::new(&Damped::default(), Strang, start, 0.1).unwrap();
+    run.advance(3).unwrap();
+    let saved = || run.checkpoint();
+    assert!(Integrator::<f64, _, _>::resume(&Damped::default(), Strang, saved()).is_ok());
+    let error =
+        Integrator::<f64, _, _>::resume(&other::Damped::default(), Strang, saved()).unwrap_err();
+    assert!(error.to_string().contains("cos(q)"), "{error}");
+
+    mod split {
+        hamiltonian::hamiltonian! {
+            /// An oscillator, kicked first.
+            pub struct Halves {}
+            H = p^2/2 + q^2/2;
+            split { V = q^2/2; T = p^2/2 }
+        }
+        pub mod turned {
+            hamiltonian::hamiltonian! {
+                /// An oscillator that drifts first.
+                pub struct Halves {}
+                H = p^2/2 + q^2/2;
+                split { T = p^2/2; V = q^2/2 }
+            }
+        }
+    }
+    let start = State::new([1.0], [0.0]);
+    let run = Integrator::new(&split::Halves::default(), Strang, start, 0.1).unwrap();
+    let turned = split::turned::Halves::default();
+    assert!(Integrator::<f64, _, _>::resume(&turned, Strang, run.checkpoint()).is_err());
+}

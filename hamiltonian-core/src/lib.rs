@@ -116,7 +116,7 @@ pub mod prelude {
     pub use crate::multipliers;
     pub use crate::schemes::{
         Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6,
-        Compensated, Composition, ConsecutiveSubTrajectories, DiscreteGradient, Gauss,
+        Compensated, Composition, ConsecutiveSubTrajectories, Density, DiscreteGradient, Gauss,
         GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8,
         McLachlan8, MidpointProjected, Mixed, Paced, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3,
         Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a,
@@ -124,8 +124,8 @@ pub mod prelude {
         TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
     };
     pub use crate::{
-        AnyRun, Checkpoint, Dual, EnergyDrift, Error, Event, Events, Gradient, Integrator,
-        Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System, Tangent,
-        TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
+        AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Error, Event, Events, Gradient,
+        Integrator, Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System,
+        Tangent, TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
     };
 }

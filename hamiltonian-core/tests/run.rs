@@ -295,6 +295,6 @@ fn any_scalar() {
     let double = run::<f64>();
     // 64 steps of single precision.
     assert!((run::<f32>() - double).abs() <= 64.0 * f64::from(f32::EPSILON));
-    assert!((run::<hamiltonian_core::DoubleDouble>() - double).abs() <= 64.0 * f64::EPSILON);
+    assert!((run::<DoubleDouble>() - double).abs() <= 64.0 * f64::EPSILON);
     assert_eq!(run::<Dual<f64>>(), double);
 }

@@ -38,7 +38,7 @@ pub fn text(
             None => format!("H = {}", print::latex(model, h)),
         },
         latex_equations,
-        facts: facts(structure),
+        facts: facts(structure, !model.force.is_empty()),
         operations: Vec::new(),
     }
 }
@@ -126,7 +126,7 @@ fn signature(model: &Model) -> String {
 }
 
 /// What is known of H, a sentence each.
-fn facts(structure: &Structure) -> Vec<String> {
+fn facts(structure: &Structure, is_forced: bool) -> Vec<String> {
     let mut facts = Vec::new();
     facts.push(match (&structure.separable, &structure.quadratic_kinetic) {
         (Ok(_), Ok(())) => {
@@ -136,14 +136,18 @@ fn facts(structure: &Structure) -> Vec<String> {
         (Err(coupling), _) => format!("H is not separable: see the term `{}`.", coupling.text),
     });
     facts.push(match &structure.autonomous {
+        Ok(()) if is_forced => "H does not depend on time; the force changes it.".to_owned(),
         Ok(()) => "H does not depend on time: it is conserved.".to_owned(),
         Err(why) => format!("H depends on time: {why}."),
     });
     for cyclic in &structure.cyclic {
-        facts.push(format!(
-            "`{}` does not appear in H: `{}` is conserved.",
-            cyclic.coordinate, cyclic.momentum
-        ));
+        let (coordinate, momentum) = (&cyclic.coordinate, &cyclic.momentum);
+        facts.push(match is_forced {
+            true => {
+                format!("`{coordinate}` does not appear in H: the force alone moves `{momentum}`.")
+            }
+            false => format!("`{coordinate}` does not appear in H: `{momentum}` is conserved."),
+        });
     }
     facts
 }

@@ -130,8 +130,8 @@ fn refused(model: &Model, why: &str) -> Found {
             message: format!("{name} is not split into exact flows: {why}"),
             label: "needs H = A + B + … whose pieces have exact flows".into(),
             note: format!(
-                "declare pieces by hand, `split {{ A = …; B = …; }}`, or use a scheme for any H: {}",
-                super::verdicts::FOR_ANY_H
+                "declare pieces by hand, `split {{ A = …; B = …; }}`, or {}",
+                super::verdicts::for_any_h(model)
             ),
         }),
         facts: vec![format!("H is not split into exact flows: {why}.")],

@@ -43,11 +43,14 @@ pub fn verdicts(
         unforced: match model.force.is_empty() {
             true => Ok(()),
             false => Err(Reason {
-                message: format!("a force acts on {}, and this scheme integrates H alone", of(model)),
+                message: format!(
+                    "a force acts on {}, and this scheme integrates H alone",
+                    of(model)
+                ),
                 label: "needs a system without a force".into(),
-                note: "the two-step and doubled schemes carry a second point, whose distance from the \
-                       first grows with friction; use `StormerVerlet`, `Strang`, `ImplicitMidpoint` or \
-                       `RungeKutta4`"
+                note: "where H is split, `Strang` and its compositions integrate a force; \
+                       `ImplicitMidpoint` and its compositions, `Gauss`, `Variational` and \
+                       `RungeKutta4` take any H with any force"
                     .into(),
             }),
         },
@@ -119,9 +122,20 @@ pub(super) fn subject(model: &Model) -> String {
     }
 }
 
-/// The schemes that take any H: implicit ones, those on a doubled phase space, and one without a form.
-pub(super) const FOR_ANY_H: &str = "`ImplicitMidpoint`, `Gauss`, `Tao`, `Semiexplicit`, `Pihajoki`, \
-    `IntersectingSubTrajectories`, `RungeKutta4` (not symplectic)";
+/// The schemes that take any H: implicit ones, those on a doubled phase space, which take no force, and
+/// one without a form.
+pub(super) fn for_any_h(model: &Model) -> &'static str {
+    match model.force.is_empty() {
+        true => {
+            "use a scheme for any H: `ImplicitMidpoint`, `Gauss`, `Tao`, `Semiexplicit`, `Pihajoki`, \
+             `IntersectingSubTrajectories`, `RungeKutta4` (not symplectic)"
+        }
+        false => {
+            "use a scheme for any H and any force: `ImplicitMidpoint` and its compositions, `Gauss`, \
+             `Variational`, `RungeKutta4` (not symplectic)"
+        }
+    }
+}
 
 fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
     let q = first_name(model, coupling.term, Side::Q);
@@ -132,7 +146,7 @@ fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
             coupling.text
         ),
         label: "needs H = T(p) + V(q)".into(),
-        note: format!("use a scheme for any H: {FOR_ANY_H}"),
+        note: for_any_h(model).to_owned(),
     }
 }
 

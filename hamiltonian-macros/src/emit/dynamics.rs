@@ -14,6 +14,7 @@ use super::mixed;
 use super::scan::scan;
 use super::{Definition, Form, Kick, derived, observables, reach, vectors};
 use hamiltonian_symbolic::model::{Model, Shape};
+use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
 
@@ -182,7 +183,7 @@ impl<'a> Emission<'a> {
                 true => "\nconst ON_SHELL: __h::core::primitive::bool = true;",
                 false => "",
             },
-            self.definition.text.hamiltonian,
+            self.formula(),
             self.parameters(),
         );
         line!(
@@ -445,6 +446,25 @@ impl<'a> Emission<'a> {
         self.bodies.context.in_place = false;
         line!(self, "let _self = self;\n{parts}\n{text}");
         line!(self, "}}\n}}");
+    }
+
+    /// H, the force and the pieces as text: what a saved run is of.
+    fn formula(&self) -> String {
+        let model = self.context.model;
+        let mut formula = self.definition.text.hamiltonian.clone();
+        for force in &model.force {
+            let momentum = model.groups[usize::from(force.at.group)].name(force.at.side);
+            let value = print::text(model, force.value);
+            let _ = write!(
+                formula,
+                "; force on {momentum}, column {}: {value}",
+                force.at.column
+            );
+        }
+        for piece in &model.pieces {
+            let _ = write!(formula, "; piece {}", piece.name);
+        }
+        formula
     }
 
     /// The method that writes the values of the parameters.

@@ -295,3 +295,17 @@ fn what_is_not_split_says_so() {
     assert!(ring.contains("split into the terms of one loop"), "{ring}");
     assert!(!ring.contains("flow of all of H"), "{ring}");
 }
+
+#[test]
+fn a_force_is_in_the_equations_and_conserves_nothing() {
+    let forced = docs(
+        "pub struct Drag { m = 1, c = 2 } H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/(2*m) + y; \
+         force(x, y; p_x, p_y) = [-c*p_x, -c*p_y]",
+    );
+    assert!(forced.contains("dp_x/dt = -c*p_x"), "{forced}");
+    assert!(forced.contains("dp_y/dt = -c*p_y - 1"), "{forced}");
+    assert!(forced.contains("H does not depend on time; the force changes it."));
+    assert!(!forced.contains("conserved"), "{forced}");
+    let free = docs("pub struct Free { m = 1 } H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/(2*m) + y;");
+    assert!(free.contains("`p_x` is conserved"), "{free}");
+}

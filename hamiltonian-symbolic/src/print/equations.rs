@@ -40,10 +40,11 @@ impl Equations {
     }
 }
 
-/// Hamilton's equations: dq/dt = ∂H/∂p for all coordinates, then dp/dt = −∂H/∂q for all momenta.
+/// Hamilton's equations: dq/dt = ∂H/∂p for all coordinates, then dp/dt = f − ∂H/∂q for all momenta, with
+/// the force f where one acts.
 /// Elements of an array share one equation for element k. Where the derivative cannot be written
 /// as an expression of k, or H is too large for derivatives to be read, it is named instead:
-/// `-∂H/∂q[k]`.
+/// `-∂H/∂q[k]`, or `force - ∂H/∂q[k]`.
 #[must_use]
 pub fn hamilton_equations(model: &Model) -> Equations {
     let mut model = model.clone();
@@ -75,6 +76,15 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
                 is_large = true;
                 break;
             }
+        }
+    }
+    for force in model.force.clone().into_iter().filter(|_| side == Side::P) {
+        // ∂H/∂q − f, whose sign is changed.
+        let leaf = (model.dag).element(Array::Phase(force.at.conjugate()), force.row, None);
+        let value = model.dag.neg(force.value);
+        match leaves.iter_mut().find(|(other, _)| *other == leaf) {
+            Some((_, adjoint)) => *adjoint = model.dag.add(&[*adjoint, value]),
+            None => leaves.push((leaf, value)),
         }
     }
     let mut of_array: Map<Column, Vec<(Index, Node)>> = Map::default();
@@ -271,7 +281,13 @@ impl Equation {
         let right = match self.value {
             Some(value) => write_within(model, value, notation, &bound),
             None => {
-                let sign = if at.side == Side::P { "-" } else { "" };
+                let is_forced = model.force.iter().any(|force| force.at == at);
+                let sign = match (at.side, is_forced, notation) {
+                    (Side::Q, ..) => "",
+                    (Side::P, false, _) => "-",
+                    (Side::P, true, Notation::Text) => "force - ",
+                    (Side::P, true, Notation::Latex) => "\\mathrm{force} - ",
+                };
                 match notation {
                     Notation::Text => format!("{sign}∂H/∂{}", element(conjugate)),
                     Notation::Latex => format!(

@@ -45,7 +45,7 @@ pub enum Error {
         first: i64,
     },
     /// A start has a NaN or an infinity in it.
-    #[error("the start is not finite: t = {time}, q = {q:?}, p = {p:?}")]
+    #[error("the start is not finite: t = {time}, q = {}, p = {}", Numbers(.q), Numbers(.p))]
     Start {
         /// Its time.
         time: f64,
@@ -87,8 +87,8 @@ pub enum Error {
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
     /// piece left its domain. The run stays at the state before that step.
     #[error(
-        "step {step} led to a state that is not finite{}{}: t = {time}, q = {q:?}, p = {p:?}",
-        Within(*.piece), Lane(*.lane)
+        "step {step} led to a state that is not finite{}{}: t = {time}, q = {}, p = {}",
+        Within(*.piece), Lane(*.lane), Numbers(.q), Numbers(.p)
     )]
     NotFinite {
         /// The number of the step, counted from 1: the first whose end is not finite.
@@ -289,6 +289,27 @@ impl core::fmt::Display for Within {
             Some(piece) => write!(f, " in the flow of `{piece}`"),
             None => Ok(()),
         }
+    }
+}
+
+/// Components: the first few of many, and the first of them that is not finite.
+struct Numbers<'a>(&'a [f64]);
+
+impl core::fmt::Display for Numbers<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        const MOST: usize = 12;
+        let all = self.0;
+        let [a, b, c, ..] = all else {
+            return write!(f, "{all:?}");
+        };
+        if all.len() <= MOST {
+            return write!(f, "{all:?}");
+        }
+        write!(f, "[{a:?}, {b:?}, {c:?}, … {} numbers", all.len())?;
+        if let Some(at) = all.iter().position(|x| !x.is_finite()) {
+            write!(f, ", number {at} is {:?}", all[at])?;
+        }
+        write!(f, "]")
     }
 }
 

@@ -1,4 +1,4 @@
-//! Arrays of parameters alone that are computed once: 1/m[i] is read where p[i]/m[i] is written.
+//! Arrays of parameters alone that are computed once: `1/m[i]` is read where `p[i]/m[i]` is written.
 //!
 //! Input: expressions of parameter arrays, before they are factored. Output: the same functions;
 //! what takes a division or a function and depends on one row of parameter arrays alone is read

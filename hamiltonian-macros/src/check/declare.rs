@@ -352,7 +352,9 @@ impl Checker<'_> {
             self.partner_missing(signature, word, partner, prefix);
             return false;
         }
-        if self.is_interleaved(coordinates, others, word) {
+        if self.is_interleaved(coordinates, others, word)
+            || self.is_crossed(coordinates, others, word)
+        {
             return false;
         }
         for (coordinate, other) in coordinates.iter().zip(others) {
@@ -416,6 +418,44 @@ impl Checker<'_> {
                 of.name
             );
             self.report.error(coordinate.name.span(), message, help);
+        }
+        found
+    }
+
+    /// Whether a momentum (velocity) has the name of another coordinate's, as in `H(x, y; p_y, p_x)`,
+    /// which would make p_y the momentum of x.
+    fn is_crossed(&mut self, coordinates: &[Variable], others: &[Variable], word: &str) -> bool {
+        let partner_of = |of: &Variable| {
+            let of = of.name.to_string();
+            let is = |other: &&Variable| is_partner_of(&other.name.to_string(), &of, word);
+            others.iter().find(is)
+        };
+        let mut found = false;
+        for (coordinate, other) in coordinates.iter().zip(others) {
+            let name = other.name.to_string();
+            let is = |of: &&Variable| is_partner_of(&name, &of.name.to_string(), word);
+            let Some(owner) = coordinates.iter().find(is) else {
+                continue;
+            };
+            if is_partner_of(&name, &coordinate.name.to_string(), word) {
+                continue;
+            }
+            found = true;
+            let partner = if word == "L" { "velocity" } else { "momentum" };
+            let ordered: Option<Vec<&Variable>> = coordinates.iter().map(partner_of).collect();
+            let help = match ordered {
+                Some(ordered) => format!(
+                    "in the order of the coordinates: `{word}({}; {})`",
+                    list(coordinates),
+                    list(ordered)
+                ),
+                None => format!("the {partner} in a place is that of the coordinate in this place"),
+            };
+            let message = format!(
+                "`{name}` stands in the place of the {partner} of `{}`, but has the name of that of `{}`",
+                coordinate.name, owner.name
+            );
+            self.report.error(other.name.span(), message, help);
         }
         found
     }

@@ -1,7 +1,7 @@
 //! Canonical transformations of a system: another time, other coordinates; the pieces and forces
 //! that are declared beside H, checked and carried along.
 //!
-//! Input: a [`Model`] with its H. Output: a model of the same dynamics in other variables, with
+//! Input: a [`Model`](crate::model::Model) with its H. Output: a model of the same dynamics in other variables, with
 //! the maps between them as nodes. Invariant: signs stay q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order of the
 //! stages is coordinates, then time, and what is declared beside H (observables, pieces, forces,
 //! the factor of time) is written in the variables of the definition and carried through both.

@@ -5,6 +5,10 @@
 //! of their operands; the order first written is kept for evaluation; a child's number is below
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
+mod array;
+
+pub use array::{Array, Column, Side};
+
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
 use crate::op::{Op, Range as Values};
 use crate::rational::Rational;
@@ -18,77 +22,6 @@ pub struct Node(pub u32);
 /// A parameter of the system: its number in the model.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Parameter(pub u16);
-
-/// Which vector of phase space an element belongs to.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub enum Side {
-    /// Coordinates.
-    Q,
-    /// Momenta.
-    P,
-}
-
-impl Side {
-    /// Momenta for coordinates, coordinates for momenta.
-    #[must_use]
-    pub fn other(self) -> Side {
-        match self {
-            Side::Q => Side::P,
-            Side::P => Side::Q,
-        }
-    }
-}
-
-/// A column of phase space: component `column` (0 where there is one) of the coordinates or momenta
-/// of group `group`.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub struct Column {
-    /// Coordinates or momenta.
-    pub side: Side,
-    /// The group of coordinates.
-    pub group: u16,
-    /// The component of a rank-2 group.
-    pub column: u16,
-}
-
-impl Column {
-    /// The first component of a group.
-    #[must_use]
-    pub fn first(side: Side, group: u16) -> Column {
-        let column = 0;
-        Column {
-            side,
-            group,
-            column,
-        }
-    }
-    /// The same component of the other side.
-    #[must_use]
-    pub fn conjugate(self) -> Column {
-        self.on(self.side.other())
-    }
-    /// The same component on a side.
-    #[must_use]
-    pub fn on(self, side: Side) -> Column {
-        Column { side, ..self }
-    }
-}
-
-/// What an array element is read from.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
-pub enum Array {
-    /// A column of the coordinates or momenta.
-    Phase(Column),
-    /// The same of the direction a Hessian is multiplied with.
-    Direction(Column),
-    /// A parameter array; rank 2 is indexed by row and column.
-    Parameter(Parameter),
-    /// The velocities of a column of coordinates, in what was said of a Lagrangian: no program
-    /// reads them.
-    Velocity(Column),
-    /// An array that preparation fills, by its number in the program.
-    Held(u16),
-}
 
 /// A comparison.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

@@ -5,7 +5,9 @@
 //! `x/x = 1`, `√(x²) = |x|`. Half-integer powers are integer powers of a square root, so that
 //! `√x·√x` keeps the domain of `√x`.
 
-use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Relation, Side};
+mod conditions;
+
+use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
 use crate::rational::{LONGEST, Rational};
@@ -485,116 +487,6 @@ impl Dag {
     /// A function written in Rust, or a derivative of it.
     pub fn external(&mut self, function: u16, part: Part, arguments: &[Node]) -> Node {
         self.intern(Kind::External(function, part, arguments.to_vec()))
-    }
-    /// The condition `a < b`.
-    pub fn less(&mut self, a: Node, b: Node) -> Node {
-        self.intern(Kind::Compare(Relation::Less, a, b))
-    }
-    /// The condition `a ≤ b`.
-    pub fn less_equal(&mut self, a: Node, b: Node) -> Node {
-        self.intern(Kind::Compare(Relation::LessEqual, a, b))
-    }
-    /// The condition `a = b`.
-    pub fn equal(&mut self, a: Node, b: Node) -> Node {
-        self.intern(Kind::Compare(Relation::Equal, a, b))
-    }
-    /// The condition `not a`.
-    pub fn not(&mut self, a: Node) -> Node {
-        match self.kind(a) {
-            Kind::Not(inner) => *inner,
-            _ => self.intern(Kind::Not(a)),
-        }
-    }
-    /// The condition `a and b`.
-    pub fn and(&mut self, a: Node, b: Node) -> Node {
-        if a == b {
-            a
-        } else {
-            self.intern(Kind::And(a, b))
-        }
-    }
-    /// The condition `a or b`.
-    pub fn or(&mut self, a: Node, b: Node) -> Node {
-        if a == b {
-            a
-        } else {
-            self.intern(Kind::Or(a, b))
-        }
-    }
-    /// `yes` where the condition holds, `no` elsewhere.
-    pub fn select(&mut self, condition: Node, yes: Node, no: Node) -> Node {
-        if yes == no {
-            return yes;
-        }
-        match self.kind(condition) {
-            Kind::Not(inner) => {
-                let inner = *inner;
-                return self.select(inner, no, yes);
-            }
-            Kind::Compare(relation, a, b) => {
-                if let (Some(a), Some(b)) = (self.as_constant(*a), self.as_constant(*b)) {
-                    let holds = match relation {
-                        Relation::Less => a < b,
-                        Relation::LessEqual => a <= b,
-                        Relation::Equal => a == b,
-                    };
-                    return if holds { yes } else { no };
-                }
-            }
-            _ => {}
-        }
-        self.intern(Kind::Select(condition, yes, no))
-    }
-
-    /// Σ of `body` over a loop. Factors that do not depend on the loop stand outside; a loop that
-    /// does not depend on its parent is moved out of it.
-    pub fn reduce(&mut self, domain: Domain, body: Node) -> Node {
-        let bit = 1u64 << domain.0;
-        let range = self.range(domain).clone();
-        if self.is_zero(body) {
-            return body;
-        }
-        if self.variables(body) & bit == 0 {
-            let count = self.count(domain);
-            return self.mul(&[count, body]);
-        }
-        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant())
-            && end <= start
-        {
-            return self.integer(0);
-        }
-        if let Kind::Product(k, factors) = self.kind(body) {
-            let (k, factors) = (k.clone(), factors.clone());
-            let (inside, mut outside): (Vec<_>, Vec<_>) = factors
-                .iter()
-                .partition(|(n, _)| self.variables(*n) & bit != 0);
-            if !outside.is_empty() || !k.is_one() {
-                let inside = self.product(&Rational::ONE, &inside);
-                let sum = self.reduce(domain, inside);
-                outside.push((sum, 1));
-                return self.product(&k, &outside);
-            }
-        }
-        let needs = (self.variables(body) | range.start.variables() | range.end.variables()) & !bit;
-        let parent = self.deepest(needs);
-        if parent != range.parent {
-            let moved = self.domain(parent, range.start, range.end);
-            let body = self.replace(body, domain, &Affine::variable(moved));
-            return self.intern(Kind::Reduce(moved, body));
-        }
-        self.intern(Kind::Reduce(domain, body))
-    }
-
-    /// The number of times a loop runs.
-    pub fn count(&mut self, domain: Domain) -> Node {
-        let range = self.range(domain).clone();
-        if let (Some(start), Some(end)) = (range.start.as_constant(), range.end.as_constant()) {
-            return self.integer((end - start).max(0));
-        }
-        let needs = range.start.variables() | range.end.variables();
-        let parent = self.deepest(needs);
-        let domain = self.domain(parent, range.start, range.end);
-        self.intern(Kind::Count(domain))
     }
 }
 

@@ -12,7 +12,7 @@ use super::holder::{Holder, Receiver, field, shape};
 use super::layout::{self, Layout, Slice};
 use super::mixed;
 use super::scan::scan;
-use super::{Definition, Form, Kick, derived, observables, reach, vectors};
+use super::{Definition, Form, derived, observables, reach, vectors};
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::program::{Function, Purpose};
@@ -60,24 +60,6 @@ pub fn zeros(context: Context, generics: &Generics) -> String {
                 fields.join(", ")
             )
         }
-    }
-}
-
-/// The holder of a field, a kick or a drift, with its inputs and outputs.
-fn signature(
-    purpose: Purpose,
-) -> (
-    &'static str,
-    &'static [&'static str],
-    &'static [&'static str],
-) {
-    match purpose {
-        Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
-        Purpose::Rates => ("__Rates", &["_q", "_p"], &["_oq", "_op"]),
-        Purpose::Linear => ("__Linear", &["_q", "_p"], &["_oq", "_op"]),
-        Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
-        Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
-        _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
     }
 }
 
@@ -385,69 +367,6 @@ impl<'a> Emission<'a> {
         line!(self, "{text}{fill}");
     }
 
-    /// The holder of a field, a kick or a drift with its evaluation.
-    fn flow(&mut self, purpose: Purpose) {
-        let (name, inputs, outputs) = signature(purpose);
-        let generics = self.generics;
-        let Some((function, holder)) = self
-            .context
-            .program
-            .function(purpose)
-            .zip(self.holder(purpose, name))
-        else {
-            self.out.push_str(&derived::flow(generics, &self.vector));
-            return;
-        };
-        holder.declare(&mut self.out, self.context, generics);
-        let mut arguments = vec![("_t", "T".to_owned())];
-        for name in inputs.iter().chain(outputs).copied() {
-            let mutable = if name.starts_with("_o") { "mut " } else { "" };
-            arguments.push((name, format!("&{mutable}{}", self.vector)));
-        }
-        let list: Vec<String> = arguments
-            .iter()
-            .map(|(name, ty)| format!("{name}: {ty}"))
-            .collect();
-        let (declaration, holders) = (generics.holder_declaration(), generics.holder_arguments());
-        let vector = &self.vector;
-        let piece = match purpose {
-            Purpose::Push => Some((0, "let (_oq, _op) = (&mut _x.q, &mut _x.p);")),
-            Purpose::Kick => Some((0, "let (_q, _op) = (&_x.q, &mut _x.p);")),
-            Purpose::Drift => Some((1, "let (_p, _oq) = (&_x.p, &mut _x.q);")),
-            _ => None,
-        };
-        let parts = match piece {
-            None => {
-                line!(
-                    self,
-                    "#[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for \
-                     {name}{holders} {{\n#[inline(always)]\nfn add(&self, {}) {{",
-                    list.join(", "),
-                );
-                ""
-            }
-            Some((number, parts)) => {
-                line!(
-                    self,
-                    "#[automatically_derived]\nimpl{declaration} __h::Flow<__h::Point<{vector}>> for \
-                     {name}{holders} {{\n\
-                     const NAME: &'static __h::core::primitive::str = {:?};\ntype Work = ();\n\
-                     #[inline(always)]\n\
-                     fn apply(&self, _t: T, _x: &mut __h::Point<{vector}>, _: &mut ()) {{",
-                    self.definition.structure.halves[number],
-                );
-                parts
-            }
-        };
-        let receiver = Receiver::Holder(&holder);
-        // A damped kick reads the momenta it writes, each before it is written.
-        self.bodies.context.in_place = purpose == Purpose::Push;
-        let text = evaluation(&mut self.bodies, name, receiver, &arguments, function);
-        self.bodies.context.in_place = false;
-        line!(self, "let _self = self;\n{parts}\n{text}");
-        line!(self, "}}\n}}");
-    }
-
     /// H, the force and the pieces as text: what a saved run is of.
     fn formula(&self) -> String {
         let model = self.context.model;
@@ -498,64 +417,6 @@ impl<'a> Emission<'a> {
             "fn describe_parameters(&self, _out: &mut dyn __h::core::fmt::Write) -> __h::core::fmt::Result {{\n\
              let _self = self;\n{lines}__h::core::result::Result::Ok(())\n}}\n"
         )
-    }
-
-    /// The piece that kicks.
-    fn kick(&mut self) {
-        let Some(kick) = self.definition.structure.kick else {
-            return;
-        };
-        let purposes = kick.purposes();
-        for purpose in purposes {
-            self.flow(*purpose);
-        }
-        let (before, between, after) = match kick {
-            Kick::Plain | Kick::Damped { rest: false } => ("", "", ""),
-            Kick::Damped { rest: true } => ("__h::Both({", "}, {", "})"),
-            Kick::Coupled => ("__h::Coupled { field: {", "}, linear: {", "} }"),
-            Kick::SubStep => ("__h::SubStep({", "", "})"),
-        };
-        let holder = |purpose: &Purpose| {
-            let (name, ..) = signature(*purpose);
-            format!("{name}{}", self.generics.holder_arguments())
-        };
-        let holders: Vec<String> = purposes.iter().map(holder).collect();
-        let ty = match kick {
-            Kick::Plain | Kick::Damped { rest: false } => holders.concat(),
-            Kick::Damped { rest: true } => format!("__h::Both<{}>", holders.join(", ")),
-            Kick::Coupled => format!("__h::Coupled<{}>", holders.join(", ")),
-            Kick::SubStep => format!("__h::SubStep<{}>", holders.concat()),
-        };
-        self.begin_piece("__KickPiece", &ty);
-        line!(self, "{before}");
-        for (at, purpose) in purposes.iter().enumerate() {
-            if at > 0 {
-                line!(self, "{between}");
-            }
-            self.coefficients(*purpose, signature(*purpose).0);
-        }
-        line!(self, "{after}\n}}\n}}");
-    }
-
-    /// The piece T, and the splitting into V and T.
-    fn separable(&mut self) {
-        if self.definition.structure.separable.is_err() {
-            return;
-        }
-        self.flow(Purpose::Drift);
-        self.maker(Purpose::Drift, "__Drift", "__DriftPiece");
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{declaration} __h::Separable<T> for {system} {{\n\
-             type Kick = __KickPiece;\ntype Drift = __DriftPiece;\n\
-             const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}",
-            declaration = self.generics.declaration_with_scalar(),
-            system = self.generics.system_type(),
-        );
-        if self.context.model.pieces.is_empty() {
-            let halves = self.definition.structure.halves.clone();
-            self.split(&["__KickPiece", "__DriftPiece"], &halves);
-        }
     }
 
     /// Inherent methods of prepared systems: observables, and derivatives by parameters.

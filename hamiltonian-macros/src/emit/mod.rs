@@ -24,6 +24,7 @@ mod holder;
 mod index;
 mod item;
 mod iteration;
+mod kicks;
 mod layout;
 mod markers;
 mod mixed;

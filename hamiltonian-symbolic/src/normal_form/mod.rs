@@ -11,6 +11,7 @@
 //! below fraction lines brought over a common denominator.
 //! A loop is an atom for each product it sums, the same one for all re-indexings of the loop.
 
+mod angles;
 mod atoms;
 mod convert;
 mod functions;

@@ -55,8 +55,8 @@ pub struct Coupled<F, L> {
     pub linear: L,
 }
 
-/// So many terms of a series that none of which is larger than the first two: 2³⁶/36! is below ε of a
-/// double-double number.
+/// The most terms of a series none of which is larger than p and the first together. Where c·A is at most
+/// 2, as it then mostly is, term 38 is below ε of a double-double number.
 const TERMS: u32 = 48;
 
 /// A duration in more parts than this is an error.

@@ -69,7 +69,8 @@ pub trait System<T: Real> {
     /// Runs ask starts for it.
     const ON_SHELL: bool = false;
 
-    /// H in the author's notation; by it a saved run is recognised.
+    /// H in the author's notation, with a force and pieces where there are some; by it a saved run is
+    /// recognised.
     const FORMULA: &'static str = "";
 
     /// Writes the parameters with their values, all digits of them; by them a saved run is

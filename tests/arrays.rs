@@ -111,6 +111,20 @@ fn bodies_counted_at_run_time() {
     );
 }
 
+/// A saved run of other masses is refused by the one that differs.
+#[test]
+fn a_saved_run_names_the_parameter_that_differs() {
+    let bodies = |mass| Gravity::new(2, vec![1.0, mass]).unwrap();
+    let start = State::new(vec![[0.0; 3], [1.0; 3]], vec![[0.0; 3]; 2]);
+    let run = Integrator::new(&bodies(2.0), Strang, start, 0.1).unwrap();
+    assert!(Integrator::resume(&bodies(2.0), Strang, run.checkpoint()).is_ok());
+    let error = Integrator::resume(&bodies(2.5), Strang, run.checkpoint()).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "the saved run has another parameter: saved `m[1] = 2.0`, given `m[1] = 2.5`"
+    );
+}
+
 #[test]
 fn chains_with_ends() {
     for n in LENGTHS {

@@ -343,9 +343,8 @@ fn a_saved_run_knows_its_force_and_its_pieces() {
     let mut run = Integrator::new(&Damped::default(), Strang, start, 0.1).unwrap();
     run.advance(3).unwrap();
     let saved = || run.checkpoint();
-    assert!(Integrator::<f64, _, _>::resume(&Damped::default(), Strang, saved()).is_ok());
-    let error =
-        Integrator::<f64, _, _>::resume(&other::Damped::default(), Strang, saved()).unwrap_err();
+    assert!(Integrator::resume(&Damped::default(), Strang, saved()).is_ok());
+    let error = Integrator::resume(&other::Damped::default(), Strang, saved()).unwrap_err();
     assert!(error.to_string().contains("cos(q)"), "{error}");
 
     mod split {
@@ -367,5 +366,5 @@ fn a_saved_run_knows_its_force_and_its_pieces() {
     let start = State::new([1.0], [0.0]);
     let run = Integrator::new(&split::Halves::default(), Strang, start, 0.1).unwrap();
     let turned = split::turned::Halves::default();
-    assert!(Integrator::<f64, _, _>::resume(&turned, Strang, run.checkpoint()).is_err());
+    assert!(Integrator::resume(&turned, Strang, run.checkpoint()).is_err());
 }

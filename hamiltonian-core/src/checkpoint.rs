@@ -177,17 +177,30 @@ impl Checkpoint {
         Checkpoint::from_bytes(&bytes)
     }
 
-    /// An error where a part is another one than in the program that goes on.
+    /// An error where a part is another one than in the program that goes on, with the first lines
+    /// that differ.
     pub(crate) fn same(what: &'static str, saved: &str, given: &str) -> Result<(), Error> {
-        if saved == given {
+        let Some((saved, given)) = differing(saved, given) else {
             return Ok(());
-        }
+        };
         Err(CheckpointError::Other {
             what,
             saved: saved.to_owned(),
             given: given.to_owned(),
         }
         .into())
+    }
+}
+
+/// The first line that differs, of each text; None where they are the same.
+fn differing<'a>(saved: &'a str, given: &'a str) -> Option<(&'a str, &'a str)> {
+    let (mut saved, mut given) = (saved.lines(), given.lines());
+    loop {
+        match (saved.next(), given.next()) {
+            (None, None) => return None,
+            (one, other) if one == other => {}
+            (one, other) => return Some((one.unwrap_or("nothing"), other.unwrap_or("nothing"))),
+        }
     }
 }
 

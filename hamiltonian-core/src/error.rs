@@ -271,7 +271,7 @@ pub enum CheckpointError {
     /// It is the run of something else.
     #[error("the saved run has another {what}: saved `{saved}`, given `{given}`")]
     Other {
-        /// `system`, `parameters`, `scheme`, `scalar`, `observer`.
+        /// `system`, `parameter`, `scheme`, `scalar`, `observer`.
         what: &'static str,
         /// That of the file.
         saved: String,

@@ -67,7 +67,7 @@ where
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         let observable = <S as System<T>>::OBSERVABLES.get(self.index);
         let name = observable.map_or("", |observable| observable.name);
-        write!(to, "{name} of {}; ", <S as System<T>>::FORMULA)?;
+        writeln!(to, "{name} of {}", <S as System<T>>::FORMULA)?;
         <S as System<T>>::describe_parameters(&self.system, to)
     }
     fn prepare(&self) -> ReadyObserved<T, S> {

@@ -43,6 +43,31 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
     }
 }
 
+/// Writes the elements of a parameter, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line.
+///
+/// # Errors
+/// Those of the writer.
+pub fn describe_array<
+    T: Real,
+    R: nalgebra::Dim,
+    C: nalgebra::Dim,
+    S: nalgebra::RawStorage<T, R, C>,
+>(
+    out: &mut dyn core::fmt::Write,
+    name: &str,
+    array: &Matrix<T, R, C, S>,
+) -> core::fmt::Result {
+    let is_vector = C::try_to_usize() == Some(1);
+    for (row, column) in (0..array.nrows()).flat_map(|i| (0..array.ncols()).map(move |j| (i, j))) {
+        let value = array[(row, column)];
+        match is_vector {
+            true => writeln!(out, "{name}[{row}] = {value:?}")?,
+            false => writeln!(out, "{name}[{row}][{column}] = {value:?}")?,
+        }
+    }
+    Ok(())
+}
+
 /// The `C` columns, of `rows` elements each, of a column-major array.
 ///
 /// # Panics

@@ -40,16 +40,47 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     }
 }
 
-impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
+impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
     /// The run that was saved: it goes on with the same bits, in another process too (of the same
     /// binary, on the same kind of processor). Its observers are attached again in the same order,
     /// by [`observe`](Integrator::observe) and [`watch`](Integrator::watch), and remember what they
     /// saw; with another observer in a place [`advance`](Integrator::advance) returns an error.
     ///
+    /// Over another scalar than `f64` it is [`resume_over`](Integrator::resume_over): neither a system
+    /// nor a file tells rustc which one.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{Checkpoint, Integrator, State, schemes::StormerVerlet};
+    ///
+    /// let scheme = StormerVerlet::default();
+    /// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?;
+    /// let saved = run.checkpoint();
+    /// run.advance(10)?;
+    /// let mut again = Integrator::resume(&Oscillator, scheme, saved)?;
+    /// assert_eq!(again.advance(10)?, run.state());
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    ///
     /// # Errors
-    /// [`CheckpointError::Other`] for another system, other parameters, another scheme or scalar;
+    /// [`CheckpointError::Other`] for another system, another parameter, scheme or scalar;
     /// [`CheckpointError::Damaged`] for numbers that do not fit.
-    pub fn resume<M: Scheme<T, S, Map = R>>(
+    pub fn resume<M: Scheme<f64, S, Map = R>>(
+        system: &S,
+        scheme: M,
+        checkpoint: Checkpoint,
+    ) -> Result<Self, Error> {
+        Self::resume_over(system, scheme, checkpoint)
+    }
+}
+
+impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
+    /// The run over another scalar that was saved: `Integrator::<DoubleDouble, _, _>::resume_over(…)`. All
+    /// else is as with [`resume`](Integrator::resume).
+    ///
+    /// # Errors
+    /// Those of [`resume`](Integrator::resume).
+    pub fn resume_over<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
         checkpoint: Checkpoint,
@@ -57,7 +88,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         let zeros = system.zeros();
         let given = SystemText::of(system, &zeros);
         Checkpoint::same("system", &checkpoint.system, &given.formula)?;
-        Checkpoint::same("parameters", &checkpoint.parameters, &given.parameters)?;
+        Checkpoint::same("parameter", &checkpoint.parameters, &given.parameters)?;
         let described = Recipe::<T, S, R>::describe(&scheme);
         Checkpoint::same("scheme", &checkpoint.scheme, &described)?;
         let scalar = core::any::type_name::<T>();

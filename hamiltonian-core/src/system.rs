@@ -73,8 +73,8 @@ pub trait System<T: Real> {
     /// recognised.
     const FORMULA: &'static str = "";
 
-    /// Writes the parameters with their values, all digits of them; by them a saved run is
-    /// recognised.
+    /// Writes the parameters with their values, all digits of them, each on a line, `m = 1.5`; by
+    /// them a saved run is recognised.
     ///
     /// # Errors
     /// Those of the writer.

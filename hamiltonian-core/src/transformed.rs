@@ -185,7 +185,7 @@ where
 
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {
         self.system.describe_parameters(to)?;
-        write!(to, "; in the time of {}: {}; ", G::NAME, G::FORMULA)?;
+        writeln!(to, "in the time of {}: {}", G::NAME, G::FORMULA)?;
         self.monitor.describe_parameters(to)
     }
     fn prepare(&self) -> Self::Prepared {

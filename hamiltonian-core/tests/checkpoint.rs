@@ -41,7 +41,7 @@ impl<T: Real, S: Sample<T>> Visitor<T, S> for Resumes {
             let bytes = run.checkpoint().to_bytes();
             let saved = Checkpoint::from_bytes(&bytes).unwrap();
             assert_eq!((saved.steps(), saved.to_bytes() == bytes), (steps, true));
-            let mut again = Integrator::resume(system, scheme.clone(), saved)
+            let mut again = Integrator::resume_over(system, scheme.clone(), saved)
                 .unwrap()
                 .observe(watchers());
             assert_eq!(again.state(), run.state(), "{name} at {steps}");
@@ -100,7 +100,7 @@ fn a_changed_step_is_saved() {
 
     let mut ended = run.watch(1, |_| core::ops::ControlFlow::Break(()));
     ended.advance(3).unwrap();
-    let mut again = Integrator::<f64, _, _>::resume(&system, Strang, ended.checkpoint()).unwrap();
+    let mut again = Integrator::resume(&system, Strang, ended.checkpoint()).unwrap();
     let steps = again.steps();
     again.advance(3).unwrap();
     assert!(again.has_ended() && again.steps() == steps);
@@ -173,30 +173,27 @@ fn other(outcome: Result<impl Sized, Error>) -> Option<&'static str> {
 fn another_run_is_refused() {
     let saved = || Checkpoint::from_bytes(&small()).unwrap();
     let system = pendulum(true);
-    assert_eq!(
-        other(Integrator::<f64, _, _>::resume(&system, Strang, saved())),
-        None
-    );
-    let found = Integrator::<f64, _, _>::resume(&Hand(Paper34), RungeKutta4, saved());
+    assert_eq!(other(Integrator::resume(&system, Strang, saved())), None);
+    let found = Integrator::resume(&Hand(Paper34), RungeKutta4, saved());
     assert_eq!(other(found), Some("system"));
     let scheme = StormerVerlet::KickDriftKick;
-    let found = Integrator::<f64, _, _>::resume(&system, scheme, saved());
+    let found = Integrator::resume(&system, scheme, saved());
     assert_eq!(other(found), Some("scheme"));
-    let found = Integrator::<f32, _, _>::resume(&system, Strang, saved());
+    let found = Integrator::<f32, _, _>::resume_over(&system, Strang, saved());
     assert_eq!(other(found), Some("scalar"));
     // Choices of a scheme are part of it.
     let [few, many] = [20, 30].map(|max_iterations| ImplicitMidpoint { max_iterations });
     let run = Integrator::new(&system, few, State::new([0.3], [0.1]), 0.01).unwrap();
-    let found = Integrator::<f64, _, _>::resume(&system, many, run.checkpoint());
+    let found = Integrator::resume(&system, many, run.checkpoint());
     assert_eq!(other(found), Some("scheme"));
     assert_eq!(few.entry(), many.entry());
     // Sizes are part of a system.
     let chain = State::new(vec![0.1, 0.2], vec![0.0, 0.0]);
     let run = Integrator::new(&Chain { n: 2 }, Strang, chain, 0.01).unwrap();
-    let found = Integrator::<f64, _, _>::resume(&Chain { n: 3 }, Strang, run.checkpoint());
+    let found = Integrator::resume(&Chain { n: 3 }, Strang, run.checkpoint());
     assert_eq!(other(found), Some("system"));
     // Another observer in the place: the run does not start.
-    let mut run = Integrator::<f64, _, _>::resume(&system, Strang, saved())
+    let mut run = Integrator::resume(&system, Strang, saved())
         .unwrap()
         .observe(Recorder::new());
     assert_eq!(other(run.advance(1)), Some("observer"));
@@ -204,9 +201,9 @@ fn another_run_is_refused() {
     // A system whose parameters are written tells them apart.
     let [one, two] = [1.0, 2.0].map(Spring);
     let run = Integrator::new(&one, RungeKutta4, State::new([0.3], [0.1]), 0.01).unwrap();
-    let found = Integrator::<f64, _, _>::resume(&two, RungeKutta4, run.checkpoint());
-    assert_eq!(other(found), Some("parameters"));
-    let found = Integrator::<f64, _, _>::resume(&one, RungeKutta4, run.checkpoint());
+    let found = Integrator::resume(&two, RungeKutta4, run.checkpoint());
+    assert_eq!(other(found), Some("parameter"));
+    let found = Integrator::resume(&one, RungeKutta4, run.checkpoint());
     assert_eq!(other(found), None);
 }
 
@@ -220,7 +217,7 @@ impl System<f64> for Spring {
     const GROUPS: &'static [hamiltonian_core::Group] = &[scalar("q", "p", 0)];
     const OBSERVABLES: &'static [hamiltonian_core::Observable] = &[];
     fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
-        write!(to, "k = {:?}", self.0)
+        writeln!(to, "k = {:?}", self.0)
     }
     fn prepare(&self) -> Self::Prepared {
         System::<f64>::prepare(&pendulum(true))

@@ -47,7 +47,7 @@ fn it_counts_from_where_it_is_attached() {
     begun.advance(40).unwrap();
     assert_eq!(bar.position(), 40);
     // A saved run goes on where it stood.
-    let mut again = Integrator::<f64, _, _>::resume(&pendulum(true), Strang, begun.checkpoint())
+    let mut again = Integrator::resume(&pendulum(true), Strang, begun.checkpoint())
         .unwrap()
         .observe(hidden(100));
     again.advance(1).unwrap();

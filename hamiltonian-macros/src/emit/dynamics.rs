@@ -395,20 +395,24 @@ impl<'a> Emission<'a> {
                 let name = &generics.sizes[size];
                 let _ = writeln!(
                     lines,
-                    "__h::core::write!(_out, \"{name} = {{:?}}, \", self.{name})?;"
+                    "__h::core::writeln!(_out, \"{name} = {{}}\", self.{name})?;"
                 );
             }
         }
         for (at, parameter) in self.context.model.parameters.iter().enumerate() {
-            let value = match parameter.shape {
-                Shape::Scalar => generics.lifted(at as u16),
-                _ => generics.lifted_array(at as u16),
-            };
             let name = &parameter.name;
-            let _ = writeln!(
-                lines,
-                "__h::core::write!(_out, \"{name} = {{:?}}, \", {value})?;"
-            );
+            let _ = match parameter.shape {
+                Shape::Scalar => writeln!(
+                    lines,
+                    "__h::core::writeln!(_out, \"{name} = {{:?}}\", {})?;",
+                    generics.lifted(at as u16)
+                ),
+                _ => writeln!(
+                    lines,
+                    "__h::describe_array(_out, \"{name}\", &{})?;",
+                    generics.lifted_array(at as u16)
+                ),
+            };
         }
         if lines.is_empty() {
             return lines;

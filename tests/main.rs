@@ -28,6 +28,7 @@ pub mod language;
 mod layout;
 mod limits;
 pub mod long;
+mod nystrom;
 pub mod order;
 pub mod paper;
 pub mod planets;

@@ -92,8 +92,8 @@ pub use push::{Both, Coupled, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 pub use state::{Carried, Gradient, Pair, Point, State};
 pub use system::{
-    Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
-    Separable, Split, System, Unforced,
+    Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
+    QuadraticKinetic, Separable, Split, System, Unforced,
 };
 #[cfg(feature = "std")]
 pub use tangent::multipliers;

@@ -23,8 +23,8 @@ pub use crate::reach::Reach;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
 pub use crate::system::{
-    Autonomous, Cyclic, Dynamics, Exact, Group, Observable, ObservableKind, QuadraticKinetic,
-    Separable, Split, System, Unforced,
+    Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
+    QuadraticKinetic, Separable, Split, System, Unforced,
 };
 pub use crate::vector::{IntoVector, Vector};
 

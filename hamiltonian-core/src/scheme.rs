@@ -40,6 +40,8 @@ pub enum Needs {
     Exact,
     /// H = T(p, t) + V(q, t), [`Separable`](crate::Separable).
     Separable,
+    /// H = A(q, p) + V(q, t), A at most quadratic in p: [`Nystrom`](crate::Nystrom).
+    Nystrom,
     /// H = ½ pᵀM⁻¹p + V(q, t) with constant M: [`Separable`](crate::Separable) and
     /// [`QuadraticKinetic`](crate::QuadraticKinetic).
     QuadraticKinetic,

@@ -282,6 +282,23 @@ pub trait Separable<T: Real>: System<T> {
     const DRIFT: Self::Drift;
 }
 
+/// H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow: what tables of Nyström type
+/// ask for, since {V, {V, {V, A}}} = 0 there.
+///
+/// The macro implements it where the two are the pieces of [`Split`], in either order, and where H is
+/// [`Separable`] with such a T: T + V, a uniform magnetic field or a rotating frame beside a potential.
+/// A force that does not depend on p is part of the kick.
+pub trait Nystrom<T: Real>: System<T> {
+    /// V: its flow is `p −= c·∂V/∂q(q, t)`.
+    type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    /// A.
+    type Quadratic: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
+    /// The kick.
+    const KICK: Self::Kick;
+    /// The piece that is at most quadratic in p.
+    const QUADRATIC: Self::Quadratic;
+}
+
 /// No force acts besides −∂H/∂q: what schemes ask for that would not integrate one.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be without forces",

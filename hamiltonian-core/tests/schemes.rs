@@ -9,9 +9,7 @@ use super::common::walk::{Sample, everywhere};
 use super::common::{difference, start};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::*;
-use hamiltonian_core::{
-    DoubleDouble, Dual, Form, Integrator, QuadraticKinetic, Real, Scheme, State, System, Vector,
-};
+use hamiltonian_core::{DoubleDouble, Dual, Form, Integrator, Real, Scheme, State, System, Vector};
 
 /// The slopes between successive halvings of the step, from differences of successive results, with
 /// the largest over `parts` times up to the span.
@@ -151,9 +149,6 @@ fn splittings_have_their_order_where_both_pieces_depend_on_time() {
     let projected = MidpointProjected::<KahanLi6>::default();
     assert_order(&system, &projected, &start, 2.0, 8);
 }
-
-/// T is not quadratic: tables of Nyström's class on it are the negative control.
-impl QuadraticKinetic for Hand<Relativistic, 1> {}
 
 #[test]
 fn nystrom_schemes_lose_their_order_where_their_bound_forbids_them() {

@@ -1,9 +1,9 @@
 //! Structure is proven, and refused with the reason in the user's notation.
 
-use crate::common::system;
+use crate::common::{model, parse, system};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print::text;
-use hamiltonian_symbolic::structure::{Structure, analyse};
+use hamiltonian_symbolic::structure::{Structure, analyse, kick_beside};
 
 fn scalar(h: &str) -> (Model, Structure) {
     let mut model = system("q, x; p, u; t", "", "a m k G", h);
@@ -188,6 +188,63 @@ fn a_quadratic_kinetic_part_is_recognised() {
         ("q^2", "no term depends on momenta"),
     ] {
         assert_eq!(scalar(h).1.quadratic_kinetic, Err(reason.to_owned()), "{h}");
+    }
+}
+
+#[test]
+fn a_kick_beside_what_is_at_most_quadratic_is_recognised() {
+    let kick = |a: &str, b: &str| {
+        let mut model = model("q, x; p, u; t", "", "a m");
+        let parts = [a, b].map(|text| parse(&mut model, text));
+        kick_beside(&mut model, parts)
+    };
+    for (quadratic, potential) in [
+        ("p^2/2", "q^4*cos(t)"),
+        ("(p - a*x)^2/2 + (u + a*q)^2/2 + a*p", "1/q"),
+        ("(1 + q^2)*p^2/2 + sin(x)", "q*x"),
+        ("p*u*exp(q) + p", "cos(q)"),
+        ("p*(p^2 + q) - p^3", "q"),
+        ("if q < x { p } else { p^2 }", "q"),
+    ] {
+        let kicks_last = kick(quadratic, potential);
+        assert_eq!(kicks_last, Ok([1, 0]), "{quadratic}, {potential}");
+    }
+    assert_eq!(kick("q*t", "x*p"), Ok([0, 1]));
+    // Of two that could kick, the one that beside the other may have time in it.
+    assert_eq!(kick("q", "x*t"), Ok([1, 0]));
+    for (a, b, reason) in [
+        (
+            "sqrt(1 + p^2) + u^2",
+            "q",
+            "the term `sqrt(p^2 + 1)` is not a polynomial of degree 2 in the momenta",
+        ),
+        (
+            "q*p^2*u",
+            "q",
+            "the term `q*p^2*u` is not a polynomial of degree 2 in the momenta",
+        ),
+        (
+            "p^2/q + 1/p",
+            "q",
+            "the term `1/p` is not a polynomial of degree 2 in the momenta",
+        ),
+        (
+            "p^2/2 + a*u*t",
+            "q",
+            "the term `a*u*t` beside the kick depends on time",
+        ),
+        (
+            "if p < q { p } else { 0 }",
+            "q",
+            "the term `if p < q { p } else { 0 }` is not a polynomial of degree 2 in the momenta",
+        ),
+        (
+            "(q^2 + p^2)/2",
+            "q^2*p^2/2",
+            "both pieces, `(q^2 + p^2)/2` and `0.5*q^2*p^2`, depend on momenta",
+        ),
+    ] {
+        assert_eq!(kick(a, b), Err(reason.to_owned()), "{a}, {b}");
     }
 }
 

@@ -49,7 +49,12 @@ pub fn measured_here() -> usize {
         "TransformedVerlet",
         "Variational",
     ];
-    let by_table = |needs| matches!(needs, Needs::Exact | Needs::QuadraticKinetic);
+    let by_table = |needs| {
+        matches!(
+            needs,
+            Needs::Exact | Needs::Nystrom | Needs::QuadraticKinetic
+        )
+    };
     (catalogue())
         .filter(|entry| !by_table(entry.needs) && !BY_HAND.contains(&entry.name))
         .count()

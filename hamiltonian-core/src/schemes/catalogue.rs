@@ -13,7 +13,9 @@ use super::{
     SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, OneStep, Scheme};
-use crate::system::{Autonomous, Exact, QuadraticKinetic, Separable, Split, System, Unforced};
+use crate::system::{
+    Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
+};
 use crate::transformed::TimeTransformed;
 use hamiltonian_lanes::Real;
 
@@ -44,7 +46,7 @@ macro_rules! visit {
 macro_rules! catalogue {
     (any { $($any:expr,)+ } unforced { $($(@$unforced_kind:ident)? $unforced:expr,)+ }
      split { $($split:expr,)+ } exact { $($exact:expr,)+ }
-     separable { $($separable:expr,)+ } quadratic { $($quadratic:expr,)+ }
+     separable { $($separable:expr,)+ } nystrom { $($nystrom:expr,)+ } quadratic { $($quadratic:expr,)+ }
      implicit { $($implicit:expr,)+ } doubled { $($(@$doubled_kind:ident)? $doubled:expr,)+ }
      compensated { $($compensated:expr,)+ } transformed { $($transformed:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
@@ -56,7 +58,7 @@ macro_rules! catalogue {
         /// ```
         pub fn catalogue() -> impl Iterator<Item = Entry> {
             [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($exact.entry(),)+ $($separable.entry(),)+
-                $($quadratic.entry(),)+ $($implicit.entry(),)+ $($doubled.entry(),)+
+                $($nystrom.entry(),)+ $($quadratic.entry(),)+ $($implicit.entry(),)+ $($doubled.entry(),)+
                 $($compensated.entry(),)+ $($transformed.entry(),)+]
                 .into_iter()
         }
@@ -84,6 +86,11 @@ macro_rules! catalogue {
         /// Visits the schemes that ask for H = T(p, t) + V(q, t).
         pub fn visit_separable<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $separable);)+
+        }
+
+        /// Visits the schemes that ask for H = A(q, p) + V(q, t), A at most quadratic in p.
+        pub fn visit_nystrom<T: Real, S: Nystrom<T>>(visitor: &mut impl Visitor<T, S>) {
+            $(visit!(visitor, $nystrom);)+
         }
 
         /// Visits the schemes of higher order that solve equations.
@@ -168,11 +175,13 @@ separable {
     StormerVerlet::KickDriftKick,
     StormerVerlet::DriftKickDrift,
 }
-quadratic {
+nystrom {
     Srkn6b,
     Srkn11b,
     Srkn14a,
     BlanesCasasEscorihuela8,
+}
+quadratic {
     GaussNystrom::<2>::default(),
 }
 implicit {

@@ -10,8 +10,8 @@
 //! | [`Yoshida6`], [`KahanLi6`], [`BlanesMoan6`] | | 6 | `Split` | dq∧dp | 7, 9, 10 stages |
 //! | [`McLachlan8`], [`KahanLi8`], [`SofroniouSpaletta8`] | | 8 | `Split` | dq∧dp | 15, 17, 21 stages |
 //! | [`SofroniouSpaletta10`] | | 10 | `Split` | dq∧dp | 35 stages |
-//! | [`Srkn6b`], [`Srkn11b`], [`Srkn14a`] | | 4, 6, 6 | quadratic T | dq∧dp | 6, 11, 14 kicks |
-//! | [`BlanesCasasEscorihuela8`] | | 8 | quadratic T | dq∧dp | 19 kicks |
+//! | [`Srkn6b`], [`Srkn11b`], [`Srkn14a`] | | 4, 6, 6 | `Nystrom` | dq∧dp | 6, 11, 14 kicks |
+//! | [`BlanesCasasEscorihuela8`] | | 8 | `Nystrom` | dq∧dp | 19 kicks |
 //! | [`Saba2`] … [`Saba4`] | | (4, 2) … (8, 2) | `Split`, small second piece | dq∧dp | 2 … 4 stages |
 //! | [`Aba104`], [`Aba864`], [`Aba1064`] | | as named | `Split`, small second piece | dq∧dp | 7, 7, 8 stages |
 //! | [`Compensated`] | | its table's | `Separable` | dq∧dp | its table's, and low words |
@@ -76,7 +76,8 @@ mod catalogue;
 
 pub use catalogue::{
     Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_exact, visit_implicit,
-    visit_quadratic, visit_separable, visit_split, visit_transformed, visit_unforced,
+    visit_nystrom, visit_quadratic, visit_separable, visit_split, visit_transformed,
+    visit_unforced,
 };
 pub use compensated::{Carrying, Compensated};
 pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};

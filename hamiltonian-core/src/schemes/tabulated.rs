@@ -1,7 +1,7 @@
 //! Splittings of higher order: one type for each table of coefficients.
 //!
 //! Input: a system with exact flows of its pieces. Output: `Yoshida4` and its like, on every
-//! [`Split`] system; `Srkn6b` and its like where T is quadratic; `Saba2` and its like for a small
+//! [`Split`] system; `Srkn6b` and its like on every [`Nystrom`] system; `Saba2` and its like for a small
 //! second piece. Invariant: a type is its table, from `tables`, and the pieces it moves; the
 //! loop is [`Zigzag`]'s.
 
@@ -12,7 +12,7 @@ use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
 use crate::state::{Point, State};
-use crate::system::{Exact, QuadraticKinetic, Separable, Split};
+use crate::system::{Exact, Nystrom, Split};
 use hamiltonian_lanes::Real;
 
 /// The line of a table in the catalogue.
@@ -198,19 +198,18 @@ general! {
     SofroniouSpaletta10: general::SOFRONIOU_SPALETTA_10, 35, SofroniouSpaletta10;
 }
 
-/// `first` and `second` are the constants of [`Separable`] for the two pieces.
+/// `first` and `second` are the constants of [`Nystrom`] for the two pieces.
 macro_rules! nystrom {
     ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal,
        $first:ident $first_piece:ident, $second:ident $second_piece:ident;)+) => {$(
         tabulated! {
             $(#[$doc])*
             ///
-            /// Of Nyström type: it asks for T = ½ pᵀM⁻¹p with constant M and V(q, t). Preserves dq∧dp.
+            /// Of Nyström type: it asks for H = A(q, p) + V(q, t), A at most quadratic in p and with an exact
+            /// flow. Preserves dq∧dp.
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
-            /// # use hamiltonian_core::QuadraticKinetic;
-            /// # impl QuadraticKinetic for Oscillator {}
             #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($name), "};")]
             ///
             /// let start = State::new([1.0], [0.0]);
@@ -218,10 +217,10 @@ macro_rules! nystrom {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-8);
             /// # Ok::<(), hamiltonian_core::Error>(())
             /// ```
-            $name: $table, $stages, QuadraticKinetic, $name
+            $name: $table, $stages, Nystrom, $name
         }
 
-        impl<T: Real, S: Separable<T> + QuadraticKinetic> Scheme<T, S> for $name {
+        impl<T: Real, S: Nystrom<T>> Scheme<T, S> for $name {
             type Map = ZigzagOf<T, S, (S::$first_piece, S::$second_piece), Self>;
             #[inline(always)]
             fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
@@ -239,22 +238,22 @@ nystrom! {
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn6b: nystrom::SRKN_6B, 6, KICK Kick, DRIFT Drift;
+    Srkn6b: nystrom::SRKN_6B, 6, KICK Kick, QUADRATIC Quadratic;
     /// Blanes and Moan's SRKN₁₁ᵇ: order 6 with 11 kicks.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn11b: nystrom::SRKN_11B, 11, KICK Kick, DRIFT Drift;
+    Srkn11b: nystrom::SRKN_11B, 11, KICK Kick, QUADRATIC Quadratic;
     /// Blanes and Moan's SRKN₁₄ᵃ: order 6 with 14 kicks.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    Srkn14a: nystrom::SRKN_14A, 14, DRIFT Drift, KICK Kick;
+    Srkn14a: nystrom::SRKN_14A, 14, QUADRATIC Quadratic, KICK Kick;
     /// The scheme of Blanes, Casas and Escorihuela-Tomàs: order 8 with 19 kicks.
     ///
     /// Source: S. Blanes, F. Casas, A. Escorihuela-Tomàs, Appl. Numer. Math. 182 (2022) 14,
     /// doi:10.1016/j.apnum.2022.07.010.
-    BlanesCasasEscorihuela8: nystrom::BLANES_CASAS_ESCORIHUELA_8, 19, DRIFT Drift, KICK Kick;
+    BlanesCasasEscorihuela8: nystrom::BLANES_CASAS_ESCORIHUELA_8, 19, QUADRATIC Quadratic, KICK Kick;
 }
 
 macro_rules! near_integrable {

@@ -3,8 +3,8 @@
 pub use super::chain::Chain;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
-    Dual, Dynamics, Exact, Flow, Group, Observable, ObservableKind, Piece, Point, Real, Separable,
-    Split, System, Unforced, VectorField,
+    Dual, Dynamics, Exact, Flow, Group, Nystrom, Observable, ObservableKind, Piece, Point, Real,
+    Separable, Split, System, Unforced, VectorField,
 };
 
 /// H as a formula over any scalar, with N coordinates.
@@ -184,6 +184,14 @@ impl<T: Real, H: Halves<N>, const N: usize> Separable<T> for Hand<H, N> {
     type Drift = Half<false>;
     const KICK: Half<true> = Half;
     const DRIFT: Half<false> = Half;
+}
+
+/// Whatever T is: where it is not quadratic in p, this is the negative control.
+impl<T: Real, H: Halves<N>, const N: usize> Nystrom<T> for Hand<H, N> {
+    type Kick = Half<true>;
+    type Quadratic = Half<false>;
+    const KICK: Half<true> = Half;
+    const QUADRATIC: Half<false> = Half;
 }
 
 impl<T: Real, H: Halves<N>, const N: usize> Split<T> for Hand<H, N> {

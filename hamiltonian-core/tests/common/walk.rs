@@ -96,6 +96,7 @@ where
     visit_exact::<T, Hand<Pumped, 1>>(&mut walk);
     visit_separable::<T, Hand<Pumped, 1>>(&mut walk);
     visit_compensated::<T, Hand<Pumped, 1>>(&mut walk);
+    visit_nystrom::<T, Hand<HenonHeiles, 2>>(&mut walk);
     visit_quadratic::<T, Hand<HenonHeiles, 2>>(&mut walk);
     visit_transformed(&mut walk);
     assert_eq!(walk.met, catalogue().count());

@@ -9,7 +9,7 @@ use hamiltonian_symbolic::dag::{Array, Column, Kind, Node, Side};
 use hamiltonian_symbolic::forces;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
-use hamiltonian_symbolic::structure::{Coupling, Structure};
+use hamiltonian_symbolic::structure::{Coupling, Structure, kick_beside};
 
 /// The verdicts.
 pub fn verdicts(
@@ -19,6 +19,17 @@ pub fn verdicts(
 ) -> emit::Structure {
     let name = subject(model);
     let (kick, exact) = kick(model, structure);
+    let nystrom = nystrom(model, structure, kick).map_err(|why| Reason {
+        message: format!(
+            "{name} is no kick V(q, t) beside a piece at most quadratic in the momenta: {why}"
+        ),
+        label: "needs H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow"
+            .into(),
+        note:
+            "declare the two, `split { A = …; V = …; }`, or use a scheme for any pieces with exact \
+               flows: `BlanesMoan4`, `BlanesMoan6`, `KahanLi8`"
+                .into(),
+    });
     emit::Structure {
         separable: match &structure.separable {
             Ok(_) => Ok(()),
@@ -40,6 +51,7 @@ pub fn verdicts(
                 note: "use a scheme for any separable H, or for any H".into(),
             })
             .copied(),
+        nystrom,
         unforced: match model.force.is_empty() {
             true => Ok(()),
             false => Err(Reason {
@@ -71,6 +83,41 @@ pub fn verdicts(
             .map(|cyclic| cyclic.coordinate.clone())
             .collect(),
     }
+}
+
+/// The kick V(q, t) and what is at most quadratic in the momenta beside it: two pieces of the split,
+/// or V and T; or the reason why not.
+fn nystrom(
+    model: &mut Model,
+    structure: &Structure,
+    kick: Option<emit::Kick>,
+) -> Result<emit::Nystrom, String> {
+    let pieces = match model.pieces.as_slice() {
+        [] => Err("it is not split into exact flows".to_owned()),
+        _ if !model.force.is_empty() => Err("a force acts beside its pieces".to_owned()),
+        pieces => match pieces.iter().find(|piece| !piece.flow.merges()) {
+            Some(piece) => Err(format!(
+                "the terms of its piece `{}` do not commute",
+                piece.name
+            )),
+            None => match *pieces {
+                [ref first, ref second] => {
+                    let parts = [first.h, second.h];
+                    kick_beside(model, parts).map(emit::Nystrom::Pieces)
+                }
+                _ => Err(format!("it is split into {} pieces", pieces.len())),
+            },
+        },
+    };
+    let Ok(split) = &structure.separable else {
+        return pieces;
+    };
+    pieces.or_else(|_| match kick {
+        Some(emit::Kick::Plain) => {
+            kick_beside(model, [split.potential, split.kinetic]).map(|_| emit::Nystrom::Halves)
+        }
+        _ => Err("a force depends on momenta".to_owned()),
+    })
 }
 
 /// How V is kicked with the force, or pieces of H have it beside them, and whether that is exact.

@@ -93,6 +93,7 @@ pub fn implementations(
     emission.kick();
     emission.separable();
     emission.pieces();
+    emission.nystrom();
     emission.extras();
     (emission.out, emission.bodies.parts)
 }

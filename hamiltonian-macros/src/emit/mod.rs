@@ -167,6 +167,8 @@ pub struct Structure {
     pub halves: [String; 2],
     /// T = ½ pᵀM⁻¹p with constant M
     pub quadratic_kinetic: Result<(), Reason>,
+    /// A kick V(q, t) and a piece at most quadratic in the momenta.
+    pub nystrom: Result<Nystrom, Reason>,
     /// No force acts.
     pub unforced: Result<(), Reason>,
     /// The flows of all pieces are exact.
@@ -177,6 +179,15 @@ pub struct Structure {
     pub autonomous: Result<(), Reason>,
     /// Coordinates that do not appear in H.
     pub cyclic: Vec<String>,
+}
+
+/// Where the kick and the piece at most quadratic in the momenta are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Nystrom {
+    /// V and T.
+    Halves,
+    /// The model's pieces of these numbers.
+    Pieces([usize; 2]),
 }
 
 /// The functions that make up the kick.

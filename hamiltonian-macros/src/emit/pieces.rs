@@ -4,12 +4,12 @@
 //! Input: a model with pieces. Output: text of the implementations. Invariant: a flow reads and
 //! writes one point; where it leaves its domain, all it moves becomes NaN, which the program says.
 
-use super::Form;
 use super::construct::over_f64;
 use super::dynamics::{Emission, evaluation};
 use super::holder::Receiver;
 use super::layout::Slice;
 use super::scan::scan;
+use super::{Form, Nystrom};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::program::{Function, Purpose};
 use hamiltonian_symbolic::split::MOST;
@@ -74,6 +74,23 @@ impl Emission<'_> {
                 visibility = self.generics.visibility,
             );
         }
+    }
+
+    /// `Nystrom`, of V and T or of two of the model's pieces.
+    pub(super) fn nystrom(&mut self) {
+        let [kick, quadratic] = match self.definition.structure.nystrom {
+            Ok(Nystrom::Halves) => ["__KickPiece", "__DriftPiece"],
+            Ok(Nystrom::Pieces(numbers)) => numbers.map(|number| PIECES[number]),
+            Err(_) => return,
+        };
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{declaration} __h::Nystrom<T> for {system} {{\n\
+             type Kick = {kick};\ntype Quadratic = {quadratic};\n\
+             const KICK: {kick} = {kick};\nconst QUADRATIC: {quadratic} = {quadratic};\n}}",
+            declaration = self.generics.declaration_with_scalar(),
+            system = self.generics.system_type(),
+        );
     }
 
     /// The unit struct that makes a flow.

@@ -108,6 +108,7 @@ fn structure(separable: bool) -> Structure {
         halves: ["V".into(), "T".into()],
         separable: verdict.clone(),
         split: verdict.clone(),
+        nystrom: (verdict.clone()).map(|()| super::Nystrom::Halves),
         quadratic_kinetic: verdict,
         unforced: Ok(()),
         exact: Ok(()),

@@ -6,9 +6,11 @@
 //! keep the grouping of the source wherever the source already separates term by term.
 
 mod expand;
+mod quadratic;
 mod separate;
 
 pub use expand::{Term, expand};
+pub use quadratic::kick_beside;
 
 use crate::dag::{Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::Affine;
@@ -70,7 +72,7 @@ pub fn analyse(model: &mut Model) -> Structure {
     };
     let separable = separate::split(model, h);
     let quadratic_kinetic = match &separable {
-        Ok(split) => is_quadratic(model, split.kinetic),
+        Ok(split) => quadratic::form(model, split.kinetic),
         Err(coupling) => Err(format!(
             "H is not separable: the term `{}` couples coordinates and momenta",
             coupling.text
@@ -136,82 +138,6 @@ fn term_with(dag: &Dag, root: Node, has: impl Fn(&Dag, Node) -> bool) -> Option<
             None => return Some(at),
         }
     }
-}
-
-/// Whether T is a quadratic form in the momenta with coefficients of parameters only.
-fn is_quadratic(model: &mut Model, kinetic: Node) -> Result<(), String> {
-    if let Some(term) = term_with(&model.dag, kinetic, |dag, node| {
-        dag.dependence(node).on(Dependence::TIME)
-    }) {
-        return Err(format!(
-            "the term `{}` depends on time",
-            print::text(model, term)
-        ));
-    }
-    if !model.dag.dependence(kinetic).on(Dependence::P) {
-        return Err("no term depends on momenta".to_owned());
-    }
-    if degree(&model.dag, kinetic) == Some(2) {
-        return Ok(());
-    }
-    // The source's grouping may hide it: p*(p + 1) - p.
-    let terms = expand(&mut model.dag, kinetic).unwrap_or_default();
-    let mut nodes = Vec::with_capacity(terms.len());
-    for term in &terms {
-        nodes.push(term.node(&mut model.dag));
-    }
-    let wrong = nodes.iter().copied().find(|node| {
-        model.dag.dependence(*node).on(Dependence::P) && degree(&model.dag, *node) != Some(2)
-    });
-    match wrong {
-        None if !nodes.is_empty() => Ok(()),
-        wrong => {
-            let term = wrong.unwrap_or(kinetic);
-            let how = match degree(&model.dag, term) {
-                Some(1) => "is linear in the momenta",
-                _ => "is not quadratic in the momenta",
-            };
-            Err(format!("the term `{}` {how}", print::text(model, term)))
-        }
-    }
-}
-
-/// The degree in the momenta of a homogeneous polynomial in them; `None` for anything else.
-fn degree(dag: &Dag, root: Node) -> Option<u32> {
-    let mut degrees: Map<Node, u32> = Map::default();
-    for node in dag.reachable(&[root]) {
-        if !dag.dependence(node).on(Dependence::P) {
-            degrees.insert(node, 0);
-            continue;
-        }
-        let degree = match dag.kind(node) {
-            Kind::Element(..) => Some(1),
-            Kind::Sum(c, terms) if c.is_zero() => {
-                let first = terms.first().and_then(|(_, n)| degrees.get(n).copied());
-                first.filter(|first| terms.iter().all(|(_, n)| degrees.get(n) == Some(first)))
-            }
-            Kind::Product(_, factors) => {
-                factors
-                    .iter()
-                    .try_fold(0u32, |sum, (n, power)| match (degrees.get(n)?, *power) {
-                        (0, _) => Some(sum),
-                        (degree, power) => {
-                            sum.checked_add(degree.checked_mul(u32::try_from(power).ok()?)?)
-                        }
-                    })
-            }
-            Kind::Reduce(_, body) => degrees.get(body).copied(),
-            Kind::Select(c, a, b) if !dag.dependence(*c).on(Dependence::P) => degrees
-                .get(a)
-                .copied()
-                .filter(|a| degrees.get(b) == Some(a)),
-            _ => None,
-        };
-        if let Some(degree) = degree {
-            degrees.insert(node, degree);
-        }
-    }
-    degrees.get(&root).copied()
 }
 
 /// The coordinates that do not occur in H.

@@ -3,7 +3,7 @@
 //! Input: the digits as published, polished by `scripts/coefficients.py`. Output: tables of order 4
 //! to 8. Invariant: the conditions of Nyström methods hold up to the order. On other splittings,
 //! and with the two pieces exchanged, those of order 6 and 8 have order 4, so what composes them asks
-//! for kick and drift; the piece that is first in the paper is first.
+//! for [`Nystrom`](crate::Nystrom); the piece that is first in the paper is first.
 
 use super::{Class, Coefficients, First, mirrored, palindrome};
 use crate::schemes::Weight;

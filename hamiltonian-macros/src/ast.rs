@@ -25,6 +25,7 @@
 //! - A number that would underflow f64 to 0 is refused like one that overflows.
 
 use crate::report::Spans;
+use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -265,7 +266,7 @@ pub enum ExprKind {
     /// Something an error was reported for, or that means nothing by itself; says nothing further.
     Error,
     /// A number.
-    Number(Number),
+    Number(Rational),
     /// A name and the innermost loop variable in whose scope it stands.
     Name(Symbol, Option<ScopeId>),
     /// `-a`, `!a`
@@ -380,118 +381,6 @@ impl BinaryOp {
             BinaryOp::And => "&&",
             BinaryOp::Or => "||",
         }
-    }
-}
-
-/// A non-negative decimal number, exactly: `digits · 10^exponent`.
-///
-/// Canonical: no leading and no trailing zero in `digits`; zero is `"0"` with exponent 0. It rounds
-/// to a finite f64, and to zero only if it is zero.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Number {
-    /// Decimal digits.
-    pub digits: String,
-    /// The power of ten.
-    pub exponent: i64,
-}
-
-impl Number {
-    /// Reads `1`, `1_000`, `0.1`, `1.`, `1e-3`; `None` for anything else, and for numbers whose
-    /// exponent has more than 18 digits.
-    pub fn read(text: &str) -> Option<Number> {
-        Number::read_digits(text).or_else(|| Number::read_decimal(text))
-    }
-
-    /// Reads plain digits, which most numbers are; macros are built without optimisation.
-    fn read_digits(text: &str) -> Option<Number> {
-        let bytes = text.as_bytes();
-        let (mut start, mut end) = (0, bytes.len());
-        while start < end {
-            if !bytes[start].is_ascii_digit() {
-                return None;
-            }
-            start += 1;
-        }
-        start = 0;
-        while start < end && bytes[start] == b'0' {
-            start += 1;
-        }
-        while end > start && bytes[end - 1] == b'0' {
-            end -= 1;
-        }
-        match (start == end, bytes.is_empty()) {
-            (_, true) => None,
-            (true, false) => Some(Number {
-                digits: "0".into(),
-                exponent: 0,
-            }),
-            (false, false) => {
-                let exponent = i64::try_from(bytes.len() - end).ok()?;
-                Some(Number {
-                    digits: text[start..end].into(),
-                    exponent,
-                })
-            }
-        }
-    }
-
-    fn read_decimal(text: &str) -> Option<Number> {
-        let text = text.replace('_', "");
-        let (mantissa, exponent) = match text.find(['e', 'E']) {
-            Some(at) => {
-                let exponent = &text[at + 1..];
-                if exponent.len() > 18 {
-                    return None;
-                }
-                (&text[..at], exponent.parse::<i64>().ok()?)
-            }
-            None => (text.as_str(), 0),
-        };
-        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-        if whole.is_empty()
-            || !whole
-                .bytes()
-                .chain(fraction.bytes())
-                .all(|byte| byte.is_ascii_digit())
-        {
-            return None;
-        }
-        let written = format!("{whole}{fraction}");
-        let exponent = exponent.checked_sub(i64::try_from(fraction.len()).ok()?)?;
-        let without_tail = written.trim_end_matches('0');
-        let digits = without_tail.trim_start_matches('0');
-        if digits.is_empty() {
-            return Some(Number {
-                digits: "0".into(),
-                exponent: 0,
-            });
-        }
-        let tail = i64::try_from(written.len() - without_tail.len()).ok()?;
-        Some(Number {
-            digits: digits.into(),
-            exponent: exponent.checked_add(tail)?,
-        })
-    }
-
-    /// It is zero.
-    pub fn is_zero(&self) -> bool {
-        self.digits == "0"
-    }
-
-    /// The nearest f64.
-    pub fn to_f64(&self) -> f64 {
-        format!("{}e{}", self.digits, self.exponent)
-            .parse()
-            .unwrap_or(f64::INFINITY)
-    }
-
-    /// Its value, if it is an integer that fits.
-    pub fn to_integer(&self) -> Option<i64> {
-        let exponent = u32::try_from(self.exponent).ok()?;
-        self.digits
-            .parse::<i64>()
-            .ok()?
-            .checked_mul(10i64.checked_pow(exponent)?)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Checked definition → code: the back end on one screen.
 //!
 //! Input: [`Checked`] and the path by which emitted code reaches the library. Output: items or an
-//! expression; what is wrong with the mathematics goes into the report. Invariant: if anything is
-//! reported, the result is dropped for the stub.
+//! expression, if they could be made; what is wrong with the mathematics goes into the report.
+//! Invariant: if anything is reported, the result is dropped for the stub.
 
 mod blame;
 mod docs;
@@ -32,44 +32,41 @@ const LARGE: usize = 1000;
 
 /// The code of a definition. `root` is the path of the library; emitted code names only
 /// `#root::private`.
-pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> TokenStream {
-    let mut code = || {
-        let mut lowered = lower(checked, report)?;
-        surface::refuse_motionless(checked, &lowered.model, report);
-        proofs::prove(checked, &mut lowered, report);
-        surface::refuse_unsupported(checked, report);
-        report.barrier(())?;
-        // In other variables than those of L, H is a formula like any other.
-        let is_declared = checked.charts.is_empty() && checked.time_factor.is_none();
-        let readable = lowered.legendre.as_ref().filter(|_| is_declared);
-        let readable = readable.map(|legendre| Readable::of(&lowered.model, legendre));
-        if ends::guard(&mut lowered).is_none() {
-            let reason = "this Lagrangian has no Hamiltonian: the momentum of an element has a sum that starts below 0 for the first elements";
-            let help = "let the sum start at 0, with a condition in it: `sum(j in 0..n) { if i <= j { … } else { 0 } }`; else give H(q; p)";
-            report.error(definition(checked), reason.to_owned(), help);
-            return None;
-        }
-        let defaults = surface::defaults(checked, report)?;
-        let beyond = std::mem::take(&mut lowered.beyond);
-        let System {
-            model,
-            vectors,
-            pieces,
-            declared,
-        } = variables::change(checked, lowered, report)?;
-        let mut code = TokenStream::new();
-        for (name, hamiltonian) in &pieces {
-            let piece = surface::Part::piece(checked, name, &defaults);
-            let model = surface::piece_model(&model, *hamiltonian);
-            code.extend(system(checked, root, model, (piece, &[]), &beyond, report)?);
-        }
-        let mut whole = surface::Part::whole(checked, vectors, &pieces, declared, &defaults);
-        whole.readable = readable;
-        let whole = (whole, pieces.as_slice());
-        code.extend(system(checked, root, model, whole, &beyond, report)?);
-        Some(code)
-    };
-    code().unwrap_or_default()
+pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> Option<TokenStream> {
+    let mut lowered = lower(checked, report)?;
+    surface::refuse_motionless(checked, &lowered.model, report);
+    proofs::prove(checked, &mut lowered, report);
+    surface::refuse_unsupported(checked, report);
+    report.barrier(())?;
+    // In other variables than those of L, H is a formula like any other.
+    let is_declared = checked.charts.is_empty() && checked.time_factor.is_none();
+    let readable = lowered.legendre.as_ref().filter(|_| is_declared);
+    let readable = readable.map(|legendre| Readable::of(&lowered.model, legendre));
+    if ends::guard(&mut lowered).is_none() {
+        let reason = "this Lagrangian has no Hamiltonian: the momentum of an element has a sum that starts below 0 for the first elements";
+        let help = "let the sum start at 0, with a condition in it: `sum(j in 0..n) { if i <= j { … } else { 0 } }`; else give H(q; p)";
+        report.error(definition(checked), reason.to_owned(), help);
+        return None;
+    }
+    let defaults = surface::defaults(checked, report)?;
+    let beyond = std::mem::take(&mut lowered.beyond);
+    let System {
+        model,
+        vectors,
+        pieces,
+        declared,
+    } = variables::change(checked, lowered, report)?;
+    let mut code = TokenStream::new();
+    for (name, hamiltonian) in &pieces {
+        let piece = surface::Part::piece(checked, name, &defaults);
+        let model = surface::piece_model(&model, *hamiltonian);
+        code.extend(system(checked, root, model, (piece, &[]), &beyond, report)?);
+    }
+    let mut whole = surface::Part::whole(checked, vectors, &pieces, declared, &defaults);
+    whole.readable = readable;
+    let whole = (whole, pieces.as_slice());
+    code.extend(system(checked, root, model, whole, &beyond, report)?);
+    Some(code)
 }
 
 /// The code of one system: the definition's own, or a piece of its split.
@@ -133,14 +130,13 @@ fn system(
 
 /// The operations of H by itself, each loop body counted once.
 fn operations(model: &Model) -> usize {
-    let roots: Vec<_> = model.hamiltonian.into_iter().collect();
     let count = |node: &Node| match model.dag.kind(*node) {
         NodeKind::Sum(_, terms) => terms.len().saturating_sub(1),
         NodeKind::Product(_, factors) => factors.len().saturating_sub(1),
         NodeKind::Call(..) | NodeKind::External(..) => 1,
         _ => 0,
     };
-    model.dag.reachable(&roots).iter().map(count).sum()
+    model.dag.reachable(&[model.h()]).iter().map(count).sum()
 }
 
 fn too_large(checked: &Checked, operations: usize, report: &mut Report) {
@@ -188,12 +184,11 @@ fn wanted(
 
 /// Whether H is so long that emitting every function would cost rustc more than it gives.
 fn is_large(checked: &Checked, model: &Model) -> bool {
-    let roots: Vec<_> = model.hamiltonian.into_iter().collect();
     let is_static = checked
         .sizes
         .iter()
         .all(|size| size.kind == SizeKind::Const);
-    is_static && model.dag.reachable(&roots).len() > LARGE
+    is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 
 /// The program, without second derivatives where a Rust function came without them.

@@ -20,9 +20,10 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::{Comparison, Number, ObservableKind};
+use crate::ast::{Comparison, ObservableKind};
 use crate::names::Builtin;
 use crate::report::Spans;
+use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
 use std::ops::Range;
 
@@ -313,7 +314,7 @@ pub struct Node {
 #[derive(Debug)]
 pub enum Kind {
     /// S: an exact number.
-    Number(Number),
+    Number(Rational),
     /// S: π.
     Pi,
     /// X: a whole group of coordinates.

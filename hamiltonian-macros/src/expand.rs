@@ -23,12 +23,18 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let stages = || {
         let checked;
         (ast, checked) = front(definition, &mut report);
-        checked.map(|checked| backend::generate(&checked, &root, &mut report))
+        backend::generate(&checked?, &root, &mut report)
     };
     let code = caught(stages).unwrap_or_else(|fault| {
         report.internal(Span::call_site(), &fault);
         None
     });
+    if code.is_none() && report.is_empty() {
+        report.internal(
+            Span::call_site(),
+            "it ends without code and without an error",
+        );
+    }
     match code.and_then(|code| report.barrier(code)) {
         Some(code) if ast.item.is_some() => code,
         // In the place of an item rustc refuses the block and names the macro it comes from, which is

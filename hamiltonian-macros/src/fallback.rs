@@ -23,7 +23,7 @@ pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
     match &ast.item {
         Some(item) if is_name(&item.name) => {
             let last = errors.pop();
-            let item = item_stub(item, last.unwrap_or_else(|| quote!(0)));
+            let item = item_stub(item, last.expect("a stub stands for something wrong"));
             quote!(#(#errors)* #item)
         }
         Some(_) => quote!(#(#errors)*),

@@ -55,10 +55,11 @@ fn refuse(source: &str) -> (Option<Stage>, Vec<Diagnostic>) {
     if !report.is_empty() {
         return errors(Stage::Check, &report);
     }
-    backend::generate(&checked, &quote!(::hamiltonian), &mut report);
+    let code = backend::generate(&checked, &quote!(::hamiltonian), &mut report);
     if !report.is_empty() {
         return errors(Stage::Prove, &report);
     }
+    assert!(code.is_some(), "neither code nor an error");
     (None, Vec::new())
 }
 

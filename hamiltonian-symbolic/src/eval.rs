@@ -62,12 +62,18 @@ pub struct Outcome<T> {
 }
 
 /// Runs a function of a program at a point, all stages.
+///
+/// # Panics
+/// Where the point has no array, size or function that the program reads, or an index leaves it.
 #[must_use]
 pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) -> Outcome<T> {
     run_in_order(program, function, point, false)
 }
 
 /// The same with the last iteration of every loop of the evaluation first.
+///
+/// # Panics
+/// Those of [`run`].
 #[must_use]
 pub fn run_reversed<T: Real>(
     program: &Program,
@@ -99,7 +105,7 @@ fn run_in_order<T: Real>(
         }
     }
     for (held, number) in program.held.iter().zip(0..) {
-        let rows = usize::try_from(machine.affine(&held.rows)).unwrap_or(0);
+        let rows = machine.affine(&held.rows).max(0) as usize;
         let empty = vec![vec![T::constant(f64::NAN, 0.0); rows]];
         machine.outputs.insert(Target::Held(number), empty);
     }
@@ -131,11 +137,11 @@ struct Machine<'a, T: Real> {
 
 impl<T: Real> Machine<'_, T> {
     /// The columns an array's elements are read from.
-    fn columns(&self, array: &Array) -> Option<&Vec<Vec<T>>> {
+    fn columns(&self, array: &Array) -> &Vec<Vec<T>> {
         match *array {
-            Array::Phase(column) if self.is_in_place => self.outputs.get(&Target::Phase(column)),
-            Array::Held(number) => self.outputs.get(&Target::Held(number)),
-            _ => self.point.arrays.get(array),
+            Array::Phase(column) if self.is_in_place => &self.outputs[&Target::Phase(column)],
+            Array::Held(number) => &self.outputs[&Target::Held(number)],
+            _ => &self.point.arrays[array],
         }
     }
     fn number(&self, value: Value) -> T {
@@ -150,7 +156,7 @@ impl<T: Real> Machine<'_, T> {
         let value = index.value(&|d| self.variables[&d], &|s| {
             self.point.sizes[s.0 as usize] as i64
         });
-        usize::try_from(value).unwrap_or(usize::MAX)
+        usize::try_from(value).expect("an index is not negative")
     }
 
     fn steps(&mut self, steps: &[Step]) {
@@ -166,15 +172,7 @@ impl<T: Real> Machine<'_, T> {
                         self.index(row),
                         column.as_ref().map_or(0, |c| self.index(c)),
                     );
-                    let Some(old) = self
-                        .outputs
-                        .get(target)
-                        .and_then(|o| o.get(column))
-                        .and_then(|c| c.get(row))
-                        .copied()
-                    else {
-                        continue;
-                    };
+                    let old = self.outputs[target][column][row];
                     let new = match *update {
                         Update::Set(v) => self.number(v),
                         Update::Add(v) => old + self.number(v),
@@ -182,9 +180,8 @@ impl<T: Real> Machine<'_, T> {
                         Update::AddProduct(a, b) => self.number(a).fma(self.number(b), old),
                         Update::SubProduct(a, b) => (-self.number(a)).fma(self.number(b), old),
                     };
-                    if let Some(columns) = self.outputs.get_mut(target) {
-                        columns[column][row] = new;
-                    }
+                    let columns = self.outputs.get_mut(target);
+                    columns.expect("it was read above")[column][row] = new;
                 }
                 Step::Loop(l) => {
                     for accumulator in &l.accumulators {
@@ -223,11 +220,7 @@ impl<T: Real> Machine<'_, T> {
             Instruction::Load(array, row, column) => {
                 let column_number = column.as_ref().map_or(0, |c| self.index(c));
                 let row = self.index(row);
-                self.columns(array)
-                    .and_then(|a| a.get(column_number))
-                    .and_then(|c| c.get(row))
-                    .copied()
-                    .unwrap_or(T::constant(f64::NAN, 0.0))
+                self.columns(array)[column_number][row]
             }
             Instruction::Accumulator => T::zero(),
             Instruction::Neg(a) => -n(a),
@@ -245,19 +238,13 @@ impl<T: Real> Machine<'_, T> {
             Instruction::PairedSin(a) => n(a).sin_cos().0,
             Instruction::PairedCos(sin) => match self.program.instruction(*sin) {
                 Instruction::PairedSin(a) => n(a).sin_cos().1,
-                _ => T::constant(f64::NAN, 0.0),
+                other => unreachable!("{other:?} is no sine of a pair"),
             },
             Instruction::External(function, part, arguments) => {
                 let arguments: Vec<T> = arguments.iter().map(n).collect();
-                self.point
-                    .externals
-                    .get(*function as usize)
-                    .map_or(T::constant(f64::NAN, 0.0), |f| f(*part, &arguments))
+                self.point.externals[*function as usize](*part, &arguments)
             }
-            Instruction::Select(mask, a, b) => match self.masks.get(mask) {
-                Some(mask) => T::select(*mask, n(a), n(b)),
-                None => T::constant(f64::NAN, 0.0),
-            },
+            Instruction::Select(mask, a, b) => T::select(self.masks[mask], n(a), n(b)),
             Instruction::Compare(relation, a, b) => {
                 let mask = match relation {
                     Relation::Less => n(a).lt(n(b)),
@@ -268,17 +255,15 @@ impl<T: Real> Machine<'_, T> {
                 return;
             }
             Instruction::Not(a) => {
-                if let Some(mask) = self.masks.get(a).map(|m| !*m) {
-                    self.masks.insert(value, mask);
-                }
+                self.masks.insert(value, !self.masks[a]);
                 return;
             }
-            Instruction::And(a, b) | Instruction::Or(a, b) => {
-                let and = matches!(self.program.instruction(value), Instruction::And(..));
-                if let (Some(a), Some(b)) = (self.masks.get(a).copied(), self.masks.get(b).copied())
-                {
-                    self.masks.insert(value, if and { a & b } else { a | b });
-                }
+            Instruction::And(a, b) => {
+                self.masks.insert(value, self.masks[a] & self.masks[b]);
+                return;
+            }
+            Instruction::Or(a, b) => {
+                self.masks.insert(value, self.masks[a] | self.masks[b]);
                 return;
             }
         };

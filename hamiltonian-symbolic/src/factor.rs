@@ -283,7 +283,8 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
             // The highest power that all of them have.
             Common::Factor(base, sign) => {
                 let powers = terms.iter().filter_map(|term| term.power(base, sign));
-                Common::Factor(base, powers.min_by_key(|n| n.abs()).unwrap_or(sign))
+                let least = powers.min_by_key(|n| n.abs());
+                Common::Factor(base, least.expect("terms have it in common"))
             }
             other => other,
         };

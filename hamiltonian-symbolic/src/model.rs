@@ -263,6 +263,14 @@ impl Model {
             Array::Held(_) => unreachable!("only programs read held arrays"),
         }
     }
+    /// H.
+    ///
+    /// # Panics
+    /// Where there is none: a model without H has no dynamics.
+    #[must_use]
+    pub fn h(&self) -> Node {
+        self.hamiltonian.expect("a model of dynamics has an H")
+    }
     /// H and the components of observables.
     #[must_use]
     pub fn roots(&self) -> Vec<Node> {

@@ -158,7 +158,7 @@ macro_rules! operations {
             pub fn eval<T: Real>(self, arguments: &[T]) -> T {
                 match (self, arguments) {
                     $((Op::$variant, &[$($arg),+]) => operations!(@call $name $($arg)+),)+
-                    _ => T::constant(f64::NAN, 0.0),
+                    (op, arguments) => unreachable!("{op:?} of {} arguments", arguments.len()),
                 }
             }
         }

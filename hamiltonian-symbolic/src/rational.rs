@@ -71,9 +71,17 @@ impl Rational {
         Rational::reduce(i128::from(numerator), i128::from(denominator))
     }
 
-    /// `digits · 10^exponent` for a string of decimal digits; `None` if a character is no digit.
+    /// The number of a text such as `1`, `0.1`, `1.`, `1e-3`; `None` for anything else.
     #[must_use]
-    pub fn decimal(digits: &str, exponent: i64) -> Option<Rational> {
+    pub fn decimal(text: &str) -> Option<Rational> {
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+        let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+        let is_written = !whole.is_empty() && exponent.len() <= 18;
+        let exponent = exponent.parse::<i64>().ok()? - i64::try_from(fraction.len()).ok()?;
+        let digits = format!("{whole}{fraction}");
+        if !is_written || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
+            return None;
+        }
         let mantissa = BigInt::parse_bytes(digits.as_bytes(), 10)?;
         let power = BigInt::from(10).pow(u32::try_from(exponent.unsigned_abs()).ok()?);
         Some(Rational::from_big(if exponent >= 0 {
@@ -256,6 +264,14 @@ impl Rational {
             (true, _) => Rational::ZERO,
             (_, true) => Rational::MINUS_ONE,
             _ => Rational::ONE,
+        }
+    }
+    /// Whether the value is an integer.
+    #[must_use]
+    pub fn is_integer(&self) -> bool {
+        match &self.0 {
+            Form::Small(_, d) => *d == 1,
+            Form::Big(value) => value.is_integer(),
         }
     }
     /// The value as an integer that fits `i32`, if it is one.
@@ -446,11 +462,9 @@ mod tests {
 
     #[test]
     fn decimals_are_exact_and_round_once() {
-        let tenth = Rational::decimal("1", -1).unwrap();
-        let sum = tenth
-            .add(&Rational::decimal("2", -1).unwrap())
-            .sub(&Rational::decimal("3", -1).unwrap());
-        assert!(sum.is_zero());
+        let [tenth, fifth, rest] =
+            ["0.1", "0.2", "0.3"].map(|text| Rational::decimal(text).unwrap());
+        assert!(tenth.add(&fifth).sub(&rest).is_zero());
         for text in [
             "0.1",
             "9.81",
@@ -462,16 +476,22 @@ mod tests {
             "3e-324",
             "2e-324",
         ] {
-            let (mantissa, exponent) = text.split_once('e').unwrap_or((text, "0"));
-            let places = mantissa.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-            let value = Rational::decimal(
-                &mantissa.replace('.', ""),
-                exponent.parse::<i64>().unwrap() - places,
-            )
-            .unwrap();
+            let value = Rational::decimal(text).unwrap();
             assert_eq!(value.to_f64(), text.parse::<f64>().unwrap(), "{text}");
         }
-        assert_eq!(Rational::decimal("1", 400).unwrap().to_f64(), f64::INFINITY);
+        assert_eq!(Rational::decimal("1e400").unwrap().to_f64(), f64::INFINITY);
+        for text in [
+            "",
+            ".5",
+            "1e",
+            "-1",
+            "0x1f",
+            "1f64",
+            "1_0",
+            "1e1234567890123456789",
+        ] {
+            assert_eq!(Rational::decimal(text), None, "{text}");
+        }
     }
 
     #[test]

@@ -96,10 +96,7 @@ impl Dag {
                     self.variable(d)
                 }
                 Kind::Element(array, row, column) => {
-                    let mut indices = vec![row];
-                    indices.extend(column);
-                    let mut images = Vec::new();
-                    for index in indices {
+                    let mut image = |index: Index| {
                         let mut targets: Map<Domain, Affine> = Map::default();
                         let all = index.variables();
                         for d in members(all) {
@@ -110,11 +107,10 @@ impl Dag {
                             };
                             targets.insert(d, target);
                         }
-                        images.push(index.substitute(&|d| targets[&d].clone()));
-                    }
-                    let mut images = images.into_iter();
-                    let row = images.next().unwrap_or_else(|| Index::constant(0));
-                    self.element(array, row, images.next())
+                        index.substitute(&|d| targets[&d].clone())
+                    };
+                    let (row, column) = (image(row), column.map(image));
+                    self.element(array, row, column)
                 }
                 Kind::Reduce(d, body) => {
                     let d = self.moved(d, variable, by, &mut moved);

@@ -373,7 +373,7 @@ impl Placer<'_> {
             let term = self.value(*term);
             body.push(Step::Accumulate(*accumulator, term));
         }
-        for node in self.scopes.pop().unwrap_or_default() {
+        for node in self.scopes.pop().expect("a block opened its scope") {
             self.known.unset(node);
         }
         Loop {

@@ -17,9 +17,7 @@ pub fn text(
     readable: Option<&Readable>,
     large: bool,
 ) -> Text {
-    let Some(h) = model.hamiltonian else {
-        return Text::default();
-    };
+    let h = model.h();
     let notations = [Notation::Text, Notation::Latex];
     let [equations, latex_equations] = if large {
         notations.map(|_| Vec::new())

@@ -115,10 +115,7 @@ pub fn settle(
 
 /// A piece of a split by itself: one flow.
 fn alone(model: &mut Model) -> Result<Splitting, (usize, Refusal)> {
-    let h = match model.hamiltonian {
-        Some(h) => h,
-        None => model.dag.integer(0),
-    };
+    let h = model.h();
     let name = hamiltonian_symbolic::print::text(model, h);
     split::declared(model, &[(name, h)])
 }

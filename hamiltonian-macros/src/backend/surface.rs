@@ -112,9 +112,7 @@ pub fn observables(checked: &Checked) -> Vec<ObservableItem> {
 /// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written. Neither says so
 /// alone: a condition couples without a derivative.
 pub fn separates_as_written(model: &mut Model) -> bool {
-    let Some(h) = model.hamiltonian else {
-        return true;
-    };
+    let h = model.h();
     let mut is_free = |by: Dependence, of: Dependence| {
         let adjoints = diff::gradient(&mut model.dag, h, by);
         adjoints
@@ -209,8 +207,8 @@ pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
 
 /// An H whose momenta cancel.
 pub fn refuse_motionless(checked: &Checked, model: &Model, report: &mut Report) {
-    if let (Definition::Hamiltonian(root), Some(h)) = (&checked.definition, model.hamiltonian)
-        && !model.dag.dependence(h).on(Dependence::P)
+    if let Definition::Hamiltonian(root) = &checked.definition
+        && !model.dag.dependence(model.h()).on(Dependence::P)
     {
         report.error(
             checked.node(*root).spans,

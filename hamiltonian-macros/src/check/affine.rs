@@ -155,7 +155,7 @@ impl Checker<'_> {
                 format!("`{name}` is a parameter, not a size"),
                 format!("declare it as a size: `{name}: usize`"),
             ),
-            Some(Kind::Number(number)) if number.exponent >= 0 => (
+            Some(Kind::Number(number)) if number.is_integer() => (
                 "this number is too large for an index or a range".into(),
                 format!("write one up to {}", i64::MAX),
             ),

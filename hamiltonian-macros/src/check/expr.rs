@@ -134,7 +134,10 @@ impl Checker<'_> {
         match &ast.nodes[raw.0 as usize].kind {
             ExprKind::Error => None,
             ExprKind::Number(number) => {
-                let affine = number.to_integer().map(Affine::constant);
+                let affine = match number.to_small() {
+                    Some((whole, 1)) => Some(Affine::constant(whole)),
+                    _ => None,
+                };
                 self.push_affine(raw, Kind::Number(number.clone()), Type::Scalar, affine)
             }
             ExprKind::Name(symbol, scope) => self.name(raw, *symbol, *scope, frame),

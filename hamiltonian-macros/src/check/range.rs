@@ -20,13 +20,12 @@ impl Checker<'_> {
         let name = &self.ast.scopes[scope.0 as usize].name;
         let symbol = self.ast.scopes[scope.0 as usize].symbol;
         self.loop_name_is_new(raw, scope, symbol, frame);
-        let (lower, upper) = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
-        if lower.is_none() || upper.is_none() {
+        let bounds_known = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
+        let (Some(lower), Some(upper)) = bounds_known else {
             // Not a loop to reason about, but the name is known.
             self.scope_loops[scope.0 as usize] = None;
             return;
-        }
-        let (lower, upper) = (lower.unwrap_or_default(), upper.unwrap_or_default());
+        };
         self.checked_range(raw, &name.to_string(), bounds, [&lower, &upper]);
         let id = LoopId(self.out.loops.len() as u32);
         self.out.loops.push(Loop {

@@ -91,12 +91,15 @@ impl Checker<'_> {
             format!("indices run from 0 to {last}")
         };
         let own = self.own_loops(&affine);
-        for (end, wrong) in [(End::Least, &least), (End::Greatest, &room)] {
-            let Some(form) = wrong else { continue };
+        for (end, form, reached) in [
+            (End::Least, &least, &least),
+            (End::Greatest, &room, &greatest),
+        ] {
+            let (Some(form), Some(reached)) = (form, reached) else {
+                continue;
+            };
             if form.always_negative() && self.takes_place(&affine, end, &own) {
-                let reached = if end == End::Least { &least } else { &greatest };
-                let reached = reached.as_ref().map(|form| self.affine_shown(form));
-                let reached = reached.unwrap_or_default();
+                let reached = self.affine_shown(reached);
                 let message = if end == End::Least {
                     format!("this index reaches {reached}, but indices begin at 0")
                 } else {
@@ -175,14 +178,12 @@ impl Checker<'_> {
             Kind::Momentum(group) => self.out.groups[group.0 as usize].momentum.to_string(),
             Kind::NewCoordinate(group) | Kind::NewMomentum(group) => {
                 let momentum = matches!(self.out.nodes[base.0 as usize].kind, Kind::NewMomentum(_));
-                self.new_name(*group, momentum).unwrap_or_default()
+                let name = self.new_name(*group, momentum);
+                name.expect("a chart made it")
             }
             Kind::Velocity(group) => {
                 let velocity = &self.out.groups[group.0 as usize].velocity;
-                velocity
-                    .as_ref()
-                    .map(ToString::to_string)
-                    .unwrap_or_default()
+                velocity.as_ref().expect("it is named").to_string()
             }
             Kind::Parameter(parameter) => {
                 self.out.parameters[parameter.0 as usize].name.to_string()
@@ -254,8 +255,8 @@ impl Checker<'_> {
                 Some(first) => format!("{name} - {}", first.unsigned_abs()),
                 None => format!("{} + {name}", self.affine_shown(lower)),
             };
-            let length = upper.plus(-1, lower).unwrap_or_default();
-            let length = self.affine_shown(&length);
+            let length = upper.plus(-1, lower);
+            let length = length.map_or("…".to_owned(), |length| self.affine_shown(&length));
             let help = format!("write `{name} in 0..{length}`, and `({shifted})` for `{name}`");
             let at = self.ast.nodes[raw.0 as usize].spans;
             self.error(raw, at, &message, &help);

@@ -382,8 +382,8 @@ impl<'a> Writer<'a> {
         for (at, (slice, index)) in cuts.iter().enumerate() {
             let start = match self.indices.iter().position(|(known, _)| known == index) {
                 Some(known) => {
-                    let text = &self.indices[known].1;
-                    text.split(' ').next().unwrap_or_default().to_owned()
+                    let start = self.indices[known].1.split(' ').next();
+                    start.expect("text has a first word").to_owned()
                 }
                 None => self
                     .context

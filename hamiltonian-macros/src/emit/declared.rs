@@ -73,9 +73,10 @@ fn moved(
     let (theirs, own) = contexts;
     for placement in &declared.places {
         let (group, row) = placement.old;
-        let is_array =
-            row.is_none() && declared.model.groups[usize::from(group)].shape != Shape::Scalar;
-        let old = place(theirs, group, row.unwrap_or(0));
+        let shape = &declared.model.groups[usize::from(group)].shape;
+        let is_array = row.is_none() && *shape != Shape::Scalar;
+        // A scalar, and an array as a whole, begin at row 0.
+        let old = place(theirs, group, row.unwrap_or_default());
         let new = place(own, placement.new, 0);
         let ((a, i), (b, j)) = if back { (new, old) } else { (old, new) };
         let _ = if is_array {
@@ -97,16 +98,13 @@ fn moved(
 /// The method `name` from declared variables to the system's own over the prepared system's
 /// `function`, or with `back` the other way.
 pub fn method(
-    definition: &Definition,
+    declared: &Declared,
     own: Context,
     generics: &Generics,
     visibility: &TokenStream,
     (name, function): (String, Option<String>),
     back: bool,
 ) -> TokenStream {
-    let Some(declared) = definition.declared else {
-        return TokenStream::new();
-    };
     let theirs = context(declared, own);
     let bound = lex(&generics.state_bound());
     let vector = |context| lex(&dynamics::vector(context, generics, "T", "__h"));

@@ -178,10 +178,9 @@ impl Receiver<'_> {
     pub fn scalar(self, generics: &Generics, parameter: u16) -> String {
         match self {
             Receiver::System => generics.lifted(parameter),
-            // Scalars are leaves of preparation; nothing later reads them.
-            Receiver::Holder(_) => format!(
-                "__h::core::compile_error!(\"internal error of `hamiltonian!`: parameter {parameter} is read after preparation; please report it with this definition\")"
-            ),
+            Receiver::Holder(_) => {
+                unreachable!("scalars are leaves of preparation: nothing later reads them")
+            }
         }
     }
 

@@ -37,7 +37,8 @@ impl Parts {
             if *run_time {
                 format!("_n{at}")
             } else {
-                constants.next().cloned().unwrap_or_default()
+                let name = constants.next().cloned();
+                name.expect("a size is a constant or set at run time")
             }
         });
         Parts {

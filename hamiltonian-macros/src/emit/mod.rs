@@ -46,7 +46,7 @@ pub use vectors::{VectorItem, VectorUse};
 
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 
 /// All that emission reads.
 #[derive(Debug)]
@@ -256,8 +256,7 @@ pub fn generate(definition: &Definition) -> TokenStream {
     }
 }
 
-/// Text as tokens. All text that is emitted is made here, so it lexes; if it did not, the error
-/// says so where the macro was called.
+/// Text as tokens. All text that is emitted is made here, so it lexes.
 fn lex(text: &str) -> TokenStream {
     // rustc's own lexer, asked directly: through proc-macro2 the text is lexed twice.
     let tokens = if proc_macro::is_available() {
@@ -266,10 +265,7 @@ fn lex(text: &str) -> TokenStream {
     } else {
         text.parse().ok()
     };
-    tokens.unwrap_or_else(|| {
-        let message = "the emitted code does not lex; this is a fault of `hamiltonian!`";
-        quote::quote_spanned!(Span::call_site()=> ::core::compile_error! { #message })
-    })
+    tokens.expect("the emitted code lexes")
 }
 
 /// Attributes that allow what the user's own names may do to lints.

@@ -7,7 +7,6 @@ use super::block::Context;
 use super::dynamics::vector;
 use super::generics::Generics;
 use super::{Definition, allowances, lex};
-use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::facts::conditions;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
 use proc_macro2::TokenStream;
@@ -114,8 +113,7 @@ fn domain(model: &Model, observable: &Observable) -> Option<TokenStream> {
     if observable.kind != ObservableKind::Invariant {
         return None;
     }
-    let of_h: Vec<Node> = model.hamiltonian.into_iter().collect();
-    let of_h = conditions(model, &of_h);
+    let of_h = conditions(model, &[model.h()]);
     let mut own = conditions(model, &observable.components);
     own.retain(|condition| !of_h.contains(condition));
     if own.is_empty() {

@@ -72,8 +72,7 @@ fn item(model: &Model, defaults: &[&str], run_time: &[bool]) -> Item {
             name: ident(&parameter.name),
             attributes: Vec::new(),
             default: defaults.get(at).and_then(|digits| {
-                let (digits, exponent) = digits.split_once('e').unwrap_or((digits, "0"));
-                let value = Rational::decimal(digits, exponent.parse().unwrap())?;
+                let value = Rational::decimal(digits)?;
                 let mut dag = Dag::new();
                 let value = dag.constant(value);
                 closed(&dag, value).map(|text| vec![text])

@@ -139,16 +139,20 @@ pub fn methods(
         };
         out.extend(method);
     }
-    for (usage, back) in [
+    let directions = [
         (VectorUse::FromDeclared, false),
         (VectorUse::ToDeclared, true),
-    ] {
+    ];
+    for (usage, back) in directions {
+        let Some(declared) = definition.declared else {
+            break;
+        };
         let at = definition.vectors.iter().position(|v| v.usage == usage);
         let function = at.map(|at| format!("v{at}"));
         let name = VectorItem::of(usage).name;
         let names = (name.to_string(), function);
         out.extend(declared::method(
-            definition, context, generics, visibility, names, back,
+            declared, context, generics, visibility, names, back,
         ));
     }
     out

@@ -279,8 +279,8 @@ impl Evaluator<'_> {
             Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
                 (Type::Matrix(_, columns), Type::Vector(_)) => {
                     for k in self.run(dag, node, &[*b], columns, demand).indices() {
-                        let row = demand.indices.first().cloned().unwrap_or_else(|| Index::constant(0));
-                        wanted.push((*a, demand.with(vec![row, k.clone()])));
+                        let row = &demand.indices[0];
+                        wanted.push((*a, demand.with(vec![row.clone(), k.clone()])));
                         wanted.push((*b, demand.with(vec![k])));
                     }
                 }

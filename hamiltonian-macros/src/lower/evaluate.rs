@@ -7,7 +7,6 @@
 use super::demand::{Demand, Run};
 use super::domain;
 use super::loops::Loops;
-use super::scope::number;
 use super::velocity;
 use super::{Beyond, LARGEST, SHARE_LOOPS};
 use crate::ast::Comparison;
@@ -264,7 +263,7 @@ impl<'a> Evaluator<'a> {
         let this = checked.node(node);
         let dag = &mut model.dag;
         match (&this.kind, values) {
-            (Kind::Number(value), _) => dag.constant(number(value)),
+            (Kind::Number(value), _) => dag.constant(value.clone()),
             (Kind::Pi, _) => dag.pi(),
             (Kind::Coordinate(group), _) => self.phase(model, node, group.0, demand, Array::Phase),
             (Kind::Momentum(group), _) => self.phase(model, node, group.0, demand, |at| {
@@ -454,14 +453,15 @@ impl<'a> Evaluator<'a> {
             }
             Shape::Scalar | Shape::Vector(_) => 0,
         };
-        let row = demand.indices.first().cloned();
         let at = Column {
             side: Side::Q,
             group: group as u16,
             column: column as u16,
         };
-        // A scalar is at row 0.
-        let row = row.unwrap_or_else(|| Index::constant(0));
+        let row = match &model.groups[group as usize].shape {
+            Shape::Scalar => Index::constant(0),
+            Shape::Vector(_) | Shape::Matrix(..) => demand.indices[0].clone(),
+        };
         model.dag.element(array(at), row, None)
     }
 
@@ -513,9 +513,8 @@ impl<'a> Evaluator<'a> {
         demand: &Demand,
         values: &[Node],
     ) -> Node {
-        let written = self
-            .written_values(dag, loops.clone(), demand)
-            .unwrap_or_default();
+        let written = self.written_values(dag, loops.clone(), demand);
+        let written = written.expect("its operands were asked for");
         let kept: Vec<LoopId> = loops
             .rev()
             .map(LoopId)
@@ -578,16 +577,11 @@ fn compare(dag: &mut Dag, comparison: Comparison, a: Node, b: Node) -> Node {
 
 /// Σ of products of pairs, over a loop or one by one.
 fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
-    let terms: Vec<(Rational, Node)> = values
-        .chunks_exact(2)
-        .map(|pair| (Rational::ONE, dag.mul(pair)))
-        .collect();
-    match (run, terms.first()) {
-        (Run::Loop(domain), Some((_, body))) => {
-            let body = *body;
-            dag.reduce(domain, body)
-        }
-        _ => dag.linear(&Rational::ZERO, &terms),
+    let pairs = values.chunks_exact(2);
+    let terms: Vec<Node> = pairs.map(|pair| dag.mul(pair)).collect();
+    match run {
+        Run::Loop(domain) => dag.reduce(domain, terms[0]),
+        Run::Numbers(_) => dag.add(&terms),
     }
 }
 

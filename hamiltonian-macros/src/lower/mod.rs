@@ -77,11 +77,11 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let mut evaluator = Evaluator::new(checked, report);
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
-    model.hamiltonian = value.first().copied();
+    model.hamiltonian = Some(value[0]);
     let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
         let before = model.dag.len();
-        match legendre(&mut model) {
+        match legendre(&mut model, value[0]) {
             Ok(legendre) => {
                 evaluator.derived.since(before, &model);
                 evaluator.velocities = Some(legendre.velocities.clone());
@@ -168,8 +168,7 @@ pub fn constants(
 }
 
 /// H in the place of L; p(q, v) and v(q, p) become vector functions.
-fn legendre(model: &mut Model) -> Result<Legendre, Refusal> {
-    let lagrangian = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
+fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
@@ -246,7 +245,7 @@ impl Rest<'_> {
                 if matches!(shape, Shape::Matrix(..)) {
                     demand.indices.push(Index::constant(i64::from(column)));
                 }
-                let value = self.values(model, &[(*root, demand)])?.first().copied()?;
+                let value = self.values(model, &[(*root, demand)])?[0];
                 let at = Column {
                     side: Side::P,
                     group: group as u16,
@@ -311,7 +310,8 @@ fn declarations(checked: &Checked) -> Option<Model> {
 fn components(checked: &Checked, root: NodeId) -> Vec<(NodeId, Demand)> {
     match checked.node(root).ty {
         Type::Vector(extent) => {
-            let length = size_affine(extent).as_constant().unwrap_or(0);
+            let length = size_affine(extent).as_constant();
+            let length = length.expect("an observable has a literal number of components");
             (0..length)
                 .map(|at| (root, Demand::at(Index::constant(at))))
                 .collect()

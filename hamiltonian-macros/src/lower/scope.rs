@@ -1,18 +1,18 @@
-//! Checked sizes, shapes and numbers in the engine's terms.
+//! Checked sizes and shapes in the engine's terms.
 //!
-//! Input: what check resolved. Output: affine forms, shapes, exact numbers. Invariant: size `n` of
+//! Input: what check resolved. Output: affine forms, shapes. Invariant: size `n` of
 //! the one is size `n` of the other.
 
-use crate::ast::Number;
 use crate::checked::{Extent, Type};
 use hamiltonian_symbolic::index::{Affine, Size};
 use hamiltonian_symbolic::model::Shape;
-use hamiltonian_symbolic::rational::Rational;
 
 /// An extent.
 pub fn size_affine(extent: Extent) -> Affine {
     match extent {
-        Extent::Literal(value) => Affine::constant(i64::try_from(value).unwrap_or(i64::MAX)),
+        Extent::Literal(value) => {
+            Affine::constant(i64::try_from(value).expect("check bounds literal sizes"))
+        }
         Extent::Size(size) => Affine::size(Size(size.0 as u16)),
     }
 }
@@ -37,10 +37,4 @@ pub fn group_shape(ty: Type) -> Option<Shape<u16>> {
         }
         Type::Matrix(_, Extent::Size(_)) => return None,
     })
-}
-
-/// A number, exactly.
-pub fn number(number: &Number) -> Rational {
-    // Its digits are digits, and its exponent is that of a finite f64.
-    Rational::decimal(&number.digits, number.exponent).unwrap_or(Rational::ZERO)
 }

@@ -1,12 +1,13 @@
 //! Numbers: plain decimals, exactly.
 //!
-//! Input: a literal token. Output: a [`Number`] node. Invariant: what is not a plain decimal number
+//! Input: a literal token. Output: a node with the exact number. Invariant: what is not a plain decimal number
 //! that f64 can hold is reported and reads as [`ExprKind::Error`].
 
 use super::Parser;
-use crate::ast::{ExprId, ExprKind, Number};
+use crate::ast::{ExprId, ExprKind};
 use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
+use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Delimiter;
 
 /// Suffixes by which Rust gives a number a type.
@@ -40,15 +41,15 @@ impl Parser<'_> {
     }
 
     /// The value of a literal, or an error. `divided`: a `/` stands before it.
-    pub(super) fn number(&mut self, token: &Token, divided: bool) -> Option<Number> {
+    pub(super) fn number(&mut self, token: &Token, divided: bool) -> Option<Rational> {
         let text = token.text.as_str();
         let span = token.span;
         // Short whole numbers, which most are, need no further look.
         if text.len() <= 18
             && text.as_bytes().iter().all(u8::is_ascii_digit)
-            && let Some(number) = Number::read(text)
+            && let Ok(number) = text.parse()
         {
-            return Some(number);
+            return Some(Rational::integer(number));
         }
         if !text.starts_with(|c: char| c.is_ascii_digit()) {
             self.report.error(
@@ -95,15 +96,15 @@ impl Parser<'_> {
                 .error(span, format!("`{text}` is not a product"), help);
             return None;
         }
-        let Some(number) = Number::read(digits) else {
+        let plain = digits.replace('_', "");
+        let Ok(rounded) = plain.parse::<f64>() else {
             self.report.error(
                 span,
-                format!("`{text}` does not fit an f64"),
-                "write a number between 1e-323 and 1.7e308",
+                format!("`{text}` is not a decimal number"),
+                "write a decimal number",
             );
             return None;
         };
-        let rounded = number.to_f64();
         if rounded.is_infinite() {
             self.report.error(
                 span,
@@ -112,7 +113,11 @@ impl Parser<'_> {
             );
             return None;
         }
-        if rounded == 0.0 && !number.is_zero() {
+        let mantissa = plain.split(['e', 'E']).next();
+        if mantissa.is_some_and(|digits| digits.bytes().all(|digit| matches!(digit, b'0' | b'.'))) {
+            return Some(Rational::ZERO);
+        }
+        if rounded == 0.0 {
             self.report.error(
                 span,
                 format!("`{text}` is smaller than any f64 but not 0"),
@@ -120,7 +125,12 @@ impl Parser<'_> {
             );
             return None;
         }
-        Some(number)
+        let number = Rational::decimal(&plain);
+        if number.is_none() {
+            let fault = format!("`{text}` is not read exactly");
+            self.report.internal(span, &fault);
+        }
+        number
     }
 }
 

@@ -13,7 +13,7 @@ fn built(source: &str) -> Result<String, Vec<(String, String)>> {
     let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
     let mut report = Report::default();
     let (_, checked) = expand::front(stream, &mut report);
-    let code = checked.map(|checked| backend::generate(&checked, &quote!(::h), &mut report));
+    let code = checked.and_then(|checked| backend::generate(&checked, &quote!(::h), &mut report));
     match code.and_then(|code| report.barrier(code)) {
         Some(code) => Ok(code.to_string()),
         None => Err(report

@@ -85,10 +85,10 @@ pub fn is_invariant_of_lagrangian(
 
 /// The verdict, with what derivatives and points do not see.
 fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
-    let roots: Vec<Node> = model.hamiltonian.into_iter().chain([expression]).collect();
+    let h = model.h();
     let has_rust = model
         .dag
-        .reachable(&roots)
+        .reachable(&[h, expression])
         .iter()
         .any(|n| matches!(model.dag.kind(*n), Kind::External(..)));
     match verdict {
@@ -97,15 +97,12 @@ fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
             residual,
             why: "nothing is known of the functions in Rust in it".to_owned(),
         },
-        Verdict::Proven => match model.hamiltonian {
-            Some(h) => {
-                cross::find(model, expression, h).map_or(Verdict::Proven, |found| Verdict::Jumps {
-                    part: found.part,
-                    why: found.why,
-                })
-            }
-            None => Verdict::Proven,
-        },
+        Verdict::Proven => {
+            cross::find(model, expression, h).map_or(Verdict::Proven, |found| Verdict::Jumps {
+                part: found.part,
+                why: found.why,
+            })
+        }
         verdict => verdict,
     }
 }
@@ -113,10 +110,7 @@ fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
 /// The verdict for functions in Rust of which nothing is known.
 fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     let mut model = model.clone();
-    let h = match model.hamiltonian {
-        Some(h) => h,
-        None => model.dag.integer(0),
-    };
+    let h = model.h();
     let difference = shell.map(|e| model.dag.sub(h, e));
     let general = derivative(&mut model, expression, h);
     // A proof for all points, and all sizes, is the common case and the cheapest.

@@ -375,7 +375,7 @@ impl Meaning for Numbers<'_> {
                         error: a.error + b.error,
                     }
                 }
-                _ => exact(f64::NAN),
+                more => unreachable!("{op:?} of {} arguments", more.len()),
             },
             Kind::External(function, part, arguments) => {
                 // Any smooth function will do: sin(w·x + 1), with its own derivatives.
@@ -421,8 +421,7 @@ impl Meaning for Numbers<'_> {
                 c if c.is_nan() => exact(f64::NAN),
                 c => child(if c == 1.0 { *yes } else { *no }),
             },
-            // The walk runs loops itself.
-            Kind::Reduce(..) => exact(f64::NAN),
+            Kind::Reduce(..) => unreachable!("the walk runs loops itself"),
         }
     }
 

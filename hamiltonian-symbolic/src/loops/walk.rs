@@ -51,11 +51,11 @@ impl Place {
     }
     /// The value of a loop variable.
     pub(crate) fn variable(&self, domain: Domain) -> i64 {
-        self.variables.get(domain.0 as usize).copied().unwrap_or(0)
+        self.variables[domain.0 as usize]
     }
     /// The value of a size.
     pub(crate) fn size(&self, size: Size) -> i64 {
-        self.sizes.get(usize::from(size.0)).copied().unwrap_or(0)
+        self.sizes[usize::from(size.0)]
     }
     /// How often a loop runs from here.
     pub(crate) fn count(&self, dag: &Dag, domain: Domain) -> i64 {

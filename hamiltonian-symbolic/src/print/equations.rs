@@ -49,11 +49,10 @@ impl Equations {
 pub fn hamilton_equations(model: &Model) -> Equations {
     let mut model = model.clone();
     let mut list = Vec::new();
-    if let Some(h) = model.hamiltonian {
-        let is_large = model.dag.reachable(&[h]).len() > LARGEST;
-        for side in [Side::Q, Side::P] {
-            of_side(&mut model, h, side, is_large, &mut list);
-        }
+    let h = model.h();
+    let is_large = model.dag.reachable(&[h]).len() > LARGEST;
+    for side in [Side::Q, Side::P] {
+        of_side(&mut model, h, side, is_large, &mut list);
     }
     Equations { model, list }
 }

@@ -179,10 +179,7 @@ impl From<solve::Flow> for ExactFlow {
 /// # Errors
 /// [`Refusal`] with the term that no row takes.
 pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
-    let h = match model.hamiltonian {
-        Some(h) => h,
-        None => model.dag.integer(0),
-    };
+    let h = model.h();
     let (found, is_limit) = match Space::new(model, &[h]) {
         Some(mut space) => {
             let found = search(&mut space, h);

@@ -111,7 +111,7 @@ impl Tape {
                     [a] => op.eval(&[numbers[*a]]),
                     [a, b] => op.eval(&[numbers[*a], numbers[*b]]),
                     [a, b, c] => op.eval(&[numbers[*a], numbers[*b], numbers[*c]]),
-                    _ => f64::NAN,
+                    more => unreachable!("{op:?} of {} arguments", more.len()),
                 },
                 Step::Compare(relation, a, b) => {
                     let (a, b) = (numbers[*a], numbers[*b]);

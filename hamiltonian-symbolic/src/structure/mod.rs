@@ -66,10 +66,7 @@ pub struct Structure {
 
 /// The structure of the model's H (0 where there is none).
 pub fn analyse(model: &mut Model) -> Structure {
-    let h = match model.hamiltonian {
-        Some(h) => h,
-        None => model.dag.integer(0),
-    };
+    let h = model.h();
     let separable = separate::split(model, h);
     let quadratic_kinetic = match &separable {
         Ok(split) => quadratic::form(model, split.kinetic),

@@ -115,7 +115,7 @@ impl Layout {
             .iter()
             .zip(firsts)
             .map(|(chart, first)| {
-                let first = first.unwrap_or(0);
+                let first = first.expect("a chart has members");
                 let blocks = blocks(model, chart, first);
                 Place { blocks, first }
             })

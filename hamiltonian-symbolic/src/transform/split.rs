@@ -33,10 +33,7 @@ pub struct Difference {
 /// # Errors
 /// [`Difference`] with H − Σ A.
 pub fn check_split(model: &mut Model, pieces: &[(String, Node)]) -> Result<(), Box<Difference>> {
-    let h = match model.hamiltonian {
-        Some(h) => h,
-        None => model.dag.integer(0),
-    };
+    let h = model.h();
     let mut terms = vec![(Rational::ONE, h)];
     terms.extend(
         pieces

@@ -83,13 +83,8 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
 
     let time = element(&mut new.dag, Side::Q, group, 0, 0);
     let p_t = element(&mut new.dag, Side::P, group, 0, 0);
-    let h = match new.hamiltonian {
-        Some(h) => h,
-        None => new.dag.integer(0),
-    };
-    new.hamiltonian = Some(h);
-    let mut roots = vec![g];
-    roots.extend(new.roots());
+    let mut roots = vec![g, new.h()];
+    roots.extend(&new.roots()[1..]);
     roots.extend(carried);
     let roots = at_coordinate(&mut new.dag, &roots, time);
     let (factor, energy) = (roots[0], roots[1]);

@@ -32,7 +32,7 @@ const CLOSE: f64 = 1e-8;
 /// there is none to compare at: what was not looked at is not called checked.
 pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     let old = &transformed.source;
-    let old_roots = roots(old);
+    let old_roots = old.roots();
     let fitting = choices(old.sizes.len())
         .filter(|sizes| sizes.is_empty() || loops::is_in_range(old, &old_roots, sizes))
         .take(CHOICES);
@@ -46,15 +46,6 @@ pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
         None => "no sizes were found at which every index is in range",
     };
     Err(Refusal::Uncompared { reason })
-}
-
-/// H and the components of observables.
-fn roots(model: &Model) -> Vec<Node> {
-    let mut roots: Vec<Node> = model.hamiltonian.into_iter().collect();
-    for observable in &model.observables {
-        roots.extend(&observable.components);
-    }
-    roots
 }
 
 /// Choices of sizes, those first that are small and differ from each other.
@@ -90,7 +81,7 @@ fn check_at(
     let mut old = transformed.source.clone();
     let mut new = transformed.model.clone();
     let inverse = at_sizes(&mut new, &transformed.inverse, sizes);
-    let new_roots = roots(&new);
+    let new_roots = new.roots();
     let new_slots = slots(&new, sizes);
     // To all the digits asked for, and to fewer.
     let (mut compared, mut roughly) = (0, 0);
@@ -203,9 +194,8 @@ fn at_sizes(model: &mut Model, entries: &[VectorEntry], sizes: &[i64]) -> Vec<Ve
 
 /// The value of an extent.
 fn extent(affine: &Affine, sizes: &[i64]) -> i64 {
-    affine.value(&|_| 0, &|size| {
-        sizes.get(usize::from(size.0)).copied().unwrap_or(0)
-    })
+    let in_loop = |domain| unreachable!("an extent reads {domain:?}");
+    affine.value(&in_loop, &|size| sizes[usize::from(size.0)])
 }
 
 /// All scalar places of a model at the given sizes.

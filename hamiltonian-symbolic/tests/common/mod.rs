@@ -231,13 +231,7 @@ impl Parser<'_> {
             return inner;
         }
         if first.is_ascii_digit() {
-            let (mantissa, exponent) = token.split_once('e').unwrap_or((&token, "0"));
-            let places = mantissa.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-            let value = Rational::decimal(
-                &mantissa.replace('.', ""),
-                exponent.parse::<i64>().unwrap() - places,
-            )
-            .unwrap();
+            let value = Rational::decimal(&token).unwrap();
             return self.model.dag.constant(value);
         }
         match token.as_str() {

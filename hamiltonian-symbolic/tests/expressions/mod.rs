@@ -105,8 +105,7 @@ impl Parser<'_> {
             self.at += 1;
         }
         let text = std::str::from_utf8(&self.text[start..self.at]).unwrap();
-        let places = text.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-        let value = Rational::decimal(&text.replace('.', ""), -places).unwrap();
+        let value = Rational::decimal(text).unwrap();
         self.model.dag.constant(value)
     }
     fn name(&mut self) -> Node {

@@ -105,9 +105,7 @@ impl Reader {
             return inner;
         }
         if word.starts_with(|c: char| c.is_ascii_digit()) {
-            let places = word.split_once('.').map_or(0, |(_, p)| p.len() as i64);
-            let value = Rational::decimal(&word.replace('.', ""), -places).unwrap();
-            return Expression::Number(value);
+            return Expression::Number(Rational::decimal(&word).unwrap());
         }
         if word == "sum" {
             return self.sum();

@@ -6,11 +6,12 @@
 //! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
 
 mod array;
+pub(crate) mod bounds;
 
 pub use array::{Array, Column, Side};
 
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
-use crate::op::{Op, Range as Values};
+use crate::op::Op;
 use crate::rational::Rational;
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
@@ -500,17 +501,14 @@ impl Dag {
             Kind::Product(c, factors) => {
                 factors.iter().for_each(|(n, _)| child(*n));
                 !c.is_negative()
-                    && factors
-                        .iter()
-                        .all(|(n, k)| k % 2 == 0 || self.is_nonnegative(*n))
+                    && bounds::is_nonnegative_product(
+                        factors.iter().map(|(n, k)| (self.is_nonnegative(*n), *k)),
+                    )
             }
             Kind::Call(op, arguments) => {
                 arguments.iter().for_each(|n| child(*n));
-                match op.row().regularity.range {
-                    Values::Any => false,
-                    Values::NonNegative | Values::Positive => true,
-                    Values::OfBase => self.is_nonnegative(arguments[0]),
-                }
+                let first = self.is_nonnegative(arguments[0]);
+                bounds::is_nonnegative_call(op.row().regularity.range, first)
             }
             Kind::External(_, _, arguments) => {
                 arguments.iter().for_each(|n| child(*n));

@@ -120,20 +120,8 @@ fn weight(dag: &mut Dag, rate: Node) -> Node {
 
 /// Whether an entry is in every row of its group.
 fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
-    let Some(rows) = model.groups[usize::from(entry.at.group)].shape.rows() else {
-        return true;
-    };
-    match (entry.row.affine.loops.as_slice(), &entry.row.modulo) {
-        ([(domain, 1)], None) => {
-            let range = model.dag.range(*domain);
-            entry.row.affine.constant == 0
-                && entry.row.affine.sizes.is_empty()
-                && range.parent.is_none()
-                && range.start.as_constant() == Some(0)
-                && range.end == *rows
-        }
-        _ => false,
-    }
+    let rows = model.groups[usize::from(entry.at.group)].shape.rows();
+    rows.is_none_or(|rows| model.dag.loop_of_rows(&entry.row, rows).is_some())
 }
 
 /// The kick, from ∂V/∂q.
@@ -202,7 +190,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
     if !model.pieces.is_empty() {
         return Vec::new();
     }
-    let h = model.hamiltonian.unwrap_or_else(|| model.dag.integer(0));
+    let h = model.h();
     let mut gradient = gradient_of(model, String::new(), h).entries;
     gradient.retain(|entry| entry.at.side == Side::Q);
     gradient

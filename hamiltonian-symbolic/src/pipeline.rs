@@ -177,9 +177,7 @@ pub fn request(
     purpose: Purpose,
     gradient: &mut Option<Vec<VectorEntry>>,
 ) -> Result<Request, Refusal> {
-    let Some(h) = model.hamiltonian else {
-        return Err(internal("there is no H".to_owned()));
-    };
+    let h = model.h();
     let mut request = Request {
         purpose,
         results: Vec::new(),
@@ -274,10 +272,11 @@ pub fn request(
             }
         }
         Purpose::Piece(number) => {
-            if let Some(piece) = model.pieces.get(usize::from(number)).cloned() {
-                request.stores = piece.stores(model);
-                request.pinned = piece.flow.innermost();
-            }
+            let piece = model.pieces.get(usize::from(number)).cloned();
+            let missing = || internal(format!("there is no piece {number}"));
+            let piece = piece.ok_or_else(missing)?;
+            request.stores = piece.stores(model);
+            request.pinned = piece.flow.innermost();
         }
     }
     Ok(request)
@@ -287,11 +286,12 @@ pub fn request(
 fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
     let adjoints = diff::gradient(&mut model.dag, root, BOTH);
     let entry = |(leaf, value): (Node, Node)| {
-        let (at, row) = model.dag.phase_place(leaf)?;
+        let place = model.dag.phase_place(leaf);
+        let (at, row) = place.expect("leaves of phase space are elements of it");
         let row = row.clone();
-        Some(VectorEntry { at, row, value })
+        VectorEntry { at, row, value }
     };
-    adjoints.into_iter().filter_map(entry).collect()
+    adjoints.into_iter().map(entry).collect()
 }
 
 /// The stores that add c·J∇h of an expression.
@@ -387,19 +387,11 @@ fn overwrite(
     };
     if let [at] = own {
         let store = &mut stores[*at];
-        if let ([(domain, 1)], None, [], 0) = (
-            store.row.affine.loops.as_slice(),
-            &store.row.modulo,
-            store.row.affine.sizes.as_slice(),
-            store.row.affine.constant,
-        ) {
-            let range = dag.range(*domain);
-            let whole =
-                range.start.as_constant() == Some(0) && range.end == rows && range.parent.is_none();
-            if whole && dag.variables(store.value) & !(1u64 << domain.0) == 0 {
-                store.add = false;
-                return;
-            }
+        if let Some(domain) = dag.loop_of_rows(&store.row, &rows)
+            && dag.variables(store.value) & !(1u64 << domain.0) == 0
+        {
+            store.add = false;
+            return;
         }
     }
     let element = |at: &usize| match &stores[*at] {
@@ -434,7 +426,7 @@ fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
             Kind::Element(Array::Parameter(parameter), row, column) => {
                 (Target::Parameter(parameter), row, column, true)
             }
-            _ => continue,
+            other => unreachable!("{other:?} is no parameter"),
         };
         if stores.insert(target, ()).is_none() && add {
             request.cleared.push(target);

@@ -136,10 +136,8 @@ fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
     let [domain] = scatter.chain.as_slice() else {
         return false;
     };
-    let range = dag.range(*domain);
-    let is_whole = range.start == Affine::constant(0) && range.end == *rows;
     let rest = scatter.row.affine.plus(-1, &Affine::variable(*domain));
-    is_whole
+    dag.runs_over(*domain, rows)
         && rest.loops.is_empty()
         && (scatter.row.modulo.as_ref() == Some(rows)
             || scatter.row == Index::plain(Affine::variable(*domain)))

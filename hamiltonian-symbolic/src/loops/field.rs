@@ -6,7 +6,6 @@
 //! cannot be solved, a condition `index = k` is summed instead; where not even that can be said,
 //! there is no answer.
 
-use super::guard::is_nonnegative as is_never_negative;
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};
 
@@ -92,8 +91,7 @@ fn gather(
             if factor == 1
                 && rest.loops.is_empty()
                 && modulo == rows
-                && range.start == Affine::constant(0)
-                && range.end == *rows =>
+                && dag.runs_over(inner, rows) =>
         {
             Some(Index::wrapped(
                 Affine::variable(k).plus(-1, &rest),
@@ -112,10 +110,10 @@ fn gather(
                 range.end.plus(-1, &at).plus(-1, &Affine::constant(1)),
             ];
             for bound in bounds {
-                if is_nonnegative(&bound, k, rows) {
+                if dag.is_never_negative(&bound) {
                     continue;
                 }
-                match tighten(dag, &bound, &mut around, k, rows, value) {
+                match tighten(dag, &bound, &mut around, value) {
                     Some(moved) => value = moved,
                     None => {
                         let (zero, holds) = (dag.integer(0), at_least_zero(dag, &bound));
@@ -159,22 +157,6 @@ fn where_equal(dag: &mut Dag, index: &Affine, k: Domain, value: Node) -> Node {
     dag.select(equal, value, zero)
 }
 
-/// Whether an affine expression of k in 0..rows and of sizes is never negative.
-fn is_nonnegative(affine: &Affine, k: Domain, rows: &Affine) -> bool {
-    let plain = |a: &Affine| {
-        a.constant >= 0
-            && a.loops.iter().all(|(d, n)| *d == k && *n >= 0)
-            && a.sizes.iter().all(|(_, n)| *n >= 0)
-    };
-    let factor = affine.factor(k);
-    // k itself, or rows − 1 − k, is the slack.
-    let mirrored = affine
-        .plus(-factor, &Affine::variable(k))
-        .plus(factor, rows)
-        .plus(-factor, &Affine::constant(1));
-    plain(affine) || (factor < 0 && mirrored.loops.is_empty() && plain(&mirrored))
-}
-
 /// The condition `affine ≥ 0`, negative terms on the left: `1 <= k`, `k + 2 <= N`.
 pub(crate) fn at_least_zero(dag: &mut Dag, affine: &Affine) -> Node {
     let mut above = affine.clone();
@@ -188,14 +170,7 @@ pub(crate) fn at_least_zero(dag: &mut Dag, affine: &Affine) -> Node {
 
 /// Takes the condition `bound ≥ 0` into the range of the one loop around that it names: the value
 /// over the loop so restricted.
-fn tighten(
-    dag: &mut Dag,
-    bound: &Affine,
-    around: &mut [Domain],
-    k: Domain,
-    rows: &Affine,
-    value: Node,
-) -> Option<Node> {
+fn tighten(dag: &mut Dag, bound: &Affine, around: &mut [Domain], value: Node) -> Option<Node> {
     let named: Vec<usize> = (0..around.len())
         .filter(|at| bound.factor(around[*at]) != 0)
         .collect();
@@ -215,7 +190,7 @@ fn tighten(
         _ => return None,
     };
     let narrower = [start.plus(-1, &range.start), range.end.plus(-1, &end)];
-    if !narrower.iter().all(|slack| is_nonnegative(slack, k, rows)) {
+    if !narrower.iter().all(|slack| dag.is_never_negative(slack)) {
         return None;
     }
     let fresh = dag.domain(range.parent, start, end);
@@ -283,7 +258,7 @@ fn wrapped(dag: &mut Dag, index: &Index, modulo: &Affine) -> Option<Node> {
     };
     let variable = Affine::variable(*variable);
     let slack = modulo.plus(-1, &variable).plus(-1, &Affine::constant(1));
-    if !(is_never_negative(dag, variable.clone()) && is_never_negative(dag, slack)) {
+    if !(dag.is_never_negative(&variable) && dag.is_never_negative(&slack)) {
         return None;
     }
     let by = index.affine.plus(-1, &variable).as_constant()?;
@@ -352,8 +327,7 @@ pub(crate) fn plain_where_possible(dag: &Dag, index: Index) -> Index {
     };
     match index.affine.loops.as_slice() {
         [(domain, 1)] if index.affine == Affine::variable(*domain) => {
-            let range = dag.range(*domain);
-            if range.start == Affine::constant(0) && range.end == *modulo {
+            if dag.runs_over(*domain, modulo) {
                 Index::plain(index.affine)
             } else {
                 index

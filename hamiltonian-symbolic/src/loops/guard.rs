@@ -48,7 +48,7 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
             Kind::Reduce(domain, _)
                 if is_under.contains_key(&node)
                     && !is_safe(node)
-                    && !is_nonnegative(&model.dag, model.dag.range(domain).start.clone()) =>
+                    && !model.dag.is_never_negative(&model.dag.range(domain).start) =>
             {
                 return None;
             }
@@ -75,34 +75,11 @@ fn safe(dag: &Dag, index: Index, extent: Option<Affine>) -> Index {
     };
     let one = Affine::constant(1);
     let is_inside = index.modulo.is_some()
-        || is_nonnegative(dag, index.affine.clone())
-            && is_nonnegative(dag, extent.plus(-1, &one).plus(-1, &index.affine));
+        || dag.is_never_negative(&index.affine)
+            && dag.is_never_negative(&extent.plus(-1, &one).plus(-1, &index.affine));
     if is_inside {
         index
     } else {
         Index::wrapped(index.affine, extent)
     }
-}
-
-/// Whether an affine expression is never negative, whatever the values of its loop variables in
-/// their ranges.
-pub(super) fn is_nonnegative(dag: &Dag, affine: Affine) -> bool {
-    let mut least = affine;
-    // A range may name loops around it: from the innermost out.
-    while let Some(&(domain, factor)) = least
-        .loops
-        .iter()
-        .max_by_key(|(domain, _)| dag.depth(Some(*domain)))
-    {
-        let range = dag.range(domain);
-        let bound = if factor > 0 {
-            range.start.clone()
-        } else {
-            range.end.plus(-1, &Affine::constant(1))
-        };
-        least = least
-            .plus(-factor, &Affine::variable(domain))
-            .plus(factor, &bound);
-    }
-    least.constant >= 0 && least.sizes.iter().all(|(_, factor)| *factor >= 0)
 }

@@ -5,6 +5,7 @@
 //! of those or has its relation here.
 
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
+use crate::dag::bounds::{is_nonnegative_call, is_nonnegative_product};
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
 use crate::index::Domain;
 use crate::op::{Op, Range};
@@ -193,10 +194,8 @@ impl Algebra {
             Key::Function(op, arguments) => {
                 arguments.iter().for_each(read);
                 let range = op.row().regularity.range;
-                (
-                    matches!(range, Range::NonNegative | Range::Positive),
-                    range == Range::Positive,
-                )
+                let first = self.is_nonnegative(&arguments[0]);
+                (is_nonnegative_call(range, first), range == Range::Positive)
             }
             Key::External(_, _, arguments) => {
                 arguments.iter().for_each(read);
@@ -232,10 +231,7 @@ impl Algebra {
             variables |= self.entry(*atom).variables;
         }
         variables &= !(1u64 << domain.0);
-        let nonnegative = body
-            .0
-            .iter()
-            .all(|(atom, n)| n % 2 == 0 || self.entry(*atom).nonnegative);
+        let nonnegative = self.is_nonnegative_term(&body);
         let entry = Entry {
             key: key.clone(),
             relation: None,
@@ -258,12 +254,13 @@ impl Algebra {
 
     /// Whether a polynomial is ≥ 0 term by term.
     pub(super) fn is_nonnegative(&self, poly: &Poly) -> bool {
-        poly.terms().iter().all(|(m, k)| {
-            !k.is_negative()
-                && m.0
-                    .iter()
-                    .all(|(atom, n)| n % 2 == 0 || self.entry(*atom).nonnegative)
-        })
+        let mut terms = poly.terms().iter();
+        terms.all(|(term, k)| !k.is_negative() && self.is_nonnegative_term(term))
+    }
+
+    fn is_nonnegative_term(&self, term: &Monomial) -> bool {
+        let factors = term.0.iter();
+        is_nonnegative_product(factors.map(|(atom, n)| (self.entry(*atom).nonnegative, *n)))
     }
 
     /// Whether a polynomial is ≥ 0 term by term, and one term is never 0.

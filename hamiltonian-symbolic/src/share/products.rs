@@ -379,17 +379,24 @@ struct Counts {
 }
 
 impl Counts {
-    fn tally(&mut self, list: &Factors, sign: i64) {
+    /// Counts the couples of a list in which an item is one of those asked for.
+    fn tally(&mut self, list: &Factors, sign: i64, is_asked: impl Fn(Item, i32) -> bool) {
         if list.items.len() > LONGEST {
             return;
         }
         for (i, &(a, m)) in list.items.iter().enumerate() {
+            if !is_asked(a, m) {
+                continue;
+            }
             if m.abs() > 1 {
                 self.add(Couple(a, a, false), sign * i64::from(m.abs() / 2));
             }
-            for &(b, n) in &list.items[i + 1..] {
-                let times = i64::from(m.abs().min(n.abs()));
-                self.add(Couple::of((a, m), (b, n)), sign * times);
+            for (j, &(b, n)) in list.items.iter().enumerate() {
+                // Two that are asked for are one couple.
+                if j > i || j < i && !is_asked(b, n) {
+                    let times = i64::from(m.abs().min(n.abs()));
+                    self.add(Couple::of((a, m), (b, n)), sign * times);
+                }
             }
         }
     }
@@ -414,7 +421,7 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     let mut counts = Counts::default();
     let mut holders: Map<Item, Vec<usize>> = Map::default();
     for (at, list) in lists.iter().enumerate() {
-        counts.tally(list, 1);
+        counts.tally(list, 1, |_, _| true);
         for (item, _) in &list.items {
             holders.entry(*item).or_default().push(at);
         }
@@ -439,13 +446,15 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
             continue;
         }
         let made = pool.make(dag, couple.made());
+        // Whether a quotient spares a division depends on the whole list.
+        let changes = |item: Item, n: i32| n < 0 || [couple.0, couple.1, made].contains(&item);
         for at in among {
             let list = &mut lists[at];
             let times = couple.times(list);
             if times == 0 {
                 continue;
             }
-            counts.tally(list, -1);
+            counts.tally(list, -1, changes);
             let place = list
                 .items
                 .iter()
@@ -464,9 +473,9 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
                     held.push(at);
                 }
             }
-            list.multiply(place.unwrap_or(0), made, times);
+            list.multiply(place.expect("it has the couple"), made, times);
             list.items.retain(|(_, n)| *n != 0);
-            counts.tally(list, 1);
+            counts.tally(list, 1, changes);
         }
         counts.offer(&mut heap);
     }

@@ -21,6 +21,7 @@ use crate::checked::{
     SizeId, Type,
 };
 use crate::report::Report;
+use hamiltonian_symbolic::transform::REPLACING;
 use proc_macro2::{Ident, Span};
 use std::cell::OnceCell;
 
@@ -31,9 +32,16 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
         checker.values();
         checker.claims();
         checker.occurs();
+        if let Some(last) = checker.out.captures.last().map(Ident::span) {
+            let count = checker.out.captures.len();
+            checker.are_numbered(count, ("captured values", "a"), last);
+        }
     }
     checker.out
 }
+
+/// The most scalars and arrays of one sort: programs number them in 16 bits, groups in 15.
+const MOST: usize = REPLACING as usize;
 
 /// What a name stands for.
 #[derive(Debug, Clone, Copy)]
@@ -156,6 +164,17 @@ impl<'a> Checker<'a> {
             call_depth: 0,
             instantiated: 0,
         }
+    }
+
+    /// Whether a program can number so many scalars and arrays of one sort, the last of which stands
+    /// at a place; refuses them otherwise.
+    fn are_numbered(&mut self, count: usize, (sort, name): (&str, &str), last: Span) -> bool {
+        if count > MOST {
+            let message = format!("there are {count} {sort}, more than {MOST}");
+            let help = format!("make them an array, such as `{name}[{count}]`");
+            self.report.error(last, message, help);
+        }
+        count <= MOST
     }
 
     /// The symbol of a name, if it occurs in any expression.

@@ -45,6 +45,12 @@ impl Checker<'_> {
                     "choose another name: `T` is the scalar that a state is made of",
                 );
             }
+            if let Some(last) = item.parameters.last() {
+                let (count, last) = (item.parameters.len(), last.name.span());
+                if !self.are_numbered(count, ("parameters", "a"), last) {
+                    return false;
+                }
+            }
             for name in &item.generics {
                 self.size(name, SizeKind::Const, Vec::new());
             }
@@ -350,6 +356,10 @@ impl Checker<'_> {
         }
         if coordinates.len() != others.len() {
             self.partner_missing(signature, word, partner, prefix);
+            return false;
+        }
+        let last = coordinates[coordinates.len() - 1].name.span();
+        if !self.are_numbered(coordinates.len(), ("coordinates", "q"), last) {
             return false;
         }
         if self.is_interleaved(coordinates, others, word)

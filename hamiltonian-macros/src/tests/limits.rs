@@ -132,3 +132,21 @@ fn errors_without_end_are_reported_in_time() {
     assert!(checked.is_none());
     assert_eq!(report.errors().len(), 5_000);
 }
+
+#[test]
+fn what_a_program_cannot_number_is_refused() {
+    let list = |name: &str, count: usize| {
+        let names: Vec<String> = (0..count).map(|at| format!("{name}{at}")).collect();
+        names.join(", ")
+    };
+    let coordinates = |count| format!("H({}; {}) = p0^2", list("q", count), list("p", count));
+    let parameters = |count| format!("struct A {{ {} }} H = p^2*a{}", list("a", count), count - 1);
+    accept(&parameters(32_768));
+    let refusal = |sort: &str, name: &str| {
+        format!(
+            "there are 32769 {sort}, more than 32768\nhelp: make them an array, such as `{name}[32769]`"
+        )
+    };
+    assert_eq!(error(&coordinates(32_769)), refusal("coordinates", "q"));
+    assert_eq!(error(&parameters(32_769)), refusal("parameters", "a"));
+}

@@ -19,7 +19,7 @@ pub struct Component {
 }
 
 /// The number of what is to stand in the place of a group of bodies, less the number of the group: what
-/// is carried may read it before the change.
+/// is carried may read it before the change. A model has at most so many groups.
 pub const REPLACING: u16 = 1 << 15;
 
 /// Positions `[N]` or `[N][d]` and masses `[N]`; d is literal, and N for Jacobi coordinates.

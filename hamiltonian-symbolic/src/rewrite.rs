@@ -3,7 +3,7 @@
 //! Input: nodes, and what takes the place of some of them. Output: nodes through the constructors
 //! of `simplify`, so in canonical form. Invariant: what does not change keeps its node.
 
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::index::{Affine, Domain, Index, members};
 
 impl Dag {
@@ -54,26 +54,29 @@ impl Dag {
         root: Node,
         mut leaf: impl FnMut(&mut Dag, Node) -> Option<Node>,
     ) -> Node {
-        let mut new: Map<Node, Node> = Map::default();
-        for node in self.reachable(&[root]) {
+        let nodes = self.reachable(&[root]);
+        let mut new = Numbers::new(self);
+        // Children come before their parents.
+        let of = |new: &Numbers, node: Node| new.get(node).map_or(node, Node);
+        for node in nodes {
             let image = match leaf(self, node) {
                 Some(image) => image,
                 None => {
                     let changed = {
                         let mut changed = false;
-                        self.for_children(node, |child| changed |= new[&child] != child);
+                        self.for_children(node, |child| changed |= of(&new, child) != child);
                         changed
                     };
                     if changed {
-                        self.rebuild(node, &|child| new[&child])
+                        self.rebuild(node, &|child| of(&new, child))
                     } else {
                         node
                     }
                 }
             };
-            new.insert(node, image);
+            new.set(node, image.0);
         }
-        new[&root]
+        of(&new, root)
     }
 
     /// The expression with a loop variable replaced by an affine index; loops inside it that

@@ -201,14 +201,11 @@ impl Dag {
     ) -> Node {
         let mut constant = constant.clone();
         let mut terms: Vec<(Rational, Node)> = Vec::with_capacity(operands.len());
-        let mut place: Map<Node, usize> = Map::default();
+        let mut places = Places::default();
         let mut push =
-            |terms: &mut Vec<(Rational, Node)>, k: Rational, node: Node| match place.get(&node) {
-                Some(&at) => terms[at].0 = terms[at].0.add(&k),
-                None => {
-                    place.insert(node, terms.len());
-                    terms.push((k, node));
-                }
+            |terms: &mut Vec<(Rational, Node)>, k: Rational, node: Node| match places.of(node) {
+                Some(at) => terms[at].0 = terms[at].0.add(&k),
+                None => terms.push((k, node)),
             };
         for (at, (k, node)) in operands.iter().enumerate() {
             if k.is_zero() {
@@ -501,13 +498,12 @@ fn multiplied(k: &Rational, value: &Rational, n: i32) -> Option<Rational> {
 #[derive(Default)]
 struct Factors {
     list: Vec<(Node, i32)>,
-    place: Map<Node, usize>,
+    places: Places,
 }
 
 impl Factors {
     fn multiply(&mut self, dag: &mut Dag, node: Node, n: i32) {
-        let Some(&at) = self.place.get(&node) else {
-            self.place.insert(node, self.list.len());
+        let Some(at) = self.places.of(node) else {
             self.list.push((node, n));
             return;
         };
@@ -529,6 +525,44 @@ impl Factors {
                 self.multiply(dag, power, 1);
             }
         }
+    }
+}
+
+/// The places of nodes in a list without repetition.
+#[derive(Default)]
+struct Places {
+    nodes: Vec<Node>,
+    /// The same, once there are many: looking through few is quicker.
+    many: Map<Node, usize>,
+}
+
+impl Places {
+    /// How many are looked through.
+    const FEW: usize = 12;
+
+    /// A node's place, if it is in the list already; else it is the list's next.
+    fn of(&mut self, node: Node) -> Option<usize> {
+        let nodes: &[Node] = &self.nodes;
+        if nodes.len() <= Places::FEW {
+            let mut at = 0;
+            while at < nodes.len() {
+                if nodes[at].0 == node.0 {
+                    return Some(at);
+                }
+                at += 1;
+            }
+        } else {
+            if self.many.is_empty() {
+                let places = nodes.iter().enumerate();
+                self.many = places.map(|(at, node)| (*node, at)).collect();
+            }
+            if let Some(&at) = self.many.get(&node) {
+                return Some(at);
+            }
+            self.many.insert(node, nodes.len());
+        }
+        self.nodes.push(node);
+        None
     }
 }
 

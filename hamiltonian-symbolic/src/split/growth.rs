@@ -8,6 +8,7 @@ use super::space::Space;
 use crate::dag::Node;
 use crate::op::Op;
 use crate::rational::Rational;
+use std::sync::LazyLock;
 
 /// The functions that solve ẍ = λx.
 #[derive(Clone, Copy, Debug)]
@@ -23,7 +24,7 @@ pub(crate) struct Growth {
 }
 
 /// As many terms of Σ zⁿ/(2n + k)! as |z| ≤ ½ needs for 106 bits.
-const TERMS: i64 = 13;
+const TERMS: usize = 13;
 
 impl Growth {
     /// The functions of λ and s.
@@ -105,17 +106,20 @@ impl Growth {
     }
 
     /// Σ zⁿ/(2n + k)!, k = 2 or 3
-    fn series(space: &mut Space, z: Node, k: i64) -> Node {
+    fn series(space: &mut Space, z: Node, k: usize) -> Node {
+        /// 1/n!, n = 0, 1, … 2·TERMS + 3
+        static TERMS_OF_EXP: LazyLock<Vec<Rational>> = LazyLock::new(|| {
+            let mut terms = vec![Rational::ONE];
+            for n in 1..=2 * TERMS as i64 + 3 {
+                let next = Rational::new(1, n).mul(&terms[terms.len() - 1]);
+                terms.push(next);
+            }
+            terms
+        });
         let dag = space.dag();
-        let mut terms = Vec::new();
-        let mut term = Rational::new(1, k * (k - 1));
-        for n in 0..=TERMS {
-            let next = Rational::new(1, (2 * n + k + 1) * (2 * n + k + 2));
-            let after = term.mul(&next);
-            terms.push(std::mem::replace(&mut term, after));
-        }
-        let mut sum = dag.constant(terms.pop().unwrap_or(Rational::ZERO));
-        for term in terms.iter().rev() {
+        let mut sum = dag.constant(TERMS_OF_EXP[2 * TERMS + k].clone());
+        for n in (0..TERMS).rev() {
+            let term = &TERMS_OF_EXP[2 * n + k];
             let higher = dag.mul(&[z, sum]);
             sum = dag.linear(term, &[(Rational::ONE, higher)]);
         }

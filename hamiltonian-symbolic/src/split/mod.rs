@@ -235,19 +235,27 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
     }
     let fewest = candidates.iter().map(Vec::len).min().unwrap_or(0);
     candidates.retain(|pieces| pieces.len() <= (fewest + 2).min(MOST));
-    // A number that stands in H is no piece; what adds up without it is proven with it.
+    // A number that stands in H is no piece; what adds up without it is proven with it. Numbers
+    // say what does not, and what is chosen is proven.
     let constant = space.dag().add(&constants);
-    let adds_up = |space: &mut Space, pieces: &Vec<cover::Block>| {
+    let rest = |space: &mut Space, pieces: &[cover::Block]| {
         let mut nodes: Vec<Node> = pieces.iter().map(|piece| piece.node).collect();
         nodes.push(constant);
         let sum = space.dag().add(&nodes);
-        space.same(h, sum)
+        space.dag().sub(h, sum)
     };
-    candidates.retain(|pieces| adds_up(space, pieces));
+    candidates.retain(|pieces| {
+        let rest = rest(space, pieces);
+        !space.is_off(rest)
+    });
     let invariants = space.model.observables.iter();
     let invariants = invariants.filter(|o| o.kind == ObservableKind::Invariant);
     let invariants: Vec<Node> = invariants.flat_map(|o| o.components.clone()).collect();
     let choice = rank::best(space, h, candidates, &invariants).ok_or(refused.unwrap_or(h))?;
+    let rest = rest(space, &choice.pieces);
+    if !space.is_zero(rest) {
+        return Err(h);
+    }
     let mut pieces = Vec::with_capacity(choice.pieces.len());
     for (at, block) in choice.pieces.into_iter().enumerate() {
         let node = match at {

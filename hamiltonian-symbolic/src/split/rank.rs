@@ -6,16 +6,16 @@
 
 use super::cover::Block;
 use super::space::Space;
-use super::tape::Tape;
-use crate::dag::Node;
+use super::tape::{LANES, Lanes, Tape};
+use crate::dag::{Map, Node};
 
 /// The step, and how many there are.
 const STEP: f64 = 0.1;
 const STEPS: usize = 32;
 /// The most orders that are tried.
 const TRIALS: usize = 40;
-/// The most operations of all runs together: a run is not begun past them.
-const OPERATIONS: usize = 1_000_000;
+/// The most operations of all runs together, each on all orbits: a run is not begun past them.
+const OPERATIONS: usize = 100_000;
 /// Errors closer than this are a tie.
 const TIE: f64 = 1.1;
 
@@ -30,9 +30,36 @@ pub(crate) struct Choice {
     pub(crate) among: usize,
 }
 
+/// A flow, ready for half a step and for a whole one.
 struct Piece {
     tape: Tape,
+    half: Vec<Lanes>,
+    whole: Vec<Lanes>,
     moved: Vec<usize>,
+}
+
+impl Piece {
+    fn act(&mut self, z: &mut [Lanes], is_whole: bool) {
+        let Piece {
+            tape,
+            half,
+            whole,
+            moved,
+        } = self;
+        let numbers = if is_whole { whole } else { half };
+        tape.run(z, numbers);
+        let (images, domain) = tape.results.split_at(moved.len());
+        for lane in 0..ORBITS {
+            let is_inside = domain.iter().all(|holds| numbers[*holds][lane] != 0.0);
+            for (bit, image) in moved.iter().zip(images) {
+                z[*bit][lane] = if is_inside {
+                    numbers[*image][lane]
+                } else {
+                    f64::NAN
+                };
+            }
+        }
+    }
 }
 
 /// The best candidate.
@@ -42,41 +69,65 @@ pub(crate) fn best(
     candidates: Vec<Vec<Block>>,
     invariants: &[Node],
 ) -> Option<Choice> {
-    let energy = Tape::of(space, &[h]);
+    let mut energy = Tape::of(space, &[h]).map(|tape| {
+        let numbers = tape.prepared(0.0);
+        (tape, numbers)
+    });
     let mut chosen: Option<(f64, usize, Choice)> = None;
     let (mut trials, mut operations) = (0, 0);
+    // Candidates share blocks: each is made a piece once.
+    let mut made: Vec<Piece> = Vec::new();
+    let mut numbers: Map<Node, Option<usize>> = Map::default();
     for pieces in candidates {
         let keeps = keeps(space, &pieces, invariants);
-        let tapes: Option<Vec<Piece>> = pieces.iter().map(|b| piece(space, b)).collect();
+        let others_keep = chosen.as_ref().map(|(.., choice)| choice.keeps_invariants);
+        if others_keep == Some(true) && !keeps {
+            continue;
+        }
+        let number = |block: &Block| match numbers.get(&block.node) {
+            Some(known) => *known,
+            None => {
+                let number = piece(space, block).map(|piece| {
+                    made.push(piece);
+                    made.len() - 1
+                });
+                numbers.insert(block.node, number);
+                number
+            }
+        };
+        let own: Option<Vec<usize>> = pieces.iter().map(number).collect();
         for order in orders(space, &pieces) {
             if (trials == TRIALS || operations > OPERATIONS) && chosen.is_some() {
                 break;
             }
             trials += 1;
-            let lengths = tapes.iter().flatten().map(|piece| piece.tape.len());
-            operations += 2 * STEPS * ORBITS * lengths.sum::<usize>();
-            let error = match (&energy, &tapes) {
-                (Some(energy), Some(tapes)) => error(space, energy, tapes, &order),
-                _ => f64::NAN,
-            };
             let cost = if pieces.len() == 1 {
                 1
             } else {
                 2 * pieces.len() - 2
             };
-            let price = error * cost as f64;
             let outer = space.set(pieces[order[0]].node);
             let mirrored = usize::from(outer & 0x5555_5555_5555_5555 != 0);
+            // Below this it is better.
+            let most = match &chosen {
+                Some((best, other, choice))
+                    if best.is_finite() && choice.keeps_invariants == keeps =>
+                {
+                    let factor = if mirrored < *other { TIE } else { 1.0 / TIE };
+                    best * factor / cost as f64
+                }
+                _ => f64::INFINITY,
+            };
+            let error = match (&mut energy, &own) {
+                (Some(energy), Some(own)) => {
+                    let order: Vec<usize> = order.iter().map(|at| own[*at]).collect();
+                    error(space, energy, &mut made, &order, most, &mut operations)
+                }
+                _ => f64::NAN,
+            };
             let is_better = match &chosen {
+                Some((.., choice)) => choice.keeps_invariants != keeps || error < most,
                 None => true,
-                Some((best, other, choice)) => match (keeps, choice.keeps_invariants) {
-                    (true, false) => true,
-                    (false, true) => false,
-                    _ if !price.is_finite() => false,
-                    _ if !best.is_finite() => true,
-                    _ if price < best / TIE => true,
-                    _ => price < best * TIE && mirrored < *other,
-                },
             };
             if is_better {
                 let choice = Choice {
@@ -85,7 +136,7 @@ pub(crate) fn best(
                     keeps_invariants: keeps,
                     among: 0,
                 };
-                chosen = Some((price, mirrored, choice));
+                chosen = Some((error * cost as f64, mirrored, choice));
             }
         }
     }
@@ -147,8 +198,11 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
         .iter()
         .map(|(leaf, _)| space.set(*leaf).trailing_zeros() as usize);
     let moved = moved.collect();
+    let tape = Tape::of(space, &roots)?;
     Some(Piece {
-        tape: Tape::of(space, &roots)?,
+        half: tape.prepared(STEP / 2.0),
+        whole: tape.prepared(STEP),
+        tape,
         moved,
     })
 }
@@ -170,59 +224,62 @@ fn start(orbit: usize, bit: usize) -> f64 {
     }
 }
 
-const ORBITS: usize = 4;
+/// An orbit a lane.
+const ORBITS: usize = LANES;
 
-/// The mean error of H over the orbits; NaN where no orbit stays in all domains.
-fn error(space: &Space, energy: &Tape, pieces: &[Piece], order: &[usize]) -> f64 {
-    let (mut numbers, mut results) = (Vec::new(), Vec::new());
-    let mut sum = 0.0;
-    let mut count = 0;
-    for orbit in 0..ORBITS {
-        let mut z: Vec<f64> = (0..2 * space.pairs.len())
-            .map(|bit| start(orbit, bit))
-            .collect();
-        let mut value = |z: &[f64]| {
-            energy.run(z, 0.0, &mut numbers, &mut results);
-            results[0]
-        };
-        let first = value(&z);
-        if !first.is_finite() {
-            continue;
+/// The mean error of H over the orbits; NaN where no orbit stays in all domains, and some number past
+/// `most` where it is larger than that.
+fn error(
+    space: &Space,
+    (energy, numbers): &mut (Tape, Vec<Lanes>),
+    pieces: &mut [Piece],
+    order: &[usize],
+    most: f64,
+    operations: &mut usize,
+) -> f64 {
+    let lanes = |bit: usize| std::array::from_fn(|orbit| start(orbit, bit));
+    let mut z: Vec<Lanes> = (0..2 * space.pairs.len()).map(lanes).collect();
+    let mut value = |z: &[Lanes]| {
+        energy.run(z, numbers);
+        numbers[energy.results[0]]
+    };
+    let first = value(&z);
+    let count = first.iter().filter(|value| value.is_finite()).count();
+    if count == 0 {
+        return f64::NAN;
+    }
+    // An orbit that ends is an error of the size of H.
+    let size = first.map(|first| first.abs() + 1.0);
+    let mut largest = [1e-14; ORBITS];
+    let mut mean = 0.0;
+    let lengths = order.iter().map(|at| 2 * pieces[*at].tape.len());
+    let a_step = lengths.sum::<usize>();
+    let (last, outer) = (order[order.len() - 1], &order[..order.len() - 1]);
+    for step in 0..STEPS {
+        for at in outer {
+            pieces[*at].act(&mut z, false);
         }
-        let mut largest: f64 = 0.0;
-        let (mut scratch, mut out) = (Vec::new(), Vec::new());
-        let mut act = |z: &mut Vec<f64>, at: usize, c: f64| {
-            let piece = &pieces[at];
-            piece.tape.run(z, c, &mut scratch, &mut out);
-            let (images, domain) = out.split_at(piece.moved.len());
-            let is_inside = domain.iter().all(|holds| *holds != 0.0);
-            for (bit, image) in piece.moved.iter().zip(images) {
-                z[*bit] = if is_inside { *image } else { f64::NAN };
-            }
-        };
-        let (last, outer) = (order[order.len() - 1], &order[..order.len() - 1]);
-        for _ in 0..STEPS {
-            for at in outer {
-                act(&mut z, *at, STEP / 2.0);
-            }
-            act(&mut z, last, STEP);
-            for at in outer.iter().rev() {
-                act(&mut z, *at, STEP / 2.0);
-            }
-            let off = (value(&z) - first).abs();
-            if !off.is_finite() {
-                largest = f64::INFINITY;
+        pieces[last].act(&mut z, true);
+        for at in outer.iter().rev() {
+            pieces[*at].act(&mut z, false);
+        }
+        let now = value(&z);
+        *operations += a_step;
+        for orbit in 0..ORBITS {
+            let off = (now[orbit] - first[orbit]).abs();
+            let off = if off.is_finite() { off } else { f64::INFINITY };
+            largest[orbit] = off.max(largest[orbit]).min(size[orbit]);
+        }
+        // It only grows, so that one that is too large now is so at the end.
+        if step % 4 == 3 {
+            let orbits = (0..ORBITS).filter(|orbit| size[*orbit].is_finite());
+            let is_largest = orbits.clone().all(|orbit| largest[orbit] == size[orbit]);
+            let sum: f64 = orbits.map(|orbit| largest[orbit].ln()).sum();
+            mean = (sum / count as f64).exp();
+            if mean > most || is_largest {
                 break;
             }
-            largest = largest.max(off);
         }
-        // An orbit that ends is an error of the size of H.
-        sum += largest.min(first.abs() + 1.0).max(1e-14).ln();
-        count += 1;
     }
-    if count == 0 {
-        f64::NAN
-    } else {
-        (sum / f64::from(count)).exp()
-    }
+    mean
 }

@@ -203,7 +203,21 @@ fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<(Motion, &'s
     let outer = space.by_node(h, u);
     let (k, rate) = kernel(space, u, own)?;
     let time = space.dag().mul(&[s, outer, rate]);
-    let (q, p) = space.pairs[pair];
+    if let Some(known) = space.atoms.get(&(k, time)) {
+        return known.clone();
+    }
+    let found = row_of(space, k, space.pairs[pair], time);
+    space.atoms.insert((k, time), found.clone());
+    found
+}
+
+/// The first row that takes K of one pair.
+fn row_of(
+    space: &mut Space,
+    k: Node,
+    (q, p): (Node, Node),
+    time: Node,
+) -> Option<(Motion, &'static str)> {
     for row in ROWS {
         match row.solve {
             Solve::Pair(solve) => {

@@ -9,7 +9,7 @@
 use super::motion::Motion;
 use super::solve::Flow;
 use super::table::{Near, POINTS, Table};
-use super::tape::Tape;
+use super::tape::{Lanes, Tape};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::index::Index;
@@ -17,7 +17,6 @@ use crate::loops::Sample;
 use crate::model::Model;
 use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes_within, witness};
 use crate::rational::Rational;
-use std::rc::Rc;
 
 /// The most questions whether an expression is zero.
 const TESTS: usize = 400;
@@ -47,10 +46,12 @@ pub(crate) struct Space {
     zeros: Map<Node, bool>,
     table: Table,
     sections: Map<(Node, Set), Node>,
-    /// Expressions that were evaluated, as tapes.
-    tapes: Map<Node, Option<Rc<Tape>>>,
+    /// Expressions that were evaluated, as tapes with their numbers.
+    tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
     /// The flows that were sought, by what acts and the time it acts for.
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
+    /// The same of one pair alone, with the row's name.
+    pub(super) atoms: Map<(Node, Node), Option<(Motion, &'static str)>>,
     /// How many questions may still be asked.
     tests: usize,
     /// How many products the normal form may still take.
@@ -105,6 +106,7 @@ impl Space {
             sections: Map::default(),
             tapes: Map::default(),
             flows: Map::default(),
+            atoms: Map::default(),
             tests: TESTS,
             products: PRODUCTS,
         })
@@ -193,31 +195,48 @@ impl Space {
         dag.substitute(slope, |_, node| (node == place).then_some(u))
     }
 
-    /// {a, b}
-    pub(crate) fn bracket(&mut self, a: Node, b: Node) -> Node {
+    /// The terms of {a, b}: a sign, and the two derivatives that it stands before.
+    fn bracket(&mut self, a: Node, b: Node) -> Vec<(Rational, [Node; 2])> {
         let (in_a, in_b) = (self.set(a), self.set(b));
         let mut terms = Vec::new();
         for pair in 0..self.pairs.len() {
             let (q, p) = self.pairs[pair];
             let has = |set: Set, side: usize| set >> (2 * pair + side) & 1 == 1;
-            for (x, y, first, second, sign) in [
-                (q, p, 0, 1, Rational::ONE),
-                (p, q, 1, 0, Rational::MINUS_ONE),
-            ] {
-                if has(in_a, first) && has(in_b, second) {
-                    let factors = [self.d(a, x), self.d(b, y)];
-                    terms.push((sign, self.model.dag.mul(&factors)));
-                }
+            if has(in_a, 0) && has(in_b, 1) {
+                terms.push((Rational::ONE, [self.d(a, q), self.d(b, p)]));
+            }
+            if has(in_a, 1) && has(in_b, 0) {
+                terms.push((Rational::MINUS_ONE, [self.d(a, p), self.d(b, q)]));
             }
         }
-        self.model.dag.linear(&Rational::ZERO, &terms)
+        terms
     }
     /// Whether {a, b} = 0 is proven.
     pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
-        let bracket = self.bracket(a, b);
+        let terms = self.bracket(a, b);
+        // Numbers of the derivatives first, which are made once for all brackets.
+        let mut sums = [Near::rounded(0.0); POINTS];
+        for (sign, [x, y]) in &terms {
+            let (x, y) = (self.near(*x), self.near(*y));
+            let sign = Near::rounded(sign.to_f64());
+            for (at, sum) in sums.iter_mut().enumerate() {
+                *sum = sum.plus(sign.times(x[at].times(y[at])));
+            }
+        }
+        if sums.iter().any(|sum| sum.is_nonzero()) {
+            return false;
+        }
+        let products = terms.into_iter();
+        let products = products.map(|(sign, factors)| (sign, self.model.dag.mul(&factors)));
+        let products: Vec<(Rational, Node)> = products.collect();
+        let bracket = self.model.dag.linear(&Rational::ZERO, &products);
         self.is_zero(bracket)
     }
 
+    /// Whether numbers say that an expression is not 0.
+    pub(crate) fn is_off(&mut self, node: Node) -> bool {
+        self.near(node).iter().any(|near| near.is_nonzero())
+    }
     /// Whether an expression is proven to be 0 wherever it has a value.
     pub(crate) fn is_zero(&mut self, node: Node) -> bool {
         if self.model.dag.is_zero(node) {
@@ -227,7 +246,7 @@ impl Space {
             return known;
         }
         // Numbers of every node are at hand: most of what is not 0 ends here.
-        if self.near(node).iter().any(|near| near.is_nonzero()) {
+        if self.is_off(node) {
             return false;
         }
         self.tests = self.tests.saturating_sub(1);
@@ -372,15 +391,21 @@ impl Space {
     /// The value at a point; NaN where there is none.
     pub(crate) fn value_at(&mut self, node: Node, point: &[f64]) -> f64 {
         if !self.tapes.contains_key(&node) {
-            let tape = Tape::of(self, &[node]).map(Rc::new);
+            let tape = Tape::of(self, &[node]);
+            let tape = tape.map(|tape| {
+                let numbers = tape.prepared(0.5);
+                (tape, numbers)
+            });
             self.tapes.insert(node, tape);
         }
-        let Some(Some(tape)) = self.tapes.get(&node).cloned() else {
+        let Some(Some((tape, numbers))) = self.tapes.get_mut(&node) else {
             return f64::NAN;
         };
-        let (mut numbers, mut results) = (Vec::new(), Vec::new());
-        tape.run(point, 0.5, &mut numbers, &mut results);
-        results[0]
+        // Functions of no number cost nothing.
+        let alone = |x: &f64| [*x, f64::NAN, f64::NAN, f64::NAN];
+        let point: Vec<Lanes> = point.iter().map(alone).collect();
+        tape.run(&point, numbers);
+        numbers[tape.results[0]][0]
     }
 
     /// The integer n with a = n·b, if that is proven.

@@ -25,6 +25,24 @@ impl Near {
             error: EPSILON * value.abs(),
         }
     }
+    /// a + b
+    pub(super) fn plus(self, other: Near) -> Near {
+        let value = self.value + other.value;
+        let size = self.value.abs() + other.value.abs();
+        Near {
+            value,
+            error: self.error + other.error + EPSILON * size,
+        }
+    }
+    /// a·b
+    pub(super) fn times(self, other: Near) -> Near {
+        let value = self.value * other.value;
+        let moved = (self.value.abs() + self.error) * other.error + self.error * other.value.abs();
+        Near {
+            value,
+            error: moved + EPSILON * value.abs(),
+        }
+    }
     /// Whether the exact value is certainly not 0.
     pub(super) fn is_nonzero(self) -> bool {
         self.value.is_finite() && self.value.abs() > 64.0 * self.error

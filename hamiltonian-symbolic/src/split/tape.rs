@@ -1,9 +1,10 @@
-//! Expressions as a list of operations on numbers, to be run many times.
+//! Expressions as a list of operations on numbers, to be run many times at several points together.
 //!
-//! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0.
+//! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0; what depends on no
+//! variable comes first and is computed once a step coefficient.
 
 use super::space::Space;
-use crate::dag::{Array, Kind, Map, Node, Relation};
+use crate::dag::{Array, Kind, Node, Numbers, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -24,7 +25,10 @@ enum Step {
 /// Nodes as operations.
 pub(super) struct Tape {
     steps: Vec<Step>,
-    results: Vec<usize>,
+    /// How many of them depend on no variable.
+    fixed: usize,
+    /// Where the values of the roots are.
+    pub(super) results: Vec<usize>,
 }
 
 impl Tape {
@@ -32,13 +36,16 @@ impl Tape {
     /// values of a sample point. `None` where something has no number.
     pub(super) fn of(space: &mut Space, roots: &[Node]) -> Option<Tape> {
         let nodes = space.model.dag.reachable(roots);
-        let mut place: Map<Node, usize> = Map::default();
+        let mut place = Numbers::new(&space.model.dag);
         let mut steps = Vec::with_capacity(nodes.len());
         let number = |k: &Rational| k.to_f64();
-        for node in nodes {
-            let at = |child: &Node| place[child];
-            let step = match space.model.dag.kind(node).clone() {
-                Kind::Constant(value) => Step::Number(number(&value)),
+        let (fixed, moving): (Vec<Node>, Vec<Node>) =
+            nodes.into_iter().partition(|node| space.set(*node) == 0);
+        for &node in fixed.iter().chain(&moving) {
+            // Every operand was placed before.
+            let at = |child: &Node| place.get(*child).map_or(usize::MAX, |at| at as usize);
+            let step = match space.model.dag.kind(node) {
+                Kind::Constant(value) => Step::Number(number(value)),
                 Kind::Pi => Step::Number(std::f64::consts::PI),
                 Kind::Coefficient => Step::Coefficient,
                 Kind::Element(Array::Phase(_), ..) => {
@@ -49,86 +56,169 @@ impl Tape {
                     Step::Number(space.value(node))
                 }
                 Kind::Sum(c, terms) => Step::Sum(
-                    number(&c),
+                    number(c),
                     terms.iter().map(|(k, n)| (number(k), at(n))).collect(),
                 ),
                 Kind::Product(c, factors) => Step::Product(
-                    number(&c),
+                    number(c),
                     factors.iter().map(|(n, k)| (at(n), *k)).collect(),
                 ),
-                Kind::Call(op, arguments) => Step::Call(op, arguments.iter().map(at).collect()),
-                Kind::Compare(relation, a, b) => Step::Compare(relation, at(&a), at(&b)),
-                Kind::Not(a) => Step::Not(at(&a)),
-                Kind::And(a, b) => Step::And(at(&a), at(&b)),
-                Kind::Or(a, b) => Step::Or(at(&a), at(&b)),
-                Kind::Select(c, a, b) => Step::Select(at(&c), at(&a), at(&b)),
+                Kind::Call(op, arguments) => Step::Call(*op, arguments.iter().map(at).collect()),
+                Kind::Compare(relation, a, b) => Step::Compare(*relation, at(a), at(b)),
+                Kind::Not(a) => Step::Not(at(a)),
+                Kind::And(a, b) => Step::And(at(a), at(b)),
+                Kind::Or(a, b) => Step::Or(at(a), at(b)),
+                Kind::Select(c, a, b) => Step::Select(at(c), at(a), at(b)),
                 Kind::External(..) | Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => {
                     return None;
                 }
             };
-            place.insert(node, steps.len());
+            place.set(node, steps.len() as u32);
             steps.push(step);
         }
+        let results = roots
+            .iter()
+            .map(|root| place.get(*root).map(|at| at as usize));
         Some(Tape {
+            results: results.collect::<Option<_>>()?,
+            fixed: fixed.len(),
             steps,
-            results: roots.iter().map(|root| place[root]).collect(),
         })
     }
 
-    /// How many operations there are.
+    /// How many operations a run takes.
     pub(super) fn len(&self) -> usize {
-        self.steps.len()
+        self.steps.len() - self.fixed
     }
 
-    /// The values at a point and step coefficient; `numbers` is scratch.
-    pub(super) fn run(&self, z: &[f64], c: f64, numbers: &mut Vec<f64>, results: &mut Vec<f64>) {
-        numbers.clear();
-        for step in &self.steps {
-            let value = match step {
-                Step::Number(value) => *value,
-                Step::Variable(bit) => z[*bit],
-                Step::Coefficient => c,
-                Step::Sum(c, terms) => {
-                    let mut sum = *c;
-                    for (k, at) in terms {
-                        sum += k * numbers[*at];
-                    }
-                    sum
+    /// The numbers of all operations, those that depend on no variable computed.
+    pub(super) fn prepared(&self, c: f64) -> Vec<Lanes> {
+        let mut numbers = vec![[0.0; LANES]; self.steps.len()];
+        perform(&self.steps[..self.fixed], 0, c, &[], &mut numbers);
+        numbers
+    }
+
+    /// Computes the other numbers, at several points.
+    pub(super) fn run(&self, z: &[Lanes], numbers: &mut [Lanes]) {
+        perform(&self.steps[self.fixed..], self.fixed, 0.0, z, numbers);
+    }
+}
+
+/// At how many points operations are performed together.
+pub(super) const LANES: usize = 4;
+
+/// A number at each of the points.
+pub(super) type Lanes = [f64; LANES];
+
+/// A function of each lane's numbers, lane by lane: loops over lanes take most of the time without
+/// optimisation.
+macro_rules! lanes {
+    ($f:expr, $a:expr) => {{
+        let ([a, b, c, d], f) = ($a, $f);
+        [f(a), f(b), f(c), f(d)]
+    }};
+    ($f:expr, $a:expr, $b:expr) => {{
+        let ([a, b, c, d], [e, g, h, i], f) = ($a, $b, $f);
+        [f(a, e), f(b, g), f(c, h), f(d, i)]
+    }};
+    ($f:expr, $a:expr, $b:expr, $c:expr) => {{
+        let ([a, b, c, d], [e, g, h, i], [j, k, l, m], f) = ($a, $b, $c, $f);
+        [f(a, e, j), f(b, g, k), f(c, h, l), f(d, i, m)]
+    }};
+}
+
+/// Operations in turn, the first of which has the number `first`.
+fn perform(steps: &[Step], first: usize, c: f64, z: &[Lanes], numbers: &mut [Lanes]) {
+    let mut at = 0;
+    while at < steps.len() {
+        numbers[first + at] = match &steps[at] {
+            Step::Number(value) => [*value; LANES],
+            Step::Variable(bit) => z[*bit],
+            Step::Coefficient => [c; LANES],
+            Step::Sum(constant, terms) => sum(*constant, terms, numbers),
+            Step::Product(constant, factors) => product(*constant, factors, numbers),
+            Step::Call(op, arguments) => match *arguments.as_slice() {
+                [a] => lanes!(|a: f64| called(*op, &[a]), numbers[a]),
+                [a, b] => lanes!(|a, b| called(*op, &[a, b]), numbers[a], numbers[b]),
+                [a, b, c] => {
+                    let (a, b, c) = (numbers[a], numbers[b], numbers[c]);
+                    lanes!(|a, b, c| called(*op, &[a, b, c]), a, b, c)
                 }
-                Step::Product(c, factors) => {
-                    let mut product = *c;
-                    for (at, n) in factors {
-                        product *= match n {
-                            1 => numbers[*at],
-                            2 => numbers[*at] * numbers[*at],
-                            -1 => 1.0 / numbers[*at],
-                            n => numbers[*at].powi(*n),
-                        };
-                    }
-                    product
-                }
-                Step::Call(op, arguments) => match arguments.as_slice() {
-                    [a] => op.eval(&[numbers[*a]]),
-                    [a, b] => op.eval(&[numbers[*a], numbers[*b]]),
-                    [a, b, c] => op.eval(&[numbers[*a], numbers[*b], numbers[*c]]),
-                    more => unreachable!("{op:?} of {} arguments", more.len()),
-                },
-                Step::Compare(relation, a, b) => {
-                    let (a, b) = (numbers[*a], numbers[*b]);
+                ref more => unreachable!("{op:?} of {} arguments", more.len()),
+            },
+            Step::Compare(relation, a, b) => {
+                let holds = |a: f64, b: f64| {
                     f64::from(match relation {
                         Relation::Less => a < b,
                         Relation::LessEqual => a <= b,
                         Relation::Equal => a == b,
                     })
-                }
-                Step::Not(a) => 1.0 - numbers[*a],
-                Step::And(a, b) => numbers[*a] * numbers[*b],
-                Step::Or(a, b) => numbers[*a].max(numbers[*b]),
-                Step::Select(c, a, b) => numbers[if numbers[*c] == 0.0 { *b } else { *a }],
-            };
-            numbers.push(value);
-        }
-        results.clear();
-        results.extend(self.results.iter().map(|at| numbers[*at]));
+                };
+                lanes!(holds, numbers[*a], numbers[*b])
+            }
+            Step::Not(a) => lanes!(|a: f64| 1.0 - a, numbers[*a]),
+            Step::And(a, b) => lanes!(|a: f64, b: f64| a * b, numbers[*a], numbers[*b]),
+            Step::Or(a, b) => lanes!(f64::max, numbers[*a], numbers[*b]),
+            Step::Select(condition, a, b) => {
+                let chosen = |condition: f64, a: f64, b: f64| if condition == 0.0 { b } else { a };
+                lanes!(chosen, numbers[*condition], numbers[*a], numbers[*b])
+            }
+        };
+        at += 1;
     }
+}
+
+/// A function's value, some of them by the platform's library: no last digit decides anything here, and
+/// ours take ten times as long without optimisation. An orbit that has ended costs nothing.
+fn called(op: Op, arguments: &[f64]) -> f64 {
+    match (op, arguments) {
+        (_, [a, ..]) if a.is_nan() => f64::NAN,
+        (Op::Sin, [a]) => a.sin(),
+        (Op::Cos, [a]) => a.cos(),
+        (Op::Exp, [a]) => a.exp(),
+        (Op::Ln, [a]) => a.ln(),
+        (Op::Atan2, [a, b]) => a.atan2(*b),
+        _ => op.eval(arguments),
+    }
+}
+
+fn sum(constant: f64, terms: &[(f64, usize)], numbers: &[Lanes]) -> Lanes {
+    let [mut a, mut b, mut c, mut d] = [constant; LANES];
+    let mut i = 0;
+    while i < terms.len() {
+        let (k, at) = terms[i];
+        let [e, f, g, h] = numbers[at];
+        a += k * e;
+        b += k * f;
+        c += k * g;
+        d += k * h;
+        i += 1;
+    }
+    [a, b, c, d]
+}
+
+fn product(constant: f64, factors: &[(usize, i32)], numbers: &[Lanes]) -> Lanes {
+    let [mut a, mut b, mut c, mut d] = [constant; LANES];
+    let mut i = 0;
+    while i < factors.len() {
+        let (at, n) = factors[i];
+        let [e, f, g, h] = numbers[at];
+        let mut left = n;
+        while left < 0 {
+            a /= e;
+            b /= f;
+            c /= g;
+            d /= h;
+            left += 1;
+        }
+        while left > 0 {
+            a *= e;
+            b *= f;
+            c *= g;
+            d *= h;
+            left -= 1;
+        }
+        i += 1;
+    }
+    [a, b, c, d]
 }

@@ -10,7 +10,7 @@ use crate::dag::Node;
 use crate::rational::Rational;
 use crate::split::formula::Names;
 use crate::split::motion::Motion;
-use crate::split::space::Space;
+use crate::split::space::{Space, differ};
 
 /// The turn about the first axis (M₂, M₃) and (γ₂, γ₃), and about the second (M₁, M₃), (γ₁, γ₃).
 const FIRST: &str = "M = M1; st = sin(w); ct = cos(w); \
@@ -53,6 +53,23 @@ fn about(
     [phi, theta, psi]: [usize; 3],
     axis: &str,
 ) -> Option<Motion> {
+    // Numbers say first that h/M² is no constant.
+    let set = space.set(h);
+    let [here, there] = [0.0, 1.0].map(|step| {
+        let point = space.point_off(&[(set, step)]);
+        let at = |pair: usize, side: usize| point[2 * pair + side];
+        let (st, ct) = at(theta, 0).sin_cos();
+        let (sp, cp) = at(psi, 0).sin_cos();
+        let flat = (at(phi, 1) - at(psi, 1) * ct) / st;
+        let m = match axis {
+            FIRST => flat * sp + at(theta, 1) * cp,
+            _ => flat * cp - at(theta, 1) * sp,
+        };
+        space.value_at(h, &point) / (m * m)
+    });
+    if differ(here, there) {
+        return None;
+    }
     let [(f, pf), (th, pt), (ps, pp)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
     let mut names = Names::of(&[("th", th), ("ps", ps), ("pf", pf), ("pt", pt), ("pp", pp)]);
     names.read(
@@ -64,7 +81,6 @@ fn about(
     let m = names.get(if axis == FIRST { "M1" } else { "M2" })?;
     let square = space.dag().powi(m, 2);
     let ratio = space.dag().div(h, square);
-    let set = space.set(h);
     let k = space.section(ratio, set);
     let form = space.dag().mul(&[k, square]);
     if !space.same(h, form) {

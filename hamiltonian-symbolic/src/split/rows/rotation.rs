@@ -6,13 +6,16 @@
 use crate::dag::Node;
 use crate::split::formula::Names;
 use crate::split::motion::Motion;
-use crate::split::space::{Space, bits};
+use crate::split::space::{Space, bits, differ};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
     let [a, b] = active.as_slice() else {
         return None;
     };
+    if is_not_turned(space, h, [*a, *b]) {
+        return None;
+    }
     let ((x, px), (y, py)) = (space.pairs[*a], space.pairs[*b]);
     let mut names = Names::of(&[("x", x), ("y", y), ("px", px), ("py", py), ("s", s)]);
     let l = names.one(space.dag(), "x*py - y*px")?;
@@ -49,6 +52,22 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         space.push(&mut motion, bit, kick);
     }
     Some(motion)
+}
+
+/// Whether numbers say that h changes where the point is turned and kicked along its radius.
+fn is_not_turned(space: &mut Space, h: Node, pairs: [usize; 2]) -> bool {
+    let here = space.point();
+    let mut there = here.clone();
+    let (c, s) = (0.8, 0.6);
+    for side in 0..2 {
+        let [x, y] = pairs.map(|pair| 2 * pair + side);
+        there[x] = c * here[x] - s * here[y];
+        there[y] = s * here[x] + c * here[y];
+    }
+    for pair in pairs {
+        there[2 * pair + 1] += 0.25 * there[2 * pair];
+    }
+    differ(space.value_at(h, &here), space.value_at(h, &there))
 }
 
 /// ∂G/∂L

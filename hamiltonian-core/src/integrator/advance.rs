@@ -66,15 +66,22 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     fn run_to(&mut self, stop: u64) -> Result<(), Error> {
         while self.steps < stop {
             let n = BLOCK.min(stop - self.steps);
-            self.snapshot.copy_from(&self.carried);
-            let made = self.steps - self.began;
-            (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
-            if !self.arrives(self.steps + n) {
+            if !self.makes(n) {
                 return Err(self.replay(n));
             }
             self.steps += n;
         }
         Ok(())
+    }
+
+    /// Makes `n` steps from a snapshot; whether all is finite after them. The one place where the
+    /// loop over steps is compiled.
+    #[inline(never)]
+    fn makes(&mut self, n: u64) -> bool {
+        self.snapshot.copy_from(&self.carried);
+        let made = self.steps - self.began;
+        (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
+        self.arrives(self.steps + n)
     }
 
     /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
@@ -83,10 +90,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         let last = self.steps + n - 1;
         self.carried.copy_from(&self.snapshot);
         loop {
-            let made = self.steps - self.began;
-            self.snapshot.copy_from(&self.carried);
-            (self.map).run(self.clock, made, 1, &mut self.carried, &mut self.work);
-            let good = self.arrives(self.steps + 1);
+            let good = self.makes(1);
             // The last step is the bad one if none before it was.
             if good && self.steps < last {
                 self.steps += 1;
@@ -94,6 +98,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             }
             let bad = !(self.carried.finite() & self.shown.finite());
             let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
+            let made = self.steps - self.began;
             let (begin, end) = (self.clock.at(made), self.clock.at(made + 1));
             self.carried.copy_from(&self.snapshot);
             let cause = self

@@ -3,6 +3,8 @@
 //! Input: normalised pairs of words. Output: the same, with the relative errors stated at each
 //! operation (u = 2⁻⁵³; measured bounds are in the tests). Invariant: a sum or product that is
 //! infinite, NaN or −0 in `f64` is the same here: error terms of the form ∞ − ∞ never show.
+//! Sums, products and quotients are calls, which cost 3 to 10 % of a run: written out, a step of order 8
+//! is half a megabyte of code.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -122,7 +124,7 @@ impl DoubleDouble {
 impl Add for DoubleDouble {
     type Output = Self;
     /// Relative error ≤ 3u² + 13u³, with cancellation too (Joldes et al. 2017, algorithm 6).
-    #[inline(always)]
+    #[inline(never)]
     fn add(self, other: Self) -> Self {
         let (sum, error) = two_sum(self.hi, other.hi);
         let (low, low_error) = two_sum(self.lo, other.lo);
@@ -144,7 +146,7 @@ impl Sub for DoubleDouble {
 impl Mul for DoubleDouble {
     type Output = Self;
     /// Relative error ≤ 5u² (Joldes et al. 2017, algorithm 10).
-    #[inline(always)]
+    #[inline(never)]
     fn mul(self, other: Self) -> Self {
         let (product, error) = two_product(self.hi, other.hi);
         let cross = self.hi * other.lo + self.lo * other.hi;
@@ -156,7 +158,7 @@ impl Mul for DoubleDouble {
 impl Div for DoubleDouble {
     type Output = Self;
     /// Relative error ≤ 15u² (Joldes et al. 2017, algorithm 17).
-    #[inline(always)]
+    #[inline(never)]
     fn div(self, other: Self) -> Self {
         let quotient = self.hi / other.hi;
         // The remainder of a quotient that is 0 or not finite is ∞ − ∞ or 0·∞.

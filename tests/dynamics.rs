@@ -134,6 +134,26 @@ hamiltonian! {
     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 - 1/hypot(x, y)
 }
 
+hamiltonian! {
+    /// An oscillator, seen by a light that goes round.
+    pub struct Lit {}
+    H(q; p; t) = (p^2 + q^2)/2;
+    monitor place = 1 + q^2;
+    monitor light = 2 + q*sin(t)
+}
+
+#[test]
+fn monitor_functions_are_of_coordinates_and_momenta_alone() {
+    assert!(TimeTransformed::by(Lit {}, "place").is_ok());
+    // Where q = 0 the light does not change.
+    let timed = TimeTransformed::by(Lit {}, "light").expect_err("time is in it");
+    let (name, system) = ("light", "Lit");
+    assert_eq!(timed, Error::Timed { name, system });
+    let unknown = TimeTransformed::by(Lit {}, "plaice").expect_err("there is none");
+    let name = "plaice".to_owned();
+    assert_eq!(unknown, Error::Unknown { name, system });
+}
+
 /// The place on the ellipse of eccentricity .9 at a time, from the farthest point.
 fn on_ellipse(t: f64) -> [f64; 2] {
     let e = 0.9_f64;

@@ -68,13 +68,22 @@ pub enum Error {
         /// Its value on the shell.
         due: f64,
     },
-    /// The monitor function g of another time, dt = g ds, is none.
-    #[error("the monitor function is {value} at the start, and must {reason}")]
+    /// The monitor function g of another time, dt = g ds, is not positive.
+    #[error("the monitor function is {value} at the start, and must be positive")]
     Monitor {
         /// Its value there.
         value: f64,
-        /// What it must: be positive, not depend on time.
-        reason: &'static str,
+    },
+    /// A monitor with time in it stands where one of q and p alone is due.
+    #[error(
+        "the monitor `{name}` of `{system}` depends on time: only a definition with `dt = …*ds` may have \
+         time in its monitor function"
+    )]
+    Timed {
+        /// The monitor.
+        name: &'static str,
+        /// The system.
+        system: &'static str,
     },
     /// A name that the system declares no monitor, invariant or event by.
     #[error("`{system}` declares no monitor, invariant or event `{name}`")]

@@ -34,10 +34,20 @@ impl<S: System<f64>> Observed<S> {
     /// The observable of that name: `height`, or `angular_momentum[2]` for a component.
     ///
     /// # Errors
-    /// [`Error::Unknown`] where the system declares none.
+    /// [`Error::Unknown`] where the system declares none, [`Error::Timed`] where time is in it.
     pub fn new(system: S, name: &str) -> Result<Self, Error> {
-        match S::observable_index(name) {
-            Some(index) => Ok(Observed { system, index }),
+        let found = S::observable_index(name).and_then(|index| {
+            let observable = S::OBSERVABLES.get(index)?;
+            Some((index, observable))
+        });
+        match found {
+            Some((index, observable)) if !observable.depends_on_time => {
+                Ok(Observed { system, index })
+            }
+            Some((_, observable)) => Err(Error::Timed {
+                name: observable.name,
+                system: S::NAME,
+            }),
             None => Err(Error::Unknown {
                 name: name.to_string(),
                 system: S::NAME,
@@ -47,8 +57,8 @@ impl<S: System<f64>> Observed<S> {
 }
 
 impl<S> Unforced for Observed<S> {}
-/// As far as its system is; a monitor that depends on time by itself is no H of this kind.
-impl<S: Autonomous> Autonomous for Observed<S> {}
+/// A monitor with time in it makes none.
+impl<S> Autonomous for Observed<S> {}
 
 /// The vectors of a system over a scalar.
 type Of<S, T> = <S as System<T>>::Vector;
@@ -196,15 +206,8 @@ where
             *if of_q { &mut *dq } else { &mut *dp }.component_mut(i) = x;
         });
     }
-    fn time_derivative(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
-        let (prepared, zeros) = &self.first;
-        let (q, p) = (
-            lifted(zeros, q, |_, x| Dual::fixed(x)),
-            lifted(zeros, p, |_, x| Dual::fixed(x)),
-        );
-        prepared
-            .observable(self.index, Dual::variable(t), &q, &p)
-            .eps
+    fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
+        T::zero()
     }
     fn hessian_vector(
         &self,

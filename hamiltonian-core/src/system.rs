@@ -47,6 +47,8 @@ pub struct Observable {
     pub name: &'static str,
     /// How it was declared.
     pub kind: ObservableKind,
+    /// Whether t is in it.
+    pub depends_on_time: bool,
 }
 
 /// A Hamiltonian H(q, p, t) with its parameters, over the state scalar `T`.

@@ -27,18 +27,22 @@ impl Formula<2> for Schwarzschild {
         Observable {
             name: "equator",
             kind: ObservableKind::Event,
+            depends_on_time: false,
         },
         Observable {
             name: "outward",
             kind: ObservableKind::Event,
+            depends_on_time: false,
         },
         Observable {
             name: "never",
             kind: ObservableKind::Event,
+            depends_on_time: false,
         },
         Observable {
             name: "pole",
             kind: ObservableKind::Event,
+            depends_on_time: false,
         },
     ];
     fn energy<T: Real>(&self, _: T, [r, theta]: &[T; 2], [p_r, p_theta]: &[T; 2]) -> T {

@@ -254,6 +254,7 @@ impl Formula<1> for Pendulum {
     const OBSERVABLES: &'static [Observable] = &[Observable {
         name: "height",
         kind: ObservableKind::Monitor,
+        depends_on_time: false,
     }];
     fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
         let mgl = number::<T>(self.m) * number(self.g) * number(self.l);

@@ -7,6 +7,7 @@ use super::block::Context;
 use super::dynamics::vector;
 use super::generics::Generics;
 use super::{Definition, allowances, lex};
+use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::facts::conditions;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
 use proc_macro2::TokenStream;
@@ -22,7 +23,7 @@ pub fn entries(model: &Model) -> String {
             ObservableKind::Invariant => "Invariant",
             ObservableKind::Event => "Event",
         };
-        for component in 0..observable.components.len() {
+        for (component, node) in observable.components.iter().enumerate() {
             let name = if observable.components.len() == 1 {
                 observable.name.clone()
             } else {
@@ -30,7 +31,9 @@ pub fn entries(model: &Model) -> String {
             };
             let _ = write!(
                 out,
-                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind} }}, "
+                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind}, \
+                 depends_on_time: {} }}, ",
+                model.dag.dependence(*node).on(Dependence::TIME),
             );
         }
     }

@@ -118,10 +118,10 @@ pub mod prelude {
         Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6,
         Compensated, Composition, ConsecutiveSubTrajectories, Density, DiscreteGradient, Gauss,
         GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8,
-        McLachlan8, MidpointProjected, Mixed, Paced, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3,
-        Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a,
-        Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet,
-        TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
+        McLachlan8, MidpointProjected, Mixed, MomentumVariational, Paced, Pihajoki, RungeKutta4,
+        Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,
+        Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao,
+        TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
     };
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Error, Event, Events, Gradient,

@@ -124,6 +124,11 @@ fn step(scheme: impl Scheme<f64, Pendulums>, h: f64, q: Pair, p: Pair) -> (Pair,
 
 /// One step of the partitioned Runge–Kutta method Lobatto IIIA–IIIB, by plain iteration.
 fn lobatto<const S: usize>(h: f64, q: Pair, p: Pair) -> (Pair, Pair) {
+    partitioned::<S>(h, q, p, false)
+}
+
+/// The same, or IIIB–IIIA where the momenta are `first`.
+fn partitioned<const S: usize>(h: f64, q: Pair, p: Pair, first: bool) -> (Pair, Pair) {
     let method = Collocation::<S>::lobatto();
     let formula = DoublePendulum;
     let mut slopes = [([0.0; 2], [0.0; 2]); S];
@@ -135,8 +140,14 @@ fn lobatto<const S: usize>(h: f64, q: Pair, p: Pair) -> (Pair, Pair) {
     for _ in 0..200 {
         let before = slopes;
         for (i, slope) in slopes.iter_mut().enumerate() {
-            let at = |k: usize| q[k] + sum(&before, &|j| method.a(i, j).hi(), k, false);
-            let with = |k: usize| p[k] + sum(&before, &|j| method.conjugate(i, j).hi(), k, true);
+            let a = |j: usize| method.a(i, j).hi();
+            let conjugate = |j: usize| method.conjugate(i, j).hi();
+            let (of_q, of_p): (&dyn Fn(usize) -> f64, &dyn Fn(usize) -> f64) = match first {
+                false => (&a, &conjugate),
+                true => (&conjugate, &a),
+            };
+            let at = |k: usize| q[k] + sum(&before, of_q, k, false);
+            let with = |k: usize| p[k] + sum(&before, of_p, k, true);
             *slope = formula.gradient(0.0, &[at(0), at(1)], &[with(0), with(1)]);
         }
     }
@@ -253,6 +264,43 @@ fn galerkin_identities() {
         let error = (a[0] - b[0]).abs().max((a[1] - b[1]).abs() / 100.0);
         assert!(error <= 1e-14, "{a:?} {b:?}");
     }
+}
+
+/// Polynomials of the momenta are Lobatto IIIB–IIIA.
+#[test]
+fn polynomials_of_momenta_are_the_conjugate_methods() {
+    fn apart_from<const S: usize>(of_momenta: bool) -> f64 {
+        let (h, (q, p)) = (0.3, START);
+        let made = step(MomentumVariational::<S>::default(), h, q, p);
+        apart(made, partitioned::<S>(h, q, p, of_momenta))
+    }
+    let same = [
+        apart_from::<2>(true),
+        apart_from::<3>(true),
+        apart_from::<4>(true),
+    ];
+    // Negative control: those of the coordinates.
+    let other = [apart_from::<2>(false), apart_from::<3>(false)];
+    println!("of momenta {same:?}, of coordinates {other:?}");
+    assert!(same.iter().all(|error| *error <= 1e-13), "{same:?}");
+    assert!(other.iter().all(|error| *error > 1e-6), "{other:?}");
+    // And kicks between drifts where H is separable.
+    fn end(scheme: impl Scheme<f64, Hand<Pendulum, 1>>) -> [f64; 2] {
+        let system = pendulum(true);
+        let run = Integrator::new(&system, scheme, State::new([0.7], [3.0]), 0.3);
+        let mut run = run.expect("a good start");
+        let end = run.advance(1).expect("a good step");
+        [end.q[0], end.p[0]]
+    }
+    let (a, b) = (
+        end(MomentumVariational::<2>::default()),
+        end(StormerVerlet::DriftKickDrift),
+    );
+    let error = (a[0] - b[0]).abs().max((a[1] - b[1]).abs() / 100.0);
+    assert!(error <= 1e-14, "{a:?} {b:?}");
+    on_34(MomentumVariational::<3>::default(), 8);
+    on_the_double_pendulum(MomentumVariational::<4>::default(), 8);
+    symplectic(MomentumVariational::<3>::default());
 }
 
 #[test]

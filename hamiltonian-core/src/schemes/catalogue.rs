@@ -8,9 +8,10 @@ use super::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, Compensated,
     ConsecutiveSubTrajectories, DiscreteGradient, Gauss, GaussNystrom, ImplicitMidpoint,
     IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
-    Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8,
-    SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4,
-    SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
+    MomentumVariational, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit,
+    SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet,
+    Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational,
+    Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, OneStep, Scheme};
 use crate::system::{
@@ -188,6 +189,7 @@ implicit {
     Gauss::<2>::default(),
     Variational::<1, 2>::lobatto(),
     Variational::<2, 2>::lobatto(),
+    MomentumVariational::<2>::default(),
     DiscreteGradient::default(),
     Semiexplicit::<Strang>::default(),
 }

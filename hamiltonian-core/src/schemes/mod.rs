@@ -27,6 +27,7 @@
 //! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
 //! | [`GaussNystrom`] | | 2S | quadratic T, no forces | dq∧dp | S forces an iteration |
 //! | [`Variational`] | (35) | min(2·degree, quadrature's) | | dq∧dp | a gradient a point and iteration |
+//! | [`MomentumVariational`] | | 2S − 2 | | dq∧dp | S gradients an iteration |
 //! | [`TransformedVerlet`] | | 2 | [`TimeTransformed`](crate::TimeTransformed) quadratic T | dq∧dp with dt∧dp_t | 1 ∂V/∂q |
 //! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
@@ -107,5 +108,5 @@ pub use trajectories::{
     TwoStepMidpoint,
 };
 pub use transformed_verlet::{TransformedVerlet, VerletInNewTime, VerletWork};
-pub use variational::{Ends, Extremal, Variational};
+pub use variational::{Ends, Extremal, MomentumVariational, Variational};
 pub use zigzag::{Zigzag, ZigzagOf};

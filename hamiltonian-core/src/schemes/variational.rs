@@ -205,6 +205,92 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
     }
 }
 
+/// The variational integrator of a polynomial p(t), the momenta's, of degree `S` and Lobatto's quadrature
+/// with `S` points: Lobatto IIIB–IIIA, order 2S − 2, symplectic for every H, time-reversible.
+///
+/// [`Variational`] with coordinates and momenta exchanged, (q, p) → (p, −q): the action ∫ −q·dp − H dt is
+/// the sum
+///
+/// ```text
+/// S = h Σ bᵢ (−Qᵢ·ṗ(tᵢ) − H(Qᵢ, Pᵢ, tᵢ)),   Pᵢ = p(tᵢ),   tᵢ = t + cᵢh
+/// ```
+///
+/// stationary in the coefficients of p and in the coordinates Qᵢ. With bᵢâᵢⱼ + bⱼaⱼᵢ = bᵢbⱼ, of which a is
+/// Lobatto IIIA,
+///
+/// ```text
+/// Qᵢ = q[n] + h Σ âᵢⱼ ∂H/∂p(Qⱼ, Pⱼ, tⱼ),   Pᵢ = p[n] − h Σ aᵢⱼ ∂H/∂q(Qⱼ, Pⱼ, tⱼ)
+/// ```
+///
+/// With two points and H = T + V it is [`StormerVerlet::DriftKickDrift`](super::StormerVerlet), as
+/// `Variational::<2, 2>::lobatto()` is `KickDriftKick`. With Gauss' quadrature both are
+/// [`Gauss`](super::Gauss).
+///
+/// A force stands beside −∂H/∂q in all equations.
+///
+/// Source: M. Leok, J. Zhang, IMA J. Numer. Anal. 31 (2011) 1497, section 3, doi:10.1093/imanum/drq027; E.
+/// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), section IV.2.3,
+/// doi:10.1007/3-540-30666-8.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::MomentumVariational};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let scheme = MomentumVariational::<3>::default();
+/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.05)?;
+/// assert!((run.advance(200)?.q[0] - 10.0_f64.cos()).abs() < 1e-6);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MomentumVariational<const S: usize>(Variational<S, S>);
+
+impl<const S: usize> Default for MomentumVariational<S> {
+    fn default() -> Self {
+        MomentumVariational(Variational::lobatto())
+    }
+}
+
+impl<const S: usize> MomentumVariational<S> {
+    /// A step that is not solved after so many iterations is an error; 100 unless said here.
+    #[must_use]
+    pub fn at_most(self, max_iterations: u32) -> Self {
+        MomentumVariational(self.0.at_most(max_iterations))
+    }
+}
+
+impl<const S: usize> Listed for MomentumVariational<S> {
+    fn entry(&self) -> Entry {
+        Entry {
+            name: "MomentumVariational",
+            equations: "",
+            ..self.0.entry()
+        }
+    }
+}
+
+impl<const S: usize> OneStep for MomentumVariational<S> {
+    type Adjoint = Self;
+    fn adjoint(&self) -> Self {
+        *self
+    }
+}
+
+impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariational<POINTS> {
+    type Map = Collocated<T, S::Prepared, POINTS>;
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let map: Self::Map = Scheme::<T, S>::prepare(&self.0, prepared, step);
+        Collocated {
+            coordinates: map.momenta,
+            momenta: map.coordinates,
+            ..map
+        }
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Carries<S::Vector, POINTS> {
+        at_rest(state)
+    }
+}
+
 impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// The equations in the coefficients of Legendre's polynomials, `velocities` of which make dq/dt; the
     /// matrix of the momenta is left to the caller.

@@ -46,6 +46,7 @@ fn on_systems_that_are_not_separable() {
     let mut geometry = Geometry::new(DoublePendulum::default(), &q, &p, 0.05);
     visit_any(&mut geometry);
     visit_unforced(&mut geometry);
+    geometry.visit(Tao { omega: 10.0 });
 }
 
 /// The wrong forms are not preserved: the checks can fail.
@@ -61,6 +62,10 @@ fn negative_controls() {
     let columns = carried_tangent(&system, &Pihajoki::default(), &start, 0.05, 1);
     let (worst, size) = defect(&columns, crossed(1));
     assert!(worst > 1e-10 * size, "(29), crossed: {worst:e} of {size:e}");
+    // What is seen of bound copies is no symplectic map either.
+    let columns = visible_tangent(&system, &Tao { omega: 10.0 }, &start, 0.05, 3);
+    let (worst, size) = defect(&columns, one_point(1));
+    assert!(worst > 1e-10 * size, "bound: {worst:e} of {size:e}");
     // Two points, each with its own momentum.
     let scheme = IntersectingSubTrajectories::default();
     let columns = carried_tangent(&system, &scheme, &start, 0.05, 1);

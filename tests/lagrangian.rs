@@ -1,6 +1,7 @@
 //! Systems from their Lagrangians: the same H as written by hand, momenta from velocities and back.
 
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::Ends;
 use hamiltonian::{Dual, Vector};
 
 hamiltonian! {
@@ -293,6 +294,65 @@ fn runs_are_those_of_the_hamiltonian() {
     ours.advance(2000).unwrap();
     theirs.advance(2000).unwrap();
     assert!((ours.state().q - theirs.state().q).norm() < 1e-11);
+}
+
+/// Type I: steps follow from the sum of L itself over a line from q₀ to q₁, p₀ = −∂S/∂q₀ and p₁ = ∂S/∂q₁,
+/// though the definition is integrated by its H.
+#[test]
+fn steps_are_those_of_the_discrete_lagrangian() {
+    fn lagrangian<T: Real>([a, b]: [T; 2], [va, vb]: [T; 2]) -> T {
+        let number = |x: f64| T::constant(x, 0.0);
+        number(0.5 * 1.8 * 1.2 * 1.2) * va * va
+            + number(0.5 * 0.8 * 0.9 * 0.9) * vb * vb
+            + number(0.8 * 1.2 * 0.9) * va * vb * (a - b).cos()
+            + number(1.8 * 9.81 * 1.2) * a.cos()
+            + number(0.8 * 9.81 * 0.9) * b.cos()
+    }
+    /// How far the action and the momenta of a step are from those of S with these nodes and weights.
+    fn apart<const POINTS: usize>(
+        scheme: Variational<1, POINTS>,
+        rule: [(f64, f64); POINTS],
+    ) -> f64 {
+        const H: f64 = 0.1;
+        let system = DoublePendulum::default();
+        let start = system.state_from_velocity(0.0, [0.5, -0.3], [0.2, 0.1]);
+        let run = Integrator::new(&system, scheme, start.clone(), H);
+        let end = run.expect("a good start").advance(1).cloned();
+        let end = end.expect("a good step");
+        let ends = Ends::Coordinates(start.q, end.q);
+        let path = scheme.extremal(&system, 0.0, H, ends).expect("a path");
+        let mut worst = 0.0_f64;
+        for k in 0..4 {
+            let mut at = [start.q[0], start.q[1], end.q[0], end.q[1]].map(Dual::fixed);
+            at[k].eps = 1.0;
+            let [a0, b0, a1, b1] = at;
+            let (da, db) = (a1 - a0, b1 - b0);
+            let v = [da, db].map(|d| d * Dual::fixed(1.0 / H));
+            let mut action = Dual::fixed(0.0);
+            for (c, weight) in rule {
+                let c = Dual::fixed(c);
+                action += Dual::fixed(H * weight) * lagrangian([a0 + c * da, b0 + c * db], v);
+            }
+            let momentum = match k {
+                0 | 1 => -start.p[k],
+                _ => end.p[k - 2],
+            };
+            worst = worst.max((action.eps - momentum).abs());
+            worst = worst.max((action.re - path.action).abs());
+        }
+        worst
+    }
+    let far = 0.5 * (1.0 - 1.0 / 3.0_f64.sqrt());
+    let same = [
+        apart(Variational::gauss(), [(0.5, 1.0)]),
+        apart(Variational::lobatto(), [(0.0, 0.5), (1.0, 0.5)]),
+        apart(Variational::gauss(), [(far, 0.5), (1.0 - far, 0.5)]),
+    ];
+    // Negative control: another quadrature.
+    let other = apart(Variational::gauss(), [(0.0, 0.5), (1.0, 0.5)]);
+    println!("{same:?}, another quadrature {other:.1e}");
+    assert!(same.iter().all(|error| *error <= 1e-13), "{same:?}");
+    assert!(other > 1e-5, "{other:e}");
 }
 
 hamiltonian! {

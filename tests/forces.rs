@@ -256,6 +256,46 @@ fn momenta_that_push_each_other_have_their_exact_flow() {
     }
 }
 
+hamiltonian! {
+    /// Grains with a drag and a wind of their own, which come off the one before.
+    pub struct Grains { n: usize, gamma: [n] }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/2 };
+    force(q[i]; p[i]) = -gamma[i]*p[i] + [i, 1] + sum(j in 0..i) { p[j] }
+}
+
+hamiltonian! {
+    /// The same of two grains, as one whole.
+    pub struct TwoGrains { gamma: [2] }
+    H(q[2][2]; p[2][2]) = (norm_squared(p[0]) + norm_squared(p[1]))/2;
+    force(q[i]; p[i]) = -gamma[i]*p[i] + [i, 1] + sum(j in 0..i) { p[j] };
+    coordinates heliocentric(q, gamma)
+}
+
+/// A force by rows: each has its own, in other coordinates too.
+#[test]
+fn rows_have_forces_of_their_own() {
+    let gamma = [0.5, 2.0];
+    let grains = Grains::new(2, gamma.to_vec()).unwrap();
+    let p = [[1.0, 2.0], [3.0, 5.0]];
+    let state = State::new(vec![[0.0; 2]; 2], p.to_vec());
+    let force = grains.force(&state);
+    assert_eq!(force.as_slice(), [-0.5, -4.0, 0.0, -7.0]);
+    // Nothing else acts, and the flow of the force is exact: of the first grain p = e^(−γt)p₀ + (1 − e^(−γt))w/γ.
+    let mut run = Integrator::new(&grains, Strang, state, 0.01).unwrap();
+    let end = run.advance(100).unwrap();
+    let rest = (-0.5_f64).exp();
+    assert!((end.p[(0, 0)] - rest).abs() < 1e-14);
+    assert!((end.p[(0, 1)] - (2.0 * rest + (1.0 - rest) / 0.5)).abs() < 1e-14);
+
+    let two = TwoGrains::new(gamma);
+    let moved = two.force(&two.from_declared(&State::new([[0.0; 2]; 2], p)));
+    // Row 0 of the new momenta is the total one, row 1 that of body 1.
+    let total = [force[(0, 0)] + force[(1, 0)], force[(0, 1)] + force[(1, 1)]];
+    for c in 0..2 {
+        assert_eq!([moved[(0, c)], moved[(1, c)]], [total[c], force[(1, c)]]);
+    }
+}
+
 #[test]
 fn only_affine_forces_are_exact() {
     assert!(is_exact!(Linear) && is_exact!(Turning) && is_exact!(Sliding) && is_exact!(Pushed));

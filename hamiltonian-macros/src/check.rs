@@ -10,6 +10,7 @@ mod builtin;
 mod chart;
 mod declare;
 mod expr;
+mod force;
 mod lookup;
 mod range;
 mod reach;
@@ -141,6 +142,7 @@ impl<'a> Checker<'a> {
                 split: Vec::new(),
                 split_assumed: false,
                 force: Vec::new(),
+                force_row: None,
                 time_factor: None,
                 charts: Vec::new(),
                 loops: Vec::new(),
@@ -336,8 +338,12 @@ impl<'a> Checker<'a> {
             ),
             _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),
         };
+        let occur = match names.len() {
+            1 => "does not occur",
+            _ => "do not occur",
+        };
         let message = format!(
-            "`{word}` depends on no {what}: {} does not occur",
+            "`{word}` depends on no {what}: {} {occur}",
             names.join(", ")
         );
         self.report.error(self.definition_span(), message, help);

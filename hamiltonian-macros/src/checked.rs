@@ -57,6 +57,8 @@ pub struct Checked {
     pub split_assumed: bool,
     /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
     pub force: Vec<NodeId>,
+    /// The i of `force(q[i]; p[i]) = …`, of which `force` has the value at row i.
+    pub force_row: Option<LoopId>,
     /// `dt = g*ds`: g, a scalar, with the first word of the statement.
     pub time_factor: Option<(NodeId, Span)>,
     /// `coordinates polar(x, y)`.

@@ -5,7 +5,7 @@
 //! may use all of them.
 
 use super::{Binding, Checker, LetFunction, Place};
-use crate::ast::{ExprKind, Expression, ObservableKind, Signature, Statement, StatementKind};
+use crate::ast::{Expression, ObservableKind, Statement, StatementKind};
 use crate::checked::{Definition, Extent, Function, FunctionId, NodeId, Observable, Type};
 use crate::names;
 use crate::report::Spans;
@@ -193,7 +193,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    fn once(&mut self, statement: &Statement, word: &str) {
+    pub(super) fn once(&mut self, statement: &Statement, word: &str) {
         let message = format!("`{word}` is given twice");
         self.report.error(statement.keyword, message, "keep one");
     }
@@ -306,140 +306,5 @@ impl<'a> Checker<'a> {
                 self.out.split.push((name.clone(), value));
             }
         }
-    }
-
-    fn force(&mut self, statement: &Statement, signature: &Signature, value: &Expression) {
-        if !self.out.force.is_empty() {
-            self.once(statement, "force");
-            return;
-        }
-        if !self.repeats(signature) {
-            return;
-        }
-        let count = self.out.groups.len();
-        let root = value.root;
-        let items = match &self.ast.nodes[root.0 as usize].kind {
-            ExprKind::Vector(items) if count > 1 => Some(items.clone()),
-            _ => None,
-        };
-        let frame = self.visit(value, Vec::new(), items.is_some().then_some(root));
-        let items = match items {
-            Some(items) => items,
-            None if count == 1 => vec![root],
-            None => {
-                if frame.value(root).is_some() {
-                    let names: Vec<String> = self
-                        .out
-                        .groups
-                        .iter()
-                        .map(|group| format!("f_{}", group.coordinate))
-                        .collect();
-                    let message =
-                        format!("a force has one component for each of the {count} momenta");
-                    let at = self.ast.nodes[root.0 as usize].spans;
-                    self.error(
-                        root,
-                        at,
-                        &message,
-                        &format!("write `[{}]`", names.join(", ")),
-                    );
-                }
-                return;
-            }
-        };
-        if items.len() != count {
-            let message = format!("{} components of force act on {count} momenta", items.len());
-            let at = self.ast.nodes[root.0 as usize].spans;
-            self.report
-                .error(at, message, "write one for each momentum, in their order");
-            return;
-        }
-        let mut force = Vec::with_capacity(count);
-        for (index, item) in items.into_iter().enumerate() {
-            let Some((value, ty)) = self.number(item, &frame) else {
-                continue;
-            };
-            let group = &self.out.groups[index];
-            if ty == group.ty {
-                force.push(value);
-                continue;
-            }
-            let message = format!(
-                "the force on `{}` is {}, not {}",
-                group.momentum,
-                self.type_shown(group.ty),
-                self.type_shown(ty)
-            );
-            let at = self.ast.nodes[item.0 as usize].spans;
-            self.error(
-                item,
-                at,
-                &message,
-                "give it the shape of the momentum it acts on",
-            );
-        }
-        if force.len() == count {
-            self.out.force = force;
-        }
-    }
-
-    /// The signature of a force names the coordinates and momenta of the definition again.
-    fn repeats(&mut self, signature: &Signature) -> bool {
-        let partners = self.out.groups.iter().map(|group| {
-            group
-                .velocity
-                .clone()
-                .unwrap_or_else(|| group.momentum.clone())
-        });
-        let mut due: Vec<Vec<Ident>> = vec![
-            self.out
-                .groups
-                .iter()
-                .map(|group| group.coordinate.clone())
-                .collect(),
-            partners.collect(),
-        ];
-        let momenta: Vec<Ident> = self
-            .out
-            .groups
-            .iter()
-            .map(|group| group.momentum.clone())
-            .collect();
-        if signature.sections.len() > 2 {
-            due.extend(self.out.time.clone().map(|time| vec![time]));
-        }
-        let given: Vec<Vec<Ident>> = signature
-            .sections
-            .iter()
-            .map(|section| {
-                section
-                    .iter()
-                    .map(|variable| variable.name.clone())
-                    .collect()
-            })
-            .collect();
-        let by_momenta = given.len() == due.len()
-            && given[1] == momenta
-            && given[0] == due[0]
-            && given.get(2) == due.get(2);
-        if given == due || by_momenta {
-            return true;
-        }
-        let shown: Vec<String> = due
-            .iter()
-            .map(|names| {
-                names
-                    .iter()
-                    .map(Ident::to_string)
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            })
-            .collect();
-        self.report.error(
-            signature.spans,
-            "a force acts on the coordinates and momenta of the definition",
-            format!("write `force({})`", shown.join("; ")),
-        );
-        false
     }
 }

@@ -1,4 +1,4 @@
-//! Loops of sums: which expression depends on which, how they nest, and which are unrolled.
+//! Loops of sums, and the row of a force: which expression depends on which, how they nest, and which are unrolled.
 //!
 //! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is unrolled only where its variable
 //! chooses a component that exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`);
@@ -74,6 +74,13 @@ impl Loops {
             loops.free.push(free);
             let by_number = loops.is_by_number(checked, node);
             loops.by_number.push(by_number);
+        }
+        if let Some(id) = checked.force_row {
+            let is_literal = checked.loops[id.0 as usize].upper.terms.is_empty();
+            if !checked.charts.is_empty() && is_literal {
+                loops.written |= bit(id);
+            }
+            loops.numbers[id.0 as usize] = loops.written & bit(id);
         }
         // Bounds of a loop that is unrolled are numbers.
         loop {

@@ -222,8 +222,14 @@ impl Rest<'_> {
             let (rows, columns) = (shape.rows().cloned(), shape.columns());
             // Into other coordinates a force is carried element by element, and of some vectors the
             // components are there by number only.
+            let at_row = self.checked.force_row;
             let by_number = !self.checked.charts.is_empty()
-                || matches!(shape, Shape::Vector(_)) && self.evaluator.loops.by_number(*root);
+                || match at_row {
+                    Some(id) => self.evaluator.loops.is_written(id),
+                    None => {
+                        matches!(shape, Shape::Vector(_)) && self.evaluator.loops.by_number(*root)
+                    }
+                };
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],
                 Some(rows) => match rows.as_constant().filter(|_| by_number) {
@@ -239,8 +245,11 @@ impl Rest<'_> {
                 .flat_map(|row| (0..columns).map(move |column| (row, column)))
             {
                 let mut demand = Demand::default();
-                if shape != Shape::Scalar {
-                    demand.indices.push(row.clone());
+                match (at_row, row.affine.as_constant()) {
+                    (Some(id), Some(number)) => demand.values.push((id.0, number)),
+                    (Some(_), None) => {}
+                    (None, _) if shape == Shape::Scalar => {}
+                    (None, _) => demand.indices.push(row.clone()),
                 }
                 if matches!(shape, Shape::Matrix(..)) {
                     demand.indices.push(Index::constant(i64::from(column)));

@@ -1,0 +1,249 @@
+//! Forces: `force(q; p) = …`, and `force(q[i]; p[i]) = …` for the row of an array.
+//!
+//! Input: the statement. Output: one value a group of momenta. Invariant: a value has the shape of what
+//! it acts on.
+
+use super::Checker;
+use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
+use crate::checked::{Affine, Extent, IndexVariable, Kind, Loop, LoopId, Type};
+use proc_macro2::Ident;
+
+impl Checker<'_> {
+    pub(super) fn force(
+        &mut self,
+        statement: &Statement,
+        signature: &Signature,
+        value: &Expression,
+    ) {
+        if !self.out.force.is_empty() {
+            self.once(statement, "force");
+            return;
+        }
+        if !self.repeats(signature) {
+            return;
+        }
+        let count = self.out.groups.len();
+        let root = value.root;
+        if let Some((name, rows, ty)) = self.row(signature) {
+            self.force_at_row(&name, rows, ty, value);
+            return;
+        }
+        let items = match &self.ast.nodes[root.0 as usize].kind {
+            ExprKind::Vector(items) if count > 1 => Some(items.clone()),
+            _ => None,
+        };
+        let frame = self.visit(value, Vec::new(), items.is_some().then_some(root));
+        let items = match items {
+            Some(items) => items,
+            None if count == 1 => vec![root],
+            None => {
+                if frame.value(root).is_some() {
+                    let names: Vec<String> = self
+                        .out
+                        .groups
+                        .iter()
+                        .map(|group| format!("f_{}", group.coordinate))
+                        .collect();
+                    let message =
+                        format!("a force has one component for each of the {count} momenta");
+                    let at = self.ast.nodes[root.0 as usize].spans;
+                    self.error(
+                        root,
+                        at,
+                        &message,
+                        &format!("write `[{}]`", names.join(", ")),
+                    );
+                }
+                return;
+            }
+        };
+        if items.len() != count {
+            let message = format!("{} components of force act on {count} momenta", items.len());
+            let at = self.ast.nodes[root.0 as usize].spans;
+            self.report
+                .error(at, message, "write one for each momentum, in their order");
+            return;
+        }
+        let mut force = Vec::with_capacity(count);
+        for (index, item) in items.into_iter().enumerate() {
+            let Some((value, ty)) = self.number(item, &frame) else {
+                continue;
+            };
+            let group = &self.out.groups[index];
+            if ty == group.ty {
+                force.push(value);
+                continue;
+            }
+            let (coordinate, momentum) = (&group.coordinate, &group.momentum);
+            let message = format!(
+                "expected a force of the shape of `{momentum}`, {}, found {}",
+                self.type_shown(group.ty),
+                self.type_shown(ty)
+            );
+            let at = self.ast.nodes[item.0 as usize].spans;
+            self.error(
+                item,
+                at,
+                &message,
+                &match group.ty {
+                    Type::Scalar => format!("write one number, such as `-c*{momentum}`"),
+                    _ => format!(
+                        "write one value of that shape, `-c*{momentum}`, or its rows, \
+                         `force({coordinate}[i]; {momentum}[i]) = -c*{momentum}[i]`"
+                    ),
+                },
+            );
+        }
+        if force.len() == count {
+            self.out.force = force;
+        }
+    }
+
+    /// The i of `force(q[i]; p[i])` where that is no size, with the number of rows and the type of one.
+    fn row(&self, signature: &Signature) -> Option<(Ident, Extent, Type)> {
+        let [group] = &self.out.groups[..] else {
+            return None;
+        };
+        let (rows, ty) = match group.ty {
+            Type::Vector(rows) => (rows, Type::Scalar),
+            Type::Matrix(rows, columns) => (rows, Type::Vector(columns)),
+            _ => return None,
+        };
+        let variables = signature.sections.iter().take(2).flatten();
+        let names = variables.map(|variable| match &variable.sizes[..] {
+            [Size::Name(name)] => Some(name),
+            _ => None,
+        });
+        let names: Vec<&Ident> = names.collect::<Option<_>>()?;
+        let (first, rest) = names.split_first()?;
+        let is_size = self.out.sizes.iter().any(|size| size.name == **first);
+        (!is_size && rest.iter().all(|name| name == first)).then(|| ((*first).clone(), rows, ty))
+    }
+
+    /// `force(q[i]; p[i]) = …`: the force on row i.
+    fn force_at_row(&mut self, name: &Ident, rows: Extent, ty: Type, value: &Expression) {
+        let symbol = self.ast.symbols.find(&name.to_string());
+        if let Some(binding) = symbol.and_then(|symbol| self.bindings[symbol.0 as usize]) {
+            let message = format!(
+                "`{name}` is used twice: it is {} already",
+                self.described(binding)
+            );
+            self.report
+                .error(name.span(), message, "choose another name for the row");
+            return;
+        }
+        let id = LoopId(self.out.loops.len() as u32);
+        self.out.loops.push(Loop {
+            name: name.clone(),
+            lower: Affine::default(),
+            upper: match rows {
+                Extent::Literal(rows) => Affine {
+                    constant: i64::try_from(rows).unwrap_or(i64::MAX),
+                    terms: Vec::new(),
+                },
+                Extent::Size(size) => Affine::variable(IndexVariable::Size(size)),
+            },
+        });
+        self.out.force_row = Some(id);
+        let row = self.index_variable(value.root, Kind::Loop(id), IndexVariable::Loop(id));
+        self.active.push(id);
+        let root = value.root;
+        let arguments = symbol.map(|symbol| (symbol, row)).into_iter().collect();
+        let frame = self.visit(value, arguments, None);
+        self.active.pop();
+        let Some((value, found)) = self.number(root, &frame) else {
+            return;
+        };
+        if found == ty {
+            self.out.force = vec![value];
+            return;
+        }
+        let momentum = &self.out.groups[0].momentum;
+        let message = format!(
+            "expected a force of the shape of `{momentum}[{name}]`, {}, found {}",
+            self.type_shown(ty),
+            self.type_shown(found)
+        );
+        let help = format!("write one value of that shape, such as `-c*{momentum}[{name}]`");
+        let at = self.ast.nodes[root.0 as usize].spans;
+        self.error(root, at, &message, &help);
+    }
+
+    /// The signature of a force names the coordinates and momenta of the definition again.
+    fn repeats(&mut self, signature: &Signature) -> bool {
+        let partners = self.out.groups.iter().map(|group| {
+            group
+                .velocity
+                .clone()
+                .unwrap_or_else(|| group.momentum.clone())
+        });
+        let mut due: Vec<Vec<Ident>> = vec![
+            self.out
+                .groups
+                .iter()
+                .map(|group| group.coordinate.clone())
+                .collect(),
+            partners.collect(),
+        ];
+        let momenta: Vec<Ident> = self
+            .out
+            .groups
+            .iter()
+            .map(|group| group.momentum.clone())
+            .collect();
+        if signature.sections.len() > 2 {
+            due.extend(self.out.time.clone().map(|time| vec![time]));
+        }
+        let given: Vec<Vec<Ident>> = signature
+            .sections
+            .iter()
+            .map(|section| {
+                section
+                    .iter()
+                    .map(|variable| variable.name.clone())
+                    .collect()
+            })
+            .collect();
+        let by_momenta = given.len() == due.len()
+            && given[1] == momenta
+            && given[0] == due[0]
+            && given.get(2) == due.get(2);
+        if given == due || by_momenta {
+            return true;
+        }
+        let undeclared = match self.out.time {
+            None => signature
+                .sections
+                .get(2)
+                .and_then(|section| section.first()),
+            Some(_) => None,
+        };
+        due.extend(undeclared.map(|time| vec![time.name.clone()]));
+        let shown: Vec<String> = due
+            .iter()
+            .map(|names| {
+                names
+                    .iter()
+                    .map(Ident::to_string)
+                    .collect::<Vec<_>>()
+                    .join(", ")
+            })
+            .collect();
+        let shown = shown.join("; ");
+        let is_lagrangian = self.out.groups.iter().any(|group| group.velocity.is_some());
+        let word = if is_lagrangian { "L" } else { "H" };
+        match undeclared.map(|time| &time.name) {
+            Some(time) => self.report.error(
+                signature.spans,
+                "the force depends on time, and the definition declares none",
+                format!("declare it in both: `{word}(…; {time})`, `force({shown})`"),
+            ),
+            None => self.report.error(
+                signature.spans,
+                "a force acts on the coordinates and momenta of the definition",
+                format!("write `force({shown})`"),
+            ),
+        }
+        false
+    }
+}

@@ -51,6 +51,49 @@ fn henon_heiles_crosses_the_meridian_306_times() {
     assert_eq!(run.state(), plain.advance_to(2000.0).unwrap());
 }
 
+hamiltonian! {
+    /// H has no value at x < 0, and its derivative none at x = 0.
+    pub struct Root { mu = 1.0 }
+    H(x; p) = p^2/2 + mu*sqrt(x)
+}
+
+/// A run begins where H and its derivatives have values; the error names which, and the parameter
+/// that is to blame where one is.
+#[test]
+fn starts_without_values_are_refused() {
+    let refused = |mu, x| {
+        let run = Integrator::new(&Root { mu }, RungeKutta4, State::new([x], [0.0]), 0.1);
+        run.map_or_else(|error| error.to_string(), |_| String::new())
+    };
+    assert_eq!(refused(1.0, 1.0), "");
+    let at = |x: &str, rest: &str| format!(" at the start t = 0, q = [{x}], p = [0.0]: {rest}");
+    let place = "start where H and its first derivatives are finite";
+    assert_eq!(refused(1.0, -1.0), format!("H is NaN{}", at("-1.0", place)));
+    assert_eq!(
+        refused(1.0, 0.0),
+        format!("∂H/∂x is inf{}", at("0.0", place))
+    );
+    let parameter = "the parameter `mu = NaN` must be finite";
+    assert_eq!(
+        refused(f64::NAN, 1.0),
+        format!("H is NaN{}", at("1.0", parameter))
+    );
+    let parameter = "the parameter `mu = inf` must be finite";
+    assert_eq!(
+        refused(f64::INFINITY, 1.0),
+        format!("H is inf{}", at("1.0", parameter))
+    );
+}
+
+#[test]
+fn exponents_over_no_steps_are_an_error() {
+    let start = State::new([1.0], [0.0]);
+    let root = Root::default();
+    let mut tangent = Tangent::new(&root, StormerVerlet::default(), start, 0.1, 1).unwrap();
+    assert_eq!(tangent.lyapunov(0, 1).unwrap_err(), Error::NoSteps);
+    assert!(tangent.lyapunov(1, 0).unwrap()[0].is_finite());
+}
+
 #[test]
 fn arenstorfs_orbit_closes() {
     let period = 17.065_216_560_157_964;

@@ -77,6 +77,12 @@ fn sizes_of_run_time_are_asked_by_new() {
     );
     let ones = State::new(vec![0.0; 3], vec![1.0; 3]);
     assert_eq!(Weighed::new(3, 4, masses(4)).unwrap().energy(&ones), 3.0);
+    let mut given = masses(4);
+    given[2] = f64::NAN;
+    assert_eq!(
+        Weighed::new(3, 4, given).unwrap_err().to_string(),
+        "the parameter `m[2]` is NaN, and must be a number"
+    );
     // Sizes first: of what does not fit, how many masses there are is not the reason.
     assert_eq!(
         Weighed::new(3, 2, masses(3)).unwrap_err(),

@@ -331,6 +331,32 @@ fn starts_off_the_shell_are_errors() {
     run(State::new([0.5, 0.0, 0.0], [0.0, 2.0, 0.0])).unwrap();
 }
 
+/// A table and a drift in another time: s and t are columns of their own, H is the declared one.
+#[test]
+fn runs_in_another_time_show_the_declared_energy() {
+    let kepler = Sundman {
+        drag: 0.0,
+        ..Default::default()
+    };
+    let start = kepler.from_declared(&State::new([0.4, 0.0], [0.0, 2.0]));
+    let mut run = Integrator::new(&kepler, Gauss::<4>::default(), start, 0.01)
+        .unwrap()
+        .observe((Recorder::new().with_energy(), EnergyDrift::new()));
+    run.advance(100).unwrap();
+    let (recorder, drift) = run.observer();
+    assert_eq!(recorder.columns()[..4], ["s", "x", "y", "t"]);
+    let [s, t] = ["s", "t"].map(|name| recorder.column(name).unwrap().last().unwrap());
+    assert_eq!((s, t), (run.time(), run.state().q[2]));
+    let declared = kepler.to_declared(run.state());
+    let energy = declared.p.norm_squared() / 2.0 - 1.0 / declared.q.norm();
+    close(run.energy(), energy);
+    close(drift.mean(), -0.5);
+    assert!(drift.max_relative() < 1e-12, "{}", drift.max_relative());
+    assert_eq!(recorder.column("H").unwrap().last(), Some(run.energy()));
+    // g·(h + p_t) itself is nothing but rounding.
+    assert!(kepler.energy(run.state()).abs() < 1e-12);
+}
+
 #[test]
 fn sundman() {
     // a = 1, e = 0.6: the period is 2π in t, and 2π in s, as dt = r ds and the mean of 1/r is 1/a.

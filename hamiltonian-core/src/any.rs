@@ -47,7 +47,7 @@ pub trait AnyRun {
     fn has_ended(&self) -> bool;
     /// The present time.
     fn time(&self) -> f64;
-    /// H at the present state.
+    /// H at the present state, as it was declared.
     fn energy(&self) -> f64;
     /// The names of the coordinates, then of the momenta, in declaration order.
     fn names(&self) -> Vec<String>;

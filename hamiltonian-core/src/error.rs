@@ -54,11 +54,43 @@ pub enum Error {
         /// Its momenta.
         p: Vec<f64>,
     },
+    /// A start at which H or a first derivative of it is NaN or infinite.
+    #[error(
+        "{name} is {value}{} at the start t = {time}, q = {}, p = {}: {}",
+        Lane(*.lane), Numbers(.q), Numbers(.p), Remedy(.parameter)
+    )]
+    Values {
+        /// `H`, or a derivative, `∂H/∂q[1]`.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// The first lane in which it is that, where the scalar has several.
+        lane: Option<u32>,
+        /// The first parameter that is NaN or infinite, `m[1] = NaN`, where there is one.
+        parameter: Option<String>,
+        /// The time of the start.
+        time: f64,
+        /// Its coordinates.
+        q: Vec<f64>,
+        /// Its momenta.
+        p: Vec<f64>,
+    },
+    /// A parameter that is NaN.
+    #[error("the parameter `{name}` is NaN, and must be a number")]
+    Parameter {
+        /// Its name, with the place in an array: `m[1]`.
+        name: String,
+    },
+    /// Mean rates over no steps are asked for.
+    #[error(
+        "Lyapunov exponents are means over steps: the number of steps must be at least 1, found 0"
+    )]
+    NoSteps,
     /// A start of a system in another time (`dt = g*ds`) that is not on the shell H = 0, where alone
     /// its orbits are those of the declared system.
     #[error(
-        "the start is not on the shell H = 0: `{momentum}` is {given}, and {due} there; `on_shell` and \
-         `from_declared` make starts that are"
+        "the start is not on the shell H = 0: `{momentum}` is {given} and must be {due}; the methods \
+         `on_shell` and `from_declared` set it"
     )]
     Shell {
         /// The momentum of time.
@@ -319,6 +351,18 @@ impl core::fmt::Display for Numbers<'_> {
             write!(f, ", number {at} is {:?}", all[at])?;
         }
         write!(f, "]")
+    }
+}
+
+/// The way to a start with values.
+struct Remedy<'a>(&'a Option<String>);
+
+impl core::fmt::Display for Remedy<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.0 {
+            Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),
+            None => write!(f, "start where H and its first derivatives are finite"),
+        }
     }
 }
 

@@ -5,9 +5,11 @@
 //! is not finite is never shown, but found, located and reported.
 
 mod advance;
+mod checks;
 mod inspect;
 
 pub use advance::States;
+pub(crate) use checks::check_state;
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -17,13 +19,14 @@ use crate::observe::{Every, Observer, Verdict, View, Watch, every, watch};
 use crate::part::{Part, Recipe};
 use crate::scheme::{Entry, Scheme};
 use crate::state::{Carried, State};
-use crate::system::{Dynamics, System};
+use crate::system::System;
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
+use checks::{check_step, check_values};
 use core::fmt;
-use hamiltonian_lanes::{Mask, Real};
+use hamiltonian_lanes::Real;
 
 /// A run: a system, a scheme, a start and a step under way.
 ///
@@ -114,9 +117,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     ///
     /// # Errors
     /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
-    /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Shell`] when the system
-    /// is one in another time and it is off the shell H = 0 by more than a thousandth of the energies
-    /// in it.
+    /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Values`] when H or a
+    /// derivative of it is not finite there; [`Error::Shell`] when the system is one in another time
+    /// and the start is off the shell H = 0 by more than a thousandth of the energies in it.
     pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
@@ -124,19 +127,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         step: T,
     ) -> Result<Self, Error> {
         check_step(step)?;
-        system.check_shape(&start)?;
-        if !finite(&start) {
-            let (q, p) = (numbers(&start.q), numbers(&start.p));
-            return Err(Error::Start {
-                time: start.t.to_f64(),
-                q,
-                p,
-            });
-        }
+        check_state(system, &start)?;
         let prepared = system.prepare();
-        if S::ON_SHELL {
-            check_shell::<T, S>(&prepared, &start)?;
-        }
+        check_values(system, &prepared, &start)?;
         Ok(Self::begin(system, prepared, scheme, start, step))
     }
 
@@ -384,6 +377,16 @@ pub(crate) struct SystemText {
 }
 
 impl SystemText {
+    /// The first parameter that is NaN or infinite, with its value: `m[1] = NaN`.
+    fn parameter_without_value(&self) -> Option<String> {
+        let mut lines = self.parameters.lines();
+        let line = lines.find(|line| {
+            let words = line.split(|c: char| !c.is_alphanumeric()).skip(1);
+            words.into_iter().any(|word| word == "NaN" || word == "inf")
+        });
+        line.map(String::from)
+    }
+
     pub(crate) fn of<T: Real, S: System<T>>(system: &S, q: &S::Vector) -> Self {
         let mut parameters = String::new();
         // Writing to a string does not fail.
@@ -398,46 +401,6 @@ impl SystemText {
 /// The time a step advances, in units of its size.
 fn duration<T: Real>(entry: &Entry) -> T {
     T::constant(f64::from(entry.duration), 0.0)
-}
-
-/// An error for a step that is no step.
-fn check_step<T: Real>(step: T) -> Result<(), Error> {
-    if step.is_finite() && !step.equals(T::zero()).any() {
-        return Ok(());
-    }
-    Err(Error::Step {
-        step: step.to_f64(),
-    })
-}
-
-/// Whether time, coordinates and momenta are finite.
-fn finite<V: Vector>(state: &State<V>) -> bool {
-    state.t.is_finite() && state.q.is_finite() && state.p.is_finite()
-}
-
-/// An error where H = g·(h + p_t) is not 0: p_t, the last momentum, is not −h. It is held against
-/// Σ p ∂H/∂p, in which g·p_t is one term, and by so little that where a run with errors in its energy
-/// ended another can go on.
-fn check_shell<T: Real, S: System<T>>(
-    prepared: &S::Prepared,
-    start: &State<S::Vector>,
-) -> Result<(), Error> {
-    let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
-    let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
-    let (momenta, velocities) = (numbers(&start.p), numbers(&velocities));
-    let terms = momenta.iter().zip(&velocities);
-    let scale: f64 = terms.map(|(p, velocity)| (p * velocity).abs()).sum();
-    let (Some(given), Some(factor)) = (momenta.last(), velocities.last()) else {
-        return Ok(());
-    };
-    if h.to_f64().abs() <= 1e-3 * scale {
-        return Ok(());
-    }
-    Err(Error::Shell {
-        momentum: S::GROUPS.last().map_or("", |group| group.momentum),
-        given: *given,
-        due: given - h.to_f64() / factor,
-    })
 }
 
 /// The components as `f64`.

@@ -7,7 +7,7 @@
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::state::State;
-use crate::system::{Dynamics, ObservableKind, System};
+use crate::system::{Dynamics, ObservableKind, System, declared_energy};
 use crate::vector::Vector;
 use alloc::vec::Vec;
 use core::ops::ControlFlow;
@@ -40,10 +40,9 @@ pub(crate) trait Between<V: Vector> {
 }
 
 impl<T: Real, S: System<T>> View<'_, T, S> {
-    /// H here.
+    /// H here, as it was declared: in another time, `dt = g*ds`, without g and the momentum of time.
     pub fn energy(&self) -> T {
-        self.prepared
-            .energy(self.state.t, &self.state.q, &self.state.p)
+        declared_energy::<T, S>(self.prepared, self.state)
     }
 
     /// The state at a time within one step of this one, by a part of a step of the same scheme.
@@ -400,7 +399,7 @@ impl<T: Real> Deviation<T> {
     }
 }
 
-/// The drift of H, see [`Deviation`].
+/// The drift of H, see [`Deviation`]; in another time, `dt = g*ds`, that of the declared H.
 ///
 /// For a system that depends on time H is no invariant, and this is no error.
 #[derive(Debug, Clone, PartialEq, Default)]

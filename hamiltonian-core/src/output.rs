@@ -18,7 +18,9 @@ use hamiltonian_lanes::Real;
 /// Records t, coordinates, momenta, observables and on request H, rounded to `f64`.
 ///
 /// Columns have the declared names: `t`, then `q`, `q[3]` or `q[3][1]` for each coordinate, the
-/// momenta likewise, then the observables, then `H`.
+/// momenta likewise, then the observables, then `H`. In another time, `dt = g*ds`, the first column is
+/// `s`, t is the last coordinate, and `H` is the declared one. Where a variable has the name `t` or `s`,
+/// the first column is `t_2` or `s_2`.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -121,7 +123,6 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
         let names = names(S::GROUPS, &view.state.q);
         self.order = names.iter().map(|name| name.index).collect();
         self.columns = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
-        self.columns.push("t".to_string());
         self.columns
             .extend(names.iter().map(|name| name.of(name.group.coordinate)));
         self.columns
@@ -131,6 +132,15 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
                 .iter()
                 .map(|observable| observable.name.to_string()),
         );
+        let time = S::FICTITIOUS_TIME.unwrap_or("t");
+        let mut free = time.to_string();
+        for number in 2.. {
+            if !self.columns.contains(&free) {
+                break;
+            }
+            free = format!("{time}_{number}");
+        }
+        self.columns.insert(0, free);
         if self.energy {
             self.columns.push("H".to_string());
         }
@@ -197,11 +207,16 @@ pub(crate) struct Name {
 impl Name {
     /// The component of the coordinate or momentum of that name.
     pub(crate) fn of(&self, name: &str) -> String {
-        match self.group.rank {
-            0 => name.to_string(),
-            1 => format!("{name}[{}]", self.row),
-            _ => format!("{name}[{}][{}]", self.row, self.column),
-        }
+        element(name, self.group.rank, self.row, self.column)
+    }
+}
+
+/// The name of an element of an array of that rank: `m`, `m[2]`, `K[0][1]`.
+pub(crate) fn element(name: &str, rank: usize, row: usize, column: usize) -> String {
+    match rank {
+        0 => name.to_string(),
+        1 => format!("{name}[{row}]"),
+        _ => format!("{name}[{row}][{column}]"),
     }
 }
 

@@ -18,6 +18,7 @@ pub use nalgebra::{
 
 pub use crate::error::Error;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
+use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
 pub use crate::state::Point;
@@ -43,29 +44,44 @@ pub fn window<T, const N: usize>(values: &[T], start: usize) -> &[T; N] {
     }
 }
 
-/// Writes the elements of a parameter, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line.
+/// The elements of a parameter, column by column, with the places in it.
+fn elements<T: Real>(rows: usize, values: &[T]) -> impl Iterator<Item = (usize, usize, T)> {
+    let places = values.iter().enumerate();
+    places.map(move |(at, value)| (at % rows, at / rows, *value))
+}
+
+/// Writes the elements of a parameter, `m = 0.5`, `m[2] = 1.5` or `K[0][1] = 1.5`, each on a line.
 ///
 /// # Errors
 /// Those of the writer.
-pub fn describe_array<
-    T: Real,
-    R: nalgebra::Dim,
-    C: nalgebra::Dim,
-    S: nalgebra::RawStorage<T, R, C>,
->(
+pub fn describe_parameter<T: Real>(
     out: &mut dyn core::fmt::Write,
     name: &str,
-    array: &Matrix<T, R, C, S>,
+    rank: usize,
+    rows: usize,
+    values: &[T],
 ) -> core::fmt::Result {
-    let is_vector = C::try_to_usize() == Some(1);
-    for (row, column) in (0..array.nrows()).flat_map(|i| (0..array.ncols()).map(move |j| (i, j))) {
-        let value = array[(row, column)];
-        match is_vector {
-            true => writeln!(out, "{name}[{row}] = {value:?}")?,
-            false => writeln!(out, "{name}[{row}][{column}] = {value:?}")?,
-        }
+    let mut all = elements(rows, values);
+    all.try_for_each(|(i, j, value)| writeln!(out, "{} = {value:?}", element(name, rank, i, j)))
+}
+
+/// An error where an element of a parameter is NaN.
+///
+/// # Errors
+/// [`Error::Parameter`] with the name of the first.
+pub fn check_parameter<T: Real>(
+    name: &str,
+    rank: usize,
+    rows: usize,
+    values: &[T],
+) -> Result<(), Error> {
+    let is_nan = |value: T| !value.equals(value).all();
+    match elements(rows, values).find(|(_, _, value)| is_nan(*value)) {
+        None => Ok(()),
+        Some((i, j, _)) => Err(Error::Parameter {
+            name: element(name, rank, i, j),
+        }),
     }
-    Ok(())
 }
 
 /// The `C` columns, of `rows` elements each, of a column-major array.
@@ -107,6 +123,36 @@ fn assert_shape(given: usize, rows: usize, columns: usize) {
         "the state has {given} elements where the system has {rows}×{columns}: states of any length \
          can be asked about with `check_shape`"
     );
+}
+
+/// A field that only the `new` of its type sets: a size, or an array that has it. The module of the
+/// definition can read it too, and not replace it, so lengths that `new` checked stay right.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+pub struct SetByNew<X>(X);
+
+impl<X> SetByNew<X> {
+    /// The field.
+    pub fn new(value: X) -> Self {
+        SetByNew(value)
+    }
+    /// What is in it, to be filled by derivatives.
+    pub fn get_mut(field: &mut Self) -> &mut X {
+        &mut field.0
+    }
+}
+
+impl<X> core::ops::Deref for SetByNew<X> {
+    type Target = X;
+    #[inline(always)]
+    fn deref(&self) -> &X {
+        &self.0
+    }
+}
+
+impl<X: core::fmt::Debug> core::fmt::Debug for SetByNew<X> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        self.0.fmt(f)
+    }
 }
 
 /// A piece, a flow or pieces that cannot exist: what a structure's associated types are on a system

@@ -21,6 +21,7 @@
 mod search;
 
 use crate::error::Error;
+use crate::integrator::check_state;
 use crate::state::State;
 use crate::system::{Dynamics, Group, System};
 use crate::vector::Vector;
@@ -68,7 +69,7 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
     energy: T,
     branch: Branch,
 ) -> Result<State<S::Vector>, Error> {
-    check(system, state)?;
+    check_state(system, state)?;
     check_component(momentum, state.p.len())?;
     let prepared = system.prepare();
     let mut found = state.clone();
@@ -97,7 +98,7 @@ pub fn coordinate_on_event<T: Real, S: System<T>>(
     event: usize,
     coordinate: usize,
 ) -> Result<State<S::Vector>, Error> {
-    check(system, state)?;
+    check_state(system, state)?;
     if event >= S::OBSERVABLES.len() {
         return Err(Error::Observable {
             index: event,
@@ -320,18 +321,6 @@ fn narrowed<T: Real>(a: T, fa: T, b: T, fb: T, f: &mut impl FnMut(T) -> T) -> (T
 
 fn is_negative<T: Real>(x: T) -> bool {
     x.lt(T::zero()).all()
-}
-
-fn check<T: Real, S: System<T>>(system: &S, state: &State<S::Vector>) -> Result<(), Error> {
-    system.check_shape(state)?;
-    if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
-        return Ok(());
-    }
-    Err(Error::Start {
-        time: state.t.to_f64(),
-        q: state.q.components().map(Real::to_f64).collect(),
-        p: state.p.components().map(Real::to_f64).collect(),
-    })
 }
 
 fn check_component(index: usize, count: usize) -> Result<(), Error> {

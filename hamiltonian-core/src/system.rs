@@ -66,10 +66,10 @@ pub trait System<T: Real> {
     const GROUPS: &'static [Group];
     /// Monitors, invariants and events in declaration order.
     const OBSERVABLES: &'static [Observable];
-    /// Whether only orbits with H = 0 are those of the system: in another time, dt = g ds, H is
-    /// g·(h + p_t) with h the declared one, and its last momentum is p_t = −h on the shell H = 0.
-    /// Runs ask starts for it.
-    const ON_SHELL: bool = false;
+    /// The name of the time s of a system in another time, dt = g ds: there H is g·(h + p_t) with h the
+    /// declared one, its last coordinate is the time t, and its last momentum is p_t = −h on the shell
+    /// H = 0, on which alone orbits are those of h. Runs ask starts for it and show h as the energy.
+    const FICTITIOUS_TIME: Option<&'static str> = None;
 
     /// H in the author's notation, with a force and pieces where there are some; by it a saved run is
     /// recognised.
@@ -256,6 +256,24 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared
     /// constants.
     fn field(&self, c: T) -> Self::Field;
+}
+
+/// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
+pub(crate) fn declared_energy<T: Real, S: System<T>>(
+    prepared: &S::Prepared,
+    state: &State<S::Vector>,
+) -> T {
+    let State { t, q, p } = state;
+    let energy = prepared.energy(*t, q, p);
+    let Some(last) = p.len().checked_sub(1) else {
+        return energy;
+    };
+    if S::FICTITIOUS_TIME.is_none() {
+        return energy;
+    }
+    let mut velocities = p.zeros_like();
+    prepared.gradient_p(*t, q, p, &mut velocities);
+    energy / velocities.component(last) - p.component(last)
 }
 
 /// H as a sum of pieces with exact flows: what splittings and their compositions ask for.

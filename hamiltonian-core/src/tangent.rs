@@ -172,8 +172,11 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// ```
     ///
     /// # Errors
-    /// Those of [`advance`](Tangent::advance).
+    /// [`Error::NoSteps`] for 0 steps; those of [`advance`](Tangent::advance).
     pub fn lyapunov(&mut self, steps: u64, every: u64) -> Result<Vec<T>, Error> {
+        if steps == 0 {
+            return Err(Error::NoSteps);
+        }
         let mut sums = alloc::vec![T::zero(); self.runs.len()];
         let begin = self.time();
         let mut left = steps;

@@ -172,7 +172,7 @@ where
     const NAME: &'static str = S::NAME;
     const GROUPS: &'static [Group] = Self::groups::<T>();
     const OBSERVABLES: &'static [Observable] = S::OBSERVABLES;
-    const ON_SHELL: bool = true;
+    const FICTITIOUS_TIME: Option<&'static str> = Some("s");
     const FORMULA: &'static str = S::FORMULA;
 
     fn describe_parameters(&self, to: &mut dyn fmt::Write) -> fmt::Result {

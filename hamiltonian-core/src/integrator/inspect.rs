@@ -8,7 +8,7 @@ use crate::map::Map;
 use crate::scheme::Entry;
 use crate::schemes::Copies;
 use crate::state::{Point, State};
-use crate::system::{Dynamics, System};
+use crate::system::{Dynamics, System, declared_energy};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -39,10 +39,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.clock.interval
     }
 
-    /// H at the present state.
+    /// H at the present state, as it was declared: in another time, `dt = g*ds`, without g and the
+    /// momentum of time.
     pub fn energy(&self) -> T {
-        self.prepared
-            .energy(self.state.t, &self.state.q, &self.state.p)
+        declared_energy::<T, S>(&self.prepared, &self.state)
     }
 
     /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`

@@ -62,6 +62,11 @@ fn default_of(item: &Item, context: Context, number: usize, scalar: Option<&str>
     }
 }
 
+/// The value of a field that only `new` sets.
+pub fn set_by_new(value: &str) -> String {
+    format!("__h::SetByNew::new({value})")
+}
+
 /// `new`: sizes, then what has no default, in the order of the fields; the rest gets its default.
 /// Where no argument tells the scalar of the parameters it is f64, as in `Default`.
 pub fn new(
@@ -82,7 +87,8 @@ pub fn new(
     };
     let (mut kinds, mut arguments, mut lets) =
         (TokenStream::new(), TokenStream::new(), TokenStream::new());
-    let (mut names, mut fields, mut checks) = (Vec::new(), String::new(), String::new());
+    let (mut names, mut fields) = (Vec::new(), String::new());
+    let (mut checks, mut numbers) = (String::new(), String::new());
     for field in &item.fields {
         if let Field::Size(number) = field {
             let name = &item.sizes[*number].name;
@@ -90,7 +96,7 @@ pub fn new(
             arguments.extend(quote! { #given: __h::core::primitive::usize, });
             lets.extend(quote! { let #local = #given; });
             names.push(name);
-            let _ = write!(fields, "{name}: _n{number}, ");
+            let _ = write!(fields, "{name}: {}, ", set_by_new(&format!("_n{number}")));
         }
     }
     for field in &item.fields {
@@ -106,7 +112,11 @@ pub fn new(
             continue;
         }
         names.push(name);
-        let _ = write!(fields, "{name}: _a{number}, ");
+        let value = format!("_a{number}");
+        let _ = match layout::is_dynamic(shape, context.is_run_time) {
+            true => write!(fields, "{name}: {}, ", set_by_new(&value)),
+            false => write!(fields, "{name}: {value}, "),
+        };
         let (local, given) = (lex(&format!("_a{number}")), argument(name));
         let ty = lex(&layout::storage(
             shape,
@@ -125,6 +135,12 @@ pub fn new(
             arguments.extend(quote! { #given: #from, });
             lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
         }
+        let whole = match shape {
+            Shape::Scalar => format!("0, 1, &[_a{number}]"),
+            Shape::Vector(_) => format!("1, _a{number}.nrows(), _a{number}.as_slice()"),
+            Shape::Matrix(..) => format!("2, _a{number}.nrows(), _a{number}.as_slice()"),
+        };
+        let _ = writeln!(numbers, "__h::check_parameter(\"{name}\", {whole})?;");
         if layout::is_dynamic(shape, context.is_run_time) {
             let (rows, columns) = layout::extents(shape, context.indices);
             let _ = writeln!(
@@ -139,6 +155,7 @@ pub fn new(
     if names.is_empty() {
         return TokenStream::new();
     }
+    checks.push_str(&numbers);
     let mut allow = allowances(&names);
     if names.len() > 7 {
         // How many parameters a system has is not a matter of style.
@@ -165,7 +182,8 @@ pub fn new(
             /// in the order of their declaration. Those with a default get it.
             ///
             /// # Errors
-            /// `Error::Shape` if an array does not have the number of components that its sizes say.
+            /// `Error::Shape` if an array does not have the number of components that its sizes say,
+            /// `Error::Parameter` if a number given is NaN.
             #more
             #allow
             #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
@@ -223,7 +241,7 @@ pub fn getters(item: &Item, context: Context, generics: &Generics) -> TokenStrea
                 };
                 out.extend(quote! {
                     #docs #allow #[must_use]
-                    #visibility fn #name(&self) -> __h::core::primitive::usize { self.#name }
+                    #visibility fn #name(&self) -> __h::core::primitive::usize { *self.#name }
                 });
             }
             Field::Parameter(number) => {

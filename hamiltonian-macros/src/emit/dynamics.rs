@@ -6,6 +6,7 @@
 //! missing is a compile error where it is first used.
 
 use super::block::Context;
+use super::construct::set_by_new;
 use super::function::{Bodies, Body, results};
 use super::generics::{Generics, list};
 use super::holder::{Holder, Receiver, field, shape};
@@ -162,10 +163,10 @@ impl<'a> Emission<'a> {
             context.model.name,
             groups(context.model, context.layout),
             observables::entries(context.model),
-            match vectors::is_on_shell(self.definition) {
-                true => "\nconst ON_SHELL: __h::core::primitive::bool = true;",
-                false => "",
-            },
+            context.model.evolution.as_ref().map_or(String::new(), |time| format!(
+                "\nconst FICTITIOUS_TIME: __h::core::option::Option<&'static __h::core::primitive::str> = \
+                 __h::core::option::Option::Some({time:?});"
+            )),
             self.formula(),
             self.parameters(),
         );
@@ -396,24 +397,21 @@ impl<'a> Emission<'a> {
                 let name = &generics.sizes[size];
                 let _ = writeln!(
                     lines,
-                    "__h::core::writeln!(_out, \"{name} = {{}}\", self.{name})?;"
+                    "__h::core::writeln!(_out, \"{name} = {{}}\", *self.{name})?;"
                 );
             }
         }
         for (at, parameter) in self.context.model.parameters.iter().enumerate() {
-            let name = &parameter.name;
-            let _ = match parameter.shape {
-                Shape::Scalar => writeln!(
-                    lines,
-                    "__h::core::writeln!(_out, \"{name} = {{:?}}\", {})?;",
-                    generics.lifted(at as u16)
-                ),
-                _ => writeln!(
-                    lines,
-                    "__h::describe_array(_out, \"{name}\", &{})?;",
-                    generics.lifted_array(at as u16)
-                ),
+            let (at, name) = (at as u16, &parameter.name);
+            let (value, whole) = match parameter.shape {
+                Shape::Scalar => (format!("[{}]", generics.lifted(at)), "0, 1, &_b"),
+                Shape::Vector(_) => (generics.lifted_array(at), "1, _b.nrows(), _b.as_slice()"),
+                Shape::Matrix(..) => (generics.lifted_array(at), "2, _b.nrows(), _b.as_slice()"),
             };
+            let _ = writeln!(
+                lines,
+                "let _b = {value};\n__h::describe_parameter(_out, \"{name}\", {whole})?;"
+            );
         }
         if lines.is_empty() {
             return lines;
@@ -486,17 +484,21 @@ impl<'a> Emission<'a> {
             for (size, run_time) in self.context.is_run_time.iter().enumerate() {
                 if *run_time {
                     receiver.bind_size(&mut sizes, self.generics, size);
-                    let _ = write!(fields, "{}: _n{size}, ", self.generics.sizes[size]);
+                    let value = set_by_new(&format!("_n{size}"));
+                    let _ = write!(fields, "{}: {value}, ", self.generics.sizes[size]);
                 }
             }
             for (at, parameter) in self.context.model.parameters.iter().enumerate() {
-                let zero = layout::filled(
+                let mut zero = layout::filled(
                     &parameter.shape,
                     "T::constant(0.0, 0.0)",
                     self.context.indices,
                     self.context.is_run_time,
                     "__h",
                 );
+                if layout::is_dynamic(&parameter.shape, self.context.is_run_time) {
+                    zero = set_by_new(&zero);
+                }
                 let _ = write!(fields, "{}: {zero}, ", self.generics.field(at as u16));
             }
             line!(

@@ -96,14 +96,14 @@ impl Bodies<'_> {
                 }
                 Slice::Derivative(number) => {
                     let field = self.generics.field(*number);
-                    let access = match context.model.parameters[usize::from(*number)].shape {
-                        Shape::Scalar => "",
-                        _ => ".as_mut_slice()",
-                    };
                     let name = slice.name();
-                    let _ = match access {
-                        "" => writeln!(out, "let {name} = &mut _d.{field};"),
-                        _ => writeln!(out, "let {name} = _d.{field}{access};"),
+                    let _ = match &context.model.parameters[usize::from(*number)].shape {
+                        Shape::Scalar => writeln!(out, "let {name} = &mut _d.{field};"),
+                        shape if layout::is_dynamic(shape, context.is_run_time) => writeln!(
+                            out,
+                            "let {name} = __h::SetByNew::get_mut(&mut _d.{field}).as_mut_slice();"
+                        ),
+                        _ => writeln!(out, "let {name} = _d.{field}.as_mut_slice();"),
                     };
                 }
                 _ => {}

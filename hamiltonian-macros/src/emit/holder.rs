@@ -186,11 +186,10 @@ impl Receiver<'_> {
 
     /// The `let` of a run-time size.
     pub fn bind_size(self, out: &mut String, generics: &Generics, size: usize) {
-        let field = match self {
-            Receiver::System => generics.sizes[size].clone(),
-            Receiver::Holder(_) => format!("n{size}"),
+        let _ = match self {
+            Receiver::System => writeln!(out, "let _n{size} = *_self.{};", generics.sizes[size]),
+            Receiver::Holder(_) => writeln!(out, "let _n{size} = _self.n{size};"),
         };
-        let _ = writeln!(out, "let _n{size} = _self.{field};");
     }
 
     /// The `let` of a parameter array, or of an array that preparation filled, as a slice.

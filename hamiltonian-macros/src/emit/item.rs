@@ -1,8 +1,8 @@
 //! Item form: the struct with its docs, `Display` and methods.
 //!
 //! Input: a definition and its header. Output: its tokens. Invariant: fields are public where they
-//! can be anything; sizes set at run time and the arrays that depend on them are private, so that
-//! lengths that `new` checked stay right.
+//! can be anything; sizes set at run time and the arrays that depend on them are private and of a
+//! type that nothing else makes, so that lengths that `new` checked stay right.
 
 use super::block::Context;
 use super::generics::Generics;
@@ -204,7 +204,7 @@ fn struct_field(
         Field::Size(number) => {
             let size = &item.sizes[number];
             let (name, attributes) = (&size.name, &size.attributes);
-            quote! { #(#attributes)* #name: #root::private::core::primitive::usize, }
+            quote! { #(#attributes)* #name: #root::private::SetByNew<#root::private::core::primitive::usize>, }
         }
         Field::Parameter(number) => {
             let parameter = &item.parameters[number];
@@ -232,7 +232,7 @@ fn struct_field(
                 quote! { #(#attributes)* }
             };
             if layout::is_dynamic(shape, context.is_run_time) {
-                quote! { #docs #name: #ty, }
+                quote! { #docs #name: #root::private::SetByNew<#ty>, }
             } else {
                 quote! { #docs #visibility #name: #ty, }
             }

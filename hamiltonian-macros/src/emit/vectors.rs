@@ -56,12 +56,6 @@ impl VectorItem {
     }
 }
 
-/// Whether a system is one in another time, which runs on the shell H = 0.
-pub fn is_on_shell(definition: &Definition) -> bool {
-    let mut vectors = definition.vectors.iter();
-    vectors.any(|item| item.usage == VectorUse::OnShell)
-}
-
 /// The methods of the type.
 pub fn methods(
     definition: &Definition,

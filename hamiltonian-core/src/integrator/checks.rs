@@ -1,0 +1,95 @@
+//! What a run is refused for.
+//!
+//! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
+//! first derivatives are finite, and in another time on the shell H = 0.
+
+use super::{SystemText, numbers};
+use crate::error::Error;
+use crate::output::names;
+use crate::state::State;
+use crate::system::{Dynamics, System, declared_energy};
+use crate::vector::Vector;
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use hamiltonian_lanes::{Mask, Real};
+
+/// An error for a step that is no step.
+pub(super) fn check_step<T: Real>(step: T) -> Result<(), Error> {
+    if step.is_finite() && !step.equals(T::zero()).any() {
+        return Ok(());
+    }
+    Err(Error::Step {
+        step: step.to_f64(),
+    })
+}
+
+/// An error for a state of another shape, or with a NaN or an infinity in it.
+pub(crate) fn check_state<T: Real, S: System<T>>(
+    system: &S,
+    state: &State<S::Vector>,
+) -> Result<(), Error> {
+    system.check_shape(state)?;
+    if state.t.is_finite() && state.q.is_finite() && state.p.is_finite() {
+        return Ok(());
+    }
+    Err(Error::Start {
+        time: state.t.to_f64(),
+        q: numbers(&state.q),
+        p: numbers(&state.p),
+    })
+}
+
+/// An error where H or a first derivative of it is not finite, and off the shell where there is one.
+pub(super) fn check_values<T: Real, S: System<T>>(
+    system: &S,
+    prepared: &S::Prepared,
+    start: &State<S::Vector>,
+) -> Result<(), Error> {
+    let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
+    let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
+    let bad = |name: String, value: T| {
+        let lane = (!value.finite()).first()?;
+        Some(Error::Values {
+            name,
+            value: value.lane(lane),
+            lane: (T::LANES > 1).then_some(lane),
+            parameter: SystemText::of(system, &start.q).parameter_without_value(),
+            time: start.t.to_f64(),
+            q: numbers(&start.q),
+            p: numbers(&start.p),
+        })
+    };
+    if let Some(error) = bad("H".to_owned(), h) {
+        return Err(error);
+    }
+    if !(slopes.is_finite() && velocities.is_finite()) {
+        for name in names(S::GROUPS, &start.q) {
+            let by = [
+                (name.group.coordinate, &slopes),
+                (name.group.momentum, &velocities),
+            ];
+            for (variable, values) in by {
+                let derivative = format!("∂H/∂{}", name.of(variable));
+                if let Some(error) = bad(derivative, values.component(name.index)) {
+                    return Err(error);
+                }
+            }
+        }
+    }
+    if S::FICTITIOUS_TIME.is_none() {
+        return Ok(());
+    }
+    // H = g·(h + p_t) is held against Σ p ∂H/∂p, in which g·p_t is one term, and by so little that where a
+    // run with errors in its energy ended another can go on.
+    let terms = start.p.components().zip(velocities.components());
+    let scale: f64 = terms.map(|(p, velocity)| (p * velocity).magnitude()).sum();
+    if h.to_f64().abs() <= 1e-3 * scale {
+        return Ok(());
+    }
+    Err(Error::Shell {
+        momentum: S::GROUPS.last().map_or("", |group| group.momentum),
+        given: numbers(&start.p).last().copied().unwrap_or(f64::NAN),
+        due: -declared_energy::<T, S>(prepared, start).to_f64(),
+    })
+}

@@ -451,6 +451,39 @@ const RINGS: &[Ring] = &[
         ],
         merges: &[true, true],
     },
+    // The toy model of the cubic wave equation (J. Colliander and others, Invent. Math. 181 (2010) 39).
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2/4 } - sum(i in 0..n) { (q[i]^2 - p[i]^2)*(q[(i + 1) % n]^2 - p[(i + 1) % n]^2)/2 } - sum(i in 0..n) { 2*q[i]*p[i]*q[(i + 1) % n]*p[(i + 1) % n] }",
+        pieces: &[
+            "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2 }/4",
+            "-sum(i in 0..n) { (q[i]^2 - p[i]^2)*(q[(i + 1) % n]^2 - p[(i + 1) % n]^2) }/2",
+            "-2*sum(i in 0..n) { q[i]*p[i]*q[(i + 1) % n]*p[(i + 1) % n] }",
+        ],
+        merges: &[true, false, false],
+    },
+    // XY spins of length 2, (angle, component along z).
+    Ring {
+        signature: "f[n]; z[n]",
+        parameters: "",
+        h: "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*cos(f[i])*cos(f[(i + 1) % n]) } + sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*sin(f[i])*sin(f[(i + 1) % n]) }",
+        pieces: &[
+            "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*sin(f[i])*sin(f[(i + 1) % n]) }",
+            "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*cos(f[i])*cos(f[(i + 1) % n]) }",
+        ],
+        merges: &[false, false],
+    },
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }",
+        pieces: &[
+            "sum(i in 0..n) { p[i]^2 }/2",
+            "sum(i in 0..n) { exp(q[i] - q[(i + 1) % n]) }",
+        ],
+        merges: &[true, true],
+    },
 ];
 
 #[test]
@@ -527,13 +560,15 @@ fn ring_slope(model: &mut Model) -> f64 {
 
 #[test]
 fn what_has_no_flow_is_refused_by_its_term() {
+    let mut others = Vec::new();
     for refused in REFUSED {
         let mut model = common::system(refused.signature, "", refused.parameters, refused.h);
         match find(&mut model) {
-            Err(Refusal { text, .. }) => assert_eq!(text, refused.term, "{}", refused.h),
-            other => panic!("{}: {other:?}", refused.h),
+            Err(Refusal { text, .. }) if text == refused.term => {}
+            other => others.push((refused.h, other)),
         }
     }
+    assert!(others.is_empty(), "{others:#?}");
 }
 
 /// Whatever is asked, a search ends, and adds no more to the arena than it may (and what one step

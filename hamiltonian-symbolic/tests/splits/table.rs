@@ -218,4 +218,38 @@ pub const REFUSED: &[Refused] = &[
         h: "sqrt(1 + (px + y^2)^2 + (py - x^2)^2)",
         term: "sqrt((px + y^2)^2 + (py - x^2)^2 + 1)",
     },
+    // The dipole's field, relativistic.
+    Refused {
+        signature: "x, y, z; px, py, pz",
+        parameters: "m",
+        h: "sqrt(1 + (px + m*y/(x^2 + y^2 + z^2)^(3/2))^2 + (py - m*x/(x^2 + y^2 + z^2)^(3/2))^2 + pz^2)",
+        term: "sqrt((px + m*y/sqrt(x^2 + y^2 + z^2)^3)^2 + (py - m*x/sqrt(x^2 + y^2 + z^2)^3)^2 + pz^2 + 1)",
+    },
+    // Two bodies as one in an effective metric (A. Buonanno, T. Damour, Phys. Rev. D 59 (1999) 084006).
+    Refused {
+        signature: "r, f; pr, L",
+        parameters: "n",
+        h: "sqrt(1 + 2*n*(sqrt((1 - 2/r + 2*n/r^3)*(1 + L^2/r^2 + (1 - 2/r + 2*n/r^3)*pr^2/(1 - 6*n/r^2))) - 1))/n",
+        term: "sqrt(2*n*(sqrt((1 - 2/r + 2*n/r^3)*(L^2/r^2 + (1 - 2/r + 2*n/r^3)*pr^2/(1 - 6*n/r^2) + 1)) - 1) + 1)/n",
+    },
+    // Vortices with a period in x, and with one in y too, as long as they are near in y.
+    Refused {
+        signature: "x1, x2, x3; y1, y2, y3",
+        parameters: "",
+        h: "-ln(cosh(y1 - y2) - cos(x1 - x2)) - ln(cosh(y1 - y3) - cos(x1 - x3)) - ln(cosh(y2 - y3) - cos(x2 - x3))",
+        term: "-ln(cosh(y1 - y2) - cos(x1 - x2))",
+    },
+    Refused {
+        signature: "x1, x2; y1, y2",
+        parameters: "",
+        h: "(y1 - y2)^2/6 - ln(cosh(y1 - y2) - cos(x1 - x2)) - ln(cosh(y1 - y2 - 6) - cos(x1 - x2)) - ln(cosh(y1 - y2 + 6) - cos(x1 - x2))",
+        term: "-ln(cosh(y1 - y2) - cos(x1 - x2))",
+    },
+    // A geodesic flow of two dimensions.
+    Refused {
+        signature: "x, y; px, py",
+        parameters: "",
+        h: "px^2/(2 + cos(x)*sin(y)) + sin(x + y)*px*py/3 + (3 + cos(x*y))*py^2/2",
+        term: "px^2/(cos(x)*sin(y) + 2)",
+    },
 ];

@@ -12,7 +12,7 @@ mod pieces;
 use crate::common::systems::Paper34;
 use crate::splits::{Body, Dipole, Explodes, Ring, Saddle, Schwarzschild, Vortices};
 use hamiltonian::prelude::*;
-use pieces::{Case, check};
+use pieces::{Case, Each, check};
 
 hamiltonian! {
     /// Orbits of a charge about a black hole in a magnetic field.
@@ -38,6 +38,27 @@ hamiltonian! {
     /// A charge in a uniform field, and a potential.
     pub struct Trapped { B = 1.3 }
     H(x, y; px, py) = (px + B*y/2)^2/2 + (py - B*x/2)^2/2 + x^4
+}
+
+hamiltonian! {
+    /// Oscillators of three frequencies that pull each other, one of them off its centre.
+    pub struct Coupled { a = 1.1, b = 2.3, k = 0.4 }
+    H(x, y, z; u, v, w) = (u^2 + v^2 + w^2/a)/2 + a*x^2/2 + b*y^2/2 + z^2 + k*(x - y)^2
+        + k*(y - z)^2/3 + x*v/5 - k*z
+}
+
+hamiltonian! {
+    /// A trap that turns, of other strength each way, and what disturbs it.
+    pub struct Turning { a = 1.1, b = 2.3, w = 0.4 }
+    H(x, y; u, v) = (u^2 + v^2)/2 + a*x^2/2 - b*y^2/2 - w*(x*v - y*u) + sin(x*y)
+}
+
+hamiltonian! {
+    /// Eight oscillators, each with a frequency of its own, on a string.
+    pub struct Beads {}
+    H(q[8]; p[8]) = (p[0]^2 + p[1]^2 + p[2]^2 + p[3]^2 + p[4]^2 + p[5]^2 + p[6]^2 + p[7]^2)/2
+        + q[0]^2/2 + q[1]^2 + 3*q[2]^2/2 + 2*q[3]^2 + 5*q[4]^2/2 + 3*q[5]^2 + 7*q[6]^2/2 + 4*q[7]^2
+        + (q[0]*q[1] + q[1]*q[2] + q[2]*q[3] + q[3]*q[4] + q[4]*q[5] + q[5]*q[6] + q[6]*q[7])/2
 }
 
 hamiltonian! {
@@ -126,6 +147,9 @@ flows! {
         [FAR, POLAR, (-0.2, 0.2), (-4.0, 4.0)];
     gyrating: Gyrating::default(), "x, y; px, py", [B = [1.3]], [ANY; 4];
     trapped: Trapped::default(), "x, y; px, py", [B = [1.3]], [ANY; 4];
+    coupled: Coupled::default(), "x, y, z; u, v, w", [a = [1.1], b = [2.3], k = [0.4]], [ANY; 6];
+    turning: Turning::default(), "x, y; u, v", [a = [1.1], b = [2.3], w = [0.4]], [ANY; 4];
+    beads: Beads::default(), "q[8]; p[8]", [], [ANY; 16];
     dipole: Dipole::default(), "x, y, z; p_x, p_y, p_z", [],
         [NEAR, ANY, NEAR, ANY, ANY, ANY];
     cylindrical: Cylindrical::default(), "r, z, f; pr, pz, pf", [],
@@ -150,4 +174,50 @@ flows! {
     ring: Ring::<2>::default(), "q[2]; p[2]", [g = [1.0]], [ANY; 4];
     vortices: Vortices::new(2, vec![1.0, 1.5]).expect("two strengths"), "x[2]; y[2]",
         [k = [1.0, 1.5]], [ANY; 4];
+}
+
+/// Two flows of a quadratic form are one, to the rounding of the numbers they are made in; the whole of H
+/// is one piece, whose step is exact however long it is.
+#[test]
+fn exponentials_are_made_in_the_precision_of_the_scalar() -> Result<(), Error> {
+    fn apart<T: Real>(c: f64) -> f64 {
+        let system = Coupled::default();
+        let prepared = System::<T>::prepare(&system);
+        let z: Vec<T> = [0.3, -0.7, 1.1, 0.9, -0.2, 0.4]
+            .map(|x| T::constant(x, 0.0))
+            .to_vec();
+        let start = pieces::point(&system, &z);
+        let after = |durations: &[f64]| {
+            let mut point = start.clone();
+            for c in durations {
+                let c = T::constant(*c, 0.0);
+                <Coupled as Split<T>>::PIECES.apply(0, &prepared, c, &mut point);
+            }
+            pieces::flat(&point)
+        };
+        let (once, twice) = (after(&[1.5 * c]), after(&[2.0 * c, -0.5 * c]));
+        let off = once
+            .iter()
+            .zip(&twice)
+            .map(|(a, b)| (*a - *b).to_f64().abs());
+        off.fold(0.0, f64::max)
+    }
+    for (c, size) in [(1e-3, 1.0), (0.5, 1.0), (16.0, 10.0)] {
+        let (double, quadruple) = (apart::<f64>(c), apart::<DoubleDouble>(c));
+        assert!(double < 2e-15 * size, "{c}: {double:e}");
+        assert!(quadruple < 4e-31 * size, "{c}: {quadruple:e}");
+    }
+    assert_eq!(Coupled::NAMES.len(), 1);
+    // Half a million steps lose what half a million roundings do.
+    let system = Coupled::default();
+    let start = State::new([0.3, -0.7, 1.1], [0.9, -0.2, 0.4]);
+    let mut run = Integrator::new(&system, Strang, start.clone(), 0.01)?;
+    let end = run.advance_to(5000.0)?;
+    let moved = (system.energy(&end) / system.energy(&start) - 1.0).abs();
+    assert!(moved < 1e-11, "{moved:e}");
+    let mut run = Integrator::new(&system, Strang, start, 5000.0)?;
+    let at_once = run.advance_to(5000.0)?;
+    let off = (end.q - at_once.q).norm();
+    assert!(off < 1e-9, "{off:e}");
+    Ok(())
 }

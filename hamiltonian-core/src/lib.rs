@@ -32,6 +32,7 @@ mod state;
 
 mod system;
 
+mod exponential;
 mod flow;
 mod push;
 

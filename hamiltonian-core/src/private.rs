@@ -17,6 +17,7 @@ pub use nalgebra::{
 };
 
 pub use crate::error::Error;
+pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
 use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};

@@ -206,6 +206,15 @@ pub struct Model {
 }
 
 impl Model {
+    /// How many coordinates and momenta there are together, if all sizes are literal.
+    #[must_use]
+    pub fn components(&self) -> Option<usize> {
+        let count = |group: &Group| {
+            let (rows, columns) = group.shape.literal()?;
+            usize::try_from(2 * i64::from(columns) * rows).ok()
+        };
+        self.groups.iter().map(count).sum()
+    }
     /// The scalar coordinate or momentum of a scalar group.
     pub fn scalar(&mut self, side: Side, group: usize) -> Node {
         self.dag

@@ -5,14 +5,14 @@
 //! writes one point; where it leaves its domain, all it moves becomes NaN, which the program says.
 
 use super::construct::over_f64;
-use super::dynamics::{Emission, evaluation};
+use super::dynamics::{Emission, evaluation, zeros};
 use super::holder::Receiver;
 use super::layout::Slice;
 use super::scan::scan;
 use super::{Form, Nystrom};
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::program::{Function, Purpose};
-use hamiltonian_symbolic::split::MOST;
+use hamiltonian_symbolic::split::{ExactFlow, MOST};
 use std::fmt::Write;
 
 /// The flows' names.
@@ -153,7 +153,24 @@ impl Emission<'_> {
             self.motion("apply_reversed", receiver, function, true);
         }
         line!(self, "}}");
-        self.maker(purpose, flow, PIECES[number]);
+        let components = match piece.flow {
+            ExactFlow::Exponential => self.context.model.components(),
+            _ => None,
+        };
+        let Some(components) = components else {
+            self.maker(purpose, flow, PIECES[number]);
+            return;
+        };
+        let made = format!("{flow}{}", self.generics.holder_arguments());
+        let ty = format!("__h::Exponential<{made}, T, {components}>");
+        self.begin_piece(PIECES[number], &ty);
+        line!(self, "let _rates = {{");
+        self.coefficients(purpose, flow);
+        let zeros = zeros(self.context, self.generics);
+        line!(
+            self,
+            "}};\n__h::Exponential::new(&_rates, &__h::Point {{ q: {zeros}, p: {zeros} }})\n}}\n}}"
+        );
     }
 
     /// The method that moves a point.

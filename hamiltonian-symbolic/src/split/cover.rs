@@ -4,7 +4,7 @@
 //! candidate are disjoint and hold every unit; each has a flow; at most [`BLOCKS`] are tried.
 
 use super::rows::is_quadratic;
-use super::solve::{Flow, flow};
+use super::solve::{Flow, exponential, flow};
 use super::space::{Set, Space};
 use super::units::{Unit, Units};
 use crate::dag::{Map, Node};
@@ -52,6 +52,7 @@ impl Search<'_> {
             None => {
                 let c = self.space.dag().coefficient();
                 let found = flow(self.space, node, c);
+                let found = found.or_else(|| exponential(self.space, node));
                 self.tried.insert(mask, found.clone());
                 found
             }

@@ -35,6 +35,9 @@ use space::Space;
 pub enum ExactFlow {
     /// No conjugate pair meets: everything moves at a constant rate, c·J∇h.
     Linear,
+    /// A quadratic form of a whole point of few components: c·J∇h is linear, and its matrix is
+    /// exponentiated when a run is prepared.
+    Exponential,
     /// What moves in the time of the step coefficient, and the names of the rows that is made of.
     Closed(Motion, Vec<&'static str>),
     /// The same in every iteration of a loop, one after the other.
@@ -56,6 +59,7 @@ impl ExactFlow {
     pub fn rows(&self) -> &[&'static str] {
         match self {
             ExactFlow::Linear => &[],
+            ExactFlow::Exponential => &[rows::EXPONENTIAL],
             ExactFlow::Closed(_, rows) | ExactFlow::Loop { rows, .. } => rows,
         }
     }
@@ -63,14 +67,14 @@ impl ExactFlow {
     #[must_use]
     pub fn merges(&self) -> bool {
         match self {
-            ExactFlow::Linear | ExactFlow::Closed(..) => true,
+            ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => true,
             ExactFlow::Loop { merges, .. } => *merges,
         }
     }
     /// The loop whose every iteration reads and writes.
     pub(crate) fn innermost(&self) -> Option<Domain> {
         match self {
-            ExactFlow::Linear | ExactFlow::Closed(..) => None,
+            ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => None,
             ExactFlow::Loop { innermost, .. } => Some(*innermost),
         }
     }
@@ -126,7 +130,7 @@ impl Piece {
     /// What a program is to do for the flow.
     pub(crate) fn stores(&self, model: &mut Model) -> Vec<Store> {
         match &self.flow {
-            ExactFlow::Linear => pipeline::rates(model, self.h),
+            ExactFlow::Linear | ExactFlow::Exponential => pipeline::rates(model, self.h),
             ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
                 motion.stores(&mut model.dag)
             }
@@ -156,20 +160,22 @@ fn looped(model: &mut Model, h: Node) -> Option<ExactFlow> {
 /// The flow of an expression as it stands, or multiplied out.
 fn any_flow(space: &mut Space, h: Node) -> Option<solve::Flow> {
     let c = space.dag().coefficient();
-    solve::flow(space, h, c).or_else(|| {
+    let closed = solve::flow(space, h, c).or_else(|| {
         units::levels(space, h).into_iter().find_map(|level| {
             let nodes: Vec<Node> = level.units.iter().map(|unit| unit.node).collect();
             let sum = space.dag().add(&nodes);
             (sum != h && space.constant_apart(h, sum)).then(|| solve::flow(space, sum, c))?
         })
-    })
+    });
+    closed.or_else(|| solve::exponential(space, h))
 }
 
 impl From<solve::Flow> for ExactFlow {
     fn from(flow: solve::Flow) -> ExactFlow {
-        match flow.rows.is_empty() {
-            true => ExactFlow::Linear,
-            false => ExactFlow::Closed(flow.motion, flow.rows),
+        match flow.rows.as_slice() {
+            [] => ExactFlow::Linear,
+            [rows::EXPONENTIAL] => ExactFlow::Exponential,
+            _ => ExactFlow::Closed(flow.motion, flow.rows),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! signs near unit size; splittings whose pieces keep all declared invariants come before others.
 
 use super::cover::Block;
+use super::rows::EXPONENTIAL;
 use super::space::Space;
 use super::tape::{LANES, Lanes, Tape};
 use crate::dag::{Map, Node};
@@ -36,15 +37,57 @@ struct Piece {
     half: Vec<Lanes>,
     whole: Vec<Lanes>,
     moved: Vec<usize>,
+    /// Whether the tape is that of z + c·J∇h, of a form h, whose exponential acts.
+    is_exponential: bool,
 }
+
+/// The terms of an exponential: what acts on points near unit size for a tenth is small.
+const TERMS: usize = 12;
 
 impl Piece {
     fn act(&mut self, z: &mut [Lanes], is_whole: bool) {
+        if !self.is_exponential {
+            self.step(z, is_whole);
+            return;
+        }
+        // Δₖ = c·M·Δₖ₋₁/k, as differences of the affine map.
+        let mut there = z.to_vec();
+        self.step(&mut there, is_whole);
+        let less = |a: &[Lanes], b: &[Lanes]| -> Vec<Lanes> {
+            let pairs = a.iter().zip(b);
+            let lanes = pairs.map(|(a, b)| std::array::from_fn(|lane| a[lane] - b[lane]));
+            lanes.collect()
+        };
+        let first = less(&there, z);
+        let (start, mut term) = (z.to_vec(), first.clone());
+        for k in 2..TERMS {
+            let mut at = start.clone();
+            for (x, step) in at.iter_mut().zip(&term) {
+                for lane in 0..ORBITS {
+                    x[lane] += step[lane];
+                }
+            }
+            let mut next = at.clone();
+            self.step(&mut next, is_whole);
+            for (sum, step) in z.iter_mut().zip(&term) {
+                for lane in 0..ORBITS {
+                    sum[lane] += step[lane];
+                }
+            }
+            term = less(&less(&next, &at), &first);
+            for step in term.iter_mut().flatten() {
+                *step /= k as f64;
+            }
+        }
+    }
+
+    fn step(&mut self, z: &mut [Lanes], is_whole: bool) {
         let Piece {
             tape,
             half,
             whole,
             moved,
+            ..
         } = self;
         let numbers = if is_whole { whole } else { half };
         tape.run(z, numbers);
@@ -202,6 +245,7 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
     Some(Piece {
         half: tape.prepared(STEP / 2.0),
         whole: tape.prepared(STEP),
+        is_exponential: block.flow.rows == [EXPONENTIAL],
         tape,
         moved,
     })

@@ -5,7 +5,7 @@
 //! row takes is its pattern, parts of a sum commute, and s is constant along the flow.
 
 use super::motion::Motion;
-use super::rows::{Axes, Moved, ROWS, Row, Solve};
+use super::rows::{Axes, EXPONENTIAL, Moved, ROWS, Row, Solve, is_constant_form};
 use super::space::{Set, Space, bits, differ};
 use crate::dag::{Kind, Map, Node};
 use crate::rational::Rational;
@@ -56,6 +56,17 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     found
 }
 
+/// The rates of a quadratic form, whose matrix is exponentiated when a run is prepared: of a whole
+/// piece only, over a point of few components.
+pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
+    if !space.has_exponentials || !is_constant_form(space, h) {
+        return None;
+    }
+    let c = space.dag().coefficient();
+    let rates = shear(space, h, c);
+    Some(rates.noted(&[EXPONENTIAL]))
+}
+
 /// No conjugate pair meets: everything moves at a constant rate.
 fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
     let mut motion = Motion::default();
@@ -76,7 +87,7 @@ fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     ROWS.iter().find_map(|row| match row.solve {
         _ if space.is_spent() => None,
         Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row)),
-        Solve::Pair(_) => None,
+        Solve::Pair(_) | Solve::Exponential => None,
     })
 }
 
@@ -227,6 +238,7 @@ fn row_of(
                     }
                 }
             }
+            Solve::Exponential => {}
             Solve::Whole(solve) => {
                 if let Some(motion) = solve(space, k, time) {
                     return Some((motion, row.name));

@@ -28,6 +28,9 @@ pub const NODES: usize = 6_000;
 /// The most products of terms that the normal form takes for all questions together.
 const PRODUCTS: usize = 10_000;
 
+/// The most components of a point whose quadratic forms are exponentiated as matrices.
+const COMPONENTS: usize = 16;
+
 /// The most pairs, so that a set of variables is a word.
 const PAIRS: usize = 32;
 
@@ -52,6 +55,8 @@ pub(crate) struct Space {
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
     /// The same of one pair alone, with the row's name.
     pub(super) atoms: Map<(Node, Node), Option<(Motion, &'static str)>>,
+    /// Whether a piece may be a matrix exponential: the point has few components, all of them given.
+    pub(crate) has_exponentials: bool,
     /// How many questions may still be asked.
     tests: usize,
     /// How many products the normal form may still take.
@@ -95,7 +100,9 @@ impl Space {
             pairs.push((leaf(Side::Q), leaf(Side::P)));
         }
         let last = model.dag.len() + NODES;
+        let components = model.components();
         Some(Space {
+            has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
             last,
             model,
             pairs,

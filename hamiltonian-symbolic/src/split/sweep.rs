@@ -318,6 +318,7 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
     let mut small = small;
     let small_body = over(&mut small.dag, body, &images);
     let mut space = Space::new(&small, &[small_body])?;
+    space.has_exponentials = false;
     let found = match any_flow(&mut space, small_body) {
         Some(flow) => vec![(small_body, ExactFlow::from(flow))],
         None if may_part => {

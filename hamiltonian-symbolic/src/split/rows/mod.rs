@@ -17,7 +17,7 @@ mod shear;
 mod spin;
 mod square;
 
-pub(super) use quadratic::is_quadratic;
+pub(super) use quadratic::{is_constant_form, is_quadratic};
 
 use super::motion::Motion;
 use super::space::Space;
@@ -76,6 +76,8 @@ pub(crate) struct Moved {
 pub(crate) enum Solve {
     /// Of K(x, y) of one pair and parameters.
     Pair(fn(&mut Space, Axes, Node, Node) -> Option<Moved>),
+    /// Of a piece over a whole point, by a matrix at run time.
+    Exponential,
     /// Of any h.
     Whole(fn(&mut Space, Node, Node) -> Option<Motion>),
 }
@@ -101,6 +103,13 @@ pub static ROWS: &[Row] = &[
         domain: "everywhere",
         source: "Cayley–Hamilton: e^{sM} = 1 + sM + c₂M² + c₃M³",
         solve: Solve::Whole(quadratic::solve),
+    },
+    Row {
+        name: EXPONENTIAL,
+        pattern: "½zᵀAz + gᵀz of all of a point of at most 16 components, where that is not closed",
+        domain: "everywhere",
+        source: "scaling and squaring: C. Moler, C. Van Loan, SIAM Review 45 (2003) 3",
+        solve: Solve::Exponential,
     },
     Row {
         name: "monomial",
@@ -174,6 +183,9 @@ pub static ROWS: &[Row] = &[
         solve: Solve::Whole(axes::solve),
     },
 ];
+
+/// The name of the row whose matrix is exponentiated when a run is prepared.
+pub(crate) const EXPONENTIAL: &str = "matrix exponential";
 
 /// The row of that name.
 #[must_use]

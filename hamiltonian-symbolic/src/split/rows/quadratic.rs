@@ -3,7 +3,7 @@
 //! Input: h and s. Output: [`Motion`]. Invariant: M² = λ, M³ = λM or M⁴ = λM² is proven, so that
 //! e^{sM} = 1 + sM + c₂M² + c₃M³ is closed for every sign of λ.
 
-use crate::dag::Node;
+use crate::dag::{Dependence, Node};
 use crate::rational::Rational;
 use crate::split::growth::Growth;
 use crate::split::motion::Motion;
@@ -182,6 +182,11 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Pa
     let g = Growth::of(space, lambda, s);
     let flow = vec![(one, unit), (s, m.clone()), (g.c2, squared), (g.c3, cubed)];
     Some((flow, Vec::new()))
+}
+
+/// Whether an expression is such a form with coefficients that no time changes.
+pub(in crate::split) fn is_constant_form(space: &mut Space, h: Node) -> bool {
+    !space.dag().dependence(h).on(Dependence::TIME) && is_quadratic(space, h)
 }
 
 /// Whether an expression is a polynomial of second degree.

@@ -1,0 +1,169 @@
+//! The exact flow of a quadratic form, as a matrix.
+//!
+//! Input: what the macro emitted for c·J∇h of a form h = ½zᵀAz + gᵀz over a whole point. Output:
+//! [`Exponential`], z ← e^{cM}z + ∫e^{sM}ds·b with M = JA and b = Jg, prepared once a step size.
+//! Invariant: what is kept is e^{cM} − 1, so that a short step loses no digits.
+
+use crate::flow::Flow;
+use crate::state::Point;
+use crate::vector::Vector;
+use core::marker::PhantomData;
+use hamiltonian_lanes::{Mask, Real};
+
+/// The exact flow of a quadratic form with constant coefficients, N components of coordinates and momenta
+/// together.
+///
+/// ```text
+/// F₀ = Σ Xᵏ/k!,  g₀ = Σ Xᵏ⁻¹v/k!  (k ≥ 1),  X = cM/2ˢ,  v = cb/2ˢ,  |X| ≤ ½
+/// F ← 2F + F²,   g ← 2g + Fg      s times
+/// z ← z + Fz + g
+/// ```
+///
+/// Source: scaling and squaring, C. Moler, C. Van Loan, SIAM Review 45 (2003) 3, method 3,
+/// doi:10.1137/S00361445024180; of the exponential less 1, as N. J. Higham, Functions of Matrices, 2008, §10.5.
+#[derive(Debug, Clone)]
+pub struct Exponential<F, T, const N: usize> {
+    /// e^{cM} − 1
+    less_one: [[T; N]; N],
+    /// What the origin becomes.
+    shift: [T; N],
+    of: PhantomData<fn() -> F>,
+}
+
+/// The most terms of the series: (½)ᵏ/k! is below ε of a double-double number at k = 23.
+const TERMS: u32 = 40;
+
+/// The most squarings: a matrix of more than 2⁶⁰ overflows.
+const SQUARINGS: u32 = 64;
+
+type Square<T, const N: usize> = [[T; N]; N];
+
+impl<F, T: Real, const N: usize> Exponential<F, T, N> {
+    /// From the map z ↦ z + c·(Mz + b), and a zero point.
+    #[must_use]
+    pub fn new<V: Vector<Scalar = T>>(rates: &F, zero: &Point<V>) -> Self
+    where
+        F: Flow<Point<V>, Work = ()>,
+    {
+        let zeros = [T::zero(); N];
+        let column = |place: Option<usize>| {
+            let mut point = zero.clone();
+            if let Some(place) = place {
+                *point.component_mut(place) = T::one();
+            }
+            rates.apply(T::zero(), &mut point, &mut ());
+            let mut column = zeros;
+            for (i, entry) in column.iter_mut().enumerate() {
+                *entry = point.component(i);
+            }
+            column
+        };
+        let mut shift = column(None);
+        let mut matrix = [zeros; N];
+        for j in 0..N {
+            let mut moved = column(Some(j));
+            moved[j] -= T::one();
+            for i in 0..N {
+                matrix[i][j] = moved[i] - shift[i];
+            }
+        }
+        let half = T::constant(0.5, 0.0);
+        let limit = T::Size::constant(0.5, 0.0);
+        let mut squarings = 0;
+        while squarings < SQUARINGS && !norm(&matrix).le(limit).all() {
+            for entry in matrix.as_flattened_mut() {
+                *entry *= half;
+            }
+            for entry in &mut shift {
+                *entry *= half;
+            }
+            squarings += 1;
+        }
+        let (mut power, mut moved) = (matrix, shift);
+        let mut less_one = matrix;
+        let rounding = T::Size::constant(T::epsilon(), 0.0);
+        for k in 2..TERMS {
+            let over = T::one() / T::constant(f64::from(k), 0.0);
+            power = product(&matrix, &power);
+            moved = image(&matrix, &moved);
+            for i in 0..N {
+                for j in 0..N {
+                    power[i][j] *= over;
+                    less_one[i][j] += power[i][j];
+                }
+                moved[i] *= over;
+                shift[i] += moved[i];
+            }
+            if norm(&power).le(rounding * norm(&less_one)).all() {
+                break;
+            }
+        }
+        let two = T::constant(2.0, 0.0);
+        for _ in 0..squarings {
+            let (squared, pushed) = (product(&less_one, &less_one), image(&less_one, &shift));
+            for i in 0..N {
+                for j in 0..N {
+                    less_one[i][j] = two.fma(less_one[i][j], squared[i][j]);
+                }
+                shift[i] = two.fma(shift[i], pushed[i]);
+            }
+        }
+        Exponential {
+            less_one,
+            shift,
+            of: PhantomData,
+        }
+    }
+}
+
+/// The largest sum of a row.
+fn norm<T: Real, const N: usize>(matrix: &Square<T, N>) -> T::Size {
+    let mut largest = T::Size::zero();
+    for row in matrix {
+        let mut sum = T::Size::zero();
+        for entry in row {
+            sum += entry.size();
+        }
+        largest = largest.max(sum);
+    }
+    largest
+}
+
+fn product<T: Real, const N: usize>(a: &Square<T, N>, b: &Square<T, N>) -> Square<T, N> {
+    let mut out = [[T::zero(); N]; N];
+    for (row, into) in a.iter().zip(&mut out) {
+        for (entry, other) in row.iter().zip(b) {
+            for (sum, x) in into.iter_mut().zip(other) {
+                *sum = entry.fma(*x, *sum);
+            }
+        }
+    }
+    out
+}
+
+#[inline(always)]
+fn image<T: Real, const N: usize>(matrix: &Square<T, N>, z: &[T; N]) -> [T; N] {
+    let mut out = [T::zero(); N];
+    for (row, sum) in matrix.iter().zip(&mut out) {
+        for (entry, x) in row.iter().zip(z) {
+            *sum = entry.fma(*x, *sum);
+        }
+    }
+    out
+}
+
+impl<V: Vector, F: Flow<Point<V>>, const N: usize> Flow<Point<V>> for Exponential<F, V::Scalar, N> {
+    const NAME: &'static str = F::NAME;
+    type Work = ();
+    #[inline(always)]
+    fn apply(&self, _: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        let mut z = [V::Scalar::zero(); N];
+        for (i, into) in z.iter_mut().enumerate() {
+            *into = x.component(i);
+        }
+        let moved = image(&self.less_one, &z);
+        for i in 0..N {
+            *x.component_mut(i) = z[i] + (moved[i] + self.shift[i]);
+        }
+    }
+}

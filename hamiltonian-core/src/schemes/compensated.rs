@@ -65,12 +65,7 @@ impl<M: Table> Listed for Compensated<M> {
     }
 }
 
-impl<M: Table + OneStep<Adjoint = M>> OneStep for Compensated<M> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Compensated<M>, M: Table + OneStep<Adjoint = M>);
 
 /// The point and its low words.
 type Words<V> = Pair<Point<V>, Point<V>>;

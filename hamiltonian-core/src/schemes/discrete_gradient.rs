@@ -6,7 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
@@ -64,12 +64,7 @@ impl Listed for DiscreteGradient {
     }
 }
 
-impl OneStep for DiscreteGradient {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(DiscreteGradient);
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for DiscreteGradient {
     type Map = EnergyKeeping<T, S::Prepared>;

@@ -8,7 +8,7 @@ use super::splittings::Strang;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces, VectorField};
 use crate::map::{Either, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
@@ -83,12 +83,7 @@ impl Listed for Pihajoki {
     }
 }
 
-impl OneStep for Pihajoki {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Pihajoki);
 
 /// H(q, p̃), which moves q̃ and p, where `FIRST`; else H(q̃, p), which moves q and p̃.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

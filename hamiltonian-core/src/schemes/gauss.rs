@@ -6,7 +6,7 @@
 use super::collocation::{Collocation, constant};
 use super::stages::{Carries, Collocated, at_rest, extrapolation};
 use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::State;
 use crate::system::{Dynamics, System};
 use core::fmt;
@@ -115,12 +115,7 @@ impl<const S: usize> Listed for Gauss<S> {
     }
 }
 
-impl<const S: usize> OneStep for Gauss<S> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Gauss<S>, const S: usize);
 
 impl<T: Real, S: System<T>, const STAGES: usize> Scheme<T, S> for Gauss<STAGES> {
     type Map = Collocated<T, S::Prepared, STAGES>;

@@ -6,7 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::{Dynamics, System};
 use crate::vector::Vector;
@@ -68,12 +68,7 @@ impl Listed for ImplicitMidpoint {
     }
 }
 
-impl OneStep for ImplicitMidpoint {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(ImplicitMidpoint);
 
 impl<T: Real, S: System<T>> Scheme<T, S> for ImplicitMidpoint {
     type Map = Midpoint<S::Vector, <S::Prepared as Dynamics<T>>::Field>;

@@ -42,6 +42,18 @@
 //! [`Scheme`](crate::Scheme) implementation — for a splitting, a table in [`tables`] and a line in
 //! `tabulated.rs` — and one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
 
+/// A scheme that is its own adjoint: `symmetric!(Strang)`, `symmetric!(Gauss<S>, const S: usize)`.
+macro_rules! symmetric {
+    ($scheme:ty $(, $($generics:tt)*)?) => {
+        impl<$($($generics)*)?> crate::scheme::OneStep for $scheme {
+            type Adjoint = Self;
+            fn adjoint(&self) -> Self {
+                *self
+            }
+        }
+    };
+}
+
 mod table;
 pub mod tables;
 mod zigzag;

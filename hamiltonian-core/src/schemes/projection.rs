@@ -307,12 +307,7 @@ impl<M: Table> Listed for Semiexplicit<M> {
     }
 }
 
-impl<M: Table + OneStep<Adjoint = M>> OneStep for Semiexplicit<M> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Semiexplicit<M>, M: Table + OneStep<Adjoint = M>);
 
 impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Semiexplicit<M> {
     type Map = Projected<Inner<T, S, M>>;

@@ -9,7 +9,7 @@ use super::iterate::{Contraction, iterate};
 use super::stages::{Stages, extrapolation};
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::vector::Vector;
@@ -96,12 +96,7 @@ impl<const S: usize> Listed for GaussNystrom<S> {
     }
 }
 
-impl<const S: usize> OneStep for GaussNystrom<S> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(GaussNystrom<S>, const S: usize);
 
 /// What [`GaussNystrom`] carries: the point; the forces at the stages of the last step; the low words of
 /// the point.

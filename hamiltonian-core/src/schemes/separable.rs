@@ -96,12 +96,7 @@ impl<T: Real, S: Separable<T>> Scheme<T, S> for StormerVerlet {
     }
 }
 
-impl OneStep for StormerVerlet {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(StormerVerlet);
 
 /// Symplectic Euler: order 1, symplectic; one kick and one drift a step.
 ///

@@ -6,7 +6,7 @@
 use super::table::{Durations, Table, Weight};
 use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Point, State};
 use crate::system::Split;
 use hamiltonian_lanes::Real;
@@ -63,12 +63,7 @@ impl Table for Strang {
     }
 }
 
-impl OneStep for Strang {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Strang);
 
 impl<T: Real, S: Split<T>> Scheme<T, S> for Strang {
     type Map = ZigzagOf<T, S, S::Pieces, Self>;

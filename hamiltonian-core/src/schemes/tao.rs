@@ -9,7 +9,7 @@ use super::splittings::Strang;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces};
 use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, State};
 use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
@@ -71,12 +71,7 @@ impl Listed for Tao {
     }
 }
 
-impl OneStep for Tao {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Tao);
 
 /// ½ω(|q − q̃|² + |p − p̃|²).
 #[derive(Debug, Clone, Copy, PartialEq)]

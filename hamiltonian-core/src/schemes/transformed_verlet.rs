@@ -6,7 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Point, State};
 use crate::system::{Autonomous, Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::transformed::{InNewTime, TimeTransformed, WithTime};
@@ -106,12 +106,7 @@ impl Listed for TransformedVerlet {
     }
 }
 
-impl OneStep for TransformedVerlet {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(TransformedVerlet);
 
 impl<T, S, G> Scheme<T, TimeTransformed<S, G>> for TransformedVerlet
 where

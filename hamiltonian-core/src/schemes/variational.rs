@@ -8,7 +8,7 @@ use super::collocation::{Collocation, constant};
 use super::stages::{Carries, Collocated, CollocatedWork, Modes, Stages, at_rest, extrapolation};
 use crate::error::Error;
 use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Point, State};
 use crate::system::{Dynamics, System};
 use crate::vector::{Vector, dot};
@@ -171,12 +171,7 @@ impl<const DEGREE: usize, const POINTS: usize> Listed for Variational<DEGREE, PO
     }
 }
 
-impl<const DEGREE: usize, const POINTS: usize> OneStep for Variational<DEGREE, POINTS> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(Variational<DEGREE, POINTS>, const DEGREE: usize, const POINTS: usize);
 
 impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, S>
     for Variational<DEGREE, POINTS>
@@ -269,12 +264,7 @@ impl<const S: usize> Listed for MomentumVariational<S> {
     }
 }
 
-impl<const S: usize> OneStep for MomentumVariational<S> {
-    type Adjoint = Self;
-    fn adjoint(&self) -> Self {
-        *self
-    }
-}
+symmetric!(MomentumVariational<S>, const S: usize);
 
 impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariational<POINTS> {
     type Map = Collocated<T, S::Prepared, POINTS>;

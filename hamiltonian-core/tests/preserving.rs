@@ -73,6 +73,13 @@ fn orbits_of_34_are_jacobis_cosine() {
     }
     println!("q against −3 cn to t = 10: {worst:.1e}");
     assert!(worst <= 1e-11, "{worst:e}");
+    // Sixteen stages, twelve steps a period.
+    let (scheme, begin) = (Gauss::<16>::default(), State::new([-3.0], [0.0]));
+    let long = Integrator::new(&system, scheme, begin, 0.25);
+    let end = long.expect("a good start").advance(40).cloned();
+    let missed = end.expect("good steps").q[0] + 2.402_238_313_100_827;
+    println!("Gauss 16: {missed:.1e}");
+    assert!(missed.abs() <= 1e-12, "{missed:e}");
     let end = run.state();
     assert!((end.q[0] + 2.402_238_313_100_827).abs() <= 1e-11);
     assert!((end.p[0] - 0.690_609_507_457_253_4).abs() <= 1e-11);

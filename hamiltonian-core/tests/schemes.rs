@@ -136,6 +136,14 @@ fn every_scheme_preserves_its_form() {
     assert!(forms.missed.is_empty(), "{:#?}", forms.missed);
 }
 
+/// H = √(1 + p²) − cos q + q⁴/10.
+#[test]
+fn tables_have_their_order_where_neither_half_is_quadratic() {
+    let mut orders = Orders { missed: Vec::new() };
+    visit_exact::<DoubleDouble, Hand<Relativistic, 1>>(&mut orders);
+    assert!(orders.missed.is_empty(), "{:#?}", orders.missed);
+}
+
 #[test]
 fn splittings_have_their_order_where_both_pieces_depend_on_time() {
     let system = Hand(Pumped);
@@ -338,8 +346,39 @@ fn schemes_for_any_h_are_symplectic() {
     symplectic(Gauss::<1>::default());
     symplectic(Gauss::<2>::default());
     symplectic(Gauss::<6>::default());
+    symplectic(Gauss::<16>::default());
     symplectic(Semiexplicit::<Strang>::default());
     symplectic(Semiexplicit::<KahanLi6>::default());
+}
+
+/// The distance of the copies after a step, an estimate of its error, falls with h^(p+1).
+#[test]
+fn copies_part_by_the_error_of_a_step() {
+    fn slope<M: Table>(scheme: MidpointProjected<M>) -> f64 {
+        let system = Hand(Paper34);
+        let begin = start(&system, &[-1.5], &[0.3]);
+        let distance = |h: f64| {
+            let h = DoubleDouble::from(h);
+            let run = Integrator::new(&system, scheme, begin.clone(), h);
+            let mut run = run.expect("a good start");
+            run.advance(1).expect("a good step");
+            run.copy_distance()
+        };
+        let h = [4, 5, 6, 7].map(|k| 0.5_f64.powi(k));
+        let slopes = h.map(|h| (distance(h) / distance(h / 2.0)).log2());
+        println!("copies after a step of {scheme:?}: {slopes:.3?}");
+        slopes[3]
+    }
+    for (slope, order) in [
+        (slope(MidpointProjected::<Strang>::default()), 2.0),
+        (slope(MidpointProjected::<BlanesMoan4>::default()), 4.0),
+        (slope(MidpointProjected::<KahanLi6>::default()), 6.0),
+    ] {
+        assert!(
+            (slope - (order + 1.0)).abs() <= 0.1,
+            "{slope} for order {order}"
+        );
+    }
 }
 
 /// One step of midpoint projection violates dq∧dp by O(h^(2p+2)).

@@ -3,7 +3,7 @@
 //! Input: what is done with a scheme. Output: that, done with each. Invariant: no entry is left out.
 
 use super::start;
-use super::systems::{Formula, Hand, HenonHeiles, Pumped, scalar};
+use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
 use crate::transformed::{InRadius, in_radius, pericentre};
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Group, OneStep, QuadraticKinetic, Real, Scheme, State, System};
@@ -47,6 +47,7 @@ macro_rules! sample {
 
 sample!(Swaying, 1, [0.9], [0.4]);
 sample!(Pumped, 1, [0.9], [0.4]);
+sample!(Relativistic, 1, [0.9], [0.4]);
 sample!(HenonHeiles, 2, [0.12, 0.23], [0.31, -0.17]);
 
 impl<T: Real> Sample<T> for InRadius {

@@ -10,7 +10,7 @@
 //! - `%` occurs only as [`ExprKind::Index::modulo`]; `ds` was taken out of `dt = g*ds`.
 //! - No identifier is raw, `_`, or holds a `·`.
 //!
-//! What the language means where its description leaves a choice:
+//! The meaning of the language where its description leaves a choice:
 //!
 //! - A `let` uses only what stands above it; `H` may be used below its definition, and anywhere in
 //!   invariants, monitors, events, forces and pieces, which may also precede it.
@@ -60,7 +60,7 @@ pub struct Item {
     pub name: Ident,
     /// `const N: usize`.
     pub generics: Vec<Ident>,
-    /// What stands between the braces.
+    /// The entries between the braces.
     pub parameters: Vec<Parameter>,
 }
 
@@ -71,11 +71,11 @@ pub struct Parameter {
     pub attributes: Vec<TokenStream>,
     /// The name.
     pub name: Ident,
-    /// What it is.
+    /// Its kind.
     pub kind: ParameterKind,
 }
 
-/// What a parameter was declared as.
+/// The declared kind of a parameter.
 #[derive(Debug)]
 pub enum ParameterKind {
     /// `name` or `name = -1.5`
@@ -112,11 +112,11 @@ pub struct Statement {
     pub attributes: Vec<TokenStream>,
     /// The first word of the statement.
     pub keyword: Span,
-    /// What it says.
+    /// Its meaning.
     pub kind: StatementKind,
 }
 
-/// What a statement says.
+/// The meaning of a statement.
 #[derive(Debug)]
 pub enum StatementKind {
     /// `let name = value`; `let name(a, …) = value`
@@ -196,7 +196,7 @@ pub enum StatementKind {
     },
 }
 
-/// What an observable was declared as.
+/// The declared kind of an observable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ObservableKind {
     /// `invariant name = e`
@@ -252,7 +252,7 @@ pub struct ExprId(pub u32);
 /// An expression node.
 #[derive(Debug)]
 pub struct Expr {
-    /// What it is.
+    /// Its kind.
     pub kind: ExprKind,
     /// From its first to its last token, parentheses around it included.
     pub spans: Spans,
@@ -260,7 +260,7 @@ pub struct Expr {
     pub at: Spans,
 }
 
-/// What an expression node is.
+/// The kind of an expression node.
 #[derive(Debug)]
 pub enum ExprKind {
     /// Something an error was reported for, or that means nothing by itself; says nothing further.
@@ -277,7 +277,7 @@ pub enum ExprKind {
     Call(Symbol, Option<ScopeId>, Vec<ExprId>),
     /// `base[index]`, `base[index % modulo]`
     Index {
-        /// What is indexed.
+        /// The indexed value.
         base: ExprId,
         /// Left of `%`.
         index: ExprId,
@@ -299,7 +299,7 @@ pub enum ExprKind {
     Sum {
         /// Its loop variables, outermost first.
         scopes: Vec<ScopeId>,
-        /// What is added.
+        /// The summand.
         body: ExprId,
     },
     /// `if condition { then } else { otherwise }`

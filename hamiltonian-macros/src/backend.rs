@@ -98,7 +98,7 @@ fn system(
         }
     }
     let large = is_large(checked, &model);
-    let split = splits::settle(
+    let split = splits::decide(
         checked,
         &mut model,
         &structure,

@@ -44,7 +44,7 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
 /// The most scalars and arrays of one sort: programs number them in 16 bits, groups in 15.
 const MOST: usize = REPLACING as usize;
 
-/// What a name stands for.
+/// The binding of a name.
 #[derive(Debug, Clone, Copy)]
 enum Binding {
     Coordinate(GroupId),
@@ -95,7 +95,7 @@ struct Checker<'a> {
     loop_symbols: Vec<bool>,
     /// Symbols whose being unknown was reported, by symbol.
     unknown: Vec<bool>,
-    /// What stands in an index or a range, by expression; only errors ask for it.
+    /// Whether an expression stands in an index or a range; only errors ask for it.
     in_indices: OnceCell<Vec<bool>>,
     /// Sizes whose being unknown was reported.
     unknown_sizes: Vec<String>,
@@ -184,7 +184,7 @@ impl<'a> Checker<'a> {
         self.ast.symbols.find(&name.to_string())
     }
 
-    /// What kind of thing a name already is, in words.
+    /// The kind of a declared name, in words.
     fn described(&self, binding: Binding) -> &'static str {
         match binding {
             Binding::Coordinate(_) => "a coordinate",

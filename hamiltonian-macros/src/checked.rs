@@ -65,7 +65,7 @@ pub struct Checked {
     pub charts: Vec<Chart>,
     /// All loops of all sums.
     pub loops: Vec<Loop>,
-    /// What is in range for some sizes only.
+    /// Indices in range for some sizes only.
     pub reaches: Vec<Reach>,
     /// All expressions, children before parents.
     pub nodes: Vec<Node>,
@@ -149,7 +149,7 @@ pub struct Group {
     pub ty: Type,
 }
 
-/// What is given.
+/// The given function.
 #[derive(Debug, Clone, Copy)]
 pub enum Definition {
     /// `H(q; p[; t]) = …`, a scalar
@@ -242,7 +242,7 @@ pub struct Affine {
     pub terms: Vec<(IndexVariable, i64)>,
 }
 
-/// What an affine expression is made of.
+/// A variable of an affine expression.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum IndexVariable {
     /// A size.
@@ -271,9 +271,9 @@ pub struct Reach {
     pub span: Span,
     /// The loops whose iterations it depends on, outermost first.
     pub loops: Vec<LoopId>,
-    /// What is not to be negative in any of them.
+    /// The form that must be ≥ 0 in all of them.
     pub form: Affine,
-    /// What it is to be less than.
+    /// Its upper bound, excluded.
     pub extent: Option<Extent>,
 }
 
@@ -302,9 +302,9 @@ pub enum Type {
 /// An expression node.
 #[derive(Debug)]
 pub struct Node {
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// What it evaluates to.
+    /// The type of its value.
     pub ty: Type,
     /// From its first to its last token.
     pub spans: Spans,
@@ -312,7 +312,7 @@ pub struct Node {
     pub at: Spans,
 }
 
-/// What a node is. S is a scalar, V a vector, M a matrix, X any of the three, B a condition.
+/// The kind of a node. S is a scalar, V a vector, M a matrix, X any of the three, B a condition.
 #[derive(Debug)]
 pub enum Kind {
     /// S: an exact number.
@@ -363,7 +363,7 @@ pub enum Kind {
     Not(NodeId),
     /// `base[index]`: V → S, M → V (a row)
     Index {
-        /// What is indexed.
+        /// The indexed value.
         base: NodeId,
         /// Which component or row.
         index: Index,
@@ -381,7 +381,7 @@ pub enum Kind {
     Sum {
         /// Loops with consecutive ids.
         loops: Range<u32>,
-        /// What is added.
+        /// The summand.
         body: NodeId,
     },
     /// B, X, X → X, the same type

@@ -44,7 +44,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
     }
 }
 
-/// The result of stages that do not panic, or the words of the panic. What they were in the midst of
+/// The result of stages that do not panic, or the words of the panic. Their half-made work
 /// is read no more, but for the tree and the report, which are whole after each statement.
 fn caught<T>(stages: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(stages)).map_err(|panic| {

@@ -190,7 +190,7 @@ pub fn function(name: &str) -> Option<Entry> {
     functions().find(|entry| entry.name == name)
 }
 
-/// What the language means by a word that nothing else may be called.
+/// The meaning of a word that nothing else may be called.
 pub fn meaning(name: &str) -> Option<&'static str> {
     if name == "H" {
         Some("the Hamiltonian")
@@ -220,7 +220,7 @@ pub fn is_method(name: &str) -> bool {
     METHODS.contains(&name)
 }
 
-/// What the language calls what others call `name`.
+/// The name in this language of a function that others call `name`.
 pub fn synonym(name: &str) -> Option<&'static str> {
     SYNONYMS
         .iter()

@@ -212,7 +212,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// What the next token is, for messages.
+    /// The next token, for messages.
     fn found(&self) -> String {
         match self.peek() {
             Some(token) => format!("found `{}`", token.shown()),
@@ -364,7 +364,7 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// What [`Parser::leave`] goes back to.
+/// The state [`Parser::leave`] goes back to.
 struct Limit {
     limit: usize,
     close: usize,

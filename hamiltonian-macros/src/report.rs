@@ -37,9 +37,9 @@ impl From<Span> for Spans {
 /// One error.
 #[derive(Debug, Clone)]
 pub struct Diagnostic {
-    /// What is wrong: one line, lower case, code in backticks.
+    /// The fault: one line, lower case, code in backticks.
     pub message: String,
-    /// What to write instead.
+    /// The remedy.
     pub help: String,
     /// The narrowest tokens that are wrong.
     pub spans: Spans,

@@ -29,7 +29,7 @@ use std::process::ExitCode;
 use std::str::FromStr;
 use std::time::Instant;
 
-/// What is done with the definitions.
+/// The task to do with the definitions.
 enum Task {
     /// The code of each is printed.
     Print,

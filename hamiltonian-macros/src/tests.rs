@@ -1,4 +1,4 @@
-//! What the front end accepts, what it refuses and in which words, and that nothing breaks it.
+//! The front end: accepted and refused definitions, the words of refusals, and that nothing breaks it.
 
 mod accepted;
 mod builds;

@@ -17,7 +17,7 @@ pub struct Tokens {
 /// One token.
 #[derive(Debug)]
 pub struct Token {
-    /// What it is.
+    /// Its kind.
     pub kind: TokenKind,
     /// Where it stands.
     pub span: Span,
@@ -29,7 +29,7 @@ pub struct Token {
     pub tree: Option<TokenTree>,
 }
 
-/// What a token is.
+/// The kind of a token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TokenKind {
     /// A word.

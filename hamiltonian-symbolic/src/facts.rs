@@ -197,7 +197,7 @@ impl Facts {
             Kind::Select(condition, yes, no) => {
                 let both = self.get(*yes).and(self.get(*no));
                 if !dag.dependence(*condition).on(Dependence::MOVING)
-                    || is_settled(dag, *condition, known)
+                    || is_decided(dag, *condition, known)
                 {
                     return both;
                 }
@@ -307,7 +307,7 @@ impl Facts {
             each.push((base, if n < 0 { regular.recip() } else { regular }));
         }
         let all = each.iter().fold(Regular::STILL, |all, (_, f)| all.and(*f));
-        // 0·∞ is settled among quotients only.
+        // 0·∞ is decided among quotients only.
         let is_clear = |(a, f): &(Node, Regular), (b, g): &(Node, Regular)| {
             f.is_continuous
                 || g.is_nonzero
@@ -406,7 +406,7 @@ impl Facts {
 }
 
 /// Whether a condition switches elsewhere than where it is asked for.
-fn is_settled(dag: &Dag, condition: Node, known: &Known) -> bool {
+fn is_decided(dag: &Dag, condition: Node, known: &Known) -> bool {
     known.locus.is_some()
         && dag.reachable(&[condition]).iter().all(|node| {
             !matches!(dag.kind(*node), Kind::Compare(_, a, b) if !known.distinct.contains_key(&(*a, *b)))

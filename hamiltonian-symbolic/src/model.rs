@@ -4,7 +4,7 @@
 //! `print` makes text. Invariant: numbers of groups, parameters, sizes and external functions used
 //! in the arena index the lists here.
 
-use crate::dag::{Array, Column, Dag, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Node, Side};
 use crate::index::{Affine, Index};
 use crate::split::Piece;
 use crate::transform::REPLACING;
@@ -330,13 +330,5 @@ impl Model {
             || self.externals.iter().any(|e| e.name == name)
             || self.observables.iter().any(|o| o.name == name)
             || self.time.as_deref() == Some(name)
-    }
-    /// The number of the parameter of that name.
-    #[must_use]
-    pub fn parameter_named(&self, name: &str) -> Option<Parameter> {
-        self.parameters
-            .iter()
-            .position(|p| p.name == name)
-            .map(|at| Parameter(at as u16))
     }
 }

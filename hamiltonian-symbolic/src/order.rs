@@ -28,7 +28,7 @@ fn is_loop(step: &Step) -> bool {
     matches!(step, Step::Loop(_))
 }
 
-/// What must be done together: one step, or a sine with its cosine.
+/// Values computed together: one step, or a sine with its cosine.
 #[derive(Debug)]
 struct Unit {
     steps: Vec<usize>,
@@ -107,7 +107,7 @@ impl<'a> Run<'a> {
     fn add(&mut self, step: usize, mut reads: Vec<usize>, after: Option<usize>) -> usize {
         let unit = self.units.len();
         let height = |value: &usize| self.units[self.values[*value].by].height;
-        // What takes the longest way is reached first: a running sum before its next term.
+        // The longest way is reached first: a running sum before its next term.
         reads.sort_unstable_by_key(|value| (Reverse(height(value)), *value));
         reads.dedup();
         let height = reads.first().map_or(0, |value| height(value) + 1);

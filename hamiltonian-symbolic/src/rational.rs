@@ -274,14 +274,6 @@ impl Rational {
             Form::Big(value) => value.is_integer(),
         }
     }
-    /// The value as an integer that fits `i32`, if it is one.
-    #[must_use]
-    pub fn to_i32(&self) -> Option<i32> {
-        match self.0 {
-            Form::Small(n, 1) => i32::try_from(n).ok(),
-            _ => None,
-        }
-    }
     /// How many bits the longer of numerator and denominator has, rounded up to 64.
     #[must_use]
     pub fn bits(&self) -> u64 {

@@ -12,7 +12,7 @@
 
 use crate::common;
 use crate::tape::{self, Traced};
-use crate::tree::{PAIRS, PARAMETERS, Random, Standing, TIME, Tree, VARIABLES, grow, standing};
+use crate::tree::{PAIRS, PARAMETERS, Random, Region, TIME, Tree, VARIABLES, grow, region};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Side};
 use hamiltonian_symbolic::eval::{Point, run};
@@ -70,7 +70,7 @@ struct Case {
     scale: f64,
     /// H where what is not finite is any number.
     licensed: f64,
-    standing: Standing,
+    region: Region,
 }
 
 fn case(tree: &Tree, point: Vec<f64>, random: &mut Random, second: bool) -> Case {
@@ -131,7 +131,7 @@ fn case(tree: &Tree, point: Vec<f64>, random: &mut Random, second: bool) -> Case
     Case {
         scale,
         licensed: tree.licensed_value(&point),
-        standing: standing(tree, &point),
+        region: region(tree, &point),
         point,
         coefficient,
         direction,
@@ -299,7 +299,7 @@ fn judge(
                     } else if error <= bound {
                         tally.agree += 1;
                     } else if function.purpose == Purpose::HessianVector
-                        && case.standing == Standing::Edge
+                        && case.region == Region::Edge
                     {
                         tally.kink += 1;
                     } else {
@@ -308,11 +308,11 @@ fn judge(
                     }
                 }
                 (false, false) => tally.neither += 1,
-                _ if left_range && case.standing == Standing::Inside => tally.range += 1,
-                (true, false) if case.standing == Standing::Edge => {
+                _ if left_range && case.region == Region::Inside => tally.range += 1,
+                (true, false) if case.region == Region::Edge => {
                     tally.absorbed += 1;
                 }
-                (false, true) if case.standing == Standing::Edge => tally.licence += 1,
+                (false, true) if case.region == Region::Edge => tally.licence += 1,
                 (false, true)
                     if case.energy.to_f64().is_nan() && close(got.value, case.licensed) =>
                 {
@@ -341,12 +341,12 @@ fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
     for number in 0..count {
         let (tree, point) = grow(&mut random);
         let case = case(&tree, point, &mut random, second);
-        if case.standing == Standing::Undecided {
+        if case.region == Region::Undecided {
             undecided += 1;
             continue;
         }
         finite += usize::from(case.energy.is_finite());
-        edges += usize::from(case.standing == Standing::Edge);
+        edges += usize::from(case.region == Region::Edge);
         let mut model = tree.model();
         let program = match derive(&mut model, wanted) {
             Err(Refusal::OutOfRange { .. }) => {
@@ -417,7 +417,7 @@ fn a_wrong_derivative_is_found() {
     for _ in 0..500 {
         let (tree, point) = grow(&mut random);
         let case = case(&tree, point, &mut random, false);
-        if case.standing != Standing::Inside || !case.energy.is_finite() {
+        if case.region != Region::Inside || !case.energy.is_finite() {
             continue;
         }
         let program = derive(&mut tree.model(), &FIRST).unwrap();

@@ -151,7 +151,7 @@ fn derivatives_of_functions_in_rust() {
         r"-2 f'\left(2 q\right) - \frac{\partial g}{\partial x}\left(q, r\right)"
     );
     // Second derivatives.
-    let h = system.hamiltonian.unwrap();
+    let h = system.h();
     let slope = |model: &mut Model, of| diff::gradient(&mut model.dag, of, Dependence::Q)[0].1;
     let first = slope(&mut system, h);
     let second = slope(&mut system, first);

@@ -280,7 +280,7 @@ fn coupled_elements_are_refused_or_written_out() {
         "sum(i in 0..3) { v[i]^2/2 + v[i]*v[(i + 1) % 3]/4 } - q[0]*q[1]",
     );
     assert_eq!(legendre.momenta.len(), 3);
-    let written = hamiltonian_symbolic::loops::write_out(&mut m, l).unwrap();
+    let written = hamiltonian_symbolic::loops::unrolled(&mut m, l).unwrap();
     check(&mut m, &legendre, written);
 }
 
@@ -310,7 +310,7 @@ fn sums_over_all_elements_couple_them() {
         "",
         "sum(i in 0..3) { v[i]^2 } + (sum(i in 0..3) { v[i] })^2",
     );
-    let written = hamiltonian_symbolic::loops::write_out(&mut m, l).unwrap();
+    let written = hamiltonian_symbolic::loops::unrolled(&mut m, l).unwrap();
     check(&mut m, &legendre, written);
     // Sums that cancel couple nothing.
     let (m, legendre, _) = transformed(

@@ -168,7 +168,7 @@ fn as_many_loops_as_there_are_numbers_for() {
 
     // Of more nothing is said: the last loops would be taken for others.
     let mut more = many_loops(LOOPS + 1);
-    let h = more.hamiltonian.unwrap();
+    let h = more.h();
     assert_eq!(bracket(&mut more, h, h), None);
     assert!(matches!(
         is_invariant(&more, h, None),

@@ -5,7 +5,7 @@ use crate::common::{model, parse, system};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;
-use hamiltonian_symbolic::loops::{Sample, field, sample, unroll, unroll_nodes, write_out};
+use hamiltonian_symbolic::loops::{Sample, field, sample, unroll, unroll_nodes, unrolled};
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, Shape};
 use hamiltonian_symbolic::print::text;
 
@@ -103,7 +103,7 @@ fn a_system_written_out_has_the_same_energy() {
             assert!(
                 !written
                     .dag
-                    .reachable(&[written.hamiltonian.unwrap()])
+                    .reachable(&[written.h()])
                     .iter()
                     .any(|n| matches!(
                         written.dag.kind(*n),
@@ -111,10 +111,7 @@ fn a_system_written_out_has_the_same_energy() {
                     ))
             );
             assert!(
-                close(
-                    value(&m, m.hamiltonian.unwrap(), size),
-                    value(&written, written.hamiltonian.unwrap(), size)
-                ),
+                close(value(&m, m.h(), size), value(&written, written.h(), size)),
                 "{h} at {size}"
             );
         }
@@ -131,15 +128,15 @@ fn written_out_text_is_what_one_would_write() {
     );
     let written = unroll(&m, &[3]).unwrap();
     assert_eq!(
-        text(&written, written.hamiltonian.unwrap()),
+        text(&written, written.h()),
         "p[0]^2/2 + a[0]*exp(q[0] - q[1]) + (p[1]^2/2 + a[1]*exp(q[1] - q[2])) + (p[2]^2/2 + a[2]*exp(q[2] - q[0]))"
     );
     assert_eq!(written.groups[0].shape, Shape::Vector(Affine::constant(3)));
     // One particle in a ring is its own neighbour.
     let alone = unroll(&m, &[1]).unwrap();
-    assert_eq!(text(&alone, alone.hamiltonian.unwrap()), "p[0]^2/2 + a[0]");
+    assert_eq!(text(&alone, alone.h()), "p[0]^2/2 + a[0]");
     let none = unroll(&m, &[0]).unwrap();
-    assert_eq!(text(&none, none.hamiltonian.unwrap()), "0");
+    assert_eq!(text(&none, none.h()), "0");
 }
 
 #[test]
@@ -185,7 +182,7 @@ fn observables_come_along() {
     assert_eq!(text(&small, images[0]), "p[0] + p[1] + p[2]");
     let mut literal = model("q[2]; p[2]", "", "");
     let sum = parse(&mut literal, "sum(i in 0..2) { q[i]*p[i] }");
-    let written = write_out(&mut literal, sum).unwrap();
+    let written = unrolled(&mut literal, sum).unwrap();
     assert_eq!(text(&literal, written), "q[0]*p[0] + q[1]*p[1]");
 }
 
@@ -195,7 +192,7 @@ fn derivatives_by_element_are_those_of_the_system_written_out() {
     for &(signature, sizes, parameters, h) in SYSTEMS {
         for (side, what) in [(Side::Q, Dependence::Q), (Side::P, Dependence::P)] {
             let mut m = system(signature, sizes, parameters, h);
-            let root = m.hamiltonian.unwrap();
+            let root = m.h();
             let leaves = diff::gradient(&mut m.dag, root, what);
             let (rows, columns) = match m.groups[0].shape.clone() {
                 Shape::Vector(rows) => (rows, 1),
@@ -214,7 +211,7 @@ fn derivatives_by_element_are_those_of_the_system_written_out() {
                 };
                 for size in [1, 2, 3, 5] {
                     let mut written = unroll(&m, &[size]).unwrap();
-                    let root = written.hamiltonian.unwrap();
+                    let root = written.h();
                     let gradient = diff::gradient(&mut written.dag, root, what);
                     for row in 0..size {
                         let at = m.dag.replace(derivative, k, &Affine::constant(row));

@@ -308,7 +308,7 @@ fn nested_conditions_are_differentiated_once() {
     }
     program("q; p", "", &h, &[Purpose::EnergyAndGradient]);
     let mut model: Model = common::system("q; p", "", "", "q*p");
-    let mut node = model.hamiltonian.unwrap();
+    let mut node = model.h();
     let p = model.scalar(Side::P, 0);
     for level in 0..40 {
         let limit = model.dag.integer(level);

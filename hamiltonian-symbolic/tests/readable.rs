@@ -65,7 +65,7 @@ fn check(signature: &str, parameters: &str, l: &str) -> (String, Vec<String>) {
             }
             None => {
                 let written = inlined(line.strip_prefix("H = ").unwrap(), &names);
-                let h = m.hamiltonian.unwrap();
+                let h = m.h();
                 equal(&mut m, &written, h);
             }
         }
@@ -86,7 +86,7 @@ fn check(signature: &str, parameters: &str, l: &str) -> (String, Vec<String>) {
             names.push((name.to_owned(), right(rate)));
         }
     }
-    let h = m.hamiltonian.unwrap();
+    let h = m.h();
     for (side, of) in [(Side::Q, Dependence::P), (Side::P, Dependence::Q)] {
         let gradient = diff::gradient(&mut m.dag, h, of);
         for group in 0..m.groups.len() {

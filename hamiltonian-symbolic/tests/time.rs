@@ -28,7 +28,7 @@ fn another_time_adds_the_old_one_as_a_coordinate() {
     assert_eq!(new.model.time, None);
     assert_eq!(new.model.groups[2].coordinate, "t");
     assert_eq!(new.model.groups[2].momentum, "p_t");
-    let h = new.model.hamiltonian.unwrap();
+    let h = new.model.h();
     let expected = parse(
         &mut new.model,
         "-1 + sqrt(x^2 + y^2)*((p_x^2 + p_y^2)/2 + e*x*cos(t) + p_t)",
@@ -93,7 +93,7 @@ fn mino_time_takes_the_fraction_away() {
     let g = parse(&mut kerr, "r^2 + a^2*cos(theta)^2");
     let pieces = [parse(&mut kerr, "p_theta^2/(2*(r^2 + a^2*cos(theta)^2))")];
     let mut new = retime(&kerr, g, &pieces).unwrap();
-    let h = new.model.hamiltonian.unwrap();
+    let h = new.model.h();
     let expected = parse(
         &mut new.model,
         "((r^2 + a^2)*p_r^2 + p_theta^2 - r^3)/2 + (r^2 + a^2*cos(theta)^2)*p_t",
@@ -126,7 +126,7 @@ fn taken_names_get_a_number_and_factors_are_checked() {
     let coefficient = model.dag.coefficient();
     assert!(retime(&model, coefficient, &[]).is_err());
     let mut loops = system("q[n]; p[n]", "n", "", "sum(i in 0..n) { p[i]^2 }");
-    let h = loops.hamiltonian.unwrap();
+    let h = loops.h();
     let Kind::Reduce(_, body) = *loops.dag.kind(h) else {
         panic!("a loop")
     };

@@ -1,6 +1,8 @@
 //! Canonical transformations: what H becomes, that the maps are canonical, that both ways are
 //! inverse, and what is refused.
 
+mod check;
+
 use crate::common::{parse, system, values};
 use hamiltonian_symbolic::dag::{Column, Dependence, Node, Parameter, Side};
 use hamiltonian_symbolic::diff;
@@ -9,9 +11,7 @@ use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure;
-use hamiltonian_symbolic::transform::{
-    Bodies, Chart, Component, Refusal, Transformed, apply, check,
-};
+use hamiltonian_symbolic::transform::{Bodies, Chart, Component, Refusal, Transformed, apply};
 
 fn scalar(group: u16) -> Component {
     Component { group, row: None }
@@ -45,7 +45,7 @@ fn polar(h: &str, parameters: &str) -> Transformed {
 }
 
 fn shown(transformed: &Transformed) -> String {
-    print::text(&transformed.model, transformed.model.hamiltonian.unwrap())
+    print::text(&transformed.model, transformed.model.h())
 }
 
 /// H of the new system is the node that `text` means there.
@@ -361,108 +361,6 @@ fn ten_bodies_are_done_in_time() {
     let model = system("q[10][3]; p[10][3]", "", "m[10]", h);
     let new = apply(&model, &[Chart::Jacobi(bodies())], &[]).unwrap();
     assert_eq!(shown(&new).matches("p_jacobi").count(), 30);
-}
-
-#[test]
-fn the_check_sees_a_wrong_hamiltonian() {
-    let mut new = polar("p_x^2/2 + x*y", "");
-    assert_eq!(check(&new), Ok(3));
-    new.model.hamiltonian = Some(parse(&mut new.model, "p_r^2/2 + r^2*sin(phi)*cos(phi)"));
-    match check(&new) {
-        Err(Refusal::Unverified { point, old, new }) => {
-            assert!(!point.is_empty() && old != new);
-        }
-        other => panic!("{other:?}"),
-    }
-}
-
-/// A slip that shows for negative parameters only; and a parameter that has a root.
-#[test]
-fn the_check_compares_at_negative_parameters_too() {
-    let of = |h: &str, slip: &str| {
-        let mut new = polar(h, "a b");
-        assert_eq!(check(&new), Ok(3));
-        let h = new.model.hamiltonian.unwrap();
-        let slip = parse(&mut new.model, slip);
-        new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
-        check(&new)
-    };
-    for (h, slip) in [
-        ("a*x*y + p_x^2/2", "(abs(a) - a)*r"),
-        ("sqrt(a)*x*y + p_x^2/2 + b", "r/64"),
-        ("sqrt(a)*x*y + p_x^2/2 + sqrt(b)", "r/64"),
-    ] {
-        assert!(
-            matches!(of(h, slip), Err(Refusal::Unverified { .. })),
-            "{h}"
-        );
-    }
-}
-
-#[test]
-fn the_check_compares_where_every_index_is_in_range() {
-    let chart = [Chart::Heliocentric(bodies())];
-    let kinetic = "sum(i in 0..n) { p[i]^2/(2*m[i]) }";
-    for (sizes, more) in [
-        ("n", "(q[4] - q[0])^2"),
-        ("n", "q[40]^2"),
-        ("n k", "sum(i in 0..k) { q[i]^2 }"),
-        ("k n", "sum(i in 0..k) { q[i + 2]^2 }"),
-        ("n k", "sum(i in 0..2*k) { q[i]^2 }"),
-        ("n", "sqrt(q[0] - 20)"),
-        ("n", "sqrt(1/20 - q[0]^2)"),
-    ] {
-        let h = format!("{kinetic} + {more}");
-        let mut new = apply(&system("q[n]; p[n]", sizes, "m[n]", &h), &chart, &[]).unwrap();
-        assert!(check(&new).unwrap() > 0, "{h}");
-        // The same with a term that it does not have.
-        let wrong = parse(&mut new.model, "p_heliocentric[n - 1]/64");
-        let h = new.model.hamiltonian.unwrap();
-        new.model.hamiltonian = Some(new.model.dag.add(&[h, wrong]));
-        assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
-    }
-    // Nowhere a value, or no sizes that fit: nothing is compared, nor called checked.
-    for (sizes, h, why) in [
-        ("n", "sqrt(-1 - q[0]^2)", "H has no value"),
-        ("n", "q[4]*q[5000]", "no sizes"),
-        ("n k", "sum(i in 0..k + 1) { q[n - k + i] }", "no sizes"),
-    ] {
-        let model = system("q[n]; p[n]", sizes, "m[n]", h);
-        match apply(&model, &chart, &[]) {
-            Err(Refusal::Uncompared { reason }) => assert!(reason.contains(why), "{reason}"),
-            other => panic!("{h}: {other:?}"),
-        }
-    }
-    // Another function of the same system that has values says nothing of H.
-    let mut model = system("q[n]; p[n]", "n", "m[n]", "ln(-1 - q[0]^2)");
-    let components = vec![parse(&mut model, "q[0]")];
-    model.observables.push(Observable {
-        name: "first".to_owned(),
-        kind: ObservableKind::Monitor,
-        components,
-    });
-    assert!(matches!(
-        apply(&model, &chart, &[]),
-        Err(Refusal::Uncompared { .. })
-    ));
-}
-
-#[test]
-fn the_check_asks_for_eight_digits_where_there_are_as_many() {
-    // A slip of 1e-7 beside numbers whose rounding is far below it.
-    let mut new = polar("p_x^2/2 + 1/(x^2 + y^2)^3", "");
-    let h = new.model.hamiltonian.unwrap();
-    let slip = parse(&mut new.model, "1/10000000");
-    new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
-    assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
-    // Rounding that leaves fewer is not a slip.
-    let mut new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
-    assert!(check(&new).is_ok());
-    // But what is left of the digits must agree.
-    let h = new.model.hamiltonian.unwrap();
-    let slip = parse(&mut new.model, "10^15*r^2");
-    new.model.hamiltonian = Some(new.model.dag.add(&[h, slip]));
-    assert!(matches!(check(&new), Err(Refusal::Unverified { .. })));
 }
 
 #[test]

@@ -9,7 +9,7 @@ use hamiltonian_symbolic::model::Model;
 /// A system given by L, in which momenta stand for velocities, and what it becomes.
 fn lagrangian(signature: &str, parameters: &str, l: &str) -> (Model, Legendre) {
     let mut model = system(signature, "", parameters, l);
-    let lagrangian = model.hamiltonian.unwrap();
+    let lagrangian = model.h();
     let legendre = transform(&mut model, lagrangian).unwrap();
     model.hamiltonian = Some(legendre.hamiltonian);
     (model, legendre)

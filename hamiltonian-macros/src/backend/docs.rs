@@ -123,7 +123,7 @@ fn signature(model: &Model) -> String {
     format!("H({coordinates}; {momenta}{time})")
 }
 
-/// What is known of H, a sentence each.
+/// Facts of H, a sentence each.
 fn facts(structure: &Structure, is_forced: bool) -> Vec<String> {
     let mut facts = Vec::new();
     facts.push(match (&structure.separable, &structure.quadratic_kinetic) {

@@ -94,7 +94,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
     }
 }
 
-/// What no motion changes has no zero to be crossed.
+/// A constant of all motions has no zero to be crossed.
 fn events(checked: &Checked, lowered: &Lowered, report: &mut Report) {
     let (dag, moving) = (&lowered.model.dag, Dependence::Q.0 | Dependence::P.0);
     let moving = Dependence(moving | Dependence::TIME.0);

@@ -1,4 +1,4 @@
-//! What only the sizes decide, as numbers.
+//! Questions that only sizes decide, as numbers.
 //!
 //! Input: [`Checked`]. Output: forms over the sizes and loops they mention. Invariant: the loops of
 //! a form are all that its loops' ranges mention.

@@ -14,16 +14,16 @@ use hamiltonian_symbolic::split::{self, MOST, Piece, Refusal, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 use proc_macro2::Ident;
 
-/// What is said of a splitting.
+/// The text on a splitting.
 pub struct Found {
     /// Whether there is one, or the reason why not.
     pub verdict: Result<(), Reason>,
-    /// What the docs say, a sentence each.
+    /// The sentences of the docs.
     pub facts: Vec<String>,
 }
 
 /// Splits the model's H; `declared` are the pieces the author wrote, with their parts of H.
-pub fn settle(
+pub fn decide(
     checked: &Checked,
     model: &mut Model,
     structure: &Structure,
@@ -135,7 +135,7 @@ fn refused(model: &Model, why: &str) -> Found {
     }
 }
 
-/// What a splitting is, and why.
+/// A splitting, and the reason for it.
 fn facts(splitting: &Splitting) -> Vec<String> {
     let piece = |piece: &Piece| match piece.flow.rows() {
         [] => format!("`{}`", piece.name),

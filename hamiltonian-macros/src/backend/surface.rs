@@ -1,4 +1,4 @@
-//! What the user's tokens say, as emission reads it.
+//! The user's tokens, as emission reads them.
 //!
 //! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
 //! numbering. Invariant: tokens keep their spans.
@@ -122,7 +122,7 @@ pub fn separates_as_written(model: &mut Model) -> bool {
     is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
 }
 
-/// What the user's tokens say of one system.
+/// The user's tokens for one system.
 #[derive(Debug)]
 pub struct Part {
     /// Its header.

@@ -25,7 +25,7 @@ use quote::format_ident;
 pub struct System {
     /// H, observables and vector functions.
     pub model: Model,
-    /// What each vector function of the model is for.
+    /// The use of each vector function of the model.
     pub vectors: Vec<VectorItem>,
     /// The pieces of a split.
     pub pieces: Vec<(Ident, Node)>,
@@ -293,7 +293,7 @@ impl Settling {
     }
 }
 
-/// What to write instead.
+/// The remedy.
 fn remedy(reason: &Refusal) -> &'static str {
     match reason {
         Refusal::NameTaken { .. } => "rename the parameter or coordinate of that name",

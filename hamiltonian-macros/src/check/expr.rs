@@ -24,7 +24,7 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// What a node of the expression became; `None` if it is erroneous.
+    /// The checked node of a node of the expression; `None` if it is erroneous.
     pub(super) fn value(&self, raw: ExprId) -> Option<NodeId> {
         self.values[(raw.0 - self.first) as usize]
     }

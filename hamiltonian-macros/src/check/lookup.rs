@@ -19,7 +19,7 @@ pub(super) enum Found {
 }
 
 impl Checker<'_> {
-    /// What a name stands for, if it is declared.
+    /// The binding of a name, if it is declared.
     pub(super) fn find(
         &self,
         symbol: Symbol,
@@ -221,7 +221,7 @@ impl Checker<'_> {
         None
     }
 
-    /// What a name that is not known should have been.
+    /// The name that an unknown one should have been.
     fn help_for_unknown(&self, raw: ExprId, name: &str) -> String {
         if let Some(known) = names::synonym(name) {
             return format!("write `{known}`");

@@ -171,7 +171,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What is indexed, as far as it has a name.
+    /// The name of the indexed value, as far as it has one.
     fn base_shown(&self, base: NodeId) -> String {
         match &self.out.nodes[base.0 as usize].kind {
             Kind::Coordinate(group) => self.out.groups[group.0 as usize].coordinate.to_string(),

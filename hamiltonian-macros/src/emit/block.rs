@@ -13,7 +13,7 @@ use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
 use std::fmt::Write;
 
-/// What every body of a system is written from.
+/// The input of the text of every body of a system.
 #[derive(Debug, Clone, Copy)]
 pub struct Context<'a> {
     /// The mathematics.
@@ -22,7 +22,7 @@ pub struct Context<'a> {
     pub program: &'a Program,
     /// How coordinates are stored.
     pub layout: Layout,
-    /// What follows the system's name in that of the struct of coordinates of mixed shape.
+    /// The suffix of the system's name in that of the struct of coordinates of mixed shape.
     pub suffix: &'static str,
     /// The names of sizes inside bodies.
     pub indices: Indices<'a>,

@@ -29,7 +29,7 @@ pub struct Declared {
     pub time: Option<u16>,
 }
 
-/// What the storage of the declared variables is written from.
+/// The context of the storage of the declared variables.
 fn context<'a>(declared: &'a Declared, own: Context<'a>) -> Context<'a> {
     Context {
         in_place: false,
@@ -46,7 +46,7 @@ pub fn vector(declared: &Declared, own: Context, generics: &Generics) -> String 
     dynamics::vector(context(declared, own), generics, "T", "__h")
 }
 
-/// What a struct of them is written from, where the declared variables are of mixed shape, so that they have a struct.
+/// The context of their struct, where the declared variables are of mixed shape.
 pub fn mixed<'a>(definition: &Definition<'a>, own: Context<'a>) -> Option<Context<'a>> {
     let context = context(definition.declared?, own);
     (context.layout == Layout::Mixed).then_some(context)

@@ -99,7 +99,7 @@ pub fn implementations(
     (emission.out, emission.bodies.parts)
 }
 
-/// What preparation holds: the values it computes and the parameter arrays that functions read.
+/// The prepared system: the values preparation computes and the parameter arrays that functions read.
 fn prepared(context: Context) -> Holder {
     let program = context.program;
     let mut arrays = Vec::new();
@@ -327,7 +327,7 @@ impl<'a> Emission<'a> {
         line!(self, "}}");
     }
 
-    /// What a function reads from its own holder, in the order it reads it.
+    /// The values a function reads from its own holder, in order.
     pub(super) fn holder(&self, purpose: Purpose, name: &'static str) -> Option<Holder> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);

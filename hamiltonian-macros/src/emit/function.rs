@@ -19,11 +19,11 @@ use std::fmt::Write;
 pub struct Body<'a> {
     /// Its name: parts are called after it.
     pub name: &'a str,
-    /// What it is a method of.
+    /// The type it is a method of.
     pub receiver: Receiver<'a>,
     /// Its arguments after `self`: names and types.
     pub arguments: &'a [(&'static str, String)],
-    /// What it does.
+    /// Its body.
     pub steps: &'a [Step],
     /// Outputs that are set to 0 first.
     pub cleared: &'a [Target],
@@ -36,7 +36,7 @@ pub struct Body<'a> {
 /// Writes bodies, and gathers their parts.
 #[derive(Debug)]
 pub struct Bodies<'a> {
-    /// What they are written from.
+    /// Their context.
     pub context: Context<'a>,
     /// The generics of the definition.
     pub generics: &'a Generics,

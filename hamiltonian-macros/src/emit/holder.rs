@@ -140,7 +140,7 @@ pub fn shape(context: Context, array: Slice) -> Shape {
     }
 }
 
-/// What a body is a method of; the body calls it `_self`.
+/// The type a body is a method of; the body calls it `_self`.
 #[derive(Debug, Clone, Copy)]
 pub enum Receiver<'a> {
     /// The user's type.

@@ -17,7 +17,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
-/// What a [`Context`] borrows.
+/// The owner of the borrows of a [`Context`].
 #[derive(Debug)]
 pub struct Parts {
     sizes: Vec<String>,
@@ -48,7 +48,7 @@ impl Parts {
         }
     }
 
-    /// What bodies are written from.
+    /// The context of bodies.
     pub fn context<'a>(&'a self, definition: &Definition<'a>) -> Context<'a> {
         Context {
             in_place: false,

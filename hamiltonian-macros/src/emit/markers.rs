@@ -1,4 +1,4 @@
-//! What was proven about H, as types, and what was not, with the reason.
+//! Proven structure of H as types, and the reasons for the rest.
 //!
 //! Input: the verdicts. Output: text of the markers' implementations. Invariant: every marker is
 //! implemented for every system; one that does not hold asks for a bound that nothing satisfies,

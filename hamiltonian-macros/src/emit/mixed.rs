@@ -75,7 +75,7 @@ pub fn declaration(context: Context, generics: &Generics, root: &str) -> String 
     )
 }
 
-/// What a constructor takes, an array in any form `IntoVector` takes.
+/// The arguments of a constructor, an array in any form `IntoVector` takes.
 struct Arguments {
     /// Generic parameters, with their brackets.
     kinds: String,

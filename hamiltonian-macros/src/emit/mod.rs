@@ -57,11 +57,11 @@ pub struct Definition<'a> {
     pub model: &'a Model,
     /// The instructions.
     pub program: &'a Program,
-    /// What the user's tokens say.
+    /// The user's tokens.
     pub form: Form,
-    /// What was proven.
+    /// The proven structure.
     pub structure: Structure,
-    /// What is printed.
+    /// The printed text.
     pub text: Text,
     /// Functions written in Rust, in the model's order.
     pub externals: Vec<External>,
@@ -73,7 +73,7 @@ pub struct Definition<'a> {
     pub declared: Option<&'a Declared>,
     /// The systems of a split's pieces: (name of the piece, name of its type).
     pub pieces: Vec<(Ident, Ident)>,
-    /// What only the sizes decide.
+    /// The questions that only sizes decide.
     pub reaches: Vec<Reach>,
 }
 
@@ -156,7 +156,7 @@ pub struct External {
     pub second: Option<Vec<TokenStream>>,
 }
 
-/// What was proven about H.
+/// The proven structure of H.
 #[derive(Debug)]
 pub struct Structure {
     /// H = T(p, t) + V(q, t)
@@ -223,11 +223,11 @@ impl Kick {
 /// Why a structure is not there, as rustc says it where a scheme asks for it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reason {
-    /// What is wrong.
+    /// The fault.
     pub message: String,
-    /// What would be needed.
+    /// The missing property.
     pub label: String,
-    /// What to use instead.
+    /// The alternative.
     pub note: String,
 }
 
@@ -242,7 +242,7 @@ pub struct Text {
     pub latex: String,
     /// Hamilton's equations in LaTeX, one a line.
     pub latex_equations: Vec<String>,
-    /// What is known about H, one sentence a line.
+    /// Facts of H, one sentence a line.
     pub facts: Vec<String>,
     /// A table of the operations of value and gradient, one row a line.
     pub operations: Vec<String>,

@@ -102,7 +102,7 @@ pub fn pi() -> String {
 }
 
 fn two_words((hi, lo): (f64, f64)) -> String {
-    // What is left of a number that overflowed, or of one below the normal range, says nothing.
+    // The rest of a number that overflowed, or of one below the normal range, says nothing.
     let lo = if hi.is_finite() { lo } else { 0.0 };
     format!("T::constant({}, {})", float(hi), float(lo))
 }

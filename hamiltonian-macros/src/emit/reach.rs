@@ -23,9 +23,9 @@ pub struct Reach {
     pub sizes: Vec<usize>,
     /// The ranges of its loops, outermost first, each in the loops before it.
     pub loops: Vec<[Vec<i64>; 2]>,
-    /// What is not to be negative.
+    /// The form that must be ≥ 0.
     pub form: Vec<i64>,
-    /// What it is to be less than; the first value of a range has no such bound.
+    /// Its upper bound, excluded; the first value of a range has none.
     pub extent: Option<Bound>,
 }
 
@@ -123,7 +123,7 @@ fn questions<'a>(
     all.filter(move |(_, reach)| !reach.is_run_time(context))
 }
 
-/// What is asked when a system is made.
+/// The questions asked when a system is made.
 pub fn constructed(reaches: &[Reach], context: Context) -> String {
     let mut out = String::new();
     for reach in reaches.iter().filter(|reach| reach.is_run_time(context)) {

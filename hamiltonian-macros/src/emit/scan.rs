@@ -1,4 +1,4 @@
-//! What a block of steps reads, computes and writes.
+//! Values that a block of steps reads, computes and writes.
 //!
 //! Input: steps. Output: [`Scan`]. Invariant: lists are in order of first occurrence (sorted where
 //! it says so), without repetition.
@@ -7,7 +7,7 @@ use super::block::Context;
 use super::layout::Slice;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 
-/// What a block does.
+/// The reads and writes of a block.
 #[derive(Debug, Default)]
 pub struct Scan {
     /// Values it reads but does not compute; numbers are not among them, they stand where they are
@@ -19,7 +19,7 @@ pub struct Scan {
     pub slices: Vec<Slice>,
 }
 
-/// What a set of values knows about itself: a bit for each value of a program.
+/// A set of values: a bit for each value of a program.
 #[derive(Debug)]
 pub struct Marks(Vec<bool>);
 
@@ -38,7 +38,7 @@ impl Marks {
     }
 }
 
-/// What a block with these results does.
+/// The reads and writes of a block with these results.
 pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
     let mut walker = Walker {
         program: context.program,

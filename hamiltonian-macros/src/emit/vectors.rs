@@ -14,13 +14,13 @@ use quote::quote;
 /// A vector function of the model, in its order.
 #[derive(Debug)]
 pub struct VectorItem {
-    /// What it is for.
+    /// Its use.
     pub usage: VectorUse,
     /// The name of its method.
     pub name: Ident,
 }
 
-/// What a vector function is for.
+/// The use of a vector function.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum VectorUse {
     /// p(q, v)

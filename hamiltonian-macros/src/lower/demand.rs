@@ -16,7 +16,7 @@ use hamiltonian_symbolic::index::{Affine, Domain, Index, Size, members};
 /// The longest vector whose sums over components are unrolled.
 const LONGEST: i64 = 16;
 
-/// What is asked of a node.
+/// A demand on a node.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Demand {
     /// The component: nothing of a scalar, the index in a vector, row and column in a matrix.
@@ -59,7 +59,7 @@ impl Demand {
 
 /// Why a sum is not unrolled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Unwritten {
+pub enum NotUnrolled {
     /// A bound is no number.
     NotNumbers,
     /// It has more than [`LARGEST`] terms.
@@ -169,7 +169,7 @@ impl Evaluator<'_> {
             _ => {
                 let own = self.loops.free(node);
                 let outer = members(own).map(|id| LoopId(id.0));
-                let outer: Vec<LoopId> = outer.filter(|id| !self.loops.is_written(*id)).collect();
+                let outer: Vec<LoopId> = outer.filter(|id| !self.loops.is_unrolled(*id)).collect();
                 let mut set = demand
                     .indices
                     .iter()
@@ -183,19 +183,19 @@ impl Evaluator<'_> {
         }
     }
 
-    /// The values a written-out sum runs through, innermost loop fastest.
+    /// The values an unrolled sum runs through, innermost loop fastest.
     ///
     /// # Errors
-    /// [`Unwritten`]
-    pub fn written_values(
+    /// [`NotUnrolled`]
+    pub fn unrolled_values(
         &self,
         dag: &mut Dag,
         loops: core::ops::Range<u32>,
         demand: &Demand,
-    ) -> Result<Vec<Demand>, Unwritten> {
+    ) -> Result<Vec<Demand>, NotUnrolled> {
         let mut all = vec![demand.clone()];
         for id in loops.map(LoopId) {
-            if !self.loops.is_written(id) {
+            if !self.loops.is_unrolled(id) {
                 continue;
             }
             let range = &self.checked.loops[id.0 as usize];
@@ -203,11 +203,11 @@ impl Evaluator<'_> {
             for one in &all {
                 let mut number = |bound| {
                     let bound = self.affine(dag, bound, one);
-                    bound.as_constant().ok_or(Unwritten::NotNumbers)
+                    bound.as_constant().ok_or(NotUnrolled::NotNumbers)
                 };
                 let (start, end) = (number(&range.lower)?, number(&range.upper)?);
                 if end.saturating_sub(start) > LARGEST as i64 || next.len() > LARGEST {
-                    return Err(Unwritten::TooLong);
+                    return Err(NotUnrolled::TooLong);
                 }
                 for value in start..end {
                     let mut with = one.clone();
@@ -331,14 +331,14 @@ impl Evaluator<'_> {
                 "a component of a sum of vectors is chosen by a loop variable here",
                 "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
             ),
-            Kind::Sum { loops, body } => match self.written_values(dag, loops.clone(), demand) {
+            Kind::Sum { loops, body } => match self.unrolled_values(dag, loops.clone(), demand) {
                 Ok(all) => wanted.extend(all.into_iter().map(|one| (*body, one))),
-                Err(Unwritten::NotNumbers) => self.refuse(
+                Err(NotUnrolled::NotNumbers) => self.refuse(
                     this.spans,
                     "a loop that chooses components must have a literal range",
                     "components of a vector are chosen by number: write the range in numbers, as in `sum(c in 0..3) { … }`",
                 ),
-                Err(Unwritten::TooLong) => self.refuse(
+                Err(NotUnrolled::TooLong) => self.refuse(
                     this.spans,
                     &format!("loops that choose components are unrolled, and here they run more than {LARGEST} times"),
                     "let a short loop choose the components, as in `sum(c in 0..3) { … }`, and others stay loops",

@@ -9,7 +9,7 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
 use std::cmp::Ordering;
 
-/// What the function takes, if a known number is not among it.
+/// The domain of the function, if a known number is outside it.
 pub fn outside(dag: &Dag, function: Op, arguments: &[Node]) -> Option<&'static str> {
     let [x, rest @ ..] = arguments else {
         return None;

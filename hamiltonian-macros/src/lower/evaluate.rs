@@ -24,7 +24,7 @@ use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
 use hamiltonian_symbolic::transform::REPLACING;
 
-/// What is said, and advised, of a bracket whose indices are too involved.
+/// Message and remedy for a bracket whose indices are too involved.
 const UNSOLVED: (&str, &str) = (
     "this bracket cannot be formed: its sums meet at indices that cannot be solved for each other",
     "write the result of the bracket as an expression",
@@ -34,12 +34,12 @@ const UNSOLVED: (&str, &str) = (
 #[derive(Debug, Default)]
 pub struct Derived {
     made: Vec<core::ops::Range<usize>>,
-    /// What somebody wrote after it was derived.
+    /// Nodes that somebody wrote after they were derived.
     written: Map<Node, ()>,
 }
 
 impl Derived {
-    /// What was made since the arena had so many nodes.
+    /// Nodes made since the arena had so many were derived.
     pub fn since(&mut self, before: usize, model: &Model) {
         self.made.push(before..model.dag.len());
     }
@@ -81,9 +81,9 @@ pub struct Evaluator<'a> {
     refused: bool,
     /// Whether a bracket was formed.
     has_brackets: bool,
-    /// What no `f64` is near.
+    /// Numbers that no `f64` is near.
     pub(super) beyond: Beyond,
-    /// What is written nowhere.
+    /// Nodes that nobody wrote.
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
@@ -513,15 +513,15 @@ impl<'a> Evaluator<'a> {
         demand: &Demand,
         values: &[Node],
     ) -> Node {
-        let written = self.written_values(dag, loops.clone(), demand);
-        let written = written.expect("its operands were asked for");
+        let unrolled = self.unrolled_values(dag, loops.clone(), demand);
+        let unrolled = unrolled.expect("its operands were asked for");
         let kept: Vec<LoopId> = loops
             .rev()
             .map(LoopId)
-            .filter(|id| !self.loops.is_written(*id))
+            .filter(|id| !self.loops.is_unrolled(*id))
             .collect();
         let mut nests: Vec<Vec<Domain>> = Vec::new();
-        for one in &written {
+        for one in &unrolled {
             nests.push(kept.iter().map(|id| self.domain(dag, *id, one)).collect());
         }
         let derived = &mut self.derived;
@@ -532,7 +532,7 @@ impl<'a> Evaluator<'a> {
                 sum
             })
         };
-        // What is unrolled stands inside the loops that stay, where these are the same.
+        // Unrolled terms stand inside the loops that stay, where these are the same.
         if let Some((first, rest)) = nests.split_first()
             && rest.iter().all(|nest| nest == first)
         {

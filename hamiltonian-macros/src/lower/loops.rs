@@ -13,7 +13,7 @@ use hamiltonian_symbolic::index::members;
 /// A set of loops; there are at most `LOOPS`.
 pub type Set = u64;
 
-/// What is known of loops.
+/// Facts of loops.
 #[derive(Debug)]
 pub struct Loops {
     /// The loops each node depends on.
@@ -25,7 +25,7 @@ pub struct Loops {
     /// How deep each loop stands.
     depths: Vec<u32>,
     /// Loops that are unrolled.
-    written: Set,
+    unrolled: Set,
     /// The loops that are unrolled and each loop depends on: itself, or those that its bounds
     /// and those of the loops around it mention.
     numbers: Vec<Set>,
@@ -53,7 +53,7 @@ impl Loops {
             by_number: Vec::new(),
             parents: Vec::new(),
             depths: Vec::new(),
-            written: 0,
+            unrolled: 0,
             numbers: Vec::new(),
         }
     }
@@ -66,7 +66,7 @@ impl Loops {
             by_number: Vec::with_capacity(checked.nodes.len()),
             parents: vec![None; count],
             depths: vec![0; count],
-            written: 0,
+            unrolled: 0,
             numbers: vec![0; count],
         };
         for node in &checked.nodes {
@@ -84,29 +84,29 @@ impl Loops {
         }
         // Bounds of a loop that is unrolled are numbers.
         loop {
-            let before = loops.written;
+            let before = loops.unrolled;
             for (at, one) in checked.loops.iter().enumerate() {
                 if before >> at & 1 == 1 {
-                    loops.written |= mentioned(&one.lower) | mentioned(&one.upper);
+                    loops.unrolled |= mentioned(&one.lower) | mentioned(&one.upper);
                 }
             }
-            if loops.written == before {
+            if loops.unrolled == before {
                 break;
             }
         }
         for (at, node) in checked.nodes.iter().enumerate().rev() {
             if let Kind::Sum { loops: own, .. } = &node.kind {
-                let mut parent = loops.deepest(loops.free[at] & !loops.written);
+                let mut parent = loops.deepest(loops.free[at] & !loops.unrolled);
                 for id in own.clone().map(LoopId) {
                     let number = id.0 as usize;
-                    if loops.is_written(id) {
+                    if loops.is_unrolled(id) {
                         loops.numbers[number] = bit(id);
                         continue;
                     }
                     let bounds = &checked.loops[number];
                     let own = mentioned(&bounds.lower) | mentioned(&bounds.upper);
                     let around = parent.map_or(0, |p| loops.numbers[p.0 as usize]);
-                    loops.numbers[number] = own & loops.written | around;
+                    loops.numbers[number] = own & loops.unrolled | around;
                     loops.depths[number] = parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
                     loops.parents[number] = parent;
                     parent = Some(id);
@@ -151,7 +151,7 @@ impl Loops {
             Kind::Index { base, index } => {
                 let base_by_number = of(*base);
                 if base_by_number && matches!(checked.node(*base).ty, Type::Vector(_)) {
-                    self.written |= mentioned(&index.affine);
+                    self.unrolled |= mentioned(&index.affine);
                 }
                 base_by_number
             }
@@ -194,8 +194,8 @@ impl Loops {
     }
 
     /// Whether a loop is unrolled.
-    pub fn is_written(&self, id: LoopId) -> bool {
-        self.written & bit(id) != 0
+    pub fn is_unrolled(&self, id: LoopId) -> bool {
+        self.unrolled & bit(id) != 0
     }
 
     /// The innermost of loops that lie on one path.

@@ -41,7 +41,7 @@ const LARGEST: usize = 1 << 18;
 /// Expressions with their coefficients.
 pub type Beyond = Vec<(Rational, NodeId)>;
 
-/// What a definition is as mathematics.
+/// A definition as mathematics.
 #[derive(Debug)]
 pub struct Lowered {
     /// H with names, shapes and observables; p(q, v) and v(q, p) of a Lagrangian as its first two
@@ -129,7 +129,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let factor = rest.values(&mut model, &factor)?.first().copied();
     let force = rest.force(&mut model)?;
     model.force = force.clone();
-    // What is proven and derived from here on would be of other loops.
+    // Proofs and derivatives from here on would be of other loops.
     if model.dag.has_too_many_loops() {
         let message = format!("this system needs more than {LOOPS} loops");
         let at = checked.node(h).spans;
@@ -187,7 +187,7 @@ fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     Ok(legendre)
 }
 
-/// What is declared beside H.
+/// The declarations beside H.
 struct Rest<'a> {
     checked: &'a Checked,
     evaluator: Evaluator<'a>,

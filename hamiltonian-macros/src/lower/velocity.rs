@@ -6,7 +6,7 @@
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::legendre::Component;
-use hamiltonian_symbolic::loops::write_out;
+use hamiltonian_symbolic::loops::unrolled;
 use hamiltonian_symbolic::model::{Model, VectorEntry};
 
 /// The expression with velocities in the place of momenta.
@@ -68,7 +68,7 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
         _ => false,
     };
     if dag.reachable(&[root]).into_iter().any(is_looped) {
-        write_out(model, root).ok()
+        unrolled(model, root).ok()
     } else {
         Some(root)
     }

@@ -1,4 +1,4 @@
-//! What stands in brackets: groups, lists, the branches of an `if`, the body of a `sum`.
+//! Contents of brackets: groups, lists, the branches of an `if`, the body of a `sum`.
 //!
 //! Input: the cursor at the opening, or at the word before it. Output: the root of what is inside,
 //! the cursor after the closing. Invariant: every group counts towards [`super::MAX_DEPTH`] while
@@ -61,7 +61,7 @@ impl Parser<'_> {
         Ok(items)
     }
 
-    /// What follows an expression and cannot continue it.
+    /// A token after an expression that cannot continue it.
     pub(super) fn left_over<T>(&mut self, expected: &str) -> Result<T> {
         let Some(token) = self.peek() else {
             return Err(Abort);

@@ -14,7 +14,7 @@ use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
 use proc_macro2::{Delimiter, Span};
 
-/// What follows a function.
+/// The token after a function.
 const CALL: TokenKind = TokenKind::Open(Delimiter::Parenthesis);
 
 /// Whether a word is a keyword of Rust and none of the language.

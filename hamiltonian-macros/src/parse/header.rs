@@ -17,7 +17,7 @@ pub(super) struct Attribute {
     /// Its first word.
     pub word: String,
     pub spans: Spans,
-    /// What follows the first word.
+    /// The tokens after the first word.
     rest: (usize, usize),
 }
 
@@ -195,7 +195,7 @@ impl Parser<'_> {
         }
     }
 
-    /// What stands between the braces, the cursor inside.
+    /// The entries between the braces, the cursor inside.
     fn parameters(&mut self) {
         while self.position < self.limit {
             let (start, limit) = (self.position, self.limit);
@@ -274,7 +274,7 @@ impl Parser<'_> {
         })
     }
 
-    /// What stands after `=`: an expression of numbers.
+    /// The expression of numbers after `=`.
     fn default_value(&mut self, name: &Ident, form: &str) -> Result<Expression> {
         if self.position >= self.limit || self.at_punct(',') {
             let message = format!(

@@ -555,7 +555,7 @@ impl Parser<'_> {
                 HELP,
             );
         };
-        // What is left is the factor: neither the product nor `ds` is a value.
+        // The rest is the factor: neither the product nor `ds` is a value.
         self.ast.nodes[value.root.0 as usize].kind = ExprKind::Error;
         self.ast.nodes[word.0 as usize].kind = ExprKind::Error;
         Ok(StatementKind::Time {

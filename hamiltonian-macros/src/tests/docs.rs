@@ -1,4 +1,4 @@
-//! What the documentation of a generated type says.
+//! The documentation of a generated type.
 
 use crate::expand::expand;
 use crate::tests::unmarked;

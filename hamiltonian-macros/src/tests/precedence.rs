@@ -1,4 +1,4 @@
-//! What binds how, and that numbers are kept exactly.
+//! Precedence of operators, and that numbers are kept exactly.
 
 use super::{accept, read};
 use crate::ast::{Ast, BinaryOp, ExprId, ExprKind, StatementKind, UnaryOp};

@@ -19,7 +19,7 @@ use crate::dag::{self, Column, Dag, Dependence, Kind, Map, Node};
 use crate::diff;
 use crate::facts::{Facts, Known, Locus, Regular};
 use crate::index::Index;
-use crate::loops::write_out;
+use crate::loops::unrolled;
 use crate::model::Model;
 use crate::normal_form::{self, Algebra, Poly, SMALL_BUDGET, Scope, Undecided};
 use crate::op::{At, Break, Op, Range};
@@ -96,8 +96,8 @@ impl Claim {
                 if !model.sizes.is_empty() {
                     return Err("sums of a length known at run time are not compared".to_owned());
                 }
-                *root = write_out(model, *root)
-                    .map_err(|_| "its sums are too long to be written out".to_owned())?;
+                *root = unrolled(model, *root)
+                    .map_err(|_| "its sums are too long to be unrolled".to_owned())?;
             }
         }
         let facts = facts(model, &self.roots);

@@ -13,7 +13,7 @@ use crate::model::Model;
 use crate::normal_form::{self, Scope};
 use crate::rational::Rational;
 
-/// Determinants of at most this many velocities are written out.
+/// Determinants of at most this many velocities are expanded.
 const MOST: usize = 6;
 
 /// Whether an expression, in which velocities stand for themselves, does not

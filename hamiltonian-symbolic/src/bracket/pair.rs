@@ -8,7 +8,7 @@
 use crate::dag::{Array, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
-use crate::loops::{field, write_out};
+use crate::loops::{field, unrolled};
 use crate::model::{Model, VectorEntry};
 use crate::rational::Rational;
 
@@ -20,7 +20,7 @@ pub fn bracket(model: &mut Model, a: Node, b: Node) -> Option<Node> {
         if !model.sizes.is_empty() || model.dag.has_too_many_loops() {
             return None;
         }
-        let (a, b) = (write_out(model, a).ok()?, write_out(model, b).ok()?);
+        let (a, b) = (unrolled(model, a).ok()?, unrolled(model, b).ok()?);
         in_loops(model, a, b, &[])
     })
 }

@@ -1,4 +1,4 @@
-//! What an element is read from.
+//! Arrays that elements are read from.
 //!
 //! Input: the groups of a model by number. Output: columns of phase space, and arrays. Invariant: two
 //! that are equal are the same storage.
@@ -60,7 +60,7 @@ impl Column {
     }
 }
 
-/// What an array element is read from.
+/// The array of an element.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Array {
     /// A column of the coordinates or momenta.

@@ -15,7 +15,7 @@ mod form;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
-use crate::loops::{field, write_out};
+use crate::loops::{field, unrolled};
 use crate::model::{Model, Shape};
 use crate::normal_form::{Proof, is_zero};
 use crate::print::{self, Notation};
@@ -76,7 +76,7 @@ pub struct Refusal {
     /// No velocities, not quadratic in them, elements coupled with each other, singular mass
     /// matrix: a sentence without a full stop.
     pub reason: String,
-    /// What to write instead.
+    /// The remedy.
     pub help: &'static str,
 }
 
@@ -263,7 +263,7 @@ impl Transform<'_> {
     /// are too many, or their number is not literal.
     fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
         let extents = self.extents()?;
-        let written = write_out(self.model, lagrangian).ok()?;
+        let written = unrolled(self.model, lagrangian).ok()?;
         let leaves = diff::gradient(&mut self.model.dag, written, Dependence::P);
         let mut block = Block::default();
         for (group, (rows, columns)) in extents.into_iter().enumerate() {

@@ -34,7 +34,7 @@ pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine
     (!dag.has_too_many_loops()).then_some(sum)
 }
 
-/// What all iterations of `chain` together add to element k.
+/// The sum of what all iterations of `chain` add to element k.
 fn gather(
     dag: &mut Dag,
     row: &Index,
@@ -269,7 +269,7 @@ fn wrapped(dag: &mut Dag, index: &Index, modulo: &Affine) -> Option<Node> {
         None => return None,
     };
     let moved = variable.plus(1, &Affine::constant(by));
-    // What is past either end comes in at the other.
+    // Elements past either end come in at the other.
     let (holds, inside, outside) = if by < 0 {
         (
             at_least_zero(dag, &moved),

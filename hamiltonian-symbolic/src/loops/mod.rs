@@ -12,4 +12,4 @@ mod walk;
 
 pub use guard::guarded;
 pub use numeric::{Point, Sample, Sampled, Signs, is_in_range, sample};
-pub use unroll::{unroll, unroll_nodes, write_out};
+pub use unroll::{unroll, unroll_nodes, unrolled};

@@ -66,7 +66,7 @@ pub fn unroll_nodes(
 ///
 /// # Errors
 /// As [`unroll`].
-pub fn write_out(model: &mut Model, root: Node) -> Result<Node, String> {
+pub fn unrolled(model: &mut Model, root: Node) -> Result<Node, String> {
     let (unrolled, images) = unroll_nodes(model, &[], &[root])?;
     let mut new: Map<Node, Node> = Map::default();
     for node in unrolled.dag.reachable(&images) {

@@ -8,9 +8,9 @@ use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
 use std::rc::Rc;
 
-/// What nodes mean to a walk.
+/// The meaning of nodes to a walk.
 pub(crate) trait Meaning {
-    /// What a node becomes.
+    /// The image of a node.
     type Value: Clone;
     /// The meaning of a node that is not a loop, given its children's.
     fn value(

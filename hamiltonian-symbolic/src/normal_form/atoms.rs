@@ -12,7 +12,7 @@ use crate::op::{Op, Range};
 use crate::rational::Rational;
 use std::rc::Rc;
 
-/// What an atom is.
+/// The kind of an atom.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(crate) enum Key {
     /// A variable, a parameter, π, a size.
@@ -51,13 +51,13 @@ pub(crate) enum Scope {
 /// An atom with what is known of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// What it is.
+    /// Its kind.
     pub(crate) key: Key,
     /// `atom^n = polynomial`
     pub(crate) relation: Option<(u32, Rc<Poly>)>,
     /// The polynomial that took its place, when a finer base was needed.
     pub(crate) redefined: Option<Rc<Poly>>,
-    /// What it depends on.
+    /// Its dependences.
     pub(crate) dependence: Dependence,
     /// The loop variables it depends on.
     pub(crate) variables: u64,
@@ -100,7 +100,7 @@ pub(crate) struct Algebra {
     positive: Option<Node>,
     /// Where statements are to hold.
     pub(super) scope: Scope,
-    /// What may still be spent.
+    /// The rest of the budget.
     pub(crate) budget: Budget,
 }
 
@@ -132,7 +132,7 @@ impl Algebra {
         }
     }
 
-    /// What is known of an atom.
+    /// The facts of an atom.
     pub(crate) fn entry(&self, atom: Atom) -> &Entry {
         &self.entries[atom as usize]
     }
@@ -315,7 +315,7 @@ impl Algebra {
         terms.iter().any(|(m, _)| m.0.iter().any(|(_, n)| *n < 0))
     }
 
-    /// What a polynomial depends on.
+    /// The dependences of a polynomial.
     pub(crate) fn dependence(&self, monomial: &Monomial) -> Dependence {
         Dependence(
             monomial

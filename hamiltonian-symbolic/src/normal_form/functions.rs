@@ -232,7 +232,7 @@ impl Algebra {
         let ln = self.logarithm(x)?;
         let exponent = self.mul(y, &ln)?;
         let size = self.exponential(&exponent)?;
-        // What is to an even power, or ≥ 0, has no sign.
+        // An even power, or a factor ≥ 0, has no sign.
         let (k, monomial, rest) = self.content(x)?;
         let mut signed = rest;
         if self.is_nonnegative(&signed) {

@@ -27,13 +27,13 @@ use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
 
-/// What one expansion may cost.
+/// The budget of one expansion.
 pub(crate) const BUDGET: Budget = Budget {
     terms: 20_000,
     products: 400_000,
 };
 
-/// What an expansion may cost that every definition makes.
+/// The budget of an expansion that every definition makes.
 pub(crate) const SMALL_BUDGET: Budget = Budget {
     terms: 4_000,
     products: 40_000,
@@ -96,7 +96,7 @@ fn has_loops(dag: &Dag, node: Node) -> bool {
         .any(|n| matches!(dag.kind(*n), Kind::Reduce(..)))
 }
 
-/// What the normal form says of a node.
+/// The verdict of the normal form on a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Answer {
     /// It is identically zero.
@@ -139,7 +139,7 @@ pub(crate) fn vanishes_within(dag: &mut Dag, node: Node, products: &mut usize) -
     answer == Answer::Zero
 }
 
-/// What the normal form says of a node, loops re-indexed where that helps.
+/// The verdict of the normal form on a node, loops re-indexed where that helps.
 pub(crate) fn answer(dag: &mut Dag, node: Node, scope: Scope) -> Answer {
     answer_in(&mut Algebra::new(BUDGET, scope), dag, node)
 }

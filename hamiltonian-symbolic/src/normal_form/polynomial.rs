@@ -15,7 +15,7 @@ pub(crate) type Atom = u32;
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) struct Undecided;
 
-/// What an expansion may still cost.
+/// The rest of the budget of an expansion.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Budget {
     /// The most terms a polynomial may have.
@@ -155,7 +155,7 @@ impl Poly {
     pub(crate) fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
-    /// What reading it once costs, in products of terms.
+    /// The cost of reading it once, in products of terms.
     pub(super) fn cost(&self) -> usize {
         self.terms.iter().map(|(m, _)| 1 + m.0.len() / 8).sum()
     }

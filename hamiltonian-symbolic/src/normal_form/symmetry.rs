@@ -48,7 +48,7 @@ pub(super) fn summands_vanish(algebra: &mut Algebra, poly: &Poly) -> Result<bool
         if poly.is_zero() {
             continue;
         }
-        // What several loops multiply is not a sum over one of them.
+        // A product of several loops is not a sum over one of them.
         let mut summands: Vec<(Domain, Poly)> = Vec::new();
         for (monomial, k) in poly.terms() {
             let sums: Vec<_> = monomial

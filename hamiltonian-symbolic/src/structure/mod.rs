@@ -50,7 +50,7 @@ pub struct Cyclic {
     pub momentum: String,
 }
 
-/// What is known of a Hamiltonian.
+/// The structure of a Hamiltonian.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Structure {
     /// T and V, or the first coupling term.

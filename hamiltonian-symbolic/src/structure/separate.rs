@@ -26,7 +26,7 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
     if model.dag.is_zero(parts.coupling) {
         return Ok(parts.split());
     }
-    // What couples may cancel.
+    // Coupling terms may cancel.
     let may_relate = !is_certainly_coupled(model, h);
     let parts = apart(model, h, may_relate);
     match resolved(model, parts, may_relate) {

@@ -54,8 +54,8 @@ impl Below {
 
 /// What is done with a loop.
 enum Step {
-    /// Written out.
-    WriteOut(i64, i64),
+    /// Unrolled.
+    Unroll(i64, i64),
     /// Its first iteration taken out.
     Peel,
 }
@@ -78,7 +78,7 @@ pub(super) fn peel(
             break;
         };
         let peeled = match step {
-            Step::WriteOut(start, end) => {
+            Step::Unroll(start, end) => {
                 let each: Vec<Node> = (start..end)
                     .map(|at| dag.replace(body, domain, &Affine::constant(at)))
                     .collect();
@@ -178,7 +178,7 @@ fn step(
         if written.contains(&group)
             && let Some((start, end)) = literal
         {
-            return Some(Step::WriteOut(start, end));
+            return Some(Step::Unroll(start, end));
         }
         let is_body = bodies.iter().any(|bodies| bodies.old == group);
         if is_body

@@ -1,6 +1,6 @@
 //! Models from text, for tests: scalar coordinates, parameters by name.
 
-use hamiltonian_symbolic::dag::{Node, Side};
+use hamiltonian_symbolic::dag::{Node, Parameter, Side};
 use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
@@ -149,13 +149,13 @@ impl Parser<'_> {
                 return self.model.scalar(Side::P, at);
             }
         }
-        if self.model.parameter_named(&name).is_none() {
-            self.model.parameters.push(ParameterDeclaration {
-                name: name.clone(),
-                shape: Shape::Scalar,
-            });
+        let parameters = &mut self.model.parameters;
+        let known = parameters.iter().position(|known| known.name == name);
+        let at = known.unwrap_or(parameters.len());
+        if known.is_none() {
+            let shape = Shape::Scalar;
+            parameters.push(ParameterDeclaration { name, shape });
         }
-        let parameter = self.model.parameter_named(&name).unwrap();
-        self.model.dag.parameter(parameter)
+        self.model.dag.parameter(Parameter(at as u16))
     }
 }

@@ -53,6 +53,11 @@ pub struct World<V> {
     pub loops: Vec<(String, i64)>,
 }
 
+/// The number, if it is whole.
+fn whole(number: &Rational) -> Option<i64> {
+    number.to_small().filter(|(_, n)| *n == 1).map(|(n, _)| n)
+}
+
 impl<V: Copy> World<V> {
     fn whole(&self, name: &str) -> Option<i64> {
         let bound = self.loops.iter().rev().find(|(n, _)| n == name);
@@ -64,7 +69,7 @@ impl<V: Copy> World<V> {
     /// The value of an index or a bound.
     pub fn integer(&self, e: &Expression) -> i64 {
         match e {
-            Expression::Number(value) => i64::from(value.to_i32().unwrap()),
+            Expression::Number(value) => whole(value).unwrap(),
             Expression::Name(name, _) => self.whole(name).unwrap(),
             Expression::Negative(a) => -self.integer(a),
             Expression::Binary(op, a, b) => {
@@ -189,7 +194,7 @@ impl<T: Real> Arithmetic for Numbers<T> {
         }
     }
     fn power(&mut self, a: T, exponent: &Rational) -> T {
-        match exponent.to_i32() {
+        match whole(exponent) {
             Some(n) => {
                 let product = (0..n.abs()).fold(T::one(), |product, _| product * a);
                 if n < 0 { T::one() / product } else { product }

@@ -7,7 +7,7 @@ use hamiltonian_symbolic::op::Op;
 
 /// Where a point stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Standing {
+pub enum Region {
     /// Away from edges.
     Inside,
     /// Exactly on the edge of a domain, a kink or a tie.
@@ -17,17 +17,17 @@ pub enum Standing {
 }
 
 /// Where the tree stands at a point, by forward error bounds of its plain evaluation.
-pub fn standing(tree: &Tree, point: &[f64]) -> Standing {
+pub fn region(tree: &Tree, point: &[f64]) -> Region {
     let values = tree.values(point);
     let mut errors: Vec<f64> = Vec::with_capacity(values.len());
-    let mut result = Standing::Inside;
+    let mut result = Region::Inside;
     for (at, part) in tree.0.iter().enumerate() {
         for (distance, error) in distances(*part, &values, &errors) {
             if distance <= 8.0 * error {
                 if error == 0.0 {
-                    result = Standing::Edge;
+                    result = Region::Edge;
                 } else {
-                    return Standing::Undecided;
+                    return Region::Undecided;
                 }
             }
         }

@@ -7,7 +7,7 @@
 mod edges;
 mod grow;
 
-pub use edges::{Standing, standing};
+pub use edges::{Region, region};
 pub use grow::grow;
 
 use hamiltonian_lanes::{DoubleDouble, Lift, Mask, Real};

@@ -89,7 +89,21 @@ pub enum Kind {
     Select(Node, Node, Node),
 }
 
-/// What a node depends on.
+/// Nodes that are seen but not visited: a bit for each.
+pub(crate) struct Ahead(Vec<u64>);
+
+impl Ahead {
+    /// The node is visited too.
+    pub(crate) fn add(&mut self, node: Node) {
+        self.0[node.0 as usize / 64] |= 1 << (node.0 % 64);
+    }
+    /// All of them are.
+    pub(crate) fn extend<'a>(&mut self, nodes: impl Iterator<Item = &'a Node>) {
+        nodes.for_each(|node| self.add(*node));
+    }
+}
+
+/// The dependences of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Dependence(pub u8);
 
@@ -418,24 +432,31 @@ impl Dag {
     /// All nodes the roots need, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
+        self.reached(roots, |node, ahead| {
+            self.for_children(node, |child| ahead.add(child));
+        })
+    }
+    /// All nodes that are reached from the roots by going from a node to those that `next` adds, some
+    /// of its children: children before parents.
+    pub(crate) fn reached(
+        &self,
+        roots: &[Node],
+        mut next: impl FnMut(Node, &mut Ahead),
+    ) -> Vec<Node> {
         let Some(top) = roots.iter().max() else {
             return Vec::new();
         };
-        // A bit for each node that is seen but not visited; parents have larger numbers.
-        let mut ahead = vec![0u64; top.0 as usize / 64 + 1];
+        // Parents have larger numbers.
+        let mut ahead = Ahead(vec![0; top.0 as usize / 64 + 1]);
         let mut order = Vec::new();
-        for root in roots {
-            ahead[root.0 as usize / 64] |= 1 << (root.0 % 64);
-        }
-        for word in (0..ahead.len()).rev() {
-            while ahead[word] != 0 {
-                let bit = 63 - ahead[word].leading_zeros();
-                ahead[word] ^= 1 << bit;
+        roots.iter().for_each(|root| ahead.add(*root));
+        for word in (0..ahead.0.len()).rev() {
+            while ahead.0[word] != 0 {
+                let bit = 63 - ahead.0[word].leading_zeros();
+                ahead.0[word] ^= 1 << bit;
                 let node = Node(word as u32 * 64 + bit);
                 order.push(node);
-                self.for_children(node, |child| {
-                    ahead[child.0 as usize / 64] |= 1 << (child.0 % 64);
-                });
+                next(node, &mut ahead);
             }
         }
         order.reverse();

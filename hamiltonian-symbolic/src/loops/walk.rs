@@ -116,20 +116,15 @@ pub(crate) fn walk<M: Meaning>(
 /// The nodes a loop's body needs that are computed in each iteration of this loop, but not of one
 /// inside it.
 fn block(dag: &Dag, body: Node, domain: Domain, homes: &Map<Node, Domain>) -> Vec<Node> {
-    let bit = 1u64 << domain.0;
-    let mut found = Vec::new();
-    let mut seen: Map<Node, ()> = Map::default();
-    let mut stack = vec![body];
-    while let Some(node) = stack.pop() {
-        if dag.variables(node) & bit == 0 || seen.insert(node, ()).is_some() {
-            continue;
-        }
-        if homes.get(&node) == Some(&domain) {
-            found.push(node);
-        }
-        dag.for_children(node, |child| stack.push(child));
-    }
-    found.sort_unstable();
+    let is_inside = |node: Node| dag.variables(node) >> domain.0 & 1 == 1;
+    let mut found = dag.reached(&[body], |node, ahead| {
+        dag.for_children(node, |child| {
+            if is_inside(child) {
+                ahead.add(child);
+            }
+        });
+    });
+    found.retain(|node| homes.get(node) == Some(&domain));
     found
 }
 

@@ -126,28 +126,28 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
 /// The nodes of a root that are multiplied out, children first: what stands inside functions and
 /// below fraction lines does not.
 fn spine(dag: &Dag, root: Node) -> Vec<Node> {
-    let mut seen: Map<Node, ()> = Map::default();
-    let mut found = Vec::new();
-    let mut stack = vec![root];
-    while let Some(node) = stack.pop() {
-        if seen.insert(node, ()).is_some() {
-            continue;
+    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+        Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
+        Kind::Product(_, factors) => {
+            let above = factors.iter().filter(|(_, n)| *n > 0);
+            ahead.extend(above.map(|(node, _)| node));
         }
-        found.push(node);
-        match dag.kind(node) {
-            Kind::Sum(_, terms) => stack.extend(terms.iter().map(|(_, n)| *n)),
-            Kind::Product(_, factors) => stack.extend(
-                factors
-                    .iter()
-                    .filter(|(_, n)| *n > 0)
-                    .map(|(node, _)| *node),
-            ),
-            Kind::Reduce(_, body) => stack.push(*body),
-            _ => {}
+        Kind::Reduce(_, body) => ahead.add(*body),
+        _ => {}
+    })
+}
+
+/// Multiplies by powers, those of the same node as one; `None` where an exponent is too large.
+pub(crate) fn times(factors: &[(Node, i32)], powers: &[(Node, i32)]) -> Option<Vec<(Node, i32)>> {
+    let mut product = factors.to_vec();
+    for &(node, n) in powers {
+        match product.iter_mut().find(|(other, _)| *other == node) {
+            Some(entry) => entry.1 = entry.1.checked_add(n)?,
+            None => product.push((node, n)),
         }
     }
-    found.sort_unstable();
-    found
+    product.retain(|(_, n)| *n != 0);
+    Some(product)
 }
 
 fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
@@ -157,17 +157,9 @@ fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
     let mut sum = Collected::default();
     for x in a {
         for y in b {
-            let mut factors = x.factors.clone();
-            for &(node, n) in &y.factors {
-                match factors.iter_mut().find(|(other, _)| *other == node) {
-                    Some(entry) => entry.1 = entry.1.checked_add(n)?,
-                    None => factors.push((node, n)),
-                }
-            }
-            factors.retain(|(_, n)| *n != 0);
             sum.add(Term {
                 coefficient: x.coefficient.mul(&y.coefficient),
-                factors,
+                factors: times(&x.factors, &y.factors)?,
             });
         }
     }
@@ -175,15 +167,15 @@ fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
     (terms.len() <= MOST).then_some(terms)
 }
 
-/// Like terms added up.
+/// Like terms added up, in order of first appearance.
 #[derive(Default)]
-struct Collected {
+pub(crate) struct Collected {
     terms: Vec<Term>,
     place: Map<Vec<(Node, i32)>, usize>,
 }
 
 impl Collected {
-    fn add(&mut self, term: Term) {
+    pub(crate) fn add(&mut self, term: Term) {
         let mut key = term.factors.clone();
         key.sort_unstable();
         match self.place.get(&key) {
@@ -197,7 +189,7 @@ impl Collected {
         }
     }
 
-    fn terms(mut self) -> Vec<Term> {
+    pub(crate) fn terms(mut self) -> Vec<Term> {
         self.terms.retain(|term| !term.coefficient.is_zero());
         self.terms
     }

@@ -9,6 +9,7 @@ mod expand;
 mod quadratic;
 mod separate;
 
+pub(crate) use expand::{Collected, times};
 pub use expand::{Term, expand};
 pub use quadratic::kick_beside;
 

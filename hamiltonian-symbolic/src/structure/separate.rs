@@ -183,26 +183,14 @@ fn apart(model: &mut Model, root: Node, resolves: bool) -> Parts {
 
 /// The nodes that are looked into, children first: coupled ones, and their children.
 fn spine(dag: &Dag, root: Node) -> Vec<Node> {
-    let mut seen: Map<Node, ()> = Map::default();
-    let mut found = Vec::new();
-    let mut stack = vec![root];
-    while let Some(node) = stack.pop() {
-        if seen.insert(node, ()).is_some() {
-            continue;
-        }
-        found.push(node);
-        if couples(dag, node) {
-            match dag.kind(node) {
-                Kind::Sum(_, terms) => stack.extend(terms.iter().map(|(_, n)| *n)),
-                Kind::Product(_, factors) => stack.extend(factors.iter().map(|(n, _)| *n)),
-                Kind::Reduce(_, body) => stack.push(*body),
-                Kind::Select(_, yes, no) => stack.extend([*yes, *no]),
-                _ => {}
-            }
-        }
-    }
-    found.sort_unstable();
-    found
+    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+        _ if !couples(dag, node) => {}
+        Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
+        Kind::Product(_, factors) => ahead.extend(factors.iter().map(|(n, _)| n)),
+        Kind::Reduce(_, body) => ahead.add(*body),
+        Kind::Select(_, yes, no) => ahead.extend([yes, no].into_iter()),
+        _ => {}
+    })
 }
 
 /// Whether H(q,p) − H(q′,p) − H(q,p′) + H(q′,p′) is certainly not 0 somewhere: then no T and V

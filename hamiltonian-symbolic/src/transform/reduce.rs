@@ -9,7 +9,7 @@
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Stage};
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::structure::{Term, expand};
+use crate::structure::{Collected, Term, expand, times};
 
 /// The most terms of one sum that are multiplied out.
 const WIDEST: u64 = 1 << 14;
@@ -429,46 +429,11 @@ fn next_binomial(value: &Rational, n: i32, k: i32) -> Rational {
     value.mul(&Rational::new(i64::from(n - k), i64::from(k + 1)))
 }
 
-/// A term times a number and some powers.
+/// A term times a number and some powers, which are small.
 fn exchanged(term: &Term, k: &Rational, powers: &[(Node, i32)]) -> Term {
-    let mut factors = term.factors.clone();
-    for &(node, n) in powers {
-        match factors.iter_mut().find(|(other, _)| *other == node) {
-            Some(entry) => entry.1 += n,
-            None => factors.push((node, n)),
-        }
-    }
-    factors.retain(|(_, n)| *n != 0);
     Term {
         coefficient: term.coefficient.mul(k),
-        factors,
-    }
-}
-
-/// Like terms added up, in order of first appearance.
-#[derive(Default)]
-struct Collected {
-    terms: Vec<Term>,
-    place: Map<Factors, usize>,
-}
-
-impl Collected {
-    fn add(&mut self, term: Term) {
-        let mut key = term.factors.clone();
-        key.sort_unstable();
-        match self.place.get(&key) {
-            Some(&at) => {
-                self.terms[at].coefficient = self.terms[at].coefficient.add(&term.coefficient);
-            }
-            None => {
-                self.place.insert(key, self.terms.len());
-                self.terms.push(term);
-            }
-        }
-    }
-    fn terms(mut self) -> Vec<Term> {
-        self.terms.retain(|term| !term.coefficient.is_zero());
-        self.terms
+        factors: times(&term.factors, powers).expect("powers that are rewritten are small"),
     }
 }
 
@@ -509,26 +474,28 @@ fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
 /// multiplications 1, divisions 4, functions 8.
 fn cost(dag: &Dag, root: Node) -> u32 {
     let run = Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
-    let mut seen: Map<Node, ()> = Map::default();
+    let moves = |node: Node| dag.dependence(node).on(run);
     let mut powers: Map<(Node, i32), ()> = Map::default();
-    let mut stack = vec![root];
     let mut sum = 0u32;
-    while let Some(node) = stack.pop() {
-        if !dag.dependence(node).on(run) || seen.insert(node, ()).is_some() {
-            continue;
-        }
+    let computed = dag.reached(&[root], |node, ahead| {
+        dag.for_children(node, |child| {
+            if moves(child) {
+                ahead.add(child);
+            }
+        });
+    });
+    for node in computed.into_iter().filter(|node| moves(*node)) {
         sum = sum.saturating_add(match dag.kind(node) {
             Kind::Sum(c, terms) => {
                 let scaled = terms.iter().filter(|(k, _)| !k.abs().is_one()).count();
                 (terms.len() + usize::from(!c.is_zero()) + scaled - 1) as u32
             }
             Kind::Product(k, factors) => {
-                let constant =
-                    !k.abs().is_one() || factors.iter().any(|(n, _)| !dag.dependence(*n).on(run));
+                let constant = !k.abs().is_one() || factors.iter().any(|(n, _)| !moves(*n));
                 let mut price = u32::from(constant);
                 let mut divided = false;
                 let mut count = 0;
-                for &(factor, n) in factors.iter().filter(|(n, _)| dag.dependence(*n).on(run)) {
+                for &(factor, n) in factors.iter().filter(|(n, _)| moves(*n)) {
                     count += 1;
                     divided |= n < 0;
                     let n = n.unsigned_abs();
@@ -542,7 +509,6 @@ fn cost(dag: &Dag, root: Node) -> u32 {
             Kind::Element(..) | Kind::Time => 0,
             _ => 1,
         });
-        dag.for_children(node, |child| stack.push(child));
     }
     sum
 }

@@ -281,21 +281,15 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
 
 /// Whether a term of a node, down through its sums, has one of the factors below its fraction line.
 fn meets(dag: &Dag, root: Node, factors: &[Node]) -> bool {
-    let mut stack = vec![root];
-    let mut seen: Map<Node, ()> = Map::default();
-    while let Some(node) = stack.pop() {
-        if seen.insert(node, ()).is_some() {
-            continue;
-        }
-        match dag.kind(node) {
-            Kind::Sum(_, terms) => stack.extend(terms.iter().map(|(_, n)| *n)),
-            Kind::Product(_, parts) => match parts.as_slice() {
-                [(inner, 1)] => stack.push(*inner),
-                parts if parts.iter().any(|(n, e)| *e < 0 && factors.contains(n)) => return true,
-                _ => {}
-            },
-            _ => {}
-        }
-    }
-    false
+    let is_met = |part: &(Node, i32)| part.1 < 0 && factors.contains(&part.0);
+    let mut meets = false;
+    dag.reached(&[root], |node, ahead| match dag.kind(node) {
+        Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),
+        Kind::Product(_, parts) => match parts.as_slice() {
+            [(inner, 1)] => ahead.add(*inner),
+            parts => meets |= parts.iter().any(is_met),
+        },
+        _ => {}
+    });
+    meets
 }

@@ -25,6 +25,7 @@
 //! - A number that would underflow f64 to 0 is refused like one that overflows.
 
 use crate::report::Spans;
+use hamiltonian_symbolic::model::ObservableKind;
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
 use std::collections::BTreeMap;
@@ -194,28 +195,6 @@ pub enum StatementKind {
         /// Names of coordinates and, for `jacobi` and `heliocentric`, of the masses.
         arguments: Vec<Ident>,
     },
-}
-
-/// The declared kind of an observable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ObservableKind {
-    /// `invariant name = e`
-    Invariant,
-    /// `monitor name = e`
-    Monitor,
-    /// `event name = e`
-    Event,
-}
-
-impl ObservableKind {
-    /// The word that declares it.
-    pub fn word(self) -> &'static str {
-        match self {
-            ObservableKind::Invariant => "invariant",
-            ObservableKind::Monitor => "monitor",
-            ObservableKind::Event => "event",
-        }
-    }
 }
 
 /// `(coordinates; momenta or velocities; time)`.

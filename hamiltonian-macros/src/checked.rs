@@ -20,9 +20,10 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::{Comparison, ObservableKind};
+use crate::ast::Comparison;
 use crate::names::Builtin;
 use crate::report::Spans;
+use hamiltonian_symbolic::model::ObservableKind;
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
 use std::ops::Range;

@@ -108,26 +108,8 @@ pub const STATEMENTS: &[&str] = &[
     "coordinates",
 ];
 
-/// Words that cannot name anything. `L` is not among them: it begins a statement only where a
-/// signature follows, and inductances and angular momenta are called so.
-const RESERVED: &[&str] = &[
-    "let",
-    "H",
-    "invariant",
-    "monitor",
-    "event",
-    "split",
-    "force",
-    "fn",
-    "dt",
-    "ds",
-    "coordinates",
-    "sum",
-    "if",
-    "else",
-    "in",
-    "on",
-];
+/// Words inside expressions and statements that cannot name anything either.
+const RESERVED: &[&str] = &["ds", "sum", "if", "else", "in", "on"];
 
 /// Other names people know functions and constants by.
 const SYNONYMS: &[(&str, &str)] = &[
@@ -198,7 +180,8 @@ pub fn meaning(name: &str) -> Option<&'static str> {
         Some("a function of the language")
     } else if CONSTANTS.contains(&name) {
         Some("a constant of the language")
-    } else if RESERVED.contains(&name) {
+    } else if RESERVED.contains(&name) || is_statement_word(name) && name != "L" {
+        // Inductances and angular momenta are called L; a statement it begins has a signature.
         Some("a word of the language")
     } else {
         None

@@ -45,13 +45,10 @@ impl Operations {
             }
             Instruction::Div(..) | Instruction::Recip(..) => self.divisions += 1,
             Instruction::Call(Op::Sqrt, _) => self.roots += 1,
-            Instruction::Call(Op::Abs | Op::Sign, _)
-            | Instruction::Call2(Op::Min | Op::Max, ..) => {}
-            Instruction::Call(..)
-            | Instruction::Call2(..)
-            | Instruction::Call3(..)
-            | Instruction::PairedSin(_)
-            | Instruction::External(..) => self.functions += 1,
+            Instruction::Call(Op::Abs | Op::Sign | Op::Min | Op::Max, _) => {}
+            Instruction::Call(..) | Instruction::PairedSin(_) | Instruction::External(..) => {
+                self.functions += 1
+            }
             _ => {}
         }
     }

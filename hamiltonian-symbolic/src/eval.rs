@@ -232,9 +232,10 @@ impl<T: Real> Machine<'_, T> {
             Instruction::NegMulAdd(a, b, c) => (-n(a)).fma(n(b), n(c)),
             Instruction::Div(a, b) => n(a) / n(b),
             Instruction::Recip(a) => n(a).recip(),
-            Instruction::Call(op, a) => op.eval(&[n(a)]),
-            Instruction::Call2(op, a, b) => op.eval(&[n(a), n(b)]),
-            Instruction::Call3(op, a, b, c) => op.eval(&[n(a), n(b), n(c)]),
+            Instruction::Call(op, arguments) => {
+                let arguments: Vec<T> = arguments.iter().map(n).collect();
+                op.eval(&arguments)
+            }
             Instruction::PairedSin(a) => n(a).sin_cos().0,
             Instruction::PairedCos(sin) => match self.program.instruction(*sin) {
                 Instruction::PairedSin(a) => n(a).sin_cos().1,

@@ -78,14 +78,7 @@ impl Placer<'_> {
             }
             Kind::Sum(c, terms) => return self.sum(steps, c, terms),
             Kind::Product(k, factors) => return self.product(steps, k, factors),
-            Kind::Call(op, x) => match x.as_slice() {
-                [x] => Instruction::Call(*op, self.value(*x)),
-                [x, y] => Instruction::Call2(*op, self.value(*x), self.value(*y)),
-                [x, y, z, ..] => {
-                    Instruction::Call3(*op, self.value(*x), self.value(*y), self.value(*z))
-                }
-                [] => Instruction::Call(*op, Value::NONE),
-            },
+            Kind::Call(op, x) => Instruction::Call(*op, x.iter().map(|n| self.value(*n)).collect()),
             Kind::External(function, part, x) => {
                 Instruction::External(*function, *part, x.iter().map(|n| self.value(*n)).collect())
             }

@@ -115,9 +115,9 @@ impl Display for Instruction {
             Instruction::NegMulAdd(a, b, c) => write!(f, "{c} - {a}*{b}"),
             Instruction::Div(a, b) => write!(f, "{a}/{b}"),
             Instruction::Recip(a) => write!(f, "1/{a}"),
-            Instruction::Call(op, a) => write!(f, "{}({a})", op.row().name),
-            Instruction::Call2(op, a, b) => write!(f, "{}({a}, {b})", op.row().name),
-            Instruction::Call3(op, a, b, c) => write!(f, "{}({a}, {b}, {c})", op.row().name),
+            Instruction::Call(op, arguments) => {
+                write!(f, "{}({})", op.row().name, listed(arguments))
+            }
             Instruction::PairedSin(a) => write!(f, "sin({a})"),
             Instruction::PairedCos(sine) => write!(f, "cos beside {sine}"),
             Instruction::External(function, part, arguments) => {
@@ -126,8 +126,7 @@ impl Display for Instruction {
                     Part::First(i) => write!(f, "f{function}_{i}(")?,
                     Part::Second(i, j) => write!(f, "f{function}_{i}_{j}(")?,
                 }
-                let arguments: Vec<String> = arguments.iter().map(Value::to_string).collect();
-                write!(f, "{})", arguments.join(", "))
+                write!(f, "{})", listed(arguments))
             }
             Instruction::Compare(relation, a, b) => {
                 let sign = match relation {
@@ -196,4 +195,10 @@ impl Program {
         }
         Ok(())
     }
+}
+
+/// `a, b, c`
+fn listed(values: &[Value]) -> String {
+    let values: Vec<String> = values.iter().map(Value::to_string).collect();
+    values.join(", ")
 }

@@ -139,6 +139,18 @@ pub enum ObservableKind {
     Event,
 }
 
+impl ObservableKind {
+    /// The word that declares it.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            ObservableKind::Invariant => "invariant",
+            ObservableKind::Monitor => "monitor",
+            ObservableKind::Event => "event",
+        }
+    }
+}
+
 /// A named function of (t, q, p): one node a component.
 #[derive(Clone, Debug)]
 pub struct Observable {

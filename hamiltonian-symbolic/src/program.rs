@@ -64,12 +64,8 @@ pub enum Instruction {
     Div(Value, Value),
     /// 1/a
     Recip(Value),
-    /// An elementary function of one argument.
-    Call(Op, Value),
-    /// An elementary function of two arguments.
-    Call2(Op, Value, Value),
-    /// One of three arguments.
-    Call3(Op, Value, Value, Value),
+    /// An elementary function, with its arguments.
+    Call(Op, Vec<Value>),
     /// sin of an angle whose cosine is needed too: computed together with the [`Instruction::PairedCos`]
     /// that names this value.
     PairedSin(Value),
@@ -105,7 +101,6 @@ impl Instruction {
             | Instruction::Accumulator => {}
             Instruction::Neg(a)
             | Instruction::Recip(a)
-            | Instruction::Call(_, a)
             | Instruction::PairedSin(a)
             | Instruction::PairedCos(a)
             | Instruction::Not(a) => visit(*a),
@@ -113,16 +108,16 @@ impl Instruction {
             | Instruction::Sub(a, b)
             | Instruction::Mul(a, b)
             | Instruction::Div(a, b)
-            | Instruction::Call2(_, a, b)
             | Instruction::Compare(_, a, b)
             | Instruction::And(a, b)
             | Instruction::Or(a, b) => [*a, *b].into_iter().for_each(visit),
             Instruction::MulAdd(a, b, c)
             | Instruction::MulSub(a, b, c)
             | Instruction::NegMulAdd(a, b, c)
-            | Instruction::Call3(_, a, b, c)
             | Instruction::Select(a, b, c) => [*a, *b, *c].into_iter().for_each(visit),
-            Instruction::External(_, _, arguments) => arguments.iter().copied().for_each(visit),
+            Instruction::Call(_, arguments) | Instruction::External(_, _, arguments) => {
+                arguments.iter().copied().for_each(visit);
+            }
         }
     }
 

@@ -3,14 +3,13 @@
 //! Input: the lowered definition. Output: errors with the residual and, where one was found, a
 //! point. Invariant: `#[assume]` silences only what could not be decided, never what is false.
 
-use crate::ast::ObservableKind;
 use crate::checked::Checked;
 use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
 use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::transform::check_split;
 
 /// Proves what the definition claims of the declared coordinates.

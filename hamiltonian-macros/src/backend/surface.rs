@@ -3,7 +3,6 @@
 //! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
 //! numbering. Invariant: tokens keep their spans.
 
-use crate::ast::ObservableKind;
 use crate::checked::{self, Checked, Definition, SizeKind, Type};
 use crate::emit::{
     self, Declared, External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem,
@@ -14,7 +13,7 @@ use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::diff;
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::print::Readable;
 use proc_macro2::Ident;
 use quote::{format_ident, quote};

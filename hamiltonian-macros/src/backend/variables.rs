@@ -7,14 +7,13 @@
 
 use super::proofs;
 use super::surface::CLOCK;
-use crate::ast::ObservableKind;
 use crate::checked::{self, ChartKind, Checked, Definition};
 use crate::emit::{Declared, VectorItem, VectorUse};
 use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::model::{Model, VectorEntry, VectorFunction};
+use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction};
 use hamiltonian_symbolic::pipeline::gradient_of;
 use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Placement, Refusal};
 use proc_macro2::Ident;

@@ -5,10 +5,11 @@
 //! may use all of them.
 
 use super::{Binding, Checker, LetFunction, Place};
-use crate::ast::{Expression, ObservableKind, Statement, StatementKind};
+use crate::ast::{Expression, Statement, StatementKind};
 use crate::checked::{Definition, Extent, Function, FunctionId, NodeId, Observable, Type};
 use crate::names;
 use crate::report::Spans;
+use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::{Ident, TokenStream};
 
 impl<'a> Checker<'a> {

@@ -172,10 +172,10 @@ impl<'a> Writer<'a> {
             Instruction::NegMulAdd(a, b, c) => format!("(-{}).fma({}, {})", v(a), v(b), v(c)),
             Instruction::Div(a, b) => format!("{} / {}", v(a), v(b)),
             Instruction::Recip(a) => format!("{}.recip()", v(a)),
-            Instruction::Call(op, a) => format!("{}.{}()", v(a), op.row().name),
-            Instruction::Call2(op, a, b) => format!("{}.{}({})", v(a), op.row().name, v(b)),
-            Instruction::Call3(op, a, b, c) => {
-                format!("{}.{}({}, {})", v(a), op.row().name, v(b), v(c))
+            Instruction::Call(op, arguments) => {
+                let arguments: Vec<String> = arguments.iter().map(v).collect();
+                let (first, others) = (&arguments[0], arguments[1..].join(", "));
+                format!("{first}.{}({others})", op.row().name)
             }
             Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
             Instruction::PairedCos(a) => v(a),

@@ -13,8 +13,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
-/// Where every parameter has a default: `Default`, over f64 only, because a second one would leave
-/// `Name::default()` undecided, and `with_defaults` over any scalar.
+/// Where every parameter has a default: `Default`, over f64 only, and `with_defaults` over any scalar.
+/// A `Default` over any scalar would leave the scalar of `Name::default()` open, and the fields of
+/// `Name { l: 2.0, ..Default::default() }` without methods such as `sqrt`.
 pub fn default(item: &Item, context: Context, generics: &Generics) -> String {
     if context.is_run_time.contains(&true) || item.parameters.iter().any(|p| p.default.is_none()) {
         return String::new();

@@ -147,7 +147,8 @@ fn declaration(
     let allow = allowances(&names);
     let vector = |context: Context, doc: String| {
         let text = mixed::declaration(context, generics, "__ROOT__");
-        let text = with_root(lex(&text), root);
+        // Another type of the name is an error here.
+        let text = located(with_root(lex(&text), root), name.span(), 0);
         let derives = with_root(lex(&mixed::derives(context, "__ROOT__")), root);
         quote! {
             #[doc = #doc]

@@ -18,11 +18,7 @@ use std::fmt::Write;
 pub fn entries(model: &Model) -> String {
     let mut out = String::new();
     for observable in &model.observables {
-        let kind = match observable.kind {
-            ObservableKind::Monitor => "Monitor",
-            ObservableKind::Invariant => "Invariant",
-            ObservableKind::Event => "Event",
-        };
+        let kind = observable.kind;
         for (component, node) in observable.components.iter().enumerate() {
             let name = if observable.components.len() == 1 {
                 observable.name.clone()
@@ -31,7 +27,7 @@ pub fn entries(model: &Model) -> String {
             };
             let _ = write!(
                 out,
-                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind}, \
+                "__h::Observable {{ name: {name:?}, kind: __h::ObservableKind::{kind:?}, \
                  depends_on_time: {} }}, ",
                 model.dag.dependence(*node).on(Dependence::TIME),
             );
@@ -89,12 +85,7 @@ pub fn methods(
         };
         let (result, body) = (lex(&result), lex(&body));
         let docs = if attributes.is_empty() {
-            let kind = match observable.kind {
-                ObservableKind::Monitor => "Monitor",
-                ObservableKind::Invariant => "Invariant",
-                ObservableKind::Event => "Event",
-            };
-            let text = format!(" {kind} `{}` at a state.", observable.name);
+            let text = format!(" {:?} `{}` at a state.", observable.kind, observable.name);
             quote! { #[doc = #text] }
         } else {
             quote! { #(#attributes)* }

@@ -263,19 +263,6 @@ impl Evaluator<'_> {
             }
         };
         match &this.kind {
-            Kind::Number(_)
-            | Kind::Pi
-            | Kind::Coordinate(_)
-            | Kind::Momentum(_)
-            | Kind::NewCoordinate(_)
-            | Kind::NewMomentum(_)
-            | Kind::Velocity(_)
-            | Kind::Time
-            | Kind::Parameter(_)
-            | Kind::Capture(_)
-            | Kind::Size(_)
-            | Kind::Loop(_)
-            | Kind::Hamiltonian => {}
             Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
                 (Type::Matrix(_, columns), Type::Vector(_)) => {
                     for k in self.run(dag, node, &[*b], columns, demand).indices() {
@@ -291,11 +278,6 @@ impl Evaluator<'_> {
                 wanted.extend(self.terms(node).into_iter().map(|(_, term)| (term, same(term))));
             }
             Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
-            Kind::Pow(a, b)
-            | Kind::Compare(_, a, b)
-            | Kind::And(a, b)
-            | Kind::Or(a, b)
-            | Kind::Bracket(a, b) => wanted.extend([(*a, demand.scalar()), (*b, demand.scalar())]),
             Kind::Index { base, index } => {
                 let mut indices = vec![self.index(dag, index, demand)];
                 indices.extend(demand.indices.iter().cloned());
@@ -323,9 +305,6 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            Kind::Call(_, items) | Kind::Function(_, items) => {
-                wanted.extend(items.iter().map(|item| (*item, demand.scalar())));
-            }
             Kind::Sum { .. } if demand.indices.iter().any(|index| index.variables() != 0) => self.refuse(
                 this.spans,
                 "a component of a sum of vectors is chosen by a loop variable here",
@@ -347,6 +326,8 @@ impl Evaluator<'_> {
             Kind::If { condition, then, otherwise } => {
                 wanted.extend([(*condition, demand.scalar()), (*then, same(*then)), (*otherwise, same(*otherwise))]);
             }
+            // All others are leaves or made of scalars.
+            kind => kind.for_each_child(|child| wanted.push((child, demand.scalar()))),
         }
         // A value is the same whatever the loops are that it does not depend on.
         for (child, demand) in &mut wanted {

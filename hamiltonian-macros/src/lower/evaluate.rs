@@ -300,10 +300,7 @@ impl<'a> Evaluator<'a> {
                     dag.variable(domain)
                 }
             },
-            (Kind::Hamiltonian, _) => match model.hamiltonian {
-                Some(h) => h,
-                None => self.fault(node, "H is read before it is known"),
-            },
+            (Kind::Hamiltonian, _) => model.h(),
             (Kind::Neg(_), [a]) => dag.neg(*a),
             (Kind::Not(_), [a]) => dag.not(*a),
             (Kind::Add(..) | Kind::Sub(..), values) => {

@@ -78,9 +78,9 @@ impl Loops {
         if let Some(id) = checked.force_row {
             let is_literal = checked.loops[id.0 as usize].upper.terms.is_empty();
             if !checked.charts.is_empty() && is_literal {
-                loops.written |= bit(id);
+                loops.unrolled |= bit(id);
             }
-            loops.numbers[id.0 as usize] = loops.written & bit(id);
+            loops.numbers[id.0 as usize] = loops.unrolled & bit(id);
         }
         // Bounds of a loop that is unrolled are numbers.
         loop {

@@ -15,7 +15,6 @@ mod loops;
 mod scope;
 mod velocity;
 
-use crate::ast;
 use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
@@ -24,8 +23,7 @@ use hamiltonian_symbolic::dag::{Column, Dag, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
-    External, Group, Model, Observable, ObservableKind, ParameterDeclaration, Shape, VectorEntry,
-    VectorFunction,
+    External, Group, Model, Observable, ParameterDeclaration, Shape, VectorEntry, VectorFunction,
 };
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
@@ -225,7 +223,7 @@ impl Rest<'_> {
             let at_row = self.checked.force_row;
             let by_number = !self.checked.charts.is_empty()
                 || match at_row {
-                    Some(id) => self.evaluator.loops.is_written(id),
+                    Some(id) => self.evaluator.loops.is_unrolled(id),
                     None => {
                         matches!(shape, Shape::Vector(_)) && self.evaluator.loops.by_number(*root)
                     }
@@ -336,11 +334,7 @@ fn observables_of(checked: &Checked, model: &mut Model, values: Vec<Node>) {
         let count = components(checked, observable.value).len();
         model.observables.push(Observable {
             name: observable.name.to_string(),
-            kind: match observable.kind {
-                ast::ObservableKind::Invariant => ObservableKind::Invariant,
-                ast::ObservableKind::Monitor => ObservableKind::Monitor,
-                ast::ObservableKind::Event => ObservableKind::Event,
-            },
+            kind: observable.kind,
             components: values.by_ref().take(count).collect(),
         });
     }

@@ -5,12 +5,11 @@
 
 use super::header::Attribute;
 use super::{Abort, Parser, Result};
-use crate::ast::{
-    BinaryOp, ExprKind, Expression, ObservableKind, Signature, Statement, StatementKind, Variable,
-};
+use crate::ast::{BinaryOp, ExprKind, Expression, Signature, Statement, StatementKind, Variable};
 use crate::names;
 use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
+use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream};
 
 const KINDS: &str =

@@ -51,23 +51,14 @@ pub fn operands(instruction: &Instruction) -> Vec<Value> {
     match instruction {
         Constant(_) | Pi | Scalar(_) | Time | Coefficient | Variable(_) | Extent(_) | Count(..)
         | Load(..) | Accumulator => vec![],
-        Neg(a) | Recip(a) | Call(_, a) | PairedSin(a) | PairedCos(a) | Not(a) => vec![*a],
-        Add(a, b)
-        | Sub(a, b)
-        | Mul(a, b)
-        | Div(a, b)
-        | Call2(_, a, b)
-        | Compare(_, a, b)
-        | And(a, b)
-        | Or(a, b) => vec![*a, *b],
-        MulAdd(a, b, c)
-        | MulSub(a, b, c)
-        | NegMulAdd(a, b, c)
-        | Call3(_, a, b, c)
-        | Select(a, b, c) => {
+        Neg(a) | Recip(a) | PairedSin(a) | PairedCos(a) | Not(a) => vec![*a],
+        Add(a, b) | Sub(a, b) | Mul(a, b) | Div(a, b) | Compare(_, a, b) | And(a, b) | Or(a, b) => {
+            vec![*a, *b]
+        }
+        MulAdd(a, b, c) | MulSub(a, b, c) | NegMulAdd(a, b, c) | Select(a, b, c) => {
             vec![*a, *b, *c]
         }
-        External(_, _, list) => list.clone(),
+        Call(_, list) | External(_, _, list) => list.clone(),
     }
 }
 

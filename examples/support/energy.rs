@@ -46,7 +46,8 @@ impl<'a, S: System<f64>> Contest<'a, S> {
 
     /// Runs one scheme, and says how far H moved: ∞ for a run that does not come to its end.
     pub fn enter<M: Scheme<f64, S>>(&mut self, name: &str, scheme: M) -> Result<f64, Error> {
-        let energy = self.system.energy(&self.start);
+        let run = Integrator::new(self.system, scheme, self.start.clone(), self.step)?;
+        let energy = run.energy();
         let (mut points, mut next) = (Vec::new(), 0.0);
         let (mut farthest, mut recent) = (0.0_f64, 0.0_f64);
         let look = watch(|view: &View<'_, f64, S>| {
@@ -58,7 +59,6 @@ impl<'a, S: System<f64>> Contest<'a, S> {
                 (recent, next) = (0.0, 1.02 * view.state.t);
             }
         });
-        let run = Integrator::new(self.system, scheme, self.start.clone(), self.step)?;
         let mut run = run.observe(every(self.every, look));
         let steps = (self.end / run.interval()).round() as u64;
         let begin = Instant::now();

@@ -51,6 +51,12 @@ const CASES: &[Case] = &[
         rows: "quadratic form",
     },
     Case {
+        signature: "q, x; p, y",
+        parameters: "",
+        h: "(p - q^3)*x*y",
+        rows: "shear",
+    },
+    Case {
         signature: "q; p",
         parameters: "",
         h: "0.5*q^2*p^2",

@@ -189,9 +189,7 @@ fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     for pair in active {
         let (found, row) = atom(space, h, pair, s)?;
         rows.push(row);
-        for m in found.moves {
-            motion.set(m.leaf, m.value);
-        }
+        motion.moves.extend(found.moves);
         motion.domain.extend(found.domain);
     }
     for bit in bits(space.set(h) & !own) {

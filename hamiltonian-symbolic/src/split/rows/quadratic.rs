@@ -57,9 +57,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
             }
         }
         let value = space.dag().add(&terms);
-        if value != z[i] {
-            motion.set(z[i], value);
-        }
+        motion.add(space.dag(), z[i], value);
     }
     Some(motion)
 }
@@ -151,7 +149,8 @@ fn multiple(space: &mut Space, a: &Matrix, b: &Matrix) -> Option<Node> {
 /// Weights with the powers of M they stand at.
 type Parts = Vec<(Node, Matrix)>;
 
-/// e^{sM}, and its integral, which stands at b.
+/// e^{sM} − 1, and the integral of e^{sM}, which stands at b. With 1 in it a rounded matrix would make every
+/// step longer or shorter by the same ε: cos² + sin² is not 1.
 fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Parts, Parts)> {
     let n = m.len();
     let (zero, one) = (space.dag().integer(0), space.dag().integer(1));
@@ -161,17 +160,14 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Pa
     let squared = product(space, m, m);
     if let Some(lambda) = multiple(space, &squared, &unit) {
         let g = Growth::of(space, lambda, s);
-        let flow = vec![(g.c, unit.clone()), (g.s, m.clone())];
+        let less = space.dag().mul(&[lambda, g.c2]);
+        let flow = vec![(less, unit.clone()), (g.s, m.clone())];
         return Some((flow, vec![(g.s, unit), (g.c2, m.clone())]));
     }
     let cubed = product(space, &squared, m);
     if let Some(lambda) = multiple(space, &cubed, m) {
         let g = Growth::of(space, lambda, s);
-        let flow = vec![
-            (one, unit.clone()),
-            (g.s, m.clone()),
-            (g.c2, squared.clone()),
-        ];
+        let flow = vec![(g.s, m.clone()), (g.c2, squared.clone())];
         return Some((flow, vec![(s, unit), (g.c2, m.clone()), (g.c3, squared)]));
     }
     if !b.iter().all(|node| space.dag().is_zero(*node)) {
@@ -180,7 +176,7 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Pa
     let fourth = product(space, &cubed, m);
     let lambda = multiple(space, &fourth, &squared)?;
     let g = Growth::of(space, lambda, s);
-    let flow = vec![(one, unit), (s, m.clone()), (g.c2, squared), (g.c3, cubed)];
+    let flow = vec![(s, m.clone()), (g.c2, squared), (g.c3, cubed)];
     Some((flow, Vec::new()))
 }
 

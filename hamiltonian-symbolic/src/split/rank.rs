@@ -315,7 +315,7 @@ fn error(
             largest[orbit] = off.max(largest[orbit]).min(size[orbit]);
         }
         // It only grows, so that one that is too large now is so at the end.
-        if step % 4 == 3 {
+        if step % 2 == 1 {
             let orbits = (0..ORBITS).filter(|orbit| size[*orbit].is_finite());
             let is_largest = orbits.clone().all(|orbit| largest[orbit] == size[orbit]);
             let sum: f64 = orbits.map(|orbit| largest[orbit].ln()).sum();

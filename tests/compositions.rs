@@ -249,7 +249,14 @@ fn energies_do_not_drift() {
     let start = State::new([11.0, FRAC_PI_2], [0.0, 2.062_449_325_976_816]);
     let four = halves(&InFour::default(), &start, 1.0, steps);
     assert!((7.2e-6..7.35e-6).contains(&four[0]), "{four:?}");
-    for [early, late] in [paper, four] {
+    let field = InFour {
+        beta: 8.9e-4,
+        ..InFour::default()
+    };
+    let start = State::new([11.0, FRAC_PI_2], [0.0, 2.178_571_077_150_622]);
+    let charge = halves(&field, &start, 1.0, steps);
+    assert!((4.05e-6..4.15e-6).contains(&charge[0]), "{charge:?}");
+    for [early, late] in [paper, four, charge] {
         assert!((0.98..1.02).contains(&(late / early)), "{early:e} {late:e}");
     }
 }

@@ -15,12 +15,12 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// The same, in four pieces by hand.
-    pub struct InFour { E = 0.995, L = 4.6 }
-    H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2)
-        - E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
+    /// The same in four pieces by hand, of a charge in a field along the axis.
+    pub struct InFour { E = 0.995, L = 4.6, beta = 0.0 }
+    let potential = -E^2/(2*(1 - 2/r)) + (L - beta*r^2*sin(theta)^2/2)^2/(2*r^2*sin(theta)^2);
+    H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2) + potential;
     split {
-        Potential = -E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
+        Potential = potential;
         Turning = p_theta^2/(2*r^2);
         Radial = p_r^2/2;
         Falling = -p_r^2/r;

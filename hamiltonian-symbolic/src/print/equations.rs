@@ -17,8 +17,8 @@ use crate::rational::Rational;
 
 /// An H of more nodes than this is differentiated by nobody by hand.
 const LARGEST: usize = 2048;
-/// Nor are equations read that have more nodes than this together: those of a product of n
-/// coordinates have n² factors.
+/// Nor are equations read that have more nodes than this together, each counted where it is written: those
+/// of a product of n coordinates have n² factors.
 const LONGEST: usize = 8192;
 
 /// Hamilton's equations, to be written in any notation.
@@ -70,7 +70,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
             // What differentiation multiplies one after another is one product to a reader.
             let value = multiplied(&mut model.dag, value);
             leaves.push((leaf, value));
-            length += model.dag.reachable(&[value]).len();
+            length = written_length(model, value).saturating_add(length);
             if length > LONGEST {
                 is_large = true;
                 break;
@@ -112,6 +112,20 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
             Some(rows) => of.of_array(model, rows, &leaves, &own, list),
         }
     }
+}
+
+/// The nodes of an expression, each as often as it is written.
+fn written_length(model: &Model, value: Node) -> usize {
+    let mut lengths: Map<Node, usize> = Map::default();
+    let mut length = 0;
+    for node in model.dag.reachable(&[value]) {
+        length = 1;
+        model.dag.for_children(node, |child| {
+            length = lengths[&child].saturating_add(length);
+        });
+        lengths.insert(node, length);
+    }
+    length
 }
 
 /// The equation of a scalar coordinate or momentum with a right side that is known.

@@ -3,8 +3,8 @@
 //!
 //! The stages are compiled into this program as they are into the macro, which cannot be called
 //! from outside of rustc. With `--number k` only the k-th definition is expanded, which is what the
-//! budgets of instructions count ([`expanded`]), and "searched" is printed where exact flows of its
-//! pieces were sought. With `--time` the time that each takes is printed.
+//! budgets of instructions count ([`expanded`]); the number of systems is printed, and "searched"
+//! where exact flows of its pieces were sought. With `--time` the time that each takes is printed.
 
 extern crate proc_macro;
 
@@ -71,6 +71,8 @@ fn perform(task: Task, definitions: Vec<TokenStream>) -> Result<(), String> {
         Task::Expand(number) => match definitions.into_iter().nth(number) {
             Some(definition) => {
                 let code = expanded(definition).to_string();
+                // One for each implementation of `System`.
+                println!("{} systems", code.matches("const GROUPS").count());
                 let said = ["exact flows", "The flow of all of H"];
                 if said.iter().any(|words| code.contains(words)) {
                     println!("searched");

@@ -105,6 +105,7 @@ fn nystrom(
                     let parts = [first.h, second.h];
                     kick_beside(model, parts).map(emit::Nystrom::Pieces)
                 }
+                [_] => Err("all of it is one exact flow, which `Strang` makes".to_owned()),
                 _ => Err(format!("it is split into {} pieces", pieces.len())),
             },
         },

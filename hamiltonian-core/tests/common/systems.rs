@@ -436,4 +436,21 @@ pub mod counting {
             *p
         }
     }
+
+    /// (34), which counts its gradients, ∂H/∂q and ∂H/∂p together, as kicks.
+    #[derive(Debug, Clone)]
+    pub struct Counted34;
+
+    impl Formula<1> for Counted34 {
+        const NAME: &'static str = Paper34::NAME;
+        const GROUPS: &'static [Group] = Paper34::GROUPS;
+        fn energy<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> T {
+            Paper34.energy(t, q, p)
+        }
+        fn gradient<T: Real>(&self, t: T, q: &[T; 1], p: &[T; 1]) -> ([T; 1], [T; 1]) {
+            let (gradients, drifts) = CALLS.get();
+            CALLS.set((gradients + 1, drifts));
+            Paper34.gradient(t, q, p)
+        }
+    }
 }

@@ -77,9 +77,10 @@ pub(super) fn check_values<T: Real, S: System<T>>(
             }
         }
     }
-    if S::FICTITIOUS_TIME.is_none() {
-        return Ok(());
-    }
+    let given = match numbers(&start.p).last() {
+        Some(given) if S::FICTITIOUS_TIME.is_some() => *given,
+        _ => return Ok(()),
+    };
     // H = g·(h + p_t) is held against Σ p ∂H/∂p, in which g·p_t is one term, and by so little that where a
     // run with errors in its energy ended another can go on.
     let terms = start.p.components().zip(velocities.components());
@@ -89,7 +90,7 @@ pub(super) fn check_values<T: Real, S: System<T>>(
     }
     Err(Error::Shell {
         momentum: S::GROUPS.last().map_or("", |group| group.momentum),
-        given: numbers(&start.p).last().copied().unwrap_or(f64::NAN),
+        given,
         due: -declared_energy::<T, S>(prepared, start).to_f64(),
     })
 }

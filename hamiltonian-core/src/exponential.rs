@@ -34,12 +34,23 @@ pub struct Exponential<F, T, const N: usize> {
 const TERMS: u32 = 40;
 
 /// The most squarings: a matrix of more than 2⁶⁰ overflows.
-const SQUARINGS: u32 = 64;
+const SQUARINGS: usize = 64;
+
+/// The coefficient of the rates in units of the step's. Beside c·Mz of this size, the z that the rates add
+/// takes no digits of the diagonal of M.
+const RAISED: f64 = (1u64 << 40) as f64;
 
 type Square<T, const N: usize> = [[T; N]; N];
 
 impl<F, T: Real, const N: usize> Exponential<F, T, N> {
-    /// From the map z ↦ z + c·(Mz + b), and a zero point.
+    /// The coefficient that the rates are made with, of that of the step.
+    #[must_use]
+    #[inline(always)]
+    pub fn raised(c: T) -> T {
+        c * T::constant(RAISED, 0.0)
+    }
+
+    /// From the map z ↦ z + C·(Mz + b) with C of [`raised`](Self::raised), and a zero point.
     #[must_use]
     pub fn new<V: Vector<Scalar = T>>(rates: &F, zero: &Point<V>) -> Self
     where
@@ -67,45 +78,52 @@ impl<F, T: Real, const N: usize> Exponential<F, T, N> {
                 matrix[i][j] = moved[i] - shift[i];
             }
         }
-        let half = T::constant(0.5, 0.0);
+        let lowered = T::constant(1.0 / RAISED, 0.0);
+        scale(&mut matrix, &mut shift, lowered);
+        // Lanes are halved, summed and squared each as often as it needs by itself, so that its bits
+        // do not depend on its neighbours.
+        let (one, half) = (T::one(), T::constant(0.5, 0.0));
         let limit = T::Size::constant(0.5, 0.0);
-        let mut squarings = 0;
-        while squarings < SQUARINGS && !norm(&matrix).le(limit).all() {
-            for entry in matrix.as_flattened_mut() {
-                *entry *= half;
+        let mut halved = [T::Mask::splat(false); SQUARINGS];
+        for is_large in &mut halved {
+            *is_large = !norm(&matrix).le(limit);
+            if !is_large.any() {
+                break;
             }
-            for entry in &mut shift {
-                *entry *= half;
-            }
-            squarings += 1;
+            scale(&mut matrix, &mut shift, T::select(*is_large, half, one));
         }
         let (mut power, mut moved) = (matrix, shift);
         let mut less_one = matrix;
         let rounding = T::Size::constant(T::epsilon(), 0.0);
         for k in 2..TERMS {
-            let over = T::one() / T::constant(f64::from(k), 0.0);
             power = product(&matrix, &power);
             moved = image(&matrix, &moved);
+            let over = one / T::constant(f64::from(k), 0.0);
+            scale(&mut power, &mut moved, over);
             for i in 0..N {
                 for j in 0..N {
-                    power[i][j] *= over;
                     less_one[i][j] += power[i][j];
                 }
-                moved[i] *= over;
                 shift[i] += moved[i];
             }
-            if norm(&power).le(rounding * norm(&less_one)).all() {
+            let is_last = norm(&power).le(rounding * norm(&less_one));
+            if is_last.all() {
                 break;
             }
+            scale(&mut power, &mut moved, T::select(is_last, T::zero(), one));
         }
         let two = T::constant(2.0, 0.0);
-        for _ in 0..squarings {
+        for is_large in halved {
+            if !is_large.any() {
+                break;
+            }
             let (squared, pushed) = (product(&less_one, &less_one), image(&less_one, &shift));
+            let square = |f: T, more: T| T::select(is_large, two.fma(f, more), f);
             for i in 0..N {
                 for j in 0..N {
-                    less_one[i][j] = two.fma(less_one[i][j], squared[i][j]);
+                    less_one[i][j] = square(less_one[i][j], squared[i][j]);
                 }
-                shift[i] = two.fma(shift[i], pushed[i]);
+                shift[i] = square(shift[i], pushed[i]);
             }
         }
         Exponential {
@@ -113,6 +131,13 @@ impl<F, T: Real, const N: usize> Exponential<F, T, N> {
             shift,
             of: PhantomData,
         }
+    }
+}
+
+/// Multiplies a matrix and a vector.
+fn scale<T: Real, const N: usize>(matrix: &mut Square<T, N>, vector: &mut [T; N], by: T) {
+    for entry in matrix.as_flattened_mut().iter_mut().chain(vector) {
+        *entry *= by;
     }
 }
 

@@ -6,6 +6,7 @@ mod checkpoint;
 mod common;
 mod composition;
 mod events;
+mod exponential;
 mod lanes;
 mod observers;
 mod own;

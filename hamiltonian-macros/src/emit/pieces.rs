@@ -164,7 +164,7 @@ impl Emission<'_> {
         let made = format!("{flow}{}", self.generics.holder_arguments());
         let ty = format!("__h::Exponential<{made}, T, {components}>");
         self.begin_piece(PIECES[number], &ty);
-        line!(self, "let _rates = {{");
+        line!(self, "let _rates = {{\nlet _c = <{ty}>::raised(_c);");
         self.coefficients(purpose, flow);
         let zeros = zeros(self.context, self.generics);
         line!(

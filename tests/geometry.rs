@@ -16,7 +16,7 @@ where
     visit_separable(&mut geometry);
     assert_eq!(geometry.measured.len(), 3 * measured_here());
     for (entry, defect) in geometry.measured {
-        println!("{} {}: {defect:.1e}", entry.name, entry.variant);
+        println!("{entry}: {defect:.1e}");
     }
 }
 

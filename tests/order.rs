@@ -17,7 +17,7 @@ where
     visit_separable(&mut order);
     assert_eq!(order.measured.len(), measured_here());
     for (entry, slope) in order.measured {
-        println!("{} {}: {slope:.3}", entry.name, entry.variant);
+        println!("{entry}: {slope:.3}");
     }
 }
 

@@ -148,7 +148,8 @@ pub enum Error {
     /// The equations of an implicit step were not solved. The run stays at the state before that
     /// step.
     #[error(
-        "step {step} from t = {time} was not solved{}: residual {residual:e} after {iterations} iterations",
+        "step {step} from t = {time} was not solved{}: residual {residual:e} after {iterations} iterations; \
+         a shorter step, or more iterations, may solve it",
         Lane(*.lane)
     )]
     Solve {
@@ -178,9 +179,10 @@ pub enum Error {
         /// The number of iterations made.
         iterations: u32,
     },
-    /// A time that whole steps from the present one do not meet (or that lies behind).
+    /// A time that whole steps from the present one do not meet.
     #[error(
-        "t = {target} is no whole number of steps ahead: the nearest times are {before} and {after}"
+        "t = {target} is no whole number of steps ahead: the nearest times are {before} and {after}; \
+         `advance_until` goes to any time"
     )]
     OffGrid {
         /// The time asked for.
@@ -189,6 +191,12 @@ pub enum Error {
         before: f64,
         /// The first reachable time beyond it.
         after: f64,
+    },
+    /// A time that no number of steps leads to: NaN, infinite, or 2⁵³ steps ahead and more.
+    #[error("t = {target} cannot be reached: give a finite time, less than 2^53 steps ahead")]
+    Unreachable {
+        /// The time asked for.
+        target: f64,
     },
     /// A time that lies behind the run.
     #[error("t = {target} lies behind the run, which is at t = {now}")]

@@ -392,7 +392,7 @@ impl SystemText {
         // Writing to a string does not fail.
         let _ = system.describe_parameters(&mut parameters);
         SystemText {
-            formula: alloc::format!("{}: {} ({} coordinates)", S::NAME, S::FORMULA, q.len()),
+            formula: alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len()),
             parameters,
         }
     }

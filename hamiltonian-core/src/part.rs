@@ -47,7 +47,8 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
         Scheme::start_alone(self, prepared, state, h)
     }
     fn describe(&self) -> String {
-        format!("{self:?}")
+        // A saved run of another scheme is refused with the first line that differs.
+        format!("{}\n{self:?}", self.entry())
     }
 }
 
@@ -218,7 +219,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// [`has_ended`](Integrator::has_ended).
     ///
     /// # Errors
-    /// [`Error::Behind`], [`Error::OffGrid`] for what is no time; those of
+    /// [`Error::Behind`], [`Error::Unreachable`]; those of
     /// [`advance`](Integrator::advance) and of [`state_at`](Integrator::state_at).
     pub fn advance_until(&mut self, t: T) -> Result<State<S::Vector>, Error> {
         if self.varies() {
@@ -242,7 +243,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// Makes steps of unknown duration until `t` is passed.
     fn past(&mut self, t: T) -> Result<State<S::Vector>, Error> {
         if !t.is_finite() {
-            return self.state_at(t);
+            return Err(Error::Unreachable { target: t.to_f64() });
         }
         let is_forward = T::zero().lt(self.clock.interval).all();
         while !self.ended {
@@ -266,8 +267,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// goes to any time.
     ///
     /// # Errors
-    /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Uneven`] where steps have no
-    /// known duration; those of [`advance`](Integrator::advance).
+    /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Behind`],
+    /// [`Error::Unreachable`], [`Error::Uneven`] where steps have no known duration; those of
+    /// [`advance`](Integrator::advance).
     pub fn advance_to(&mut self, t: T) -> Result<&State<S::Vector>, Error> {
         if self.varies() {
             return Err(Error::Uneven);
@@ -312,15 +314,11 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                 now: self.clock.at(made).to_f64(),
             });
         }
-        let before = (count.clamp(0.0, MOST) as u64).max(made);
-        if counted {
-            return Ok((Some(before - made), before + 1 - made));
+        if !counted {
+            return Err(Error::Unreachable { target: t.to_f64() });
         }
-        Err(Error::OffGrid {
-            target: t.to_f64(),
-            before: self.clock.at(before).to_f64(),
-            after: self.clock.at(before + 1).to_f64(),
-        })
+        let before = (count as u64).max(made);
+        Ok((Some(before - made), before + 1 - made))
     }
 
     /// The states at the given times, in the order of the run, independent of the step; until an

@@ -70,6 +70,16 @@ pub struct Entry {
     pub source: &'static str,
 }
 
+/// The name, and the choice in parentheses: `StormerVerlet (kick-drift-kick)`.
+impl core::fmt::Display for Entry {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self.variant {
+            "" => f.write_str(self.name),
+            variant => write!(f, "{} ({variant})", self.name),
+        }
+    }
+}
+
 /// A scheme with a line in the catalogue. Its `Debug` text holds all its choices: a saved run is
 /// recognised by it.
 pub trait Listed: Clone + Debug + Send + Sync + 'static {

@@ -300,9 +300,10 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
 /// by copy. `M` only tells these cases apart and is always inferred.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no list of coordinates",
-    label = "expected coordinates",
-    note = "write `[1.0]` for one coordinate, `[x, y]` for several, `[[x, y, z], …]` for bodies, a `Vec` of either where the size is set at run time"
+    message = "`{Self}` is no list of numbers",
+    label = "expected a list of numbers",
+    note = "write `[1.0]` for one coordinate, `[x, y]` for several, `[[x, y, z], …]` for bodies, a `Vec` of either where the size is set at run time",
+    note = "`new` takes the sizes, then the parameters without a default, in the order of their declaration"
 )]
 pub trait IntoVector<M> {
     /// The storage it becomes.

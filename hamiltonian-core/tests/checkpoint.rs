@@ -187,6 +187,16 @@ fn another_run_is_refused() {
     let found = Integrator::resume(&system, many, run.checkpoint());
     assert_eq!(other(found), Some("scheme"));
     assert_eq!(few.entry(), many.entry());
+    // A variant alone says nothing without the name of its scheme.
+    let pair = [StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift];
+    let start = State::new([0.3], [0.1]);
+    let run = Integrator::new(&system, pair[0], start, 0.01).unwrap();
+    let found = Integrator::resume(&system, pair[1], run.checkpoint());
+    assert_eq!(
+        found.unwrap_err().to_string(),
+        "the saved run has another scheme: saved `StormerVerlet (kick-drift-kick)`, given \
+         `StormerVerlet (drift-kick-drift)`"
+    );
     // Sizes are part of a system.
     let chain = State::new(vec![0.1, 0.2], vec![0.0, 0.0]);
     let run = Integrator::new(&Chain { n: 2 }, Strang, chain, 0.01).unwrap();

@@ -177,7 +177,7 @@ impl<S: System<Dual<f64>>> Visitor<Dual<f64>, S> for Geometry<S> {
                     one_point(n),
                 ),
             };
-            let name = format!("{} {} on {}", entry.name, entry.variant, S::NAME);
+            let name = format!("{entry} on {}", S::NAME);
             match entry.preserves {
                 // Pseudo-symplectic steps are as long as to tell.
                 Form::Nearly | Form::Nothing => {

@@ -77,7 +77,7 @@ impl<S: System<DoubleDouble>> Visitor<DoubleDouble, S> for Order<S> {
             points.push((h.to_f64(), error));
         }
         let slope = slope(&points);
-        let name = format!("{} {} on {}", entry.name, entry.variant, S::NAME);
+        let name = format!("{entry} on {}", S::NAME);
         assert!(
             (slope - f64::from(entry.order)).abs() <= 0.1,
             "{name}: slope {slope}, {points:?}"

@@ -54,7 +54,7 @@ macro_rules! catalogue {
         ///
         /// ```
         /// for entry in hamiltonian_core::schemes::catalogue() {
-        ///     println!("{} {} ({}): order {}", entry.name, entry.variant, entry.equations, entry.order);
+        ///     println!("{entry}, {}: order {}", entry.equations, entry.order);
         /// }
         /// ```
         pub fn catalogue() -> impl Iterator<Item = Entry> {

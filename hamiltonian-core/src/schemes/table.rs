@@ -32,6 +32,11 @@ impl Weight {
 pub type Durations = (Weight, Weight);
 
 /// The weights of a splitting, as a type: its number of stages is known at compile time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no table of coefficients of a splitting",
+    label = "expected a splitting such as `Strang`, `BlanesMoan4` or `KahanLi8`",
+    note = "a table of your own implements `Table`, see the recipes"
+)]
 pub trait Table: Listed + Copy {
     /// An array with one element a stage.
     type Of<U>: AsRef<[U]>;

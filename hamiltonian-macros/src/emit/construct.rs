@@ -6,10 +6,11 @@
 
 use super::block::Context;
 use super::generics::{Generics, list};
+use super::item::located;
 use super::number::over;
-use super::{Definition, Field, Item, allowances, layout, lex, reach};
+use super::{Definition, Field, Item, ParameterItem, allowances, layout, lex, reach};
 use hamiltonian_symbolic::model::Shape;
-use proc_macro2::{Ident, Span, TokenStream};
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
@@ -82,7 +83,7 @@ pub fn new(
     // not have a constant's.
     let argument = |name: &Ident| match name.to_string() {
         text if text.starts_with(char::is_uppercase) => {
-            Ident::new(&format!("_{text}"), Span::call_site())
+            Ident::new(&format!("_{text}"), name.span())
         }
         _ => name.clone(),
     };
@@ -132,7 +133,9 @@ pub fn new(
             lets.extend(quote! { let #local = #given; });
         } else {
             let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
-            kinds.extend(quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, });
+            let bound = quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, };
+            // Errors of an argument show its declaration.
+            kinds.extend(located(bound, name.span(), 0));
             arguments.extend(quote! { #given: #from, });
             lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
         }
@@ -177,17 +180,22 @@ pub fn new(
     } else {
         quote! { < #kinds > }
     };
+    // Errors of a call show the type's declaration.
+    let new = Ident::new("new", item.name.span());
+    let sets = defaults_set(item, &names, context.is_run_time.contains(&true))
+        .map(|text| quote! { #[doc = #text] });
     let method = if context.is_run_time.contains(&true) {
         quote! {
-            /// The system of these sizes and parameters: sizes, then the parameters without a default,
-            /// in the order of their declaration. Those with a default get it.
+            /// The system of these sizes and parameters: the sizes first, then the parameters without a
+            /// default, in the order of their declaration.
+            #sets
             ///
             /// # Errors
             /// `Error::Shape` if an array does not have the number of components that its sizes say,
             /// `Error::Parameter` if a number given is NaN.
             #more
             #allow
-            #visibility fn new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
+            #visibility fn #new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
                 #lets
                 #checks
                 __h::core::result::Result::Ok(#system)
@@ -196,10 +204,11 @@ pub fn new(
     } else {
         quote! {
             /// The system with these parameters: those without a default, in the order of their
-            /// declaration. Those with a default get it.
+            /// declaration.
+            #sets
             #allow
             #[must_use]
-            #visibility fn new #kinds (#arguments) -> Self {
+            #visibility fn #new #kinds (#arguments) -> Self {
                 #lets
                 #system
             }
@@ -212,6 +221,34 @@ pub fn new(
     };
     let header = lex(&format!("impl{declared} {system}"));
     quote! { #header { #method } }
+}
+
+/// How the parameters with a default, which are no arguments of `new`, are set.
+fn defaults_set(item: &Item, arguments: &[&Ident], is_fallible: bool) -> Option<String> {
+    let with_default = |p: &&ParameterItem| p.default.is_some();
+    let names: Vec<String> = item
+        .parameters
+        .iter()
+        .filter(with_default)
+        .map(|p| p.name.to_string())
+        .collect();
+    let first = names.first()?;
+    let (arguments, name) = (
+        arguments
+            .iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>(),
+        &item.name,
+    );
+    let new = format!(
+        "{name}::new({}){}",
+        arguments.join(", "),
+        if is_fallible { "?" } else { "" }
+    );
+    Some(format!(
+        " The defaults of `{}` are no arguments: `{name} {{ {first}: …, ..{new} }}` sets another value.",
+        names.join("`, `")
+    ))
 }
 
 /// `<const N0: usize>` and `Name<N0, f64>`, for what tells no scalar.

@@ -447,6 +447,7 @@ macro_rules! both {
     ($as_declared:ident, $around_first:ident, $($h:tt)*) => {
         hamiltonian! {
             /// As declared.
+            #[allow(unused_variables)]
             pub struct $as_declared { n: usize, m: [n] }
             $($h)*
         }

@@ -210,6 +210,8 @@ macro_rules! written_bodies {
             ($m2:ident $x2:ident $y2:ident $z2:ident $($p2:ident)*)])*]
     ) => {
         hamiltonian! {
+            // One body alone reads neither.
+            #[allow(unused_variables)]
             pub struct $name { G, epsilon, $($m),* }
             H($($x,)* $($y,)* $($z),*; $($u,)* $($v,)* $($w),*) =
                 0 $(+ ($u^2 + $v^2 + $w^2)/(2*$m))*

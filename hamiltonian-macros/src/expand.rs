@@ -7,7 +7,7 @@ use crate::ast::Ast;
 use crate::checked::Checked;
 use crate::report::Report;
 use crate::tokens::Tokens;
-use crate::{backend, check, fallback, parse};
+use crate::{backend, check, fallback, parse, unused};
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::quote;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,7 +22,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let stages = || {
         let checked;
-        (ast, checked) = front(definition, &mut report);
+        (ast, checked) = front(definition.clone(), &mut report);
         backend::generate(&checked?, &root, &mut report)
     };
     let code = caught(stages).unwrap_or_else(|fault| {
@@ -36,7 +36,10 @@ pub fn expand(input: TokenStream) -> TokenStream {
         );
     }
     match code.and_then(|code| report.barrier(code)) {
-        Some(code) if ast.item.is_some() => code,
+        Some(code) if ast.item.is_some() => {
+            let warnings = unused::warnings(&ast, definition);
+            quote!(#code #warnings)
+        }
         // In the place of an item rustc refuses the block and names the macro it comes from, which is
         // all that can be said there: a macro does not know where it stands.
         Some(value) => quote!(#root::__an_item_needs_pub_struct_Name_first! { #value }),

@@ -23,6 +23,7 @@ mod report;
 #[cfg(test)]
 mod tests;
 mod tokens;
+mod unused;
 
 /// Expands a definition; its first token is the path of the library in parentheses.
 #[doc(hidden)]

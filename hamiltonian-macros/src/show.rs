@@ -23,6 +23,7 @@ mod names;
 mod parse;
 mod report;
 mod tokens;
+mod unused;
 
 use proc_macro2::{TokenStream, TokenTree};
 use std::process::ExitCode;

@@ -65,11 +65,13 @@ pub fn decide(
             report.error(
                 name.span(),
                 format!(
-                    "no exact flow is known for the piece `{name}`: its term `{}` is of none of the forms whose flow is closed",
+                    "no exact flow is known for the piece `{name}`: the flow of its term `{}` is of no known closed form",
                     refusal.text
                 ),
                 "split it further, or leave the term to a piece with which it is of such a form: \
-                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p, f(q)*p^2, functions of an angular momentum, Kepler's problem",
+                 V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p with f quadratic, exponential, trigonometric or hyperbolic, \
+                 f(q)*p^2 with f = a + b*q + c*q^2, a/q^2 + b + c*q^2 or a*q^2 + b*q^3 + c*q^4, functions of an angular \
+                 momentum, Kepler's problem",
             );
         } else if structure.separable.is_ok() {
             // In other variables than those it was written in, V and T still are pieces.

@@ -252,14 +252,28 @@ impl Checker<'_> {
             return format!("the nearest known name is `{longer}`");
         }
         match &self.ast.item {
-            Some(item) if self.is_in_index(raw) => format!(
-                "declare it as a size: `{name}: usize` among the parameters of `{}`",
-                item.name
-            ),
-            Some(item) => format!(
-                "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`",
-                item.name
-            ),
+            Some(item) if self.is_in_index(raw) => {
+                let declared = format!("`{name}: usize` among the parameters of `{}`", item.name);
+                match self.ast.nodes[raw.0 as usize].kind {
+                    ExprKind::Name(_, Some(scope)) => {
+                        let inner = &self.ast.scopes[scope.0 as usize].name;
+                        format!(
+                            "write a loop variable, such as `{inner}`, or declare a size, {declared}"
+                        )
+                    }
+                    _ => format!("declare it as a size: {declared}"),
+                }
+            }
+            Some(item) => {
+                let number = match name {
+                    "e" => "; Euler's number is `exp(1)`",
+                    _ => "",
+                };
+                format!(
+                    "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`{number}",
+                    item.name
+                )
+            }
             None => format!("declare it: `let {name} = …;`"),
         }
     }

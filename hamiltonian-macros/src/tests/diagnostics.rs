@@ -141,3 +141,27 @@ fn definitions_near_an_error_are_accepted() {
         assert_eq!(stage, None, "{errors:?}");
     }
 }
+
+/// Beside a piece without an exact flow: what the help lists has one.
+#[test]
+fn pieces_of_the_forms_that_the_help_lists_are_accepted() {
+    for (piece, has_flow) in [
+        ("q^-2*p^3", true),
+        ("(1 + 2*q + 3*q^2)*p", true),
+        ("exp(2*q)*p", true),
+        ("(1 + 2*cos(q) + sin(q))*p", true),
+        ("sinh(q)*p", true),
+        ("(1 + 2*q + 3*q^2)*p^2", true),
+        ("(1/q^2 + 2 + 3*q^2)*p^2", true),
+        ("(q^2 + 2*q^3 + 3*q^4)*p^2", true),
+        ("(q + q^3)*p", false),
+        ("(1 + q^3)*p^2", false),
+        ("p^2/(1 + q^2)", false),
+    ] {
+        let source =
+            format!("pub struct S {{}} H = {piece} + q^4; split {{ A = {piece}; B = q^4 }}");
+        let (stage, errors) = refuse(&source);
+        let expected = (!has_flow).then_some(Stage::Prove);
+        assert_eq!(stage, expected, "{piece}: {errors:?}");
+    }
+}

@@ -10,7 +10,7 @@ use super::item::located;
 use super::number::over;
 use super::{Definition, Field, Item, ParameterItem, allowances, layout, lex, reach};
 use hamiltonian_symbolic::model::Shape;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Ident, Span, TokenStream};
 use quote::quote;
 use std::fmt::Write;
 
@@ -83,7 +83,7 @@ pub fn new(
     // not have a constant's.
     let argument = |name: &Ident| match name.to_string() {
         text if text.starts_with(char::is_uppercase) => {
-            Ident::new(&format!("_{text}"), name.span())
+            Ident::new(&format!("_{text}"), Span::call_site())
         }
         _ => name.clone(),
     };

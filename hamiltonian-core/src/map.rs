@@ -69,22 +69,28 @@ pub trait Map {
         z: &mut Self::Carried,
         work: &mut Self::Work,
     ) {
+        if n == 0 {
+            return;
+        }
         let end = made + n;
         // Moved out, what is carried is a variable of this loop alone and stays in registers.
         let mut carried = z.take();
-        // Counted down to zero, which costs one instruction less; the number of the step is only
-        // computed where a system looks at the time.
-        let mut left = n;
-        if made == 0 && n > 0 {
+        if made == 0 {
             self.open(clock.at(0), &mut carried, work);
-            self.body(clock.at(0), clock.at(1), &mut carried, work);
-            left -= 1;
+        } else {
+            self.join(clock.at(made), &mut carried, work);
         }
-        while left != 0 {
+        // Counted down to zero, which costs one instruction less; the number of the step is only
+        // computed where a system looks at the time. The body, the largest part, is compiled once.
+        let mut left = n;
+        loop {
             let k = end - left;
-            self.join(clock.at(k), &mut carried, work);
             self.body(clock.at(k), clock.at(k + 1), &mut carried, work);
             left -= 1;
+            if left == 0 {
+                break;
+            }
+            self.join(clock.at(k + 1), &mut carried, work);
         }
         *z = carried;
     }

@@ -13,9 +13,10 @@ mod surface;
 mod variables;
 mod verdicts;
 
+use crate::check::SHARE_LOOPS;
 use crate::checked::{Checked, Definition, SizeKind};
 use crate::emit;
-use crate::lower::{Beyond, SHARE_LOOPS, ends, lower};
+use crate::lower::{Beyond, ends, lower};
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::index::LOOPS;

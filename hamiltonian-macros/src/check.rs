@@ -22,6 +22,7 @@ use crate::checked::{
     SizeId, Type,
 };
 use crate::report::Report;
+use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::transform::REPLACING;
 use proc_macro2::{Ident, Span};
 use std::cell::OnceCell;
@@ -33,6 +34,11 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
         checker.values();
         checker.claims();
         checker.occurs();
+        if let Some(one) = checker.out.loops.get(LOOPS) {
+            let message = format!("there are more than {LOOPS} loops");
+            let at = one.name.span();
+            checker.report.error(at, message, SHARE_LOOPS);
+        }
         if let Some(last) = checker.out.captures.last().map(Ident::span) {
             let count = checker.out.captures.len();
             checker.are_numbered(count, ("captured values", "a"), last);
@@ -40,6 +46,9 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
     }
     checker.out
 }
+
+/// The way out of too many loops.
+pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
 
 /// The most scalars and arrays of one sort: programs number them in 16 bits, groups in 15.
 const MOST: usize = REPLACING as usize;

@@ -295,71 +295,22 @@ operations! {
     };
     Anomaly universal_anomaly(a, b, c) None None, "\\operatorname{y}",
         [All, Positive, Nowhere, None, Nothing, Branched],
-        |d, x, f| anomaly_slopes(d, [x[0], x[1], x[2]], f);
+        |d, x, f| underivable();
     Stumpff2 stumpff_2(x) None None, "c_2",
         [All, NonNegative, Nowhere, None, Mixed, Entire],
-        |d, x, f| vec![stumpff_slope(d, x[0], 2)];
+        |d, x, f| underivable();
     Stumpff3 stumpff_3(x) None None, "c_3",
         [All, Positive, Nowhere, None, Mixed, Entire],
-        |d, x, f| vec![stumpff_slope(d, x[0], 3)];
+        |d, x, f| underivable();
 }
 
 /// Rows from here on are those of exact flows, and no functions of the language.
 const LANGUAGE: usize = Op::Anomaly as usize;
 
-/// ∂c₂/∂ψ and ∂c₃/∂ψ: dcₙ/dψ = ½(n·cₙ₊₂ − cₙ₊₁), with cₙ₊₂ = (1/n! − cₙ)/ψ.
-fn stumpff_slope(dag: &mut Dag, psi: Node, n: i64) -> Node {
-    let (two, three) = (
-        dag.call(Op::Stumpff2, &[psi]),
-        dag.call(Op::Stumpff3, &[psi]),
-    );
-    let (half, ratio) = (Rational::new(1, 2), Rational::new(n, 2));
-    let (own, next) = match n {
-        2 => (two, three),
-        _ => {
-            let half = dag.constant(half.clone());
-            let rest = dag.sub(half, two);
-            (three, dag.div(rest, psi))
-        }
-    };
-    let first = dag.constant(Rational::new(1, n * (n - 1)));
-    let rest = dag.sub(first, own);
-    let after = dag.div(rest, psi);
-    let (after, next) = (dag.scale(&ratio, after), dag.scale(&half, next));
-    dag.sub(after, next)
-}
-
-/// The derivatives of y where y·c₁ + a·y²c₂ + b·y³c₃ = 1: −∂F/∂x over ∂F/∂y.
-fn anomaly_slopes(dag: &mut Dag, [a, b, c]: [Node; 3], y: Node) -> Vec<Node> {
-    let psi = dag.product(&Rational::ONE, &[(c, 1), (y, 2)]);
-    let (two, three) = (
-        dag.call(Op::Stumpff2, &[psi]),
-        dag.call(Op::Stumpff3, &[psi]),
-    );
-    let slopes = [2, 3].map(|n| stumpff_slope(dag, psi, n));
-    let one = dag.integer(1);
-    let less = |dag: &mut Dag, by: Node| {
-        let product = dag.mul(&[psi, by]);
-        dag.sub(one, product)
-    };
-    let (c0, c1) = (less(dag, two), less(dag, three));
-    let (ay, by2) = (
-        dag.mul(&[a, y, c1]),
-        dag.product(&Rational::ONE, &[(b, 1), (y, 2), (two, 1)]),
-    );
-    let along = dag.add(&[c0, ay, by2]);
-    let along = dag.powi(along, -1);
-    let by_a = dag.product(&Rational::MINUS_ONE, &[(y, 2), (two, 1), (along, 1)]);
-    let by_b = dag.product(&Rational::MINUS_ONE, &[(y, 3), (three, 1), (along, 1)]);
-    // ∂ψ/∂c = y²: y·c₁′ = −y(c₃ + ψ·c₃′)
-    let turned = dag.mul(&[psi, slopes[1]]);
-    let first = dag.add(&[three, turned]);
-    let first = dag.product(&Rational::MINUS_ONE, &[(first, 1), (y, 1)]);
-    let second = dag.product(&Rational::ONE, &[(a, 1), (y, 2), (slopes[0], 1)]);
-    let third = dag.product(&Rational::ONE, &[(b, 1), (y, 3), (slopes[1], 1)]);
-    let sum = dag.add(&[first, second, third]);
-    let by_c = dag.product(&Rational::MINUS_ONE, &[(y, 2), (sum, 1), (along, 1)]);
-    vec![by_a, by_b, by_c]
+/// The partial derivatives of functions that exact flows alone are made of: flows are carried
+/// over dual numbers and never differentiated as expressions.
+fn underivable() -> Vec<Node> {
+    unreachable!("an exact flow is differentiated")
 }
 
 /// k·exp(−x²)/√π

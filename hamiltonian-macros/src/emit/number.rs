@@ -12,9 +12,7 @@ use std::rc::Rc;
 
 /// A float as an expression of type `f64`: the shortest decimal that reads back exactly.
 pub fn float(value: f64) -> String {
-    if value.is_nan() {
-        "__h::core::f64::NAN".into()
-    } else if value.is_infinite() {
+    if value.is_infinite() {
         let sign = if value < 0.0 { "-" } else { "" };
         format!("{sign}__h::core::f64::INFINITY")
     } else {

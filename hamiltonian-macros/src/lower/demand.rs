@@ -9,7 +9,6 @@ use super::evaluate::Evaluator;
 use super::scope::size_affine;
 use crate::checked::{self, Extent, IndexVariable, Kind, LoopId, NodeId, Type};
 use crate::names::Builtin;
-use crate::report::Spans;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size, members};
 
@@ -43,6 +42,14 @@ impl Demand {
             .iter()
             .find(|(known, _)| *known == id.0)
             .map(|(_, value)| *value)
+    }
+
+    /// The number below `length` that chooses a component; expressions are checked to have one.
+    pub fn number(&self, level: usize, length: usize) -> Option<usize> {
+        let index = self.indices.get(level)?;
+        let value = index.affine.as_constant()?;
+        let value = usize::try_from(value).ok()?;
+        (index.modulo.is_none() && value < length).then_some(value)
     }
 
     fn with(&self, indices: Vec<Index>) -> Demand {
@@ -284,12 +291,12 @@ impl Evaluator<'_> {
                 wanted.push((*base, demand.with(indices)));
             }
             Kind::Vector(items) => {
-                if let Some(at) = self.number(this.spans, demand, 0, items.len()) {
+                if let Some(at) = demand.number(0, items.len()) {
                     wanted.push((items[at], demand.scalar()));
                 }
             }
             Kind::Call(Builtin::Cross, items) => {
-                if let Some(at) = self.number(this.spans, demand, 0, 3) {
+                if let Some(at) = demand.number(0, 3) {
                     let (i, j) = ((at as i64 + 1) % 3, (at as i64 + 2) % 3);
                     for (item, component) in [(items[0], i), (items[1], j), (items[0], j), (items[1], i)] {
                         wanted.push((item, demand.with(vec![Index::constant(component)])));
@@ -336,40 +343,5 @@ impl Evaluator<'_> {
             demand.values.sort_unstable();
         }
         wanted
-    }
-
-    /// A component that must be a number below `length`.
-    pub fn number(
-        &mut self,
-        spans: Spans,
-        demand: &Demand,
-        level: usize,
-        length: usize,
-    ) -> Option<usize> {
-        let value = demand
-            .indices
-            .get(level)
-            .filter(|index| index.modulo.is_none());
-        let value = value.and_then(|index| index.affine.as_constant());
-        match value
-            .and_then(|value| usize::try_from(value).ok())
-            .filter(|value| *value < length)
-        {
-            Some(value) => Some(value),
-            None => {
-                let found = value.map_or_else(
-                    || "one that is not a number".to_owned(),
-                    |value| value.to_string(),
-                );
-                self.refuse(
-                    spans,
-                    &format!(
-                        "there are {length} components here, counted from 0; asked for is {found}"
-                    ),
-                    "choose components by number, or by a loop over a literal range",
-                );
-                None
-            }
-        }
     }
 }

@@ -8,14 +8,14 @@ use super::demand::{Demand, Run};
 use super::domain;
 use super::loops::Loops;
 use super::velocity;
-use super::{Beyond, LARGEST, SHARE_LOOPS};
+use super::{Beyond, LARGEST};
 use crate::ast::Comparison;
 use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
-use hamiltonian_symbolic::index::{Domain, Index, LOOPS, Size};
+use hamiltonian_symbolic::index::{Domain, Index, Size};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -98,14 +98,9 @@ pub struct Evaluator<'a> {
 impl<'a> Evaluator<'a> {
     /// An evaluator that has answered nothing.
     pub fn new(checked: &'a Checked, report: &'a mut Report) -> Evaluator<'a> {
-        let many = checked.loops.get(LOOPS).map(|one| one.name.span());
-        let mut evaluator = Evaluator {
+        Evaluator {
             checked,
-            loops: if many.is_none() {
-                Loops::of(checked)
-            } else {
-                Loops::none()
-            },
+            loops: Loops::of(checked),
             report,
             refused: false,
             has_brackets: false,
@@ -115,15 +110,7 @@ impl<'a> Evaluator<'a> {
             uses: uses(checked),
             plain: vec![None; checked.nodes.len()],
             answers: Map::default(),
-        };
-        if let Some(span) = many {
-            evaluator.refuse(
-                span.into(),
-                &format!("there are more than {LOOPS} loops"),
-                SHARE_LOOPS,
-            );
         }
-        evaluator
     }
 
     /// Reports an error; there will be no model.
@@ -141,9 +128,6 @@ impl<'a> Evaluator<'a> {
 
     /// The nodes of the roots.
     pub fn evaluate(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
-        if self.refused {
-            return None;
-        }
         let mut demands: Vec<Vec<Demand>> = vec![Vec::new(); self.checked.nodes.len()];
         for (root, demand) in roots {
             demands[root.0 as usize].push(demand.clone());
@@ -438,16 +422,11 @@ impl<'a> Evaluator<'a> {
         demand: &Demand,
         array: fn(Column) -> Array,
     ) -> Node {
-        let spans = self.checked.node(node).spans;
         let column = match &model.groups[group as usize].shape {
-            Shape::Matrix(_, columns) => {
-                match self.number(spans, demand, 1, usize::from(*columns)) {
-                    Some(column) => column,
-                    // Refused already.
-                    None if self.refused => 0,
-                    None => return self.fault(node, "its column is not a literal"),
-                }
-            }
+            Shape::Matrix(_, columns) => match demand.number(1, usize::from(*columns)) {
+                Some(column) => column,
+                None => return self.fault(node, "its column is not a literal"),
+            },
             Shape::Scalar | Shape::Vector(_) => 0,
         };
         let at = Column {

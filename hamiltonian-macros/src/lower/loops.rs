@@ -46,18 +46,6 @@ fn mentioned(affine: &Affine) -> Set {
 }
 
 impl Loops {
-    /// Knows nothing.
-    pub fn none() -> Loops {
-        Loops {
-            free: Vec::new(),
-            by_number: Vec::new(),
-            parents: Vec::new(),
-            depths: Vec::new(),
-            unrolled: 0,
-            numbers: Vec::new(),
-        }
-    }
-
     /// Reads a definition with at most `LOOPS` loops.
     pub fn of(checked: &Checked) -> Loops {
         let count = checked.loops.len();

@@ -15,6 +15,7 @@ mod loops;
 mod scope;
 mod velocity;
 
+use crate::check::SHARE_LOOPS;
 use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
@@ -28,9 +29,6 @@ use hamiltonian_symbolic::model::{
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
 use scope::{group_shape, shape, size_affine};
-
-/// The way out of too many loops.
-pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
 
 /// Past this many nodes an expression is given up: its program would be past the cap many times
 /// over.

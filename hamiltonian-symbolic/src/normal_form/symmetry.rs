@@ -233,12 +233,8 @@ fn exchanges(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
         return Vec::new();
     }
     let body = renamed(dag, nest.body, &|d| if d == i { j } else { i }, &[i, j]);
-    body.map(|body| Nest {
-        loops: vec![i, j],
-        body,
-    })
-    .into_iter()
-    .collect()
+    let loops = vec![i, j];
+    body.map(|body| Nest { loops, body }).into_iter().collect()
 }
 
 /// Each loop over 0..N shifted so that one of the elements modulo N has the bare index.

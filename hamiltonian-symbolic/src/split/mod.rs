@@ -18,7 +18,7 @@ mod tape;
 mod units;
 
 pub use motion::{Motion, Move};
-pub use rows::{ROWS, Row, row};
+pub use rows::{ROWS, Row};
 pub use space::NODES;
 
 use crate::dag::{Dependence, Node};

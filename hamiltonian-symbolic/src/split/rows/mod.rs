@@ -187,12 +187,6 @@ pub static ROWS: &[Row] = &[
 /// The name of the row whose matrix is exponentiated when a run is prepared.
 pub(crate) const EXPONENTIAL: &str = "matrix exponential";
 
-/// The row of that name.
-#[must_use]
-pub fn row(name: &str) -> Option<&'static Row> {
-    ROWS.iter().find(|row| row.name == name)
-}
-
 /// x^{n/d}
 fn power(space: &mut Space, x: Node, n: i32, d: i32) -> Node {
     let (mut a, mut b) = (n.abs(), d.abs());
@@ -226,15 +220,8 @@ fn root(space: &mut Space, square: Node) -> Node {
     use crate::op::Op;
     let dag = space.dag();
     let root = dag.call(Op::Sqrt, &[square]);
-    let factors = match dag.kind(root).clone() {
-        Kind::Product(k, factors) => (k, factors),
-        Kind::Call(Op::Abs, x) => return x[0],
-        _ => return root,
-    };
-    let bare = factors.1.into_iter().map(|(node, n)| match dag.kind(node) {
-        Kind::Call(Op::Abs, x) => (x[0], n),
-        _ => (node, n),
-    });
-    let bare: Vec<_> = bare.collect();
-    dag.product(&factors.0, &bare)
+    match dag.kind(root) {
+        Kind::Call(Op::Abs, x) => x[0],
+        _ => root,
+    }
 }

@@ -14,6 +14,7 @@ mod force;
 mod lookup;
 mod range;
 mod reach;
+mod signature;
 mod statement;
 
 use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};

@@ -1,15 +1,15 @@
 //! Exact flows of pieces: that they are flows, of the right vector field, symplectic, and end
 //! where the orbit does.
 
+mod arrays;
 mod table;
 
 use crate::common;
 use crate::flows::{Case, check};
 use crate::tree::{Random, grow};
 use hamiltonian_lanes::{DoubleDouble, Real};
-use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
-use hamiltonian_symbolic::eval::{Point, run, run_reversed};
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::dag::{Column, Side};
+use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
@@ -405,163 +405,6 @@ fn short_flows_round_to_both_sides() {
     let moved = (energy(&point) / start - 1.0).abs();
     let random = f64::EPSILON * (2.0 * PAIRS as f64).sqrt();
     assert!(moved < 10.0 * random, "{moved:e}, at random {random:e}");
-}
-
-/// A system of arrays, and its pieces.
-struct Ring {
-    signature: &'static str,
-    parameters: &'static str,
-    h: &'static str,
-    pieces: &'static [&'static str],
-    merges: &'static [bool],
-}
-
-const RINGS: &[Ring] = &[
-    Ring {
-        signature: "q[n]; p[n]",
-        parameters: "g",
-        h: "sum(i in 0..n) { g*(q[i]^2 + p[i]^2)^2/4 } - sum(i in 0..n) { q[i]*q[(i + 1) % n] + p[i]*p[(i + 1) % n] }",
-        pieces: &[
-            "0.25*g*sum(i in 0..n) { (q[i]^2 + p[i]^2)^2 }",
-            "-sum(i in 0..n) { q[i]*q[(i + 1) % n] + p[i]*p[(i + 1) % n] }",
-        ],
-        merges: &[true, false],
-    },
-    Ring {
-        signature: "x[n]; y[n]",
-        parameters: "g[n]",
-        h: "-sum(i in 0..n, j in 0..i) { g[i]*g[j]*ln((x[i] - x[j])^2 + (y[i] - y[j])^2)/(4*pi) }",
-        pieces: &[
-            "-sum(i in 0..n) { g[i]*sum(j in 0..i) { g[j]*ln((x[i] - x[j])^2 + (y[i] - y[j])^2) } }/(4*pi)",
-        ],
-        merges: &[false],
-    },
-    Ring {
-        signature: "q[n]; p[n]",
-        parameters: "",
-        h: "sum(i in 0..n) { 0.5*(q[i]^2 + 1)*(p[i]^2 + 1) } + sum(i in 0..n) { cos(q[i] - q[(i + 1) % n]) }",
-        pieces: &[
-            "sum(i in 0..n) { p[i]^2/2 + 0.5 }",
-            "sum(i in 0..n) { cos(q[i] - q[(i + 1) % n]) }",
-            "sum(i in 0..n) { 0.5*p[i]^2*q[i]^2 + q[i]^2/2 }",
-        ],
-        merges: &[true, true, true],
-    },
-    Ring {
-        signature: "q[n]; p[n]",
-        parameters: "",
-        h: "sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n, j in 0..i) { 1/hypot(q[i] - q[j], 1) }",
-        pieces: &[
-            "sum(i in 0..n) { p[i]^2 }/2",
-            "sum(i in 0..n) { sum(j in 0..i) { 1/hypot(q[i] - q[j], 1) } }",
-        ],
-        merges: &[true, true],
-    },
-    // The toy model of the cubic wave equation (J. Colliander and others, Invent. Math. 181 (2010) 39).
-    Ring {
-        signature: "q[n]; p[n]",
-        parameters: "",
-        h: "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2/4 } - sum(i in 0..n) { (q[i]^2 - p[i]^2)*(q[(i + 1) % n]^2 - p[(i + 1) % n]^2)/2 } - sum(i in 0..n) { 2*q[i]*p[i]*q[(i + 1) % n]*p[(i + 1) % n] }",
-        pieces: &[
-            "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2 }/4",
-            "-sum(i in 0..n) { (q[i]^2 - p[i]^2)*(q[(i + 1) % n]^2 - p[(i + 1) % n]^2) }/2",
-            "-2*sum(i in 0..n) { q[i]*p[i]*q[(i + 1) % n]*p[(i + 1) % n] }",
-        ],
-        merges: &[true, false, false],
-    },
-    // XY spins of length 2, (angle, component along z).
-    Ring {
-        signature: "f[n]; z[n]",
-        parameters: "",
-        h: "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*cos(f[i])*cos(f[(i + 1) % n]) } + sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*sin(f[i])*sin(f[(i + 1) % n]) }",
-        pieces: &[
-            "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*sin(f[i])*sin(f[(i + 1) % n]) }",
-            "sum(i in 0..n) { sqrt(4 - z[i]^2)*sqrt(4 - z[(i + 1) % n]^2)*cos(f[i])*cos(f[(i + 1) % n]) }",
-        ],
-        merges: &[false, false],
-    },
-    Ring {
-        signature: "q[n]; p[n]",
-        parameters: "",
-        h: "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }",
-        pieces: &[
-            "sum(i in 0..n) { p[i]^2 }/2",
-            "sum(i in 0..n) { exp(q[i] - q[(i + 1) % n]) }",
-        ],
-        merges: &[true, true],
-    },
-];
-
-#[test]
-fn arrays_are_split_into_loops_of_flows() {
-    for ring in RINGS {
-        let mut model = common::system(ring.signature, "n", ring.parameters, ring.h);
-        let pieces = match find(&mut model) {
-            Ok(splitting) => splitting.pieces,
-            Err(refusal) => panic!("{}: {refusal:?}", ring.h),
-        };
-        let names: Vec<&str> = pieces.iter().map(|piece| piece.name.as_str()).collect();
-        assert_eq!(names, ring.pieces);
-        let merges: Vec<bool> = pieces.iter().map(|piece| piece.flow.merges()).collect();
-        assert_eq!(merges, ring.merges, "{}", ring.h);
-        model.pieces = pieces;
-        let slope = ring_slope(&mut model);
-        assert!((slope - 2.0).abs() < 0.05, "{}: {slope}", ring.h);
-    }
-}
-
-fn ring_slope(model: &mut Model) -> f64 {
-    const N: usize = 5;
-    let count = model.pieces.len();
-    let wanted: Vec<Purpose> = (0..count).map(|n| Purpose::Piece(n as u16)).collect();
-    let program = derive(model, &wanted).unwrap();
-    let end = |steps: u32| {
-        let mut point = Point::<DoubleDouble>::new();
-        point.sizes = vec![N];
-        point.scalars = model
-            .parameters
-            .iter()
-            .map(|_| DoubleDouble::from(0.7))
-            .collect();
-        let circulations = (0..N).map(|i| DoubleDouble::from(1.0 - 0.4 * i as f64));
-        point
-            .arrays
-            .insert(Array::Parameter(Parameter(0)), vec![circulations.collect()]);
-        for (side, shift) in [(Side::Q, 0.3), (Side::P, 1.1)] {
-            let target = Target::Phase(Column {
-                side,
-                group: 0,
-                column: 0,
-            });
-            let values = (0..N).map(|i| DoubleDouble::from((1.7 * i as f64 + shift).sin() + 0.2));
-            point.outputs.insert(target, vec![values.collect()]);
-        }
-        let h = DoubleDouble::from(0.25) / DoubleDouble::from(f64::from(steps));
-        point.c = h * DoubleDouble::from(0.5);
-        for _ in 0..steps {
-            for at in 0..count {
-                point.outputs = run(&program, &program.functions[at], &point).outputs;
-            }
-            for at in (0..count).rev() {
-                point.outputs = run_reversed(&program, &program.functions[at], &point).outputs;
-            }
-        }
-        let mut targets: Vec<_> = point.outputs.into_iter().collect();
-        targets.sort_by_key(|(target, _)| *target);
-        targets
-            .into_iter()
-            .flat_map(|(_, columns)| columns[0].clone())
-            .collect::<Vec<_>>()
-    };
-    let [a, b, c] = [8, 16, 32].map(end);
-    let apart = |a: &[DoubleDouble], b: &[DoubleDouble]| {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| (*a - *b).to_f64().powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    (apart(&a, &b) / apart(&b, &c)).log2()
 }
 
 #[test]

@@ -1,0 +1,366 @@
+//! The signature: coordinates, momenta (velocities), and time.
+//!
+//! Input: the definition statement. Output: groups and time, and what their names stand for.
+//! Invariant: each coordinate has a partner of its shape.
+
+use super::{Binding, Checker};
+use crate::ast::{Signature, StatementKind, Variable};
+use crate::checked::{Extent, Group, GroupId, Type};
+use proc_macro2::{Ident, Span};
+use quote::format_ident;
+
+impl Checker<'_> {
+    /// The signature of the definition. Whether its names are known.
+    pub(super) fn signature(&mut self) -> bool {
+        let ast = self.ast;
+        for statement in &ast.statements {
+            match &statement.kind {
+                StatementKind::Hamiltonian {
+                    signature: Some(signature),
+                    ..
+                } => {
+                    return self.groups(signature, false);
+                }
+                StatementKind::Hamiltonian {
+                    signature: None, ..
+                } => {
+                    return self.implicit_group(statement.keyword);
+                }
+                StatementKind::Lagrangian { signature, .. } => {
+                    return self.groups(signature, true);
+                }
+                _ => {}
+            }
+        }
+        false
+    }
+
+    /// `H = …` is short for `H(q; p) = …`.
+    fn implicit_group(&mut self, keyword: Span) -> bool {
+        let (q, p) = (Ident::new("q", keyword), Ident::new("p", keyword));
+        for name in [&q, &p] {
+            let taken = self
+                .symbol(name)
+                .and_then(|symbol| self.bindings[symbol.0 as usize]);
+            if let Some(earlier) = taken {
+                let what = self.described(earlier);
+                self.report.error(
+                    keyword,
+                    format!("`H = …` is short for `H(q; p) = …`, but `{name}` is {what} already"),
+                    "name the coordinates: `H(x; p_x) = …`",
+                );
+                return false;
+            }
+        }
+        self.group(q, p, None, Some(Type::Scalar));
+        true
+    }
+
+    /// `ty` is `None` if the shape is erroneous.
+    fn group(
+        &mut self,
+        coordinate: Ident,
+        momentum: Ident,
+        velocity: Option<Ident>,
+        ty: Option<Type>,
+    ) {
+        let id = GroupId(self.out.groups.len() as u32);
+        let known = |binding| {
+            if ty.is_some() {
+                binding
+            } else {
+                Binding::Erroneous
+            }
+        };
+        self.declare(&coordinate, known(Binding::Coordinate(id)));
+        match &velocity {
+            Some(velocity) => {
+                self.declare(velocity, known(Binding::Velocity(id)));
+                // Not declared by its author: anything else of that name wins.
+                if let Some(symbol) = self.symbol(&momentum)
+                    && self.bindings[symbol.0 as usize].is_none()
+                {
+                    self.bindings[symbol.0 as usize] = Some(known(Binding::Momentum(id)));
+                }
+            }
+            None => self.declare(&momentum, known(Binding::Momentum(id))),
+        }
+        let ty = ty.unwrap_or(Type::Scalar);
+        self.out.groups.push(Group {
+            coordinate,
+            momentum,
+            velocity,
+            ty,
+        });
+    }
+
+    fn groups(&mut self, signature: &Signature, lagrangian: bool) -> bool {
+        let (word, partner, partners, prefix) = if lagrangian {
+            ("L", "velocity", "velocities", "v_")
+        } else {
+            ("H", "momentum", "momenta", "p_")
+        };
+        let coordinates = &signature.sections[0];
+        let others = signature.sections.get(1).map_or(&[][..], Vec::as_slice);
+        if coordinates.is_empty() || others.is_empty() {
+            let help = format!("write `{}`", suggested(word, prefix, coordinates));
+            let what = if coordinates.is_empty() {
+                "coordinates"
+            } else {
+                partners
+            };
+            self.report.error(
+                signature.spans,
+                format!("the signature names no {what}"),
+                help,
+            );
+            return false;
+        }
+        if coordinates.len() != others.len() {
+            self.partner_missing(signature, word, partner, prefix);
+            return false;
+        }
+        let last = coordinates[coordinates.len() - 1].name.span();
+        if !self.are_numbered(coordinates.len(), ("coordinates", "q"), last) {
+            return false;
+        }
+        if self.is_interleaved(coordinates, others, word)
+            || self.is_crossed(coordinates, others, word)
+        {
+            return false;
+        }
+        for (coordinate, other) in coordinates.iter().zip(others) {
+            let ty = self
+                .variable_type(coordinate)
+                .filter(|due| self.same_shape(coordinate, other, *due));
+            let name = coordinate.name.clone();
+            if lagrangian {
+                let momentum = format_ident!("p_{name}", span = name.span());
+                self.group(name, momentum, Some(other.name.clone()), ty);
+            } else {
+                self.group(name, other.name.clone(), None, ty);
+            }
+        }
+        self.time(signature, word);
+        true
+    }
+
+    /// Whether names of momenta (velocities) stand among the coordinates, as in
+    /// `H(x, p_x; y, p_y)`, which would make y the momentum of x. Where such a coordinate has a
+    /// momentum that is named after it, it was meant.
+    fn is_interleaved(
+        &mut self,
+        coordinates: &[Variable],
+        others: &[Variable],
+        word: &str,
+    ) -> bool {
+        let all = || coordinates.iter().chain(others);
+        let names: Vec<(&Variable, String)> = all().map(|v| (v, v.name.to_string())).collect();
+        let owner = |variable: &Variable| {
+            let name = variable.name.to_string();
+            let mut names = names.iter();
+            let found = names.find(|(_, of)| is_partner_of(&name, of, word));
+            found.map(|(variable, _)| *variable)
+        };
+        let mut found = false;
+        for (coordinate, other) in coordinates.iter().zip(others) {
+            let name = coordinate.name.to_string();
+            let Some(of) = owner(coordinate) else {
+                continue;
+            };
+            if is_partner_of(&other.name.to_string(), &name, word) {
+                continue;
+            }
+            found = true;
+            let (partner, partners) = if word == "L" {
+                ("velocity", "velocities")
+            } else {
+                ("momentum", "momenta")
+            };
+            let (second, first): (Vec<&Variable>, Vec<&Variable>) =
+                all().partition(|variable| owner(variable).is_some());
+            let help = if first.len() == second.len() {
+                let (first, second) = (list(first), list(second));
+                format!("coordinates first, then {partners}: `{word}({first}; {second})`")
+            } else {
+                format!("coordinates come first, {partners} after the `;`")
+            };
+            let message = format!(
+                "`{name}` is listed among the coordinates, but has the name of the {partner} of `{}`",
+                of.name
+            );
+            self.report.error(coordinate.name.span(), message, help);
+        }
+        found
+    }
+
+    /// Whether a momentum (velocity) has the name of another coordinate's, as in `H(x, y; p_y, p_x)`,
+    /// which would make p_y the momentum of x.
+    fn is_crossed(&mut self, coordinates: &[Variable], others: &[Variable], word: &str) -> bool {
+        let partner_of = |of: &Variable| {
+            let of = of.name.to_string();
+            let is = |other: &&Variable| is_partner_of(&other.name.to_string(), &of, word);
+            others.iter().find(is)
+        };
+        let mut found = false;
+        for (coordinate, other) in coordinates.iter().zip(others) {
+            let name = other.name.to_string();
+            let is = |of: &&Variable| is_partner_of(&name, &of.name.to_string(), word);
+            let Some(owner) = coordinates.iter().find(is) else {
+                continue;
+            };
+            if is_partner_of(&name, &coordinate.name.to_string(), word) {
+                continue;
+            }
+            found = true;
+            let partner = if word == "L" { "velocity" } else { "momentum" };
+            let ordered: Option<Vec<&Variable>> = coordinates.iter().map(partner_of).collect();
+            let help = match ordered {
+                Some(ordered) => format!(
+                    "in the order of the coordinates: `{word}({}; {})`",
+                    list(coordinates),
+                    list(ordered)
+                ),
+                None => format!("the {partner} in a place is that of the coordinate in this place"),
+            };
+            let message = format!(
+                "`{name}` stands in the place of the {partner} of `{}`, but has the name of that of `{}`",
+                coordinate.name, owner.name
+            );
+            self.report.error(other.name.span(), message, help);
+        }
+        found
+    }
+
+    /// Coordinates without momentum (velocity) or the other way round.
+    fn partner_missing(&mut self, signature: &Signature, word: &str, partner: &str, prefix: &str) {
+        let (coordinates, others) = (&signature.sections[0], &signature.sections[1]);
+        for coordinate in coordinates.iter().skip(others.len()) {
+            let missing = coordinates.iter().skip(others.len());
+            let added: Vec<String> = missing
+                .map(|coordinate| format!("{prefix}{}", coordinate.name))
+                .collect();
+            let help = format!(
+                "write `{word}({}; {}, {})`",
+                list(coordinates),
+                list(others),
+                added.join(", ")
+            );
+            let name = &coordinate.name;
+            let message = format!("the coordinate `{name}` has no {partner}");
+            self.report.error(name.span(), message, help);
+        }
+        for other in others.iter().skip(coordinates.len()) {
+            let message = format!("the {partner} `{}` has no coordinate", other.name);
+            let help = if other.name == "t" {
+                let others = list(&others[..coordinates.len()]);
+                format!(
+                    "write time after a `;`: `{word}({}; {others}; t)`",
+                    list(coordinates)
+                )
+            } else {
+                format!("write as many coordinates before the `;` as after it: `{word}(x, y; …)`")
+            };
+            self.report.error(other.name.span(), message, help);
+        }
+    }
+
+    /// Whether a momentum (velocity) has the shape of its coordinate.
+    fn same_shape(&mut self, coordinate: &Variable, other: &Variable, due: Type) -> bool {
+        let Some(found) = self.variable_type(other) else {
+            return false;
+        };
+        if found == due {
+            return true;
+        }
+        let message = format!(
+            "`{}` is {}, but its coordinate `{}` is {}",
+            other.name,
+            self.type_shown(found),
+            coordinate.name,
+            self.type_shown(due)
+        );
+        let help = format!("write `{}{}`", other.name, self.extents_shown(due));
+        self.report.error(other.name.span(), message, help);
+        false
+    }
+
+    /// The third section.
+    fn time(&mut self, signature: &Signature, word: &str) {
+        let partner = if word == "L" { "v" } else { "p" };
+        let form = format!("write `{word}(q; {partner}; t)`");
+        match signature.sections.get(2).map(Vec::as_slice) {
+            None => {}
+            Some([time]) if time.sizes.is_empty() => {
+                self.declare(&time.name, Binding::Time);
+                self.out.time = Some(time.name.clone());
+            }
+            Some([]) => self.report.error(
+                signature.spans,
+                "the signature ends in `;` but names no time",
+                format!("{form}, or remove the `;`"),
+            ),
+            Some([first, ..]) => {
+                self.report
+                    .error(first.name.span(), "time is one scalar", form.clone());
+            }
+        }
+        if let Some(fourth) = signature.sections.get(3) {
+            let span = fourth
+                .first()
+                .map_or(signature.spans.end, |variable| variable.name.span());
+            let message = "time is the last entry of a signature";
+            self.report.error(span, message, form);
+        }
+    }
+
+    /// The shape of a coordinate or momentum.
+    fn variable_type(&mut self, variable: &Variable) -> Option<Type> {
+        let ty = self.array(&variable.sizes)?;
+        if let (Type::Matrix(_, Extent::Size(_)), Some(last)) = (ty, variable.sizes.last()) {
+            let message = format!("the last extent of `{}` is not a number", variable.name);
+            let help = format!("write a number there: `{}[n][3]`", variable.name);
+            self.report.error(last.span(), message, help);
+            return None;
+        }
+        Some(ty)
+    }
+}
+
+/// A signature that may have been meant.
+fn suggested(word: &str, prefix: &str, names: &[Variable]) -> String {
+    let partner = if word == "L" { "v" } else { "p" };
+    match names {
+        [] => format!("{word}(q; {partner})"),
+        [name] if name.name == "q" => format!("{word}(q; {partner})"),
+        _ if names.len().is_multiple_of(2) => {
+            let (coordinates, others) = names.split_at(names.len() / 2);
+            format!("{word}({}; {})", list(coordinates), list(others))
+        }
+        _ => {
+            let partners: Vec<String> = names
+                .iter()
+                .map(|variable| format!("{prefix}{}", variable.name))
+                .collect();
+            format!("{word}({}; {})", list(names), partners.join(", "))
+        }
+    }
+}
+
+/// Whether `name` is what the momentum (velocity) of `of` is called: `p_x` and `px` belong to `x`,
+/// `p1` belongs to `q1`.
+fn is_partner_of(name: &str, of: &str, word: &str) -> bool {
+    let prefix = if word == "L" { 'v' } else { 'p' };
+    let Some(rest) = name.strip_prefix(prefix) else {
+        return false;
+    };
+    rest.strip_prefix('_') == Some(of) || rest == of || of.strip_prefix('q') == Some(rest)
+}
+
+fn list<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> String {
+    let names: Vec<String> = variables
+        .into_iter()
+        .map(|variable| variable.name.to_string())
+        .collect();
+    names.join(", ")
+}

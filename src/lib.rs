@@ -31,6 +31,10 @@
 
 pub use hamiltonian_core::*;
 
+/// The scalars with several lanes, and the levels of CPUs they belong to.
+#[doc(no_inline)]
+pub use hamiltonian_lanes as lanes;
+
 /// The linear algebra that vectors are stored in.
 // Not in the root of the core, since the glob would put its pages among ours.
 #[doc(no_inline)]

@@ -26,9 +26,15 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// on the shell K = 0, where p_t = −H. The time t is the last coordinate; `state.t` is s. Even steps of s
 /// are steps of g in t: g is to be small where steps are to be short.
 ///
-/// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the "H" of any system of the
-/// same shape ([`new`](TimeTransformed::new)), whose derivatives it brings. In a `hamiltonian!` definition
-/// `dt = g*ds` says the same for one g, and H and g may depend on t there.
+/// `energy` and `gradient` of this system are those of K: on the shell its energy is 0 to the error of the
+/// scheme. The energy that a run, a [`Recorder`](crate::Recorder) and an
+/// [`EnergyDrift`](crate::EnergyDrift) show is K/g − p_t = H; of a state it is
+/// `system.system.energy(&system.declared(&state))`.
+///
+/// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the H of another system of
+/// the same shape ([`new`](TimeTransformed::new)), which brings the derivatives. A definition whose H
+/// depends on no momentum is refused, so a g(q) is a monitor, or a [`System`] written by hand. In a
+/// `hamiltonian!` definition `dt = g*ds` says the same for one g, and H and g may depend on t there.
 ///
 /// What is symplectic for K is so in (q, t, p, p_t):
 /// [`TransformedVerlet`](crate::schemes::TransformedVerlet) for H = ½pᵀM⁻¹p + V(q) and g(q), with its
@@ -81,7 +87,8 @@ impl<S: System<f64> + Clone> TimeTransformed<S, Observed<S>> {
 }
 
 impl<S, G> TimeTransformed<S, G> {
-    /// H in the time of g.
+    /// H in the time of g: `monitor` is a system whose own energy is g, not a closure, since schemes need
+    /// the derivatives of g.
     pub fn new(system: S, monitor: G) -> Self {
         TimeTransformed { system, monitor }
     }

@@ -108,6 +108,11 @@ pub trait Lift<P> {
 /// let x = improve(Dual::fixed(0.5671432904097838), Dual::variable(1.0));
 /// assert!((x.eps - 0.3618962566348892).abs() < 1e-14);
 /// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is no scalar",
+    label = "expected a scalar such as `f64`",
+    note = "scalars are `f64`, `f32`, `Dual`, `DoubleDouble` and packs of lanes; a number is written `1.0`, not `1`"
+)]
 pub trait Real:
     Copy
     + Debug

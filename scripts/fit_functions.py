@@ -168,9 +168,8 @@ def cube_root_offset():
             low = centre
     error = float(max(most - 1, 1 - least))
     print(f"cube root: {error}", file=sys.stderr)
-    # Cut to an integer multiple of the last place of the number that is divided by 3.
-    constant("CUBE_ROOT_OFFSET", mp.nint(centre * mpf(2) ** 40),
-             f"In units of 2^−40: the guess for x^(−1/3) has errors of at most {error:.3f}.")
+    print(f"/// In units of 2^−20: the guess for x^(−1/3) has errors of at most {error:.3f}.\n"
+          f"pub(crate) const CUBE_ROOT_OFFSET: u64 = {int(mp.nint(centre * mpf(2) ** 20))};")
 
 
 def main():

@@ -39,6 +39,15 @@ pub trait Word: Real {
     fn from_bits(bits: Self::Bits) -> Self;
     /// Set where the lowest bit is.
     fn odd(bits: Self::Bits) -> Self::Mask;
+    /// A third of numbers below 2³², rounded to nearest, in the lowest 32 bits.
+    #[inline(always)]
+    fn third(bits: Self::Bits) -> Self::Bits {
+        const TWO_TO_52: f64 = (1u64 << 52) as f64;
+        // The bits of 2⁵² and an integer: a quotient is a third away from a tie, or farther.
+        let x = Self::from_bits(bits | Self::Bits::splat(TWO_TO_52.to_bits()));
+        let x = x - Self::splat(TWO_TO_52);
+        x.fma(Self::splat(1.0 / 3.0), Self::splat(TWO_TO_52)).bits()
+    }
     /// `self·2^k` rounded once, for `0 < self ≤ 2` and an integer `k`, infinity or NaN, on levels that
     /// have an instruction for it; where `k` is not between −1100 and 1100, anything else serves for
     /// `self`.
@@ -116,6 +125,11 @@ impl Word for f64 {
     #[inline(always)]
     fn odd(bits: u64) -> bool {
         bits & 1 != 0
+    }
+    #[inline(always)]
+    fn third(bits: u64) -> u64 {
+        // Without the way through a float and back.
+        (bits + 1) / 3
     }
     #[inline(always)]
     fn replace(self, mask: bool, x: Self, f: fn(f64) -> f64) -> Self {

@@ -7,7 +7,7 @@
 //! taken off first and put back last, so that odd functions are odd to the bit.
 
 use super::coefficients::*;
-use super::pairs::{ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_product};
+use super::pairs::{ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_square};
 use crate::double_double::{DoubleDouble, reduction};
 use crate::real::Mask;
 use crate::word::{Bits, Word};
@@ -92,7 +92,7 @@ fn turn<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> (W, W) {
 fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     let ((r, s), (w, c)) = parts(r, tail);
     // The rounding of r² counts in a quotient.
-    let c = W::splat(-0.5).fma(two_product(r, r).1, c);
+    let c = W::splat(-0.5).fma(two_square(r).1, c);
     let (sine, cosine) = (fast_two_sum(r, s), fast_two_sum(w, c));
     let swapped = W::odd(n);
     let above = (
@@ -135,7 +135,11 @@ fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
         coefficient::<W, 3>(swapped).fma(z, coefficient::<W, 2>(swapped)),
         coefficient::<W, 5>(swapped).fma(z, coefficient::<W, 4>(swapped)),
     );
-    let series = third.fma(square, second).fma(square, first);
+    let series = if W::FUSED {
+        third.fma(square, second).fma(square, first)
+    } else {
+        first + third.fma(square * square, second * square)
+    };
     let y = W::select(swapped, w, r) + factor.fma(series, rest);
     flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
 }

@@ -9,8 +9,8 @@
     reason = "printed with all others by the fitting script"
 )]
 
-/// In units of 2^−40: the guess for x^(−1/3) has errors of at most 0.034.
-pub(crate) const CUBE_ROOT_OFFSET: f64 = 1499661097346338.0;
+/// In units of 2^−20: the guess for x^(−1/3) has errors of at most 0.034.
+pub(crate) const CUBE_ROOT_OFFSET: u64 = 1430188272;
 /// 2/π.
 pub(crate) const TWO_OVER_PI: f64 = 0.6366197723675814;
 /// π/2 to 33 bits: its product with 20 bits is exact.

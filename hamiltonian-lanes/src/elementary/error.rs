@@ -7,7 +7,9 @@
 
 use super::coefficients::*;
 use super::exponential::{exp_parts, scale_any, scale_normal};
-use super::pairs::{fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_sum};
+use super::pairs::{
+    fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_square, two_sum,
+};
 use crate::word::Word;
 
 /// From here on erfc lies near or below the smallest normal number.
@@ -26,7 +28,7 @@ fn complement<W: Word>(x: W) -> (W::Bits, W, W) {
         W::splat(ERROR_COMPLEMENT_LOW),
     );
     let (p, p_cut) = fast_two_sum(W::splat(ERROR_COMPLEMENT_HIGH), series);
-    let (square, square_cut) = two_product(x, x);
+    let (square, square_cut) = two_square(x);
     let (power, one, rest) = exp_parts(-square, -square_cut);
     let (e, e_cut) = fast_two_sum(one, rest);
     let (n, n_cut) = two_product(p, e);

@@ -7,8 +7,9 @@
 
 use super::coefficients::*;
 use super::pairs::{
-    ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_sum,
+    ROUNDER, fast_two_sum, flip, polynomial, quotient, sign_bit, two_square, two_sum,
 };
+use crate::real::Mask;
 use crate::word::{Bits, Word};
 
 /// Up to here 2^k and its inverse are normal.
@@ -32,6 +33,16 @@ struct Reduced<W: Word> {
 
 #[inline(always)]
 fn reduce<W: Word>(x: W, more: W) -> Reduced<W> {
+    if W::LANES == 1 && x.abs().le(W::splat(0.3465)).all() {
+        // The same bits as below, where `k` is 0.
+        let zero = W::zero();
+        return Reduced {
+            k: zero,
+            power: W::Bits::splat(0),
+            high: x,
+            low: -more,
+        };
+    }
     let shifted = x.fma(W::splat(LOG2_E), W::splat(ROUNDER));
     let k = shifted - W::splat(ROUNDER);
     Reduced {
@@ -46,7 +57,7 @@ impl<W: Word> Reduced<W> {
     /// `2^k`.
     #[inline(always)]
     fn scale(&self) -> W {
-        W::from_bits(self.power.plus(W::Bits::splat(1023)).shl::<52>())
+        two_to(self.power)
     }
 
     /// `2^−k`.
@@ -62,14 +73,26 @@ impl<W: Word> Reduced<W> {
     fn exp(&self) -> (W, W) {
         let r = self.high - self.low;
         let z = r * r;
-        // By pairs of powers, which shares z and needs no z².
-        let mut series = exp_pair::<W, 4>(r);
-        series = z.fma(series, exp_pair::<W, 3>(r));
-        series = z.fma(series, exp_pair::<W, 2>(r));
-        series = z.fma(series, exp_pair::<W, 1>(r));
-        series = z.fma(series, exp_pair::<W, 0>(r));
+        // By pairs of powers, which shares z.
+        let pairs = (
+            exp_pair::<W, 0>(r),
+            exp_pair::<W, 1>(r),
+            exp_pair::<W, 2>(r),
+            exp_pair::<W, 3>(r),
+            exp_pair::<W, 4>(r),
+        );
         let (one, cut) = fast_two_sum(W::one(), self.high);
-        (one, z.fma(series, cut - self.low))
+        let start = cut - self.low;
+        if W::FUSED {
+            // Two operations fewer, one after the other.
+            let series = z.fma(z.fma(pairs.4, pairs.3), pairs.2);
+            let series = z.fma(z.fma(series, pairs.1), pairs.0);
+            return (one, z.fma(series, start));
+        }
+        let square = z * z;
+        let low = z.fma(pairs.1, pairs.0);
+        let high = square.fma(pairs.4, z.fma(pairs.3, pairs.2));
+        (one, z.fma(low, (z * square).fma(high, start)))
     }
 
     /// `(half, c, s)`: cosh r = 1 + half + c and sinh r = high + s. The half of r² is apart, as a
@@ -77,7 +100,7 @@ impl<W: Word> Reduced<W> {
     #[inline(always)]
     fn hyperbolic(&self) -> (W, W, W) {
         let (r, cut) = fast_two_sum(self.high, -self.low);
-        let (z, z_cut) = two_product(r, r);
+        let (z, z_cut) = two_square(r);
         let half = W::splat(0.5);
         let fourth = (z * z) * polynomial(z, &EXP_EVEN_REST);
         let c = (half.fma(z_cut, r * cut)) + fourth;
@@ -95,9 +118,19 @@ pub(super) fn exp_parts<W: Word>(x: W, more: W) -> (W::Bits, W, W) {
     (reduced.power, one, rest)
 }
 
-/// `y·2^power`, where both are normal.
+/// `2^power`.
+#[inline(always)]
+fn two_to<W: Word>(power: W::Bits) -> W {
+    W::from_bits(power.plus(W::Bits::splat(1023)).shl::<52>())
+}
+
+/// `y·2^power`, where all three are normal.
 #[inline(always)]
 pub(super) fn scale_normal<W: Word>(y: W, power: W::Bits) -> W {
+    if W::LANES == 1 {
+        // The bits of a single number would leave its register and come back.
+        return y * two_to(power);
+    }
     W::from_bits(y.bits().plus(power.shl::<52>()))
 }
 

@@ -7,7 +7,8 @@
 
 use super::coefficients::*;
 use super::pairs::{
-    fast_two_sum, flip, polynomial, quotient, sign_bit, square_root, two_product, two_sum,
+    fast_two_sum, flip, polynomial, quotient, sign_bit, square_root, two_product, two_square,
+    two_sum,
 };
 use crate::word::{Bits, Word};
 
@@ -118,7 +119,7 @@ fn ln_times(x: f64, shift: f64) -> f64 {
 #[inline(always)]
 pub(crate) fn asinh<W: Word>(x: W) -> W {
     let size = x.abs();
-    let (square, square_cut) = two_product(size, size);
+    let (square, square_cut) = two_square(size);
     let (sum, cut) = two_sum(W::one(), square);
     let (root, root_cut) = square_root((sum, cut + square_cut));
     let (u, cut) = fast_two_sum(root, size);
@@ -135,7 +136,7 @@ fn asinh_of_large(x: f64) -> f64 {
 /// Inverse hyperbolic cosine: `ln(x + √(x² − 1))`.
 #[inline(always)]
 pub(crate) fn acosh<W: Word>(x: W) -> W {
-    let (square, square_cut) = two_product(x, x);
+    let (square, square_cut) = two_square(x);
     let (difference, cut) = fast_two_sum(square, -W::one());
     let (root, root_cut) = square_root((difference, cut + square_cut));
     let (u, cut) = fast_two_sum(x, root);
@@ -171,24 +172,25 @@ fn atanh_of_rare(x: f64) -> f64 {
     }
 }
 
-/// `ln x` of two words to about 2⁻⁶⁸, for a positive normal `x`: 2s + ⅔s³ + s⁵·P(s²), the first
-/// two terms and their sums exactly, and `shift·ln 2` more.
+/// `ln x` of two words to about 2⁻⁶⁵, for a positive normal `x`, and `shift·ln 2` more:
+/// 2s + ⅔s³ + s⁵·P(s²), the first two terms and their sums exactly. What `s` is off is multiplied by
+/// the derivative 2/(1 − s²), since nothing but the sum has to wait for it.
 #[inline(always)]
 pub(super) fn ln_pair<W: Word>(x: W, shift: W) -> (W, W) {
     let (_, k, f) = split(x);
     let k = k + shift;
     let (s, s_cut) = quotient((f, W::zero()), fast_two_sum(W::splat(2.0), f));
-    let (z, z_cut) = two_product(s, s);
-    let z_cut = (s + s).fma(s_cut, z_cut);
-    let series = z * polynomial(z, &LOGARITHM_TAIL);
-    let (w, w_cut) = fast_two_sum(W::splat(2.0 / 3.0), series);
-    let w_cut = w_cut + W::splat(TWO_THIRDS_LOW);
-    let (v, v_cut) = two_product(z, w);
-    let v_cut = z.fma(w_cut, z_cut.fma(w, v_cut));
-    let (t, t_cut) = two_product(v, s);
-    let t_cut = v.fma(s_cut, v_cut.fma(s, t_cut));
+    let two = W::splat(2.0);
+    let (z, z_cut) = two_square(s);
+    let slope = z.fma(z.fma(two, two), two);
+    let (cube, cube_cut) = two_product(z, s);
+    let cube_cut = z_cut.fma(s, cube_cut);
+    let thirds = W::splat(2.0 / 3.0);
+    let (t, t_cut) = two_product(cube, thirds);
+    let t_cut = cube_cut.fma(thirds, cube.fma(W::splat(TWO_THIRDS_LOW), t_cut));
     let (high, cut) = fast_two_sum(k * W::splat(LN_2_HIGH), s + s);
-    let low = k.fma(W::splat(LN_2_LOW), s_cut + s_cut) + (t_cut + cut);
-    let (high, cut) = fast_two_sum(high, t);
-    fast_two_sum(high, low + cut)
+    let (high, more) = fast_two_sum(high, t);
+    let low = k.fma(W::splat(LN_2_LOW), s_cut.fma(slope, t_cut + (cut + more)));
+    let low = (cube * z).fma(polynomial(z, &LOGARITHM_TAIL), low);
+    fast_two_sum(high, low)
 }

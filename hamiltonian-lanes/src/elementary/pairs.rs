@@ -3,7 +3,6 @@
 //! Input: words. Output: `(high, low)` with |low| of the order of one unit in the last place of
 //! `high`. Invariant: the sum of the two is exact where stated, whether the type fuses or not.
 
-use crate::real::Real;
 use crate::word::{Bits, Word};
 
 /// `a + b = s + e` exactly, where |a| ≥ |b|, a = 0 or `a` is a multiple of `b`'s last place (T. J.
@@ -22,8 +21,8 @@ pub(super) fn two_sum<W: Word>(a: W, b: W) -> (W, W) {
     (s, (a - (s - t)) + (b - t))
 }
 
-/// `a·b = p + e` exactly, where nothing overflows and `e` is normal: by one fused operation, or by
-/// Dekker's products of halves.
+/// `a·b = p + e`, where nothing overflows and `e` is normal: exactly by one fused operation, or to
+/// 2⁻⁷⁸ by Dekker's products of halves, those that cross summed first.
 #[inline(always)]
 pub(super) fn two_product<W: Word>(a: W, b: W) -> (W, W) {
     let p = a * b;
@@ -32,60 +31,133 @@ pub(super) fn two_product<W: Word>(a: W, b: W) -> (W, W) {
     } else {
         let (a1, a2) = halves(a);
         let (b1, b2) = halves(b);
-        (p, (((a1 * b1 - p) + a1 * b2) + a2 * b1) + a2 * b2)
+        (p, ((a1 * b1 - p) + (a1 * b2 + a2 * b1)) + a2 * b2)
     }
 }
 
-/// `a` as two words of 26 bits, rounded in place.
+/// `a² = p + e`, as [`two_product`] has it, by fewer operations.
+#[inline(always)]
+pub(super) fn two_square<W: Word>(a: W) -> (W, W) {
+    let p = a * a;
+    if W::FUSED {
+        (p, a.fma(a, -p))
+    } else {
+        let (a1, a2) = halves(a);
+        (p, ((a1 * a1 - p) + (a1 + a1) * a2) + a2 * a2)
+    }
+}
+
+/// `c − a·b`, where `a·b` is `c` to about a unit in the last place: exactly by one fused operation, or
+/// to 2⁻⁷⁸ of `c`.
+#[inline(always)]
+fn remainder<W: Word>(c: W, a: W, b: W) -> W {
+    if W::FUSED {
+        a.fma(-b, c)
+    } else {
+        let (a1, a2) = halves(a);
+        let (b1, b2) = halves(b);
+        ((c - a1 * b1) - a1 * b2) - a2 * b
+    }
+}
+
+/// `a` as a word of 26 bits, cut off in place, and one of 27: no bits but those of a mask, which a
+/// single number has without leaving its register.
 #[inline(always)]
 fn halves<W: Word>(a: W) -> (W, W) {
-    let rounded = a.bits().plus(W::Bits::splat(1 << 26)) & W::Bits::splat(!((1 << 27) - 1));
-    let high = W::from_bits(rounded);
+    let high = W::from_bits(a.bits() & W::Bits::splat(!((1 << 27) - 1)));
     (high, a - high)
 }
 
-/// The quotient of two pairs, with a relative error of about 2⁻¹⁰².
+/// The quotient of two pairs, with a relative error of about 2⁻¹⁰² where the type fuses, and 2⁻⁷⁸ elsewhere.
 #[inline(always)]
 pub(super) fn quotient<W: Word>(a: (W, W), b: (W, W)) -> (W, W) {
     let inverse = W::one() / b.0;
     let q = a.0 * inverse;
-    let (p, e) = two_product(q, b.0);
-    (q, (((a.0 - p) - e) + (a.1 - q * b.1)) * inverse)
+    (q, (remainder(a.0, q, b.0) + (a.1 - q * b.1)) * inverse)
 }
 
 /// The square root of a pair, of its high word `root` and the rest; 0 where that is 0.
 #[inline(always)]
 pub(super) fn square_root<W: Word>(a: (W, W)) -> (W, W) {
     let root = a.0.sqrt();
-    let (p, e) = two_product(root, root);
-    // Where the root is 0 so is the rest: any divisor but 0 serves.
-    let divisor = Real::max(root + root, W::splat(f64::MIN_POSITIVE));
-    (root, (((a.0 - p) - e) + a.1) / divisor)
+    // Divides while the root is taken. Where that is 0 so is the rest: any divisor but 0 serves, and
+    // others do not change.
+    let half_inverse = W::splat(0.5) / (a.0 + W::splat(f64::MIN_POSITIVE)) * root;
+    (root, (remainder(a.0, root, root) + a.1) * half_inverse)
 }
 
-/// The polynomial with the given coefficients, the lowest first: Horner's scheme in z² over pairs of
-/// terms, which halves the chain of dependent operations and rounds twice beside the first
-/// coefficient.
+/// The polynomial with the given coefficients, the lowest first, which rounds twice beside the first
+/// coefficient. Pairs of terms make fours and these eights (G. Estrin, *Proc. Western Joint Computer
+/// Conf.*, 33, 1960, doi:10.1145/1460361.1460365), a chain of dependent operations of a third to a
+/// half of Horner's; the lowest pair comes last. Types that fuse, which are lanes, sum pairs by
+/// Horner's scheme in z², which is longer by less and saves z⁴.
 #[inline(always)]
 pub(super) fn polynomial<W: Word, const N: usize>(z: W, coefficients: &[f64; N]) -> W {
     let square = z * z;
-    let mut start = (N - 1) / 2 * 2;
-    let mut sum = if start == N - 1 {
-        W::splat(coefficients[start])
-    } else {
-        two_terms(z, coefficients, start)
-    };
-    while start > 0 {
-        start -= 2;
-        sum = sum.fma(square, two_terms(z, coefficients, start));
+    let low = two_terms(z, coefficients, 0);
+    if W::FUSED {
+        let mut start = (N - 1) / 2 * 2;
+        let mut sum = two_terms(z, coefficients, start);
+        while start > 0 {
+            start -= 2;
+            sum = sum.fma(square, two_terms(z, coefficients, start));
+        }
+        return sum;
     }
-    sum
+    let fourth = square * square;
+    let mut sum = two_terms(z, coefficients, 2) * square;
+    if N > 4 {
+        sum = four_terms(z, square, coefficients, 4).fma(fourth, sum);
+    }
+    if N > 8 {
+        let eighth = fourth * fourth;
+        let mut start = (N - 1) / 8 * 8;
+        let mut high = eight_terms(z, square, fourth, coefficients, start);
+        while start > 8 {
+            start -= 8;
+            high = high.fma(eighth, eight_terms(z, square, fourth, coefficients, start));
+        }
+        sum = high.fma(eighth, sum);
+    }
+    low + sum
 }
 
-/// The terms number `k` and `k + 1`, over `z^k`.
+/// Up to eight terms from number `k` on, over `z^k`.
+#[inline(always)]
+fn eight_terms<W: Word, const N: usize>(
+    z: W,
+    square: W,
+    fourth: W,
+    coefficients: &[f64; N],
+    k: usize,
+) -> W {
+    let low = four_terms(z, square, coefficients, k);
+    if k + 4 < N {
+        four_terms(z, square, coefficients, k + 4).fma(fourth, low)
+    } else {
+        low
+    }
+}
+
+/// Up to four terms from number `k` on, over `z^k`.
+#[inline(always)]
+fn four_terms<W: Word, const N: usize>(z: W, square: W, coefficients: &[f64; N], k: usize) -> W {
+    let low = two_terms(z, coefficients, k);
+    if k + 2 < N {
+        two_terms(z, coefficients, k + 2).fma(square, low)
+    } else {
+        low
+    }
+}
+
+/// The one or two terms from number `k` on, over `z^k`.
 #[inline(always)]
 fn two_terms<W: Word, const N: usize>(z: W, coefficients: &[f64; N], k: usize) -> W {
-    W::splat(coefficients[k + 1]).fma(z, W::splat(coefficients[k]))
+    if k + 1 < N {
+        W::splat(coefficients[k + 1]).fma(z, W::splat(coefficients[k]))
+    } else {
+        W::splat(coefficients[k])
+    }
 }
 
 /// The sign bit of each lane.

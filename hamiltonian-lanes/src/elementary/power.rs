@@ -8,7 +8,7 @@
 use super::coefficients::*;
 use super::exponential::{exp_any, exp_parts, scale_normal};
 use super::logarithm::ln_pair;
-use super::pairs::{fast_two_sum, flip, sign_bit, two_product};
+use super::pairs::{fast_two_sum, flip, sign_bit, square_root, two_product, two_square};
 use crate::word::{Bits, Word};
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
@@ -92,36 +92,31 @@ fn parity(y: f64) -> (bool, bool) {
     (integer, integer && whole & 1 == 1)
 }
 
-/// A third of the bits of `x`, with an offset that makes `x^(−1/3)` to within 3.5 %.
+/// A third of the upper bits of `x`, with an offset that makes `x^(−1/3)` to within 3.5 %.
 #[inline(always)]
 fn guess_inverse_cube_root<W: Word>(x: W) -> W {
-    // Sign and upper bits as a number below 2⁵², so that a product can divide it by 3.
-    let upper = x.bits().shr::<12>() | W::Bits::splat(TWO_TO_52.to_bits());
-    let upper = W::from_bits(upper) - W::splat(TWO_TO_52);
-    let third = W::splat(CUBE_ROOT_OFFSET) - upper * W::splat(1.0 / 3.0);
-    let bits = (third + W::splat(TWO_TO_52)).bits();
-    W::from_bits(bits.shl::<12>())
+    let third = W::third(x.bits().shr::<32>());
+    W::from_bits(W::Bits::splat(CUBE_ROOT_OFFSET).minus(third).shl::<32>())
 }
 
 /// The cube root of a positive normal number. With `e = 1 − x·y³`, x^(−1/3) is
-/// y·(1 − e)^(−1/3) = y·(1 + e/3 + 2e²/9 + 14e³/81 + …), three times over; the last time around a
+/// y·(1 − e)^(−1/3) = y·(1 + e/3 + 2e²/9 + 14e³/81 + …), twice over; the second time around a
 /// root `c` of 17 bits, whose cube is exact.
 #[inline(always)]
 fn cube_root<W: Word>(x: W) -> W {
     let (a1, a2) = (W::splat(1.0 / 3.0), W::splat(2.0 / 9.0));
     let (a3, a4) = (W::splat(14.0 / 81.0), W::splat(35.0 / 243.0));
-    let one = W::one();
+    // Long done when it is needed.
+    let inverse = W::one() / x;
     let y = guess_inverse_cube_root(x);
-    let e = one - x * y * y * y;
-    let y = (y * e).fma(e.fma(e.fma(e.fma(a4, a3), a2), a1), y);
-    let e = one - x * y * y * y;
-    let y = (y * e).fma(e.fma(a2, a1), y);
-    let root = x * y * y;
-    let c = root.bits().plus(W::Bits::splat(1 << 35)) & W::Bits::splat(!((1 << 36) - 1));
-    let c = W::from_bits(c);
+    let e = W::one() - (x * y) * (y * y);
+    let (square, step) = (e * e, y * e);
+    let y = (step * square).fma(e.fma(a4, a3), step.fma(e.fma(a2, a1), y));
+    // Cut off to 17 bits: within 2⁻¹⁵·⁷ of the root.
+    let c = W::from_bits((x * (y * y)).bits() & W::Bits::splat(!((1 << 36) - 1)));
     // cbrt x = c·(1 − d)^(−1/3) with d = (x − c³)/x; the remainder is exact.
-    let d = (x - c * c * c) * y * y * y;
-    (c * d).fma(d.fma(d.fma(a3, a2), a1), c)
+    let d = (x - c * c * c) * inverse;
+    (c * d).fma((d * d).fma(a3, d.fma(a2, a1)), c)
 }
 
 /// Cube root.
@@ -151,13 +146,11 @@ const SQUARABLE: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 <<
 /// `√(large² + small²)` for 0 ≤ small ≤ large within `SQUARABLE`.
 #[inline(always)]
 fn distance<W: Word>(large: W, small: W) -> W {
-    let (a, a_cut) = two_product(large, large);
-    let (b, b_cut) = two_product(small, small);
+    let (a, a_cut) = two_square(large);
+    let (b, b_cut) = two_square(small);
     let (sum, cut) = fast_two_sum(a, b);
-    let root = sum.sqrt();
-    let (square, square_cut) = two_product(root, root);
-    let remainder = ((sum - square) - square_cut) + (cut + (a_cut + b_cut));
-    root + remainder / (root + root)
+    let (root, rest) = square_root((sum, cut + (a_cut + b_cut)));
+    root + rest
 }
 
 /// `√(x² + y²)`.

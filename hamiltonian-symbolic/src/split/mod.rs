@@ -38,11 +38,11 @@ pub enum ExactFlow {
     /// A quadratic form of a whole point of few components: c·J∇h is linear, and its matrix is
     /// exponentiated when a run is prepared.
     Exponential,
-    /// What moves in the time of the step coefficient, and the names of the rows that is made of.
+    /// The motion in the time of the step coefficient, and the names of the rows it is made of.
     Closed(Motion, Vec<&'static str>),
     /// The same in every iteration of a loop, one after the other.
     Loop {
-        /// What moves in an iteration.
+        /// The motion of one iteration.
         motion: Motion,
         /// The names of the rows.
         rows: Vec<&'static str>,
@@ -127,7 +127,7 @@ pub struct Refusal {
 pub const MOST: usize = 8;
 
 impl Piece {
-    /// What a program is to do for the flow.
+    /// The stores of a program that make the flow.
     pub(crate) fn stores(&self, model: &mut Model) -> Vec<Store> {
         match &self.flow {
             ExactFlow::Linear | ExactFlow::Exponential => pipeline::rates(model, self.h),
@@ -138,7 +138,7 @@ impl Piece {
     }
 }
 
-/// The exact flow of one expression; what is made is in the model's arena.
+/// The exact flow of one expression; its nodes are in the model's arena.
 pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
     let Some(mut space) = Space::new(model, &[h]) else {
         return looped(model, h);
@@ -208,7 +208,7 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
     let pieces = sweep::find(model, h)?;
     let parts = pieces.iter().map(|piece| (piece.name.clone(), piece.h));
     let parts: Vec<(String, Node)> = parts.collect();
-    // More pieces than a splitting has are refused with what was met first.
+    // More pieces than a splitting may have are refused with the first refusal.
     if pieces.is_empty() || pieces.len() > MOST || check_split(model, &parts).is_err() {
         return Err(h);
     }
@@ -241,8 +241,8 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
     }
     let fewest = candidates.iter().map(Vec::len).min().unwrap_or(0);
     candidates.retain(|pieces| pieces.len() <= (fewest + 2).min(MOST));
-    // A number that stands in H is no piece; what adds up without it is proven with it. Numbers
-    // say what does not, and what is chosen is proven.
+    // A number that stands in H is no piece; a sum that is right without it is proven with it. Numbers
+    // refute wrong sums, and the chosen one is proven.
     let constant = space.dag().add(&constants);
     let rest = |space: &mut Space, pieces: &[cover::Block]| {
         let mut nodes: Vec<Node> = pieces.iter().map(|piece| piece.node).collect();

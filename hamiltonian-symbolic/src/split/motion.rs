@@ -1,6 +1,6 @@
-//! An exact flow as expressions: what variables become in the time of the step coefficient.
+//! An exact flow as expressions: the values of the variables after the time of the step coefficient.
 //!
-//! Input: made by the rows. Output: [`Motion`], its composition with another, and what it asks of
+//! Input: made by the rows. Output: [`Motion`], its composition with another, and its updates in
 //! a program. Invariant: values are functions of the point before the motion; outside the
 //! conditions everything that moves becomes NaN.
 
@@ -15,7 +15,7 @@ use crate::schedule::Store;
 pub struct Move {
     /// The element of coordinates or momenta.
     pub leaf: Node,
-    /// What is added to it, or what it becomes.
+    /// The number added to it, or its new value.
     pub value: Node,
     /// Whether the value is added.
     pub added: bool,
@@ -24,14 +24,14 @@ pub struct Move {
 /// An exact flow.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct Motion {
-    /// What moves; each variable once.
+    /// One move of each variable that moves.
     pub moves: Vec<Move>,
     /// Conditions that hold where the flow exists for the whole time.
     pub domain: Vec<Node>,
 }
 
 impl Motion {
-    /// Adds to what is added to a variable.
+    /// Adds to the increment of a variable.
     pub(crate) fn add(&mut self, dag: &mut Dag, leaf: Node, value: Node) {
         if dag.is_zero(value) {
             return;
@@ -63,7 +63,7 @@ impl Motion {
             self.domain.push(dag.less(zero, positive));
         }
     }
-    /// Every variable that moves with what it becomes.
+    /// Every variable that moves, with its new value.
     #[must_use]
     pub fn images(&self, dag: &mut Dag) -> Vec<(Node, Node)> {
         let image = |m: &Move| match m.added {
@@ -102,7 +102,7 @@ impl Motion {
         self
     }
 
-    /// What the motion asks of a program: one update a variable, all values from the point before.
+    /// The updates of a program: one a variable, all values from the point before.
     #[must_use]
     pub fn stores(&self, dag: &mut Dag) -> Vec<Store> {
         let guard = self

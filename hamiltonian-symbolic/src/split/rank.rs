@@ -1,4 +1,4 @@
-//! Which splitting is best: the one whose composition keeps H best for what it costs.
+//! The choice of a splitting: its composition keeps H best for its cost.
 //!
 //! Input: candidates. Output: one of them, its pieces in order, outermost first. Invariant: the
 //! error is measured, by the composition A(h/2)…Z(h)…A(h/2) along short orbits from points of both
@@ -41,7 +41,7 @@ struct Piece {
     is_exponential: bool,
 }
 
-/// The terms of an exponential: what acts on points near unit size for a tenth is small.
+/// The terms of an exponential: the flows act on points near unit size for a time of a tenth.
 const TERMS: usize = 12;
 
 impl Piece {

@@ -1,8 +1,8 @@
-//! The exact flow of an expression, or none: the rows, functions of what has one, several pairs,
-//! and sums of what commutes.
+//! The exact flow of an expression, or none: the rows, functions of an expression that has one,
+//! several pairs, and sums of commuting parts.
 //!
-//! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: what a
-//! row takes is its pattern, parts of a sum commute, and s is constant along the flow.
+//! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
+//! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
 
 use super::motion::Motion;
 use super::rows::{Axes, EXPONENTIAL, Moved, ROWS, Row, Solve, is_constant_form};
@@ -14,7 +14,7 @@ use crate::rational::Rational;
 #[derive(Clone)]
 pub(crate) struct Flow {
     pub(crate) motion: Motion,
-    /// The rows' names; none for what is linear in time.
+    /// The rows' names; none for a motion linear in time.
     pub(crate) rows: Vec<&'static str>,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         .or_else(|| function(space, h, s))
         .or_else(|| separated(space, h, s))
         .or_else(|| commuting(space, h, s));
-    // What was made after the limits may hold anything.
+    // Expressions made after the limits may hold anything.
     let found = found.filter(|_| !space.is_spent());
     space.flows.insert((h, s), found.clone());
     found
@@ -101,7 +101,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let inner = whole(space, u, time)
         .or_else(|| separated(space, u, time))
         .or_else(|| commuting(space, u, time))?;
-    // What stands beside u is a constant of the motion only where u's flow leaves it alone.
+    // The factor beside u is a constant of the motion only where u's flow leaves it alone.
     let beside = beside(space, h, u);
     if inner.motion.moved(space) & beside != 0 {
         return None;
@@ -121,7 +121,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     }
     let rows = inner.rows.clone();
     let kicked = motion.moved(space);
-    // A kick beside must not change what u is made of.
+    // A kick beside must not change the variables of u.
     if kicked & space.set(u) != 0 {
         return None;
     }
@@ -295,7 +295,7 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
     if space.set(k) & !own == 0 {
         return Some((k, rate));
     }
-    // Other variables inside: held at numbers, if u is a multiple of what that gives.
+    // Other variables inside: held at numbers, if u is a multiple of the result.
     let others = space.set(k) & !own;
     let mut rise = |x: f64, y: f64| {
         let [from, to] = [0.0, x].map(|x| {
@@ -400,7 +400,7 @@ fn apart(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
     Some(parts)
 }
 
-/// Two parts that commute: what stands in one pair each, and what joins pairs.
+/// Two parts that commute: terms in one pair each, and terms that join pairs.
 fn by_pairs(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
     let (mut single, mut joining) = (Vec::new(), Vec::new());
     for &term in terms {

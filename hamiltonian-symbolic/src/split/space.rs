@@ -1,9 +1,9 @@
 //! Phase space as the search sees it: pairs, derivatives, and the questions whether an expression
-//! is zero and of what it is free.
+//! is zero and which variables it is free of.
 //!
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
-//! where the search has spent what it may ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
+//! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
 //! normal form), every answer is no.
 
 use super::motion::Motion;
@@ -37,7 +37,7 @@ const PAIRS: usize = 32;
 /// A set of variables: bit 2i is coordinate i, bit 2i + 1 its momentum.
 pub(crate) type Set = u64;
 
-/// Phase space with what is known of expressions over it.
+/// Phase space with the known facts of expressions over it.
 pub(crate) struct Space {
     /// The model, to whose arena the search adds.
     pub(crate) model: Model,
@@ -51,7 +51,7 @@ pub(crate) struct Space {
     sections: Map<(Node, Set), Node>,
     /// Expressions that were evaluated, as tapes with their numbers.
     tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
-    /// The flows that were sought, by what acts and the time it acts for.
+    /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
     /// The same of one pair alone, with the row's name.
     pub(super) atoms: Map<(Node, Node), Option<(Motion, &'static str)>>,
@@ -119,7 +119,7 @@ impl Space {
         })
     }
 
-    /// Whether the search has taken what it may.
+    /// Whether the search has spent its budget.
     pub(crate) fn is_spent(&self) -> bool {
         self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
     }
@@ -161,7 +161,7 @@ impl Space {
     }
 
     /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
-    /// search has spent what it may, some other expression: nothing is proven or found any more.
+    /// search has spent its budget, some other expression: nothing is proven or found any more.
     pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
         if self.is_spent() {
             return self.model.dag.parameter(Parameter(u16::MAX));
@@ -252,7 +252,7 @@ impl Space {
         if let Some(&known) = self.zeros.get(&node) {
             return known;
         }
-        // Numbers of every node are at hand: most of what is not 0 ends here.
+        // Numbers of every node are at hand: most expressions that are not 0 end here.
         if self.is_off(node) {
             return false;
         }
@@ -269,7 +269,7 @@ impl Space {
         self.is_zero(difference)
     }
 
-    /// Whether two expressions are proven to differ by what does not move.
+    /// Whether two expressions are proven to differ by one that is free of every variable.
     pub(crate) fn constant_apart(&mut self, a: Node, b: Node) -> bool {
         let difference = self.model.dag.sub(a, b);
         let set = self.set(difference);
@@ -450,7 +450,7 @@ impl Space {
     }
 }
 
-/// Whether a value is > 0 at every point where there is one: a sum of what is ≥ 0 with a positive
+/// Whether a value is > 0 at every point where there is one: a sum of terms ≥ 0 with a positive
 /// number, exponentials, and products of these.
 fn is_positive(dag: &Dag, node: Node) -> bool {
     match dag.kind(node) {

@@ -2,8 +2,8 @@
 //!
 //! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
 //! solved once, as a system of the few elements it names, which are proven to be different ones;
-//! what names one site is exact in any order, what joins sites is swept one way down and the other
-//! way up.
+//! terms of one site are exact in any order, terms that join sites are swept one way down and the
+//! other way up.
 
 use super::motion::{Motion, Move};
 use super::space::Space;
@@ -15,7 +15,7 @@ use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
 use crate::rational::Rational;
 
-/// A term of H: what is summed over which loops.
+/// A term of H: a summand and its loops.
 #[derive(Clone, Debug)]
 struct Term {
     chain: Vec<Domain>,
@@ -79,7 +79,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
             }
         }
     }
-    // A term of parameters alone moves nothing; it stands with what moves least.
+    // A term of parameters alone moves nothing; it joins the piece that moves least.
     easy[0].extend(constants);
     let [potential, kinetic] = easy.map(|terms| summed(&mut model.dag, &terms));
     for (at, part) in [kinetic, potential].into_iter().enumerate() {
@@ -206,7 +206,7 @@ fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
     found
 }
 
-/// The elements of phase space that an expression names, without what stands in its own loops.
+/// The elements of phase space that an expression names, without those of its own loops.
 fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
     let mut found = Vec::new();
     for node in dag.reachable(&[root]) {
@@ -370,7 +370,7 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
 }
 
 /// A system of scalars in which every element that a body names is one of its own, and the
-/// elements with what stands for them.
+/// elements with the scalars that stand for them.
 fn scratch(model: &Model, body: Node) -> (Model, Map<Node, Node>) {
     let mut small = model.clone();
     let mut images: Map<Node, Node> = Map::default();

@@ -1,7 +1,7 @@
 //! Every node's value at a few points, each computed once.
 //!
 //! Input: the arena, leaf by leaf numbers. Output: [`Table::at`]. Invariant: a value comes with a
-//! bound of its rounding error; what is undefined, or no number, is NaN.
+//! bound of its rounding error; an undefined value is NaN.
 
 use crate::dag::{Dag, Kind, Node, Relation};
 

@@ -1,7 +1,7 @@
 //! Expressions as a list of operations on numbers, to be run many times at several points together.
 //!
-//! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0; what depends on no
-//! variable comes first and is computed once a step coefficient.
+//! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0; a node that
+//! depends on no variable comes first and is computed once a step coefficient.
 
 use super::space::Space;
 use crate::dag::{Array, Kind, Node, Numbers, Relation};

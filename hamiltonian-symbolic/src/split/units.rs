@@ -28,7 +28,7 @@ pub(crate) struct Unit {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Units {
     pub(crate) units: Vec<Unit>,
-    /// What depends on no variable.
+    /// Terms that depend on no variable.
     pub(crate) constant: Vec<Node>,
 }
 

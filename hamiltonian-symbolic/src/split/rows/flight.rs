@@ -62,7 +62,7 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     motion.set(r, r1);
     motion.set(p, p1);
     let dag = space.dag();
-    // Past the centre only what turns goes on.
+    // Past the centre only a motion with an angle goes on.
     let zero = dag.integer(0);
     let ahead = dag.mul(&[names.get("side")?, names.get("X")?]);
     let (turns, ahead) = (dag.less(zero, squared), dag.less(zero, ahead));
@@ -92,7 +92,7 @@ fn terms_without(space: &mut Space, h: Node, term: Node) -> Node {
     dag.sub(h, term)
 }
 
-/// Each term of a sum times a factor, so that what cancels does.
+/// Each term of a sum times a factor, so that terms cancel.
 fn distributed(space: &mut Space, sum: Node, factor: Node) -> Node {
     use crate::dag::Kind;
     let dag = space.dag();

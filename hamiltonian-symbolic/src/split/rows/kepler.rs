@@ -1,7 +1,7 @@
 //! a·|p|² − κ/|q| of two or three pairs: an orbit about a centre, in universal variables.
 //!
-//! Input: h and s. Output: [`Motion`]. Invariant: a and κ depend on nothing that moves. What is added
-//! to q and p is small where the time is: f − 1, g and their rates are computed, not f and g. From far in
+//! Input: h and s. Output: [`Motion`]. Invariant: a and κ depend on nothing that moves. The increments
+//! of q and p are small where the time is: f − 1, g and their rates are computed, not f and g. From far in
 //! to far out on a hyperbola, f·q and g·p cancel as they do in the numbers themselves: each unit of the
 //! anomaly past ten costs half a digit, and shorter steps do not.
 
@@ -23,7 +23,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     }
     let pairs: Vec<(Node, Node)> = active.iter().map(|pair| space.pairs[*pair]).collect();
     let (zero, one) = (space.dag().integer(0), space.dag().integer(1));
-    // At q = (1, 0, 0), p = 0 what is left of h is −κ.
+    // At q = (1, 0, 0), p = 0 the value of h is −κ.
     let mut point = Vec::new();
     for (at, &(q, p)) in pairs.iter().enumerate() {
         point.push((q, if at == 0 { one } else { zero }));

@@ -1,4 +1,4 @@
-//! The table of exact flows: what a piece may be, how it moves, where that holds, and its source.
+//! The table of exact flows: the pattern of a piece, its motion, the domain, and the source.
 //!
 //! Input: an expression h and the time s it acts for, constant along its own flow. Output: its
 //! [`Motion`]. Invariant: a row answers only where h is proven to be an instance of its pattern;
@@ -67,11 +67,11 @@ impl Axes {
 pub(crate) struct Moved {
     pub(crate) x: Node,
     pub(crate) y: Node,
-    /// What must be > 0.
+    /// Expressions that must be > 0.
     pub(crate) domain: Vec<Node>,
 }
 
-/// How a row finds the flow of what it knows.
+/// How a row finds the flow of its pattern.
 #[derive(Clone, Copy)]
 pub(crate) enum Solve {
     /// Of K(x, y) of one pair and parameters.
@@ -82,7 +82,7 @@ pub(crate) enum Solve {
     Whole(fn(&mut Space, Node, Node) -> Option<Motion>),
 }
 
-/// An atom: what its Hamiltonian looks like, and what is known of its flow.
+/// An atom: the pattern of its Hamiltonian, and the domain and source of its flow.
 pub struct Row {
     /// A short name.
     pub name: &'static str,
@@ -214,7 +214,7 @@ fn power(space: &mut Space, x: Node, n: i32, d: i32) -> Node {
     }
 }
 
-/// The root of what is a square, with a sign of its own where there is one: ℓ of ℓ², else √Λ.
+/// The root of a square, with a sign of its own where there is one: ℓ of ℓ², else √Λ.
 fn root(space: &mut Space, square: Node) -> Node {
     use crate::dag::Kind;
     use crate::op::Op;

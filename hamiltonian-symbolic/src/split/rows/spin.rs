@@ -131,7 +131,7 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
         let length = names.get("C")?;
         for bit in bits(rest) {
             let inert = space.variable(bit);
-            // C is free of what turns only as it was proven above.
+            // C is free of the turning components, as was proven above.
             let slope = space.d(length, inert);
             let moved = space.dag().mul(&[slope, angle]);
             space.push(&mut motion, bit, moved);

@@ -49,7 +49,7 @@ hamiltonian! {
     L(q[n]; v[n]) = sum(i in 0..n) { m[i]*v[i]^2/2 } - sum(i in 1..n) { k*(q[i] - q[i - 1])^2/2 };
     monitor inverse_mass = bracket(q[1], v[1]);
     monitor first_moment = bracket(sum(i in 0..n) { q[i] }, sum(i in 0..n) { v[i] });
-    /// Row 2 of what has rows 0 … n − 2 is 0 where n is 3: nothing past the end is read.
+    /// Row 2 of an array with rows 0 … n − 2 is 0 where n is 3: nothing past the end is read.
     monitor third_row = bracket(q[2], sum(i in 0..n - 1) { m[i + 1]*q[i + 1]*p_q[i] });
     /// Row i − 1 of nothing.
     monitor shifted = bracket(sum(i in 0..n) { q[i] }, sum(i in 1..n) { m[i - 1]*q[i - 1]*p_q[i] })
@@ -67,7 +67,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// Beside a bracket, what is written under a condition stays as it is: nothing reads past ends.
+    /// Beside a bracket, formulas under a condition stay as they are: nothing reads past ends.
     pub struct Conditional { n: usize }
     let last = if p[0] < q[0] { sum(i in n - 1..n) { p[i] } } else { q[0]^2 };
     H(q[n]; p[n]) = norm_squared(p)/2 + last;
@@ -76,7 +76,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// What a bracket made first, and somebody wrote after it, stays as it is written.
+    /// A formula that a bracket made first, and the author wrote after it, stays as it is written.
     pub struct Again { n: usize, w = 2.0, m: [n] }
     H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/m[i] }/2;
     monitor rate = bracket(sum(i in n - 1..n) { q[i] }, norm_squared(p)/2) + bracket(q[0], norm_squared(p)/2);

@@ -1,4 +1,4 @@
-//! What the macro may cost: instructions of the pipeline, compiled without optimisation as cargo
+//! Budgets of the macro: instructions of the pipeline, compiled without optimisation as cargo
 //! compiles it for its users.
 //!
 //! One definition is counted, with `HAMILTONIAN_HEAVY=1` each of every example; products of up to 100

@@ -31,9 +31,9 @@ pub struct At {
     pub parameters: [f64; 3],
     /// The step coefficient of flows.
     pub c: f64,
-    /// What the Hessian is multiplied with.
+    /// The vector that the Hessian is multiplied with.
     pub direction: [[f64; 2]; 2],
-    /// What flows add to.
+    /// The vector that flows add to.
     pub into: [[f64; 2]; 2],
 }
 
@@ -44,7 +44,7 @@ fn two(outputs: &mut Outputs, name: &'static str, values: SVector<f64, 2>) {
     outputs.extend(values.iter().map(|value| (name, *value)));
 }
 
-/// What every system gives, in the order of [`interpret`](interpret).
+/// The outputs of every system, in the order of [`interpret`](interpret).
 fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs {
     let prepared = system.prepare();
     let (t, q, p) = (at.t, SVector::from(at.q), SVector::from(at.p));
@@ -77,7 +77,7 @@ fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs
     outputs
 }
 
-/// What separable systems give besides.
+/// The further outputs of separable systems.
 fn separable<S>(system: &S, at: &At) -> Outputs
 where
     S: Separable<f64> + System<f64, Vector = SVector<f64, 2>>,
@@ -122,7 +122,7 @@ macro_rules! list {
 }
 use list;
 
-/// The committed file is what the generator makes. `HAMILTONIAN_GENERATE=1` writes it.
+/// The committed file is the one that the generator makes. `HAMILTONIAN_GENERATE=1` writes it.
 #[test]
 fn the_file_is_what_is_generated() {
     let made = file();

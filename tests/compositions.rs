@@ -98,7 +98,7 @@ fn ends<S: Split<f64> + Exact>(
     assert!(worst < bound, "{}: {worst:e} of {bound:e}", S::NAME);
 }
 
-/// What the table does not print.
+/// Digits that the table does not print.
 const UNKNOWN: f64 = f64::NAN;
 
 #[test]

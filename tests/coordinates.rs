@@ -1,4 +1,4 @@
-//! Canonical coordinates: what they replace, whole and in mixed shapes, and the maps between both.
+//! Canonical coordinates: the variables they replace, whole and in mixed shapes, and the maps between both.
 
 use hamiltonian::prelude::*;
 

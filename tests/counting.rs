@@ -1,8 +1,8 @@
-//! What compiled code does, counted by the scalar it runs on: as many operations a site, a bond or
+//! The operations of compiled code, counted by the scalar it runs on: as many operations a site, a bond or
 //! a pair whatever the size, and none beside.
 
 mod counted;
-// The definitions of the examples, with what they do with them.
+// The definitions of the examples, with their runs.
 #[allow(clippy::duplicate_mod, dead_code)]
 #[path = "../examples/solar_system.rs"]
 mod solar_system;
@@ -15,7 +15,7 @@ use hamiltonian::{Dynamics, System, Vector, VectorField};
 use solar_system::Gravity;
 use toda::Toda;
 
-/// What each function of a system does, preparation apart.
+/// The operations of each function of a system, preparation apart.
 struct Work {
     prepare: Counts,
     energy: Counts,

@@ -1,5 +1,5 @@
 //! Crates that use the library under other names, editions and lints, without `std`, and through
-//! each other; and what rustdoc makes of a definition.
+//! each other; and the pages of rustdoc about a definition.
 //!
 //! Their sources stand in `tests/crates`; packages around them are made in the target directory.
 
@@ -33,7 +33,7 @@ fn crates_compile_with_lints_denied() {
         cargo::note("skipped: clippy is not installed; lints of rustc only");
         demand(workspace.cargo(&[&["check"], &everything[..]].concat()));
     }
-    // Alone, since features of what all depend on are united.
+    // Alone, since the features of shared dependencies are united.
     demand(workspace.cargo(&["check", "--package", "bare"]));
 }
 

@@ -106,7 +106,7 @@ fn arenstorfs_orbit_closes() {
     let run = Integrator::new(&system, Gauss::<8>::default(), start.clone(), step);
     let mut run = run.unwrap().observe(Events::new([axis]));
     let end = run.advance(STEPS).unwrap();
-    // κ = 2e6, and a pull of 340 on the spot: momenta are off by 170 times what coordinates are. Gauss'
+    // κ = 2e6, and a pull of 340 on the spot: momenta are off by 170 times as much as coordinates. Gauss'
     // low words keep rounding from the sum of 80 000 stages.
     let (q, p) = ((end.q - start.q).norm(), (end.p - start.p).norm());
     println!("off by {q:.1e}, momenta by {p:.1e}");

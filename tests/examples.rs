@@ -1,7 +1,7 @@
 //! The systems of the examples: derivatives against duals, against H in plain Rust, and, where they
 //! have loops, against the same written out term by term.
 
-// Of the examples the definitions are used, and what they have in common is read many times.
+// Only the definitions of the examples are used, and their common module is read many times.
 #![allow(dead_code, clippy::duplicate_mod)]
 
 #[path = "../examples/dipole.rs"]

@@ -2,7 +2,7 @@
 //! in 32 digits, at random points and for times of both signs.
 //!
 //! The equations are derived from the piece's name, `Split::NAMES`, by the reader of the engine's
-//! tests: the flow and what it is compared with share the text alone.
+//! tests: the flow and its reference share the text alone.
 
 #[path = "flows/kepler.rs"]
 mod kepler;
@@ -48,7 +48,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// A trap that turns, of other strength each way, and what disturbs it.
+    /// A trap that turns, of other strength each way, and a disturbance.
     pub struct Turning { a = 1.1, b = 2.3, w = 0.4 }
     H(x, y; u, v) = (u^2 + v^2)/2 + a*x^2/2 - b*y^2/2 - w*(x*v - y*u) + sin(x*y)
 }
@@ -121,7 +121,7 @@ hamiltonian! {
 }
 
 const ANY: (f64, f64) = (-2.0, 2.0);
-/// Radii, outside of what they must stay out of.
+/// Radii outside of the forbidden region.
 const FAR: (f64, f64) = (2.5, 12.0);
 const NEAR: (f64, f64) = (0.4, 2.5);
 /// Between the poles.
@@ -208,7 +208,7 @@ fn exponentials_are_made_in_the_precision_of_the_scalar() -> Result<(), Error> {
         assert!(quadruple < 4e-31 * size, "{c}: {quadruple:e}");
     }
     assert_eq!(Coupled::NAMES.len(), 1);
-    // Half a million steps lose what half a million roundings do.
+    // Half a million steps lose as much as half a million roundings.
     let system = Coupled::default();
     let start = State::new([0.3, -0.7, 1.1], [0.9, -0.2, 0.4]);
     let mut run = Integrator::new(&system, Strang, start.clone(), 0.01)?;

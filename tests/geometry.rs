@@ -54,15 +54,15 @@ fn on_systems_that_are_not_separable() {
 fn negative_controls() {
     let system = Paper34::default();
     let start = start(&system, &[-3.0], &[0.5]);
-    // What is seen of (29) after three steps is no symplectic map of the start.
+    // The visible state of (29) after three steps is no symplectic map of the start.
     let columns = visible_tangent(&system, &Pihajoki::default(), &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));
     assert!(worst > 1e-10 * size, "(29): {worst:e} of {size:e}");
-    // Nor do the copies preserve what two points of a trajectory would.
+    // Nor do the copies preserve the form of two points of a trajectory.
     let columns = carried_tangent(&system, &Pihajoki::default(), &start, 0.05, 1);
     let (worst, size) = defect(&columns, crossed(1));
     assert!(worst > 1e-10 * size, "(29), crossed: {worst:e} of {size:e}");
-    // What is seen of bound copies is no symplectic map either.
+    // The visible state of bound copies is no symplectic map either.
     let columns = visible_tangent(&system, &Tao { omega: 10.0 }, &start, 0.05, 3);
     let (worst, size) = defect(&columns, one_point(1));
     assert!(worst > 1e-10 * size, "bound: {worst:e} of {size:e}");

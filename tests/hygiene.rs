@@ -144,7 +144,7 @@ fn values_and_types_inside_functions() {
     close(Local::default().energy(&State::new([1.0], [1.0])), 1.0);
 }
 
-/// Types that are called like what the prelude has.
+/// Types with the names of the prelude.
 mod named_like_the_prelude {
     use mechanics::prelude::*;
 

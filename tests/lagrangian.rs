@@ -409,7 +409,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// What a sum from `i` on is to be written as, where the velocity is that of row `i + 1`.
+    /// The notation of a sum from `i` on, where the velocity is that of row `i + 1`.
     struct Later { n: usize }
     L(q[n]; v[n]) = sum(i in 0..n) { v[i]^2/2 }
         + sum(i in 0..n - 1, j in 0..n) { if i <= j { v[i + 1]*q[j] } else { 0 } }

@@ -1,4 +1,4 @@
-//! The language with scalar coordinates, end to end: what is defined is what runs.
+//! The language with scalar coordinates, end to end: the definition is the system that runs.
 
 use hamiltonian::prelude::*;
 use hamiltonian::{
@@ -44,7 +44,7 @@ fn defaults_are_exact_in_every_scalar() {
     is((exact.angle + exact.angle).cos(), number(0.0));
     // The f64 nearest to 9/10 is another number.
     assert!((number(of_f64.a) * number(10.0) - number(9.0)).abs() > number(1e-17));
-    // What one field says, the others follow.
+    // The scalar of one field is that of all.
     let other = Exact {
         a: number(2.0),
         ..Exact::with_defaults()
@@ -280,7 +280,7 @@ hamiltonian! {
     H(q; p) = (p^2 + q^2)/2 + sign(k)^2*q*p - q*p
 }
 
-/// What holds at one value of a parameter only is a value that users do set.
+/// A structure that holds at one value of a parameter only: users do set that value.
 #[test]
 fn conditions_on_parameters_count_at_single_values() {
     let at = State::new([0.5], [0.25]);
@@ -294,7 +294,7 @@ fn conditions_on_parameters_count_at_single_values() {
     assert_eq!(Signed { k: -3.0 }.energy(&at), 0.15625);
 }
 
-/// T and V are what was written: 10⁻³⁰ is not the rounding of its expansion.
+/// T and V are as written: 10⁻³⁰ is not the rounding of its expansion.
 #[test]
 fn what_does_not_couple_is_not_multiplied_out() {
     let h = hamiltonian! { H = p*(p + q) - p*q + (q - 1)^10 };

@@ -37,7 +37,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// A piece reads what the whole reads.
+    /// A piece reads the sizes and arrays of the whole.
     pub struct Split { n: usize }
     H(q[n]; p[n]) = norm_squared(p)/2 + q[2]^2;
     split { Kinetic = norm_squared(p)/2; Potential = q[2]^2 }
@@ -83,7 +83,7 @@ fn sizes_of_run_time_are_asked_by_new() {
         Weighed::new(3, 4, given).unwrap_err().to_string(),
         "the parameter `m[2]` is NaN, and must be a number"
     );
-    // Sizes first: of what does not fit, how many masses there are is not the reason.
+    // Sizes first: where a size does not fit, the number of masses is not the reason.
     assert_eq!(
         Weighed::new(3, 2, masses(3)).unwrap_err(),
         index("m[i]", 2, 2)

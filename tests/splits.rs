@@ -1,4 +1,4 @@
-//! Exact flows that the macro finds: what types split into, runs of them, and how they end.
+//! Exact flows that the macro finds: the pieces of types, their runs, and how these end.
 
 #![allow(clippy::needless_borrow)]
 

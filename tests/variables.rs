@@ -1,4 +1,4 @@
-//! Other variables: coordinates, times, and what is carried along (forces, pieces, events).
+//! Other variables: coordinates, times, and the forces, pieces and events carried along.
 
 #[path = "variables/friction.rs"]
 mod friction;

@@ -106,7 +106,7 @@ pub enum Error {
         /// Its value there.
         value: f64,
     },
-    /// A monitor with time in it stands where one of q and p alone is due.
+    /// A monitor that depends on time, where only q and p may occur.
     #[error(
         "the monitor `{name}` of `{system}` depends on time: only a definition with `dt = …*ds` may have \
          time in its monitor function"

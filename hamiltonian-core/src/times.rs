@@ -119,7 +119,7 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Shows what is due between `before` and the present state, and remembers where it stands.
+    /// Shows the states asked for between `before` and the present state, and remembers where it stands.
     fn go<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,

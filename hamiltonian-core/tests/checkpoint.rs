@@ -50,7 +50,7 @@ impl<T: Real, S: Sample<T>> Visitor<T, S> for Resumes {
             run.advance(1030).unwrap();
             again.advance(1).unwrap();
             again.advance(1029).unwrap();
-            // All that is carried, not only what is seen.
+            // The whole carried state, not only the visible one.
             assert_eq!(again.carried(), run.carried(), "{name} at {steps}");
             assert_eq!((again.steps(), again.time()), (run.steps(), run.time()));
             let ((drift, (monitors, recorder)), ours) = (again.observer(), run.observer());

@@ -58,7 +58,7 @@ fn yoshidas_composition_of_a_symmetric_scheme_has_order_4() {
     let weights = [outer, 1.0 - 2.0 * outer, outer].map(|weight| Weight(weight, 0.0));
     let sixth = Composition::new(strang, weights, 6, "triple jump");
     is(6.0, slope(&Hand(Pumped), sixth, q, p));
-    // What is not symmetric gains one order at most, here none: the control.
+    // A scheme that is not symmetric gains one order at most, here none: the control.
     let euler = Composition::yoshida(SymplecticEuler::KickDrift);
     is(1.0, slope(&relativistic, euler, q, p));
 }

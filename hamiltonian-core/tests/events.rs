@@ -424,7 +424,7 @@ fn outputs_at_times_are_those_of_the_run() {
         behind.advance(1),
         Err(Error::Far { target: -1.0, .. })
     ));
-    // What watches may end the run there.
+    // An observer may end the run there.
     let mut run = new().observe(at_times(grid(), Until(0.5)));
     run.advance(80).unwrap();
     assert_eq!(run.time(), 0.07 * 8.0);

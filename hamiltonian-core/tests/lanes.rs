@@ -77,7 +77,7 @@ fn check<H, M, const N: usize>(
     assert!(!lone(&end, 2).q.is_finite(), "{name}: the dead lane lives");
 }
 
-/// What serves both scalars.
+/// Helpers for both scalars.
 macro_rules! both_scalars {
     ($system:expr, $start:expr, $($scheme:expr),+ $(,)?) => {$(
         check($system, &$scheme, $start, 0.01);

@@ -1,4 +1,4 @@
-//! What observers see and what is written.
+//! The views of observers, and the files they write.
 
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;

@@ -1,4 +1,4 @@
-//! Figures of runs: closure, what is kept, variable steps, low words, small pieces.
+//! Figures of runs: closure, conserved quantities, variable steps, low words, small pieces.
 //!
 //! Input: schemes on systems written by hand. Output: numbers against closed forms and against
 //! schemes that should do worse. Invariant: every bound has a scheme that breaks it.

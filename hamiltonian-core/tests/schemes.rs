@@ -120,7 +120,7 @@ impl<S: Sample<Dual<f64>>> Visitor<Dual<f64>, S> for Forms {
         );
         let right = match entry.preserves {
             Form::OnePoint => defect <= 3e-13,
-            // Of what is seen of two points too.
+            // Of the visible state of two points too.
             _ => defect > 1e-11,
         };
         if !right {
@@ -268,7 +268,7 @@ fn figures_of_the_papers_34() {
     assert!(drift_34(Tao { omega: 20.0 }, 0.01) <= 6.3e-4);
 }
 
-/// The tangent of what is seen after `steps` steps, by dual numbers over any scalar.
+/// The tangent of the visible state after `steps` steps, by dual numbers over any scalar.
 pub fn tangent<T, S, M>(
     system: &S,
     scheme: &M,

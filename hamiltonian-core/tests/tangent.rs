@@ -198,7 +198,7 @@ fn tangents_of_symplectic_schemes_are_symplectic_and_others_are_not() {
     assert!(runge_kutta > 1e-6, "{runge_kutta:e}");
 }
 
-/// Orthonormal deviations are the same orbit's, and what they span is the same.
+/// Orthonormal deviations are the same orbit's, and span the same space.
 #[test]
 fn renormalising_changes_neither_orbit_nor_span() {
     let new = || Tangent::new(&HEILES, BlanesMoan4, chaotic(0), 0.1, 3).unwrap();

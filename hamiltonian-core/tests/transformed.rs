@@ -1,4 +1,4 @@
-//! Another time: Kepler's problem in even steps of a monitor function, its form, and what is no monitor.
+//! Another time: Kepler's problem in even steps of a monitor function, its form, and refused monitors.
 
 use super::common::systems::{Formula, Hand};
 use super::preserving::{Close, Kepler};

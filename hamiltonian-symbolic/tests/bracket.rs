@@ -450,7 +450,7 @@ fn what_no_rule_proves_is_undecided_with_its_residual() {
     }
 }
 
-/// What is false for negative parameters only, or before t = 0, is false.
+/// A statement that is false for negative parameters only, or before t = 0, is false.
 #[test]
 fn parameters_need_not_be_positive() {
     let point = |m: &mut Model, invariant: &str, shell: Option<&str>, name: &str| match verdict(

@@ -33,7 +33,7 @@ const FIRST: [Purpose; 10] = [
 ];
 const SECOND: [Purpose; 1] = [Purpose::HessianVector];
 
-/// What became of the outputs compared.
+/// The fates of the outputs compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Tally {
     /// Within the bound.
@@ -57,7 +57,7 @@ struct Tally {
 /// One point with everything the oracle says there.
 struct Case {
     point: Vec<f64>,
-    /// The step coefficient, the direction, and what is added to.
+    /// The step coefficient, the direction, and the vectors added to.
     coefficient: f64,
     direction: [f64; 2 * PAIRS],
     start: f64,
@@ -68,7 +68,7 @@ struct Case {
     hessian: Vec<DoubleDouble>,
     /// The largest number the oracle met, infinite where it left the range of `f64`.
     scale: f64,
-    /// H where what is not finite is any number.
+    /// H where values that are not finite are any number.
     licensed: f64,
     region: Region,
 }
@@ -239,7 +239,7 @@ fn expected(purpose: Purpose, case: &Case) -> (Option<DoubleDouble>, Vec<(Target
     }
 }
 
-/// Compares every output of every function; `distort` changes what the oracle says.
+/// Compares every output of every function; `distort` changes the values of the oracle.
 fn judge(
     program: &Program,
     case: &Case,
@@ -271,7 +271,7 @@ fn judge(
                 got.value.to_bits() == bits.to_bits() || (got.value.is_nan() && bits.is_nan()),
                 "the tape changes nothing"
             );
-            // Where H is not finite its derivatives are what the formulas give.
+            // Where H is not finite its derivatives are the values of the formulas.
             if !case.energy.is_finite()
                 && (name != "result" || function.purpose == Purpose::TimeDerivative)
             {

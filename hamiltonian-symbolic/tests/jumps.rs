@@ -1,4 +1,4 @@
-//! Derivatives do not see jumps: what is constant on both sides of one is not thereby conserved.
+//! Derivatives do not see jumps: a function constant on both sides of one is not thereby conserved.
 
 use crate::common::{parse, system};
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
@@ -34,7 +34,7 @@ fn nothing_is_proven_across_a_jump() {
     }
     accepted(&mut oscillator, "u^2 + if x < 0 { x^2 } else { x*abs(x) }");
     accepted(&mut oscillator, "max(x^2 + u^2, y^2 + v^2)");
-    // A step of H takes from a momentum what no derivative shows.
+    // A step of H changes a momentum, and no derivative shows it.
     let mut step = system(
         "x, y; u, v",
         "",
@@ -49,7 +49,7 @@ fn nothing_is_proven_across_a_jump() {
         "u^2/2 + v^2/2 + if x < 1 { 0 } else { x - 1 }",
     );
     accepted(&mut ramp, "v");
-    // Where one element is 0 the sum over all is not: what it binds is another element.
+    // Where one element is 0 the sum over all is not: it binds another element.
     let mut saddles = system("x[N]; u[N]", "N", "", "sum(i in 0..N) { x[i]*u[i] }");
     jumps(
         &mut saddles,

@@ -1,4 +1,4 @@
-//! What the engine does, on mathematics written as text.
+//! The engine, on mathematics written as text.
 
 mod bracket;
 mod common;

@@ -1,5 +1,5 @@
 //! Systems with sums that stay loops: against dual numbers over the same H added up term by term,
-//! and against the same system written out over scalar coordinates; what the loops execute.
+//! and against the same system written out over scalar coordinates; the operations of the loops.
 
 use crate::common;
 use crate::soundness;
@@ -46,7 +46,7 @@ fn stores(purpose: Purpose, place: Place) -> bool {
     }
 }
 
-/// What the oracle says a purpose gives at a place.
+/// The value of a purpose at a place by the oracle.
 struct Oracle<'a> {
     instance: &'a Instance,
     h: &'a str,
@@ -109,7 +109,7 @@ impl Oracle<'_> {
     }
 }
 
-/// Judges one value against the oracle; what the bound says too little about is skipped.
+/// Judges one value against the oracle; a value with too wide a bound is skipped.
 fn judge(what: &str, got: Traced, want: DoubleDouble, skipped: &mut usize) {
     let bound = 8.0 * f64::EPSILON * tape::sensitivity(got);
     let noise = 1e-18 * (1.0 + want.to_f64().abs());
@@ -408,7 +408,7 @@ fn what_does_not_depend_on_a_loop_stands_outside() {
     // Factors are taken out of the loop.
     shape("sum(i in 0..N) { a*b*q[i]*q[0] }", "a b", Energy);
     assert_eq!(tape::count("*"), 3);
-    // What depends on the outer loop alone is computed there.
+    // A value that depends on the outer loop alone is computed there.
     shape(
         "sum(i in 0..N, j in 0..i) { cos(exp(q[i])*q[j]) }",
         "",

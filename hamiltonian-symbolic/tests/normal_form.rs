@@ -1,4 +1,4 @@
-//! What is identically zero is proven, what is not is refuted at a point.
+//! Expressions that are identically zero are proven so, others are refuted at a point.
 
 use crate::common::{model, parse};
 use hamiltonian_symbolic::model::Model;
@@ -94,7 +94,7 @@ fn identities_are_proven() {
         "f(x, y)*g(sin(x)^2) - g(1 - cos(x)^2)*f(x, y)",
         "g((x^2 - 1)/(x + 1)) - g(x - 1)",
         "asin(x) + asin(-x)",
-        // Rounding takes away what the condition asks for.
+        // Rounding breaks the condition.
         "(if 10^20 + x > 10^20 { x } else { 0 }) - max(x, 0)",
     ] {
         assert_eq!(proof(source), Proof::Zero, "{source}");

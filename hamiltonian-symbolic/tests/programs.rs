@@ -255,7 +255,7 @@ fn work_goes_where_it_is_due() {
     assert_eq!(flow.operations(function).divisions, 0);
     let nothing = program("q; p", "m", "m*exp(m)", &[Purpose::EnergyAndGradient]);
     assert_eq!(nothing.operations(&nothing.functions[0]).total(), 0);
-    // What no function needs is not in the program.
+    // A value that no function needs is not in the program.
     let kick = program("q; p", "m", "exp(p)/m + q^2", &[Purpose::Kick]);
     assert!(kick.prepare.is_empty());
     assert_eq!(kick.operations(&kick.functions[0]).functions, 0);
@@ -292,7 +292,7 @@ fn arrays_of_parameters_alone_are_computed_once() {
     assert_eq!(divisions(&charged, "m[n] a"), [1, 1, 0, 1]);
     let rooted = gravity("sqrt(1 + m[i]^2)", "m[i]*m[j]");
     assert_eq!(divisions(&rooted, "m[n]"), [1, 1, 0, 1]);
-    // What moves, or is of two rows, is not: each of these divides in its loop.
+    // A divisor that moves, or is of two rows, is not: each of these divides in its loop.
     assert_eq!(
         divisions(&gravity("(m[i] + t)", "m[i]*m[j]"), "m[n]"),
         [0, 1, 1, 2]

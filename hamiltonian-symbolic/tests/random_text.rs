@@ -1,4 +1,4 @@
-//! Random expressions: text reads back as what it was written from, LaTeX is balanced, and no
+//! Random expressions: text reads back as the expression it was written from, LaTeX is balanced, and no
 //! analysis contradicts the numbers or panics.
 
 use crate::common::{model, parse};

@@ -1,4 +1,4 @@
-//! Formulas of systems from Lagrangians: how they read, and that they say what is computed.
+//! Formulas of systems from Lagrangians: how they read, and that they are the formulas computed.
 
 use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::{Dependence, Node, Side};
@@ -52,7 +52,7 @@ fn equal(m: &mut Model, written: &str, value: Node) {
     assert_eq!(is_zero(m, difference), Proof::Zero, "{written}");
 }
 
-/// Everything that is written, read back, is what is computed.
+/// Every formula as written, read back, is the formula computed.
 fn check(signature: &str, parameters: &str, l: &str) -> (String, Vec<String>) {
     let (mut m, readable) = read(signature, "", parameters, l);
     let text = readable.text("H");

@@ -299,7 +299,7 @@ fn systems_are_split_unaided() {
 #[test]
 fn compositions_of_programs_converge() {
     for found in FOUND {
-        // The point of the last is beyond what its A(q) bears at these steps.
+        // The point of the last is too far out for its A(q) at these steps.
         let Some(slope) = slope(found) else {
             continue;
         };
@@ -429,7 +429,7 @@ fn searches_are_bounded() {
     let all = common::cases(300, 3000);
     for _ in 0..all {
         let mut model = grow(&mut random).0.model();
-        // Products and quotients of what is there: nothing that a row takes, and long.
+        // Products and quotients of the expressions so far: long, and of the pattern of no row.
         let h = model.hamiltonian.expect("there is an H");
         if random.chance(0.3) {
             let sine = model.dag.call(Op::Sin, &[h]);

@@ -6,7 +6,7 @@ use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
 use hamiltonian_symbolic::structure::analyse;
 use hamiltonian_symbolic::transform::check_split;
 
-/// A system with what is true of it and what is not.
+/// A system with statements true of it, and false ones.
 struct System {
     /// Coordinates, momenta, time; sizes; parameters.
     names: [&'static str; 3],

@@ -86,7 +86,7 @@ fn products_are_multiplied_out_only_where_they_must_be() {
     );
 }
 
-/// Only what couples is multiplied out, or brought to a normal form: (q − 1)¹⁰ written out cancels.
+/// Only terms that couple are multiplied out, or brought to a normal form: (q − 1)¹⁰ written out cancels.
 #[test]
 fn what_does_not_couple_stays_as_it_was_written() {
     for (h, kinetic, potential) in [
@@ -141,7 +141,7 @@ fn relations_between_functions_are_known() {
     assert_eq!(coupling("p^2*sin(x)^2 - p^2*cos(x)^2"), "p^2*sin(x)^2");
 }
 
-/// What couples at one value of a parameter couples.
+/// A term that couples at one value of a parameter couples.
 #[test]
 fn conditions_on_parameters_that_seldom_hold_count() {
     assert_eq!(

@@ -1,4 +1,5 @@
-//! Another time: what H becomes, and what is carried along; splits and forces as they are checked.
+//! Another time: the new H, with its observables, splits and forces; splits and forces as they are
+//! checked.
 
 use crate::common::{parse, system, values};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
@@ -179,7 +180,7 @@ fn a_split_adds_up_or_is_refused_with_the_difference() {
     let (point, value) = wrong.point.unwrap();
     assert!(value != 0.0 && point.len() == 2, "{point:?}");
     assert!(split(&["q^2/2"]).is_err());
-    // What is missing at one value of a parameter, or of a coordinate, is missing.
+    // A term that is missing at one value of a parameter, or of a coordinate, is missing.
     let whole = "(q^2 + 1)*(p^2 + 1)/2 + k*cos(2*q)";
     for condition in ["k == 1", "q == p", "q == 0"] {
         let extra = format!("if {condition} {{ 7*p }} else {{ 0 }}");

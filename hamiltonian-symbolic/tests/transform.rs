@@ -1,5 +1,5 @@
-//! Canonical transformations: what H becomes, that the maps are canonical, that both ways are
-//! inverse, and what is refused.
+//! Canonical transformations: H in the new variables, that the maps are canonical, that both ways are
+//! inverse, and refusals.
 
 mod check;
 

@@ -6,7 +6,7 @@ use hamiltonian_symbolic::dag::{Array, Node, Side};
 use hamiltonian_symbolic::legendre::{Legendre, transform};
 use hamiltonian_symbolic::model::Model;
 
-/// A system given by L, in which momenta stand for velocities, and what it becomes.
+/// A system given by L, in which momenta stand for velocities, and its H.
 fn lagrangian(signature: &str, parameters: &str, l: &str) -> (Model, Legendre) {
     let mut model = system(signature, "", parameters, l);
     let lagrangian = model.h();

@@ -1,6 +1,6 @@
-//! Packages made for a test, and what cargo says of them.
+//! Packages made for a test, and the words of cargo about them.
 //!
-//! They share a target directory of their own, so that what they depend on is compiled once.
+//! They share a target directory of their own, so that their dependencies are compiled once.
 
 use std::fs;
 use std::io::Write;
@@ -88,7 +88,7 @@ pub struct Workspace {
     target: PathBuf,
 }
 
-/// What came of a call of cargo.
+/// The outcome of a call of cargo.
 #[derive(Debug)]
 pub struct Outcome {
     /// Whether it went well.

@@ -1,4 +1,4 @@
-//! What a system does from exact decimals, against printed figures: by a reference of high precision
+//! The end of a run from exact decimals, against printed figures: by a reference of high precision
 //! and by Runge–Kutta in `f64`, which has to come down on it.
 
 use super::geometry::visible_tangent;
@@ -18,12 +18,12 @@ pub fn unit(text: &str) -> f64 {
     10f64.powi(-(digits as i32))
 }
 
-/// What a system does from exact decimals in a given time.
+/// The end of a run from exact decimals in a given time.
 pub struct Case<'a> {
     pub q: &'a [&'a str],
     pub p: &'a [&'a str],
     pub t: &'a str,
-    /// What is printed of the end, components in flat order.
+    /// The printed digits of the end, components in flat order.
     pub end: &'a [&'a str],
     /// The largest entry of the derivative of the end with respect to the start.
     pub kappa: f64,

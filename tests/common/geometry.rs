@@ -63,7 +63,7 @@ pub fn uncrossed(n: usize) -> impl Fn(usize, usize) -> f64 {
     }
 }
 
-/// The tangent of what is seen after `steps` steps, by dual numbers.
+/// The tangent of the visible state after `steps` steps, by dual numbers.
 pub fn visible_tangent<S, M>(
     system: &S,
     scheme: &M,

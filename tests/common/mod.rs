@@ -1,4 +1,4 @@
-//! What the tests share: the systems, a reference solution, and checks that are generic over
+//! Shared by the tests: the systems, a reference solution, and checks that are generic over
 //! system and scheme.
 
 pub mod canonical;

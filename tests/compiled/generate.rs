@@ -11,7 +11,7 @@ pub const COUNT: usize = 256;
 pub const TESTS: usize = 16;
 
 /// The trees, each with the function of `compiled.rs` that evaluates it. Every third one is made
-/// a sum T(p, t) + V(q, t), all others couple. What the language refuses, an H without momenta, is
+/// a sum T(p, t) + V(q, t), all others couple. An H without momenta, which the language refuses, is
 /// left out, and so is a number that is none.
 pub fn trees() -> Vec<(Tree, &'static str)> {
     let mut random = Random(0x5EED);

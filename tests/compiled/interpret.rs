@@ -114,7 +114,7 @@ impl Interpreted {
         outputs
     }
 
-    /// What a purpose returns and stores.
+    /// The value and the stores of a purpose.
     fn add(
         &self,
         outputs: &mut Outputs,

@@ -1,4 +1,4 @@
-//! A scalar that counts what is done with it.
+//! A scalar that counts the operations on it.
 //!
 //! Input: any code generic over the scalar. Output: its values as `f64`, and how many operations
 //! of each kind this thread made meanwhile. Invariant: every arithmetic operation of [`Real`]
@@ -29,7 +29,7 @@ thread_local! {
     static COUNTS: Cell<Counts> = Cell::default();
 }
 
-/// What `work` returns, and what it did.
+/// The result of `work`, and the operations it made.
 pub fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
     COUNTS.set(Counts::default());
     let result = work();

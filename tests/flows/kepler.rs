@@ -154,7 +154,7 @@ fn an_orbit_closes_after_its_periods() {
             &exact
         ) > 1e-12
     );
-    // In doubles, what the rounding of the start makes of it in that time.
+    // In doubles, the rounding of the start as it has grown in that time.
     let t = (thousand * period).to_f64();
     let size = defect(&tangent(&start, t), one_point(2)).1.sqrt();
     let off = apart(&flow(&start, t), &start) / size;

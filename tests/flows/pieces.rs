@@ -1,4 +1,4 @@
-//! What every exact flow must pass as it is emitted.
+//! Tests that every exact flow passes as it is emitted.
 
 #[allow(dead_code)]
 #[path = "../../hamiltonian-symbolic/tests/common/mod.rs"]
@@ -257,7 +257,7 @@ where
             let c = (0.1 + 2.0 * unit()) * if trial % 2 == 0 { 1.0 } else { -1.0 };
             let end = act(number, c, &z);
             let Some(there) = equations.orbit(&z, c) else {
-                // What has no orbit has no flow: a formula may go on past the end.
+                // Without an orbit there is no flow: a formula may go on past the end.
                 if let Some(x) = end.iter().find(|x| x.is_finite() && x.abs() < 1e3) {
                     assert!(
                         end.iter().any(|x| !x.is_finite()),

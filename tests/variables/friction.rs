@@ -34,7 +34,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// A chain whose neighbours share momenta, with friction: what the ends read is not there.
+    /// A chain whose neighbours share momenta, with friction: the ends have no neighbour to read.
     pub struct Coupled { n: usize, g = 0.1 }
     H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n - 1) { p[i]*p[i + 1]*q[i]*q[i + 1] };
     force(q; p) = -g*p;

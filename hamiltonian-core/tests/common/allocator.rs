@@ -1,4 +1,4 @@
-//! Counting what a piece of work allocates.
+//! Counting the allocations of a piece of work.
 
 use std::alloc::{GlobalAlloc, Layout, System as Heap};
 use std::cell::Cell;

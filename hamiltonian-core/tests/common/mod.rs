@@ -1,4 +1,4 @@
-//! What the tests share: systems written by hand, and states of them. What needs no system of
+//! Shared by the tests: systems written by hand, and states of them. What needs no system of
 //! its own (order, forms, check values) is tested at the workspace root, on systems the macro
 //! makes.
 

@@ -402,7 +402,7 @@ pub mod counting {
         static CALLS: Cell<(u64, u64)> = const { Cell::new((0, 0)) };
     }
 
-    /// Forgets what was counted on this thread.
+    /// Forgets the counts of this thread.
     pub fn reset() {
         CALLS.set((0, 0));
     }

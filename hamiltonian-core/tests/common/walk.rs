@@ -1,6 +1,6 @@
-//! The walk over the whole catalogue: every scheme on a system that has what it asks for.
+//! The walk over the whole catalogue: every scheme on a system with the structure it asks for.
 //!
-//! Input: what is done with a scheme. Output: that, done with each. Invariant: no entry is left out.
+//! Input: an action on a scheme. Output: the action done with each. Invariant: no entry is left out.
 
 use super::start;
 use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};

@@ -14,7 +14,7 @@ use hamiltonian_symbolic::pipeline;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
 
-/// Reports who needs second derivatives that were not given.
+/// Reports the places that need second derivatives that were not given.
 pub fn second_derivatives(
     checked: &Checked,
     model: &mut Model,

@@ -108,7 +108,7 @@ pub fn storage(
     }
 }
 
-/// An extent where a const generic argument is due: a literal or a name.
+/// An extent as a const generic argument: a literal or a name.
 pub fn extent_text(extent: &Affine, indices: Indices) -> String {
     match extent.as_constant() {
         Some(value) => value.to_string(),

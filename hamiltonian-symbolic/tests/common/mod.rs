@@ -1,7 +1,7 @@
 //! A small reader of the language, so that tests are written in the notation they are about.
 //!
 //! Input: declarations and expressions as text. Output: a [`Model`] and nodes of its arena. It
-//! panics on what it does not know; the real front end is the macro's.
+//! panics on unknown words; the real front end is the macro's.
 
 use hamiltonian_symbolic::dag::{Array, Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};

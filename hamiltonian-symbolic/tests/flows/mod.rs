@@ -1,4 +1,4 @@
-//! What every exact flow must pass, by its values and tangents in 32 digits.
+//! Tests of every exact flow, by its values and tangents in 32 digits.
 
 use crate::common::{self, parse};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};

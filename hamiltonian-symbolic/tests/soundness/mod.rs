@@ -1,4 +1,4 @@
-//! What every scheduled program must be, whatever it computes.
+//! Conditions on every scheduled program, whatever it computes.
 //!
 //! Input: a program. Output: a panic where it is not sound. Invariant: knows the form of programs
 //! only, nothing of how they are made.
@@ -108,7 +108,7 @@ fn defined(
     }
 }
 
-/// Adds what the live values need, last step first.
+/// Adds the operands of the live values, last step first.
 fn alive(program: &Program, steps: &[Step], live: &mut HashSet<Value>) {
     for step in steps.iter().rev() {
         match step {
@@ -190,7 +190,7 @@ fn stages(program: &Program, function: &Function, prepared: &HashSet<Value>) {
             earliest.insert(*value, own);
             assert!(own <= stage);
             assert!(
-                // The coefficient stage runs once per step size; it may redo what is prepared.
+                // The coefficient stage runs once per step size; it may repeat preparations.
                 own == stage
                     || stage == 1
                     || matches!(

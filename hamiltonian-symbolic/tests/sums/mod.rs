@@ -29,7 +29,7 @@ pub enum Expression {
     If(Box<Expression>, Box<Expression>, Box<Expression>),
 }
 
-/// What expressions are evaluated in.
+/// The context that expressions are evaluated in.
 pub trait Arithmetic {
     type Number: Copy;
     type Condition: Copy;

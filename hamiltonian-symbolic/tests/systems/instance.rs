@@ -229,7 +229,7 @@ impl Instance {
     }
 }
 
-/// What a function gave at a place.
+/// The outputs of a function at a place.
 pub fn at<T: Copy>(outcome: &Outcome<T>, place: Place) -> T {
     match place {
         Place::Phase(side, group, column, row) => {

@@ -1,5 +1,5 @@
-//! A scalar that records what is computed with it: for error bounds by a reverse sweep over a
-//! program's own operations, and for counting what loops execute.
+//! A scalar that records the operations on it: for error bounds by a reverse sweep over a
+//! program's own operations, and for counting the operations of loops.
 //!
 //! Input: `f64`s. Output: the same bits as `f64`, and a tape of the thread's operations.
 //! Invariant: inputs and exact constants are not on the tape, because they carry no error.
@@ -29,7 +29,7 @@ thread_local! {
     static TAPE: RefCell<Vec<Record>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Forgets what was recorded.
+/// Forgets the record.
 pub fn start() {
     TAPE.with_borrow_mut(Vec::clear);
 }

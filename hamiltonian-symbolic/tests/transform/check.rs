@@ -98,7 +98,7 @@ fn the_check_asks_for_eight_digits_where_there_are_as_many() {
     // Rounding that leaves fewer is not a slip.
     let new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
     assert!(check(&new).is_ok());
-    // But what is left of the digits must agree.
+    // But the digits left must agree.
     let wrong = with_term(new, "10^15*r^2");
     assert!(matches!(wrong, Err(Refusal::Unverified { .. })));
 }

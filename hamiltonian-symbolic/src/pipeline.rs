@@ -4,6 +4,7 @@
 //! what no function needs is not in it.
 
 use crate::balance::balance;
+use crate::count::work;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
@@ -92,26 +93,6 @@ fn shared_preparation(dag: &mut Dag, requests: &[Request]) -> Images {
     } else {
         Images::default()
     }
-}
-
-/// The operations of expressions, a power by squaring.
-fn work(dag: &Dag, roots: &[Node]) -> u32 {
-    let power = |n: i32| n.unsigned_abs().ilog2() + n.unsigned_abs().count_ones();
-    let of = |node: &Node| match dag.kind(*node) {
-        Kind::Sum(c, terms) => {
-            let scaled = terms.iter().filter(|(k, _)| !k.is_unit()).count();
-            (scaled + terms.len() - usize::from(c.is_zero())) as u32
-        }
-        Kind::Product(k, factors) => {
-            let powers: u32 = factors.iter().map(|(_, n)| power(*n)).sum();
-            let is_divided = factors.iter().any(|(_, n)| *n < 0);
-            powers + u32::from(!k.is_unit()) + u32::from(is_divided) - 1
-        }
-        Kind::Call(..) | Kind::External(..) => 16,
-        Kind::Reduce(..) | Kind::Select(..) | Kind::Compare(..) => 1,
-        _ => 0,
-    };
-    dag.reachable(roots).iter().map(of).sum()
 }
 
 fn internal(fault: String) -> Refusal {

@@ -202,13 +202,8 @@ impl Algebra {
 }
 
 fn assemble(dag: &mut Dag, poly: &Poly, nodes: &Map<Atom, Node>) -> Node {
-    let mut constant = Rational::ZERO;
     let mut terms = Vec::with_capacity(poly.terms().len());
     for (monomial, k) in poly.terms() {
-        if monomial.is_one() {
-            constant = constant.add(k);
-            continue;
-        }
         let factors: Vec<(Node, i32)> = monomial
             .0
             .iter()
@@ -216,5 +211,5 @@ fn assemble(dag: &mut Dag, poly: &Poly, nodes: &Map<Atom, Node>) -> Node {
             .collect();
         terms.push((k.clone(), dag.product(&Rational::ONE, &factors)));
     }
-    dag.linear(&constant, &terms)
+    dag.linear(&Rational::ZERO, &terms)
 }

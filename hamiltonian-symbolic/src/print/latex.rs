@@ -108,12 +108,6 @@ pub(super) fn call_level(op: Op) -> Level {
     }
 }
 
-/// Whether a power of this is written between the function's name and its argument, or under the
-/// root, so that it is closed.
-pub(super) fn holds_power_inside(dag: &Dag, base: Node) -> bool {
-    matches!(dag.kind(base), Kind::Call(op, _) if takes_power(*op))
-}
-
 fn takes_power(op: Op) -> bool {
     matches!(
         op,

@@ -246,20 +246,7 @@ impl<'a> Writer<'a> {
             },
             Kind::Sum(..) => Level::Sum,
             Kind::Product(..) if negated_sum(self.dag(), node).is_some() => Level::Sum,
-            Kind::Product(k, factors) => match factors.as_slice() {
-                _ if k.is_negative() => Level::Product,
-                [(_, 1)] if k.is_one() => Level::Product,
-                [(base, n)] if k.is_one() && *n > 1 => {
-                    if self.notation == Notation::Latex
-                        && latex::holds_power_inside(self.dag(), *base)
-                    {
-                        Level::Atom
-                    } else {
-                        Level::Power
-                    }
-                }
-                _ => Level::Product,
-            },
+            Kind::Product(..) => Level::Product,
             Kind::Call(op, _) => match self.notation {
                 Notation::Text => text::call_level(*op),
                 Notation::Latex => latex::call_level(*op),

@@ -263,12 +263,11 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
     if space.set(u) & !own == 0 {
         return Some((u, space.dag().integer(1)));
     }
-    let of_pair = |space: &mut Space, node: Node| space.set(node) & own != 0;
     let (k, rate) = match space.model.dag.kind(u).clone() {
         Kind::Product(c, factors) => {
             let (mut inside, mut outside) = (Vec::new(), Vec::new());
             for factor in factors {
-                let list = match of_pair(space, factor.0) {
+                let list = match space.set(factor.0) & own != 0 {
                     true => &mut inside,
                     false => &mut outside,
                 };
@@ -279,16 +278,6 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
                 dag.product(&Rational::ONE, &inside),
                 dag.product(&c, &outside),
             )
-        }
-        Kind::Sum(_, terms) => {
-            let mut inside = Vec::new();
-            for term in terms {
-                if of_pair(space, term.1) {
-                    inside.push(term);
-                }
-            }
-            let k = space.dag().linear(&Rational::ZERO, &inside);
-            (k, space.dag().integer(1))
         }
         _ => (u, space.dag().integer(1)),
     };

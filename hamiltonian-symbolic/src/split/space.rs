@@ -430,15 +430,6 @@ impl Space {
     /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
     /// or the point decide.
     pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
-        if let Some(value) = self.model.dag.as_constant(node) {
-            return Some(if value.is_zero() {
-                0
-            } else if value.is_negative() {
-                -1
-            } else {
-                1
-            });
-        }
         if is_positive(&self.model.dag, node) {
             return Some(1);
         }

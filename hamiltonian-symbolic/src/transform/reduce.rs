@@ -6,7 +6,8 @@
 //! function or below a fraction line that is known to be ≥ 0 stays known to be so, because a
 //! distance must not be computed by cancellation.
 
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Stage};
+use crate::count::work;
+use crate::dag::{Dag, Kind, Map, Node, Stage};
 use crate::op::Op;
 use crate::rational::Rational;
 use crate::structure::{Collected, Term, expand, times};
@@ -83,7 +84,7 @@ pub(super) fn reduce(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
     reducer.sum(dag, node, false)
 }
 
-/// The nodes that stand inside a function or below a fraction line.
+/// The nodes that stand inside a function.
 fn inside(dag: &Dag, order: &[Node]) -> Map<Node, ()> {
     let mut inside: Map<Node, ()> = Map::default();
     for &node in order.iter().rev() {
@@ -96,10 +97,6 @@ fn inside(dag: &Dag, order: &[Node]) -> Map<Node, ()> {
             dag.for_children(node, |child| {
                 inside.insert(child, ());
             });
-        } else if let Kind::Product(_, factors) = dag.kind(node) {
-            for (factor, _) in factors.iter().filter(|(_, n)| *n < 0) {
-                inside.insert(*factor, ());
-            }
         }
     }
     inside
@@ -265,7 +262,7 @@ impl Reducer<'_> {
                 continue;
             }
             let node = grouped(dag, &terms);
-            let price = cost(dag, node);
+            let price = work(dag, &[node]);
             if best.is_none_or(|(least, _)| price < least) {
                 best = Some((price, node));
             }
@@ -274,7 +271,7 @@ impl Reducer<'_> {
             }
         }
         let (price, node) = best?;
-        (price < cost(dag, kept)).then_some(node)
+        (price < work(dag, &[kept])).then_some(node)
     }
 }
 
@@ -289,12 +286,6 @@ fn flattened(dag: &mut Dag, node: Node) -> Node {
     let Kind::Sum(c, terms) = dag.kind(node) else {
         return node;
     };
-    if !terms
-        .iter()
-        .any(|(k, n)| k.is_one() && matches!(dag.kind(*n), Kind::Sum(..)))
-    {
-        return node;
-    }
     let mut constant = c.clone();
     let mut flat = Vec::new();
     for (k, term) in terms {
@@ -468,47 +459,4 @@ fn grouped(dag: &mut Dag, terms: &[Term]) -> Node {
         operands.push((Rational::ONE, dag.product(&k, &all)));
     }
     dag.collected(&Rational::ZERO, &operands, false)
-}
-
-/// What a node costs at every evaluation, each shared node and power once: additions and
-/// multiplications 1, divisions 4, functions 8.
-fn cost(dag: &Dag, root: Node) -> u32 {
-    let run = Dependence(Dependence::Q.0 | Dependence::P.0 | Dependence::TIME.0);
-    let moves = |node: Node| dag.dependence(node).on(run);
-    let mut powers: Map<(Node, i32), ()> = Map::default();
-    let mut sum = 0u32;
-    let computed = dag.reached(&[root], |node, ahead| {
-        dag.for_children(node, |child| {
-            if moves(child) {
-                ahead.add(child);
-            }
-        });
-    });
-    for node in computed.into_iter().filter(|node| moves(*node)) {
-        sum = sum.saturating_add(match dag.kind(node) {
-            Kind::Sum(c, terms) => {
-                let scaled = terms.iter().filter(|(k, _)| !k.abs().is_one()).count();
-                (terms.len() + usize::from(!c.is_zero()) + scaled - 1) as u32
-            }
-            Kind::Product(k, factors) => {
-                let constant = !k.abs().is_one() || factors.iter().any(|(n, _)| !moves(*n));
-                let mut price = u32::from(constant);
-                let mut divided = false;
-                let mut count = 0;
-                for &(factor, n) in factors.iter().filter(|(n, _)| moves(*n)) {
-                    count += 1;
-                    divided |= n < 0;
-                    let n = n.unsigned_abs();
-                    if n > 1 && powers.insert((factor, n as i32), ()).is_none() {
-                        price += n.ilog2() + n.count_ones() - 1;
-                    }
-                }
-                price + count - 1 + if divided { 4 } else { 0 }
-            }
-            Kind::Call(..) | Kind::External(..) => 8,
-            Kind::Element(..) | Kind::Time => 0,
-            _ => 1,
-        });
-    }
-    sum
 }

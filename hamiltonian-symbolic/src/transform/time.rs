@@ -239,10 +239,6 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
             .collect(),
         _ => vec![g],
     };
-    if !meets(dag, h, &factors) {
-        let bracket = dag.add(&[h, p]);
-        return dag.mul(&[g, bracket]);
-    }
     let mut cancelled: Vec<(Rational, Node)> = Vec::new();
     let mut bracket: Vec<(Rational, Node)> = Vec::new();
     let mut stack = vec![(Rational::ONE, h)];

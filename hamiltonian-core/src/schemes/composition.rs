@@ -41,6 +41,13 @@ use hamiltonian_lanes::{Mask, Real};
 /// // (33) carries a point whose distance depends on the step.
 /// let _ = Composition::yoshida(IntersectingSubTrajectories::default());
 /// ```
+///
+/// ```compile_fail,E0271
+/// use hamiltonian_core::schemes::{KahanLi6, RungeKutta4};
+///
+/// // Its adjoint is another scheme; a table has its order with symmetric ones.
+/// let _ = KahanLi6.of(RungeKutta4);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Composition<M, const S: usize> {
     stages: [(M, Weight); S],
@@ -81,8 +88,9 @@ impl<M: OneStep<Adjoint = M>> Composition<M, 2> {
     }
 }
 
-impl<M: OneStep> Composition<M, 3> {
-    /// Yoshida's three steps, which make a symmetric scheme of order 2 one of order 4.
+impl<M: OneStep<Adjoint = M>> Composition<M, 3> {
+    /// Yoshida's three steps, which make a symmetric scheme of order 2 one of order 4. A scheme whose
+    /// adjoint is of another type is not symmetric, and refused.
     pub fn yoshida(scheme: M) -> Self {
         let table = tables::YOSHIDA_4;
         // Both halves of a stage are γ/2.

@@ -109,7 +109,7 @@ macro_rules! of_symmetric {
     ($($name:ident: $table:path, $stages:literal;)+) => {$(
         impl $name {
             /// Steps of the sizes γ of any symmetric scheme of order 2, which make one of the order of
-            /// the table.
+            /// the table. A scheme whose adjoint is of another type is not symmetric, and refused.
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
@@ -121,7 +121,7 @@ macro_rules! of_symmetric {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-6);
             /// # Ok::<(), hamiltonian_core::Error>(())
             /// ```
-            pub fn of<M: OneStep>(self, scheme: M) -> Composition<M, $stages> {
+            pub fn of<M: OneStep<Adjoint = M>>(self, scheme: M) -> Composition<M, $stages> {
                 // down = up = γ/2, and twice a number is exact.
                 let gammas = $table.stages.map(|(Weight(hi, lo), _)| Weight(2.0 * hi, 2.0 * lo));
                 Composition::new(scheme, gammas, $table.order, stringify!($name))

@@ -304,8 +304,7 @@ fn docs(definition: &Definition, item: &Item, context: Context) -> TokenStream {
         .any(|v| v.usage == VectorUse::Force);
     if is_forced {
         doc.push_str(
-            "\nThe declared force f is added to these equations: dp/dt = −∂H/∂q + f. Schemes integrate it,\n\
-             and the method `force` gives it.\n",
+            "\nThe declared force is in these equations. Schemes integrate it, and the method `force` gives it.\n",
         );
     }
     if !text.latex.is_empty() {

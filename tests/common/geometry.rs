@@ -115,12 +115,14 @@ where
         start: start.t,
         interval: Dual::fixed(h * duration),
     };
-    map.run(clock, 0, made, &mut carried, &mut work);
+    // All steps are compiled in one place.
+    let steps: fn(&M::Map, _, _, _, &mut <M::Map as Map>::Carried, &mut _) = Map::run;
+    steps(&map, clock, 0, made, &mut carried, &mut work);
     (0..carried.len())
         .map(|seed| {
             let mut carried = carried.clone();
             *carried.component_mut(seed) = Dual::variable(carried.component(seed).re);
-            map.run(clock, made, 1, &mut carried, &mut work);
+            steps(&map, clock, made, 1, &mut carried, &mut work);
             carried.components().map(|x| x.eps).collect()
         })
         .collect()

@@ -65,6 +65,17 @@ impl<F> Link<F> {
             down.apply(t, x, work);
         }
     }
+
+    /// The same, compiled apart; the piece's name if it leaves the numbers.
+    #[cold]
+    #[inline(never)]
+    fn blame<X: Vector>(&self, t: X::Scalar, x: &mut X, work: &mut F::Work) -> Option<&'static str>
+    where
+        F: Flow<X>,
+    {
+        self.apply(t, x, work);
+        (!x.is_finite()).then_some(F::NAME)
+    }
 }
 
 /// Durations as differences of partial sums, each rounded to a multiple of an ulp of 4h at least: sums
@@ -281,23 +292,18 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Table> Map for Zigzag<X, O, I, W> {
         let Some(last) = stages.last() else {
             return Cause::Overflow;
         };
-        if first {
-            self.open(t, z, work);
-        } else {
-            self.join(t, z, work);
-        }
-        let mut blamed = (!z.is_finite()).then_some(O::NAME);
+        let mut blamed = match &self.opening {
+            Some(opening) if first => opening.blame(t, z, &mut work.0),
+            None if first => None,
+            _ => self.joining.blame(t, z, &mut work.0),
+        };
         for stage in stages {
             blamed = blamed.or_else(|| stage.inner.blame(t + stage.inner_at, z, &mut work.1));
             if blamed.is_none() && !core::ptr::eq(stage, last) {
-                stage.outer.apply(t + stage.outer_at, z, &mut work.0);
-                blamed = (!z.is_finite()).then_some(O::NAME);
+                blamed = stage.outer.blame(t + stage.outer_at, z, &mut work.0);
             }
         }
-        let at_the_end = || {
-            self.close(end, z, work);
-            (!z.is_finite()).then_some(O::NAME)
-        };
+        let at_the_end = || self.closing()?.blame(end, z, &mut work.0);
         match blamed.or_else(at_the_end) {
             Some(piece) => Cause::Piece(piece),
             None => Cause::Overflow,

@@ -45,10 +45,10 @@ hamiltonian! {
     H(r, theta; p_r, p_theta) = (1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2)
         - E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
     split {
-        Potential = -E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
-        Turning = p_theta^2/(2*r^2);
-        Radial = p_r^2/2;
         Falling = -p_r^2/r;
+        Radial = p_r^2/2;
+        Turning = p_theta^2/(2*r^2);
+        Potential = -E^2/(2*(1 - 2/r)) + L^2/(2*r^2*sin(theta)^2);
     }
 }
 

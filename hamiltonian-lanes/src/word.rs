@@ -7,6 +7,8 @@
 
 use core::ops::{BitAnd, BitOr, BitXor};
 
+#[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+use crate::level::Register;
 use crate::real::{Mask, Real};
 
 /// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
@@ -39,6 +41,11 @@ pub trait Word: Real {
     fn from_bits(bits: Self::Bits) -> Self;
     /// Set where the lowest bit is.
     fn odd(bits: Self::Bits) -> Self::Mask;
+    /// The number whose last `K` bits are 0 instead.
+    #[inline(always)]
+    fn cut<const K: u32>(self) -> Self {
+        Self::from_bits(self.bits() & Self::Bits::splat(u64::MAX << K))
+    }
     /// A third of numbers below 2³², rounded to nearest, in the lowest 32 bits.
     #[inline(always)]
     fn third(bits: Self::Bits) -> Self::Bits {
@@ -125,6 +132,15 @@ impl Word for f64 {
     #[inline(always)]
     fn odd(bits: u64) -> bool {
         bits & 1 != 0
+    }
+    // The compiler masks a float as an integer: the number changes its register twice, which takes as
+    // long as two products. In a register of two lanes it stays where it is.
+    #[cfg(all(target_arch = "x86_64", target_feature = "sse2"))]
+    #[inline(always)]
+    fn cut<const K: u32>(self) -> Self {
+        use core::arch::x86_64::__m128d;
+        let mask = Register::splat(Self::from_bits(u64::MAX << K));
+        <__m128d as Register>::store(Register::and(Register::splat(self), mask))[0]
     }
     #[inline(always)]
     fn third(bits: u64) -> u64 {

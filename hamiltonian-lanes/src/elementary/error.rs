@@ -10,6 +10,7 @@ use super::exponential::{exp_parts, scale_any, scale_normal};
 use super::pairs::{
     fast_two_sum, flip, polynomial, quotient, sign_bit, two_product, two_square, two_sum,
 };
+use crate::real::Mask;
 use crate::word::Word;
 
 /// From here on erfc lies near or below the smallest normal number.
@@ -41,15 +42,19 @@ fn complement<W: Word>(x: W) -> (W::Bits, W, W) {
 #[inline(always)]
 pub(crate) fn erfc<W: Word>(x: W) -> W {
     let size = x.abs();
+    let (one, cut) = fast_two_sum(W::one(), -x);
+    let middle = one + x.fma(-polynomial(x * x, &ERROR), cut);
+    let near_0 = size.le(W::splat(NEAR));
+    if W::LANES == 1 && near_0.all() {
+        return middle;
+    }
     let (power, high, low) = complement(size);
     let near = scale_normal(high + low, power);
     let scale = scale_normal(W::one(), power);
     let (two, cut) = fast_two_sum(W::splat(2.0), -(high * scale));
     let far = two + (cut - low * scale);
     let y = W::select(x.lt(W::zero()), far, near);
-    let (one, cut) = fast_two_sum(W::one(), -x);
-    let middle = one + x.fma(-polynomial(x * x, &ERROR), cut);
-    let y = W::select(size.le(W::splat(NEAR)), middle, y);
+    let y = W::select(near_0, middle, y);
     y.or_rare(size.le(W::splat(LARGE)), x, erfc_of_large)
 }
 
@@ -76,9 +81,13 @@ pub(crate) fn erf<W: Word>(x: W) -> W {
     let size = W::select(end.lt(size), end, size);
     let z = size * size;
     let near = size.fma(polynomial(z, &ERROR), size);
+    let beyond = W::splat(NEAR).lt(size);
+    if W::LANES == 1 && !beyond.any() {
+        return flip(near, sign_bit(x));
+    }
     let (power, high, low) = complement(size);
     let scale = scale_normal(W::one(), power);
     let (one, cut) = fast_two_sum(W::one(), -(high * scale));
     let far = one + (cut - low * scale);
-    flip(W::select(W::splat(NEAR).lt(size), far, near), sign_bit(x))
+    flip(W::select(beyond, far, near), sign_bit(x))
 }

@@ -60,11 +60,10 @@ fn remainder<W: Word>(c: W, a: W, b: W) -> W {
     }
 }
 
-/// `a` as a word of 26 bits, cut off in place, and one of 27: no bits but those of a mask, which a
-/// single number has without leaving its register.
+/// `a` as a word of 26 bits and one of 27.
 #[inline(always)]
 fn halves<W: Word>(a: W) -> (W, W) {
-    let high = W::from_bits(a.bits() & W::Bits::splat(!((1 << 27) - 1)));
+    let high = a.cut::<27>();
     (high, a - high)
 }
 

@@ -113,7 +113,7 @@ fn cube_root<W: Word>(x: W) -> W {
     let (square, step) = (e * e, y * e);
     let y = (step * square).fma(e.fma(a4, a3), step.fma(e.fma(a2, a1), y));
     // Cut off to 17 bits: within 2⁻¹⁵·⁷ of the root.
-    let c = W::from_bits((x * (y * y)).bits() & W::Bits::splat(!((1 << 36) - 1)));
+    let c = (x * (y * y)).cut::<36>();
     // cbrt x = c·(1 − d)^(−1/3) with d = (x − c³)/x; the remainder is exact.
     let d = (x - c * c * c) * inverse;
     (c * d).fma((d * d).fma(a3, d.fma(a2, a1)), c)

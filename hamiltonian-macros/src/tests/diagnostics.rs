@@ -129,6 +129,16 @@ fn definitions_near_an_error_are_accepted() {
          H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + if x > 0 { k*x^2/2 } else { 0 };
          invariant along = p_y;
          invariant energy_across = p_x^2/2 + if x > 0 { k*x^2/2 } else { 0 }",
+        "pub struct Analytic {}
+         fn f(x) = sin, (cos);
+         H = p^2/2 + f(q)/q^2;
+         invariant twice = p^2 + 2*f(q)/q^2",
+        "pub struct Short {}
+         H(q[3]; p[3]) = norm_squared(p)/2 + sum(i in 0..3, j in 0..i) { cos(q[i] - q[j]) };
+         split {
+             Kinetic = norm_squared(p)/2;
+             Pairs = cos(q[0] - q[1]) + cos(q[1] - q[2]) + cos(q[2] - q[0])
+         }",
         "pub struct Assumed<const N: usize> {}
          H(q[N]; p[N]) = norm_squared(p)/2 + sum(i in 0..N) { q[i]*q[(i + 1) % N] };
          #[assume]

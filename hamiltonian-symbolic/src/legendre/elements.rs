@@ -6,7 +6,7 @@
 //! the same value for every k in 0..rows and all sizes; an element is said to have no mass only if
 //! that is proven for it at some sizes.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Relation};
+use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::loops::{field, unroll_nodes};
 use crate::model::Model;
@@ -40,23 +40,6 @@ pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array
             _ => None,
         });
         Some(dag.select(condition, then, otherwise))
-    })
-}
-
-/// Whether a sum over velocities stands in the expression.
-pub(super) fn has_sums_of_velocities(dag: &Dag, root: Node) -> bool {
-    let nodes = dag.reachable(&[root]);
-    nodes.iter().any(|node| is_sum_of_velocities(dag, *node))
-}
-
-fn is_sum_of_velocities(dag: &Dag, node: Node) -> bool {
-    matches!(dag.kind(node), Kind::Reduce(..)) && dag.dependence(node).on(Dependence::P)
-}
-
-/// The expression with all velocities in its sums at rest, which it does not depend on.
-pub(super) fn with_sums_at_rest(dag: &mut Dag, root: Node) -> Node {
-    dag.substitute(root, |dag, node| {
-        is_sum_of_velocities(dag, node).then(|| super::at_rest(dag, node))
     })
 }
 

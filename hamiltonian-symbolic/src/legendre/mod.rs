@@ -216,14 +216,9 @@ impl Transform<'_> {
     /// Each momentum may depend on velocities of its own block and element only.
     fn check_uncoupled(&mut self, blocks: &mut [Block]) -> Result<(), String> {
         for block in blocks {
-            for (&element, momentum) in block.elements.iter().zip(&mut block.momenta) {
+            for (&element, momentum) in block.elements.iter().zip(&block.momenta) {
                 // A sum over all elements may be one over k: its velocities are not element k's.
-                let dag = &mut self.model.dag;
-                let has_sums = elements::has_sums_of_velocities(dag, *momentum);
-                let apart = match has_sums {
-                    true => dag.nested(*momentum, block.domain),
-                    false => *momentum,
-                };
+                let apart = self.model.dag.nested(*momentum, block.domain);
                 for (leaf, slope) in diff::gradient(&mut self.model.dag, apart, Dependence::P) {
                     if block.elements.contains(&leaf) || is_zero(self.model, slope) == Proof::Zero {
                         continue;
@@ -235,9 +230,6 @@ impl Transform<'_> {
                     return Err(format!(
                         "the mass matrix couples {one} with {other}; in arrays only the columns of one row may be coupled"
                     ));
-                }
-                if has_sums {
-                    *momentum = elements::with_sums_at_rest(&mut self.model.dag, *momentum);
                 }
             }
         }

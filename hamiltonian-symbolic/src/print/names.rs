@@ -44,42 +44,25 @@ impl<'a> Scope<'a> {
         match self.bound.iter().rev().find(|(d, _)| *d == domain) {
             Some((_, name)) => name.clone(),
             // Not inside its loop: the adjoint of an array element, say.
-            None => self.nth_free(self.model.dag.path(Some(domain)).len() - 1),
+            None => {
+                let depth = self.model.dag.path(Some(domain)).len();
+                self.free().nth(depth - 1).unwrap_or_default()
+            }
         }
     }
 
     fn fresh(&self) -> String {
-        let mut at = 0;
-        loop {
-            let name = self.nth_free(at);
-            if self.bound.iter().all(|(_, other)| *other != name) {
-                return name;
-            }
-            at += 1;
-        }
+        let is_bound = |name: &String| self.bound.iter().any(|(_, other)| other == name);
+        let mut names = self.free();
+        names.find(|name| !is_bound(name)).unwrap_or_default()
     }
 
-    fn nth_free(&self, n: usize) -> String {
-        let mut left = n;
-        for name in CANDIDATES {
-            if !is_taken(self.model, name) {
-                if left == 0 {
-                    return (*name).to_owned();
-                }
-                left -= 1;
-            }
-        }
-        let mut at = 1usize;
-        loop {
-            let name = format!("i{at}");
-            if !is_taken(self.model, &name) {
-                if left == 0 {
-                    return name;
-                }
-                left -= 1;
-            }
-            at += 1;
-        }
+    /// Names that neither the model nor the language uses, without end.
+    fn free(&self) -> impl Iterator<Item = String> {
+        let short = CANDIDATES.iter().map(|name| (*name).to_owned());
+        let numbered = (1u32..).map(|at| format!("i{at}"));
+        let names = short.chain(numbered);
+        names.filter(|name| !is_taken(self.model, name))
     }
 }
 

@@ -216,7 +216,7 @@ pub struct Events<V: Vector> {
 struct Track<T> {
     /// The index of an observable; none for a closure.
     observable: Option<usize>,
-    /// Its value.
+    /// The value of the event there.
     value: T,
     /// Its change in the last step, or 0.
     change: T,

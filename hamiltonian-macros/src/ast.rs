@@ -70,9 +70,9 @@ pub struct Item {
 pub struct Parameter {
     /// Attributes and docs, each with its `#`.
     pub attributes: Vec<TokenStream>,
-    /// The name.
+    /// The name, as the field is called.
     pub name: Ident,
-    /// Its kind.
+    /// Scalar, size or array, with a default where it has one.
     pub kind: ParameterKind,
 }
 
@@ -209,7 +209,7 @@ pub struct Signature {
 /// `q`, `q[N]`, `q[N][3]` in a signature.
 #[derive(Debug)]
 pub struct Variable {
-    /// The name.
+    /// The name, without sizes.
     pub name: Ident,
     /// The sizes in the brackets.
     pub sizes: Vec<Size>,
@@ -231,7 +231,7 @@ pub struct ExprId(pub u32);
 /// An expression node.
 #[derive(Debug)]
 pub struct Expr {
-    /// Its kind.
+    /// The operation, with the nodes it is of.
     pub kind: ExprKind,
     /// From its first to its last token, parentheses around it included.
     pub spans: Spans,

@@ -106,7 +106,7 @@ pub enum Field {
 /// A size that is not a literal.
 #[derive(Debug)]
 pub struct Size {
-    /// Its name.
+    /// The name of the const generic or field.
     pub name: Ident,
     /// Where it comes from.
     pub kind: SizeKind,
@@ -128,7 +128,7 @@ pub enum SizeKind {
 pub struct Parameter {
     /// Docs, each with its `#`.
     pub attributes: Vec<TokenStream>,
-    /// Its name.
+    /// The name of the field.
     pub name: Ident,
     /// Scalar, vector or matrix.
     pub ty: Type,
@@ -217,7 +217,7 @@ pub enum ChartKind {
 /// A scalar coordinate: a group, or one component of a vector group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Component {
-    /// The group.
+    /// The group it is of.
     pub group: GroupId,
     /// The component of a vector group.
     pub index: Option<u64>,
@@ -303,7 +303,7 @@ pub enum Type {
 /// An expression node.
 #[derive(Debug)]
 pub struct Node {
-    /// Its kind.
+    /// The operation, with the nodes it is of.
     pub kind: Kind,
     /// The type of its value.
     pub ty: Type,

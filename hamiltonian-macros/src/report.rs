@@ -39,7 +39,7 @@ impl From<Span> for Spans {
 pub struct Diagnostic {
     /// The fault: one line, lower case, code in backticks.
     pub message: String,
-    /// The remedy.
+    /// The way to a definition without the error.
     pub help: String,
     /// The narrowest tokens that are wrong.
     pub spans: Spans,

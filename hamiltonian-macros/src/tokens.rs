@@ -17,7 +17,7 @@ pub struct Tokens {
 /// One token.
 #[derive(Debug)]
 pub struct Token {
-    /// Its kind.
+    /// Word, literal, punctuation, or one end of a group.
     pub kind: TokenKind,
     /// Where it stands.
     pub span: Span,

@@ -18,7 +18,7 @@ pub struct Held {
     pub rows: Affine,
     /// The loop over all of them.
     pub domain: Domain,
-    /// The value.
+    /// The element, in terms of the loop.
     pub value: Node,
 }
 

@@ -111,7 +111,7 @@ impl Group {
 /// A parameter.
 #[derive(Clone, Debug)]
 pub struct ParameterDeclaration {
-    /// Its name.
+    /// The name it is printed by.
     pub name: String,
     /// Its shape.
     pub shape: Shape,
@@ -154,7 +154,7 @@ impl ObservableKind {
 /// A named function of (t, q, p): one node a component.
 #[derive(Clone, Debug)]
 pub struct Observable {
-    /// Its name.
+    /// The name it is recorded by.
     pub name: String,
     /// How it was declared.
     pub kind: ObservableKind,
@@ -166,7 +166,7 @@ pub struct Observable {
 /// coordinates.
 #[derive(Clone, Debug)]
 pub struct VectorFunction {
-    /// Its name.
+    /// The name it is emitted by.
     pub name: String,
     /// Whether it has a part shaped like the coordinates, and one shaped like the momenta.
     pub sides: (bool, bool),
@@ -182,7 +182,7 @@ pub struct VectorEntry {
     pub at: Column,
     /// The row.
     pub row: Index,
-    /// The value.
+    /// The contribution, in terms of the loops of the row.
     pub value: Node,
 }
 

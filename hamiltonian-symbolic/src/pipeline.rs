@@ -33,7 +33,7 @@ pub enum Refusal {
     },
     /// A number that no `f64` is near: the number, or nothing where it is no fraction.
     OutOfRange {
-        /// The number.
+        /// The number as a fraction, where it is one.
         number: Option<Rational>,
     },
     /// More than [`crate::index::LOOPS`] different loops.

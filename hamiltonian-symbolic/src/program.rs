@@ -276,7 +276,7 @@ pub struct Program {
     pub held: Vec<Held>,
     /// The values of `prepare` that functions read, in order of computation.
     pub prepared: Vec<Value>,
-    /// The functions.
+    /// The functions that a run calls, each with its purpose.
     pub functions: Vec<Function>,
 }
 

@@ -24,7 +24,7 @@ pub struct Store {
     pub row: Index,
     /// Its column, for rank-2 parameters.
     pub column: Option<Index>,
-    /// The value.
+    /// The number stored there.
     pub value: Node,
     /// Whether it is added to what is there.
     pub add: bool,

@@ -292,7 +292,7 @@ impl Settling {
     }
 }
 
-/// The remedy.
+/// The help of an error: the way to a definition that is not refused.
 fn remedy(reason: &Refusal) -> &'static str {
     match reason {
         Refusal::NameTaken { .. } => "rename the parameter or coordinate of that name",

@@ -108,7 +108,7 @@ pub struct Item {
 /// A size.
 #[derive(Debug)]
 pub struct SizeItem {
-    /// Its name.
+    /// The name of the const generic or field.
     pub name: Ident,
     /// A field set at run time; a const generic otherwise.
     pub run_time: bool,
@@ -119,7 +119,7 @@ pub struct SizeItem {
 /// A parameter.
 #[derive(Debug)]
 pub struct ParameterItem {
-    /// Its name.
+    /// The name of the field.
     pub name: Ident,
     /// Docs.
     pub attributes: Vec<TokenStream>,
@@ -139,7 +139,7 @@ pub enum Field {
 /// A monitor, an invariant or an event.
 #[derive(Debug)]
 pub struct ObservableItem {
-    /// Its name.
+    /// The name of the method.
     pub name: Ident,
     /// Docs.
     pub attributes: Vec<TokenStream>,
@@ -148,7 +148,7 @@ pub struct ObservableItem {
 /// The paths of a function written in Rust.
 #[derive(Debug)]
 pub struct External {
-    /// The function.
+    /// That of the function itself.
     pub value: TokenStream,
     /// Its partial derivatives.
     pub first: Vec<TokenStream>,
@@ -207,7 +207,7 @@ pub enum Kick {
 }
 
 impl Kick {
-    /// The functions.
+    /// The purposes of the functions that a kick is made of.
     #[must_use]
     pub fn purposes(self) -> &'static [Purpose] {
         match self {
@@ -223,7 +223,7 @@ impl Kick {
 /// Why a structure is not there, as rustc says it where a scheme asks for it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Reason {
-    /// The fault.
+    /// The property of H in the way, with the term at fault.
     pub message: String,
     /// The missing property.
     pub label: String,

@@ -32,7 +32,7 @@ pub struct Component {
     pub element: Node,
     /// The loop over elements, for arrays.
     pub domain: Option<Domain>,
-    /// Its value.
+    /// The component, as a function of the state.
     pub value: Node,
 }
 
@@ -76,7 +76,7 @@ pub struct Refusal {
     /// No velocities, not quadratic in them, elements coupled with each other, singular mass
     /// matrix: a sentence without a full stop.
     pub reason: String,
-    /// The remedy.
+    /// The help: the condition on L, or the way round it.
     pub help: &'static str,
 }
 

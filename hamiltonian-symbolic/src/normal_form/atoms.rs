@@ -51,7 +51,7 @@ pub(crate) enum Scope {
 /// An atom with what is known of it.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// Its kind.
+    /// The expression it stands for.
     pub(crate) key: Key,
     /// `atom^n = polynomial`
     pub(crate) relation: Option<(u32, Rc<Poly>)>,

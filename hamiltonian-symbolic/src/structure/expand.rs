@@ -13,7 +13,7 @@ const MOST: usize = 4096;
 /// `k·Π node^n`
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Term {
-    /// The number.
+    /// k.
     pub coefficient: Rational,
     /// The factors, none of them a sum unless below a fraction line or inside a function.
     pub factors: Vec<(Node, i32)>,

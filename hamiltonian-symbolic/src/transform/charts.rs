@@ -12,7 +12,7 @@ use crate::rational::Rational;
 /// A scalar coordinate: a group, or one component of a vector group.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Component {
-    /// The group.
+    /// The number of the group it is of.
     pub group: u16,
     /// The component of a vector group; `None` for a scalar one.
     pub row: Option<u32>,

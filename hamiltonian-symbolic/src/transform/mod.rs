@@ -32,7 +32,7 @@ use std::fmt;
 pub enum Refusal {
     /// A name that the transformation introduces is declared already.
     NameTaken {
-        /// The name.
+        /// The name that is there twice.
         name: String,
         /// What would introduce it: `polar`.
         by: &'static str,

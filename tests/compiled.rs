@@ -11,12 +11,22 @@ mod expressions;
 mod generate;
 mod interpret;
 
+use crate::counting::counted::Called;
 use crate::tree;
 use expressions::compiled;
 use generate::{COUNT, TESTS, file, trees};
 use hamiltonian::private::SVector;
 use hamiltonian::{Dynamics, Flow, Piece, Point, Scratch, Separable, System, VectorField};
 use interpret::Interpreted;
+
+/// An `f64` whose functions are calls: written out where they are called, they would be most of what rustc
+/// compiles here.
+type Number = Called<false>;
+
+/// Numbers of an array.
+fn numbers<const N: usize>(values: [f64; N]) -> [Number; N] {
+    values.map(Called)
+}
 
 /// Where everything is evaluated.
 #[derive(Clone, Debug)]
@@ -40,23 +50,27 @@ pub struct At {
 /// Named outputs.
 pub type Outputs = Vec<(&'static str, f64)>;
 
-fn two(outputs: &mut Outputs, name: &'static str, values: SVector<f64, 2>) {
-    outputs.extend(values.iter().map(|value| (name, *value)));
+fn two(outputs: &mut Outputs, name: &'static str, values: SVector<Number, 2>) {
+    outputs.extend(values.iter().map(|value| (name, value.0)));
 }
 
 /// The outputs of every system, in the order of [`interpret`](interpret).
-fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs {
+fn any<S: System<Number, Vector = SVector<Number, 2>>>(system: &S, at: &At) -> Outputs {
     let prepared = system.prepare();
-    let (t, q, p) = (at.t, SVector::from(at.q), SVector::from(at.p));
-    let zero = SVector::from([f64::NAN; 2]);
+    let (t, q, p) = (
+        Called(at.t),
+        SVector::from(numbers(at.q)),
+        SVector::from(numbers(at.p)),
+    );
+    let zero = SVector::from(numbers([f64::NAN; 2]));
     let (mut a, mut b) = (zero, zero);
-    let mut outputs = vec![("energy", prepared.energy(t, &q, &p))];
+    let mut outputs = vec![("energy", prepared.energy(t, &q, &p).0)];
     let energy = prepared.energy_and_gradient(t, &q, &p, &mut a, &mut b);
-    outputs.push(("energy with gradient", energy));
+    outputs.push(("energy with gradient", energy.0));
     two(&mut outputs, "gradient with energy, q", a);
     two(&mut outputs, "gradient with energy, p", b);
-    outputs.push(("time derivative", prepared.time_derivative(t, &q, &p)));
-    let [vq, vp] = at.direction.map(SVector::from);
+    outputs.push(("time derivative", prepared.time_derivative(t, &q, &p).0));
+    let [vq, vp] = at.direction.map(|row| SVector::from(numbers(row)));
     (a, b) = (zero, zero);
     prepared.hessian_vector(t, &q, &p, &vq, &vp, &mut a, &mut b);
     two(&mut outputs, "Hessian, q", a);
@@ -70,8 +84,8 @@ fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs
     prepared.gradient(t, &q, &p, &mut a, &mut b);
     two(&mut outputs, "gradient, q", a);
     two(&mut outputs, "gradient, p", b);
-    [a, b] = at.into.map(SVector::from);
-    prepared.field(at.c).add(t, &q, &p, &mut a, &mut b);
+    [a, b] = at.into.map(|row| SVector::from(numbers(row)));
+    prepared.field(Called(at.c)).add(t, &q, &p, &mut a, &mut b);
     two(&mut outputs, "flow, q", a);
     two(&mut outputs, "flow, p", b);
     outputs
@@ -80,21 +94,21 @@ fn any<S: System<f64, Vector = SVector<f64, 2>>>(system: &S, at: &At) -> Outputs
 /// The further outputs of separable systems.
 fn separable<S>(system: &S, at: &At) -> Outputs
 where
-    S: Separable<f64> + System<f64, Vector = SVector<f64, 2>>,
+    S: Separable<Number> + System<Number, Vector = SVector<Number, 2>>,
 {
     let mut outputs = any(system, at);
     let prepared = system.prepare();
-    let [a, b] = at.into.map(SVector::from);
-    let (q, p) = (SVector::from(at.q), SVector::from(at.p));
+    let [a, b] = at.into.map(|row| SVector::from(numbers(row)));
+    let (q, p) = (SVector::from(numbers(at.q)), SVector::from(numbers(at.p)));
     let mut point = Point { q, p: b };
-    let kick = S::KICK.flow(&prepared, at.c);
+    let kick = S::KICK.flow(&prepared, Called(at.c));
     let mut work = Scratch::like(&point);
-    kick.apply(at.t, &mut point, &mut work);
+    kick.apply(Called(at.t), &mut point, &mut work);
     two(&mut outputs, "kick", point.p);
     let mut point = Point { q: a, p };
-    let drift = S::DRIFT.flow(&prepared, at.c);
+    let drift = S::DRIFT.flow(&prepared, Called(at.c));
     let mut work = Scratch::like(&point);
-    drift.apply(at.t, &mut point, &mut work);
+    drift.apply(Called(at.t), &mut point, &mut work);
     two(&mut outputs, "drift", point.q);
     outputs
 }
@@ -109,10 +123,11 @@ macro_rules! list {
                     let [a, b, c] = at.parameters;
                     let system = $name { a, b, c };
                     let mut outputs = super::$kind(&system, at);
-                    let state = hamiltonian::State::new(at.q, at.p).at(at.t);
+                    let state = hamiltonian::State::new(super::numbers(at.q), super::numbers(at.p));
+                    let state = state.at(super::Called(at.t));
                     let gradient = system.parameter_gradient(&state);
                     let values = [gradient.a, gradient.b, gradient.c];
-                    outputs.extend(values.map(|value| ("parameters", value)));
+                    outputs.extend(values.map(|value| ("parameters", value.0)));
                     outputs
                 },)*
                 _ => unreachable!("there are no more"),

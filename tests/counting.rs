@@ -1,7 +1,7 @@
 //! The operations of compiled code, counted by the scalar it runs on: as many operations a site, a bond or
 //! a pair whatever the size, and none beside.
 
-mod counted;
+pub mod counted;
 // The definitions of the examples, with their runs.
 #[allow(clippy::duplicate_mod, dead_code)]
 #[path = "../examples/solar_system.rs"]
@@ -10,7 +10,7 @@ mod solar_system;
 #[path = "../examples/toda.rs"]
 mod toda;
 
-use counted::{Counted, Counts, counted};
+use counted::{Called, Counted, Counts, counted};
 use hamiltonian::{Dynamics, System, Vector, VectorField};
 use solar_system::Gravity;
 use toda::Toda;
@@ -29,11 +29,11 @@ struct Work {
 /// the bits are the same.
 fn work<S: System<Counted> + System<f64>>(system: &S) -> Work {
     let plain = filled(System::<f64>::zeros(system), |x| x);
-    let state = filled(System::<Counted>::zeros(system), Counted);
+    let state = filled(System::<Counted>::zeros(system), Called);
     let ((q, p), (vq, vp)) = (&state, &state);
     let (mut dq, mut dp) = (q.zeros_like(), q.zeros_like());
     let (prepared, prepare) = counted(|| System::<Counted>::prepare(system));
-    let zero = Counted(0.0);
+    let zero: Counted = Called(0.0);
     let (_, energy) = counted(|| prepared.energy(zero, q, p));
     let (_, gradient) = counted(|| prepared.gradient(zero, q, p, &mut dq, &mut dp));
     let (mut plain_dq, mut plain_dp) = (plain.0.zeros_like(), plain.0.zeros_like());
@@ -44,7 +44,7 @@ fn work<S: System<Counted> + System<f64>>(system: &S) -> Work {
     let (_, energy_and_gradient) =
         counted(|| prepared.energy_and_gradient(zero, q, p, &mut dq, &mut dp));
     let (_, hessian) = counted(|| prepared.hessian_vector(zero, q, p, vq, vp, &mut dq, &mut dp));
-    let field = prepared.field(Counted(0.5));
+    let field = prepared.field(Called(0.5));
     let (_, flow) = counted(|| field.add(zero, q, p, &mut dq, &mut dp));
     Work {
         prepare,

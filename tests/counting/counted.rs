@@ -36,27 +36,33 @@ pub fn counted<R>(work: impl FnOnce() -> R) -> (R, Counts) {
     (result, COUNTS.get())
 }
 
-fn count(what: impl FnOnce(&mut Counts) -> &mut usize) {
-    let mut counts = COUNTS.get();
+fn count<const COUNTS: bool>(what: impl FnOnce(&mut Counts) -> &mut usize) {
+    if !COUNTS {
+        return;
+    }
+    let mut counts = self::COUNTS.get();
     *what(&mut counts) += 1;
-    COUNTS.set(counts);
+    self::COUNTS.set(counts);
 }
 
-/// An `f64` that counts.
+/// An `f64` whose functions are compiled once, as calls; it counts, or does not.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Counted(pub f64);
+pub struct Called<const COUNTS: bool>(pub f64);
+
+/// An `f64` that counts.
+pub type Counted = Called<true>;
 
 macro_rules! operators {
     ($($operator:ident $method:ident $assign:ident $assign_method:ident $counter:ident;)*) => {
         $(
-            impl $operator for Counted {
+            impl<const COUNTS: bool> $operator for Called<COUNTS> {
                 type Output = Self;
                 fn $method(self, other: Self) -> Self {
-                    count(|counts| &mut counts.$counter);
+                    count::<COUNTS>(|counts| &mut counts.$counter);
                     Self(self.0.$method(other.0))
                 }
             }
-            impl $assign for Counted {
+            impl<const COUNTS: bool> $assign for Called<COUNTS> {
                 fn $assign_method(&mut self, other: Self) {
                     *self = self.$method(other);
                 }
@@ -72,21 +78,21 @@ operators! {
     Div div DivAssign div_assign divisions;
 }
 
-impl Neg for Counted {
+impl<const COUNTS: bool> Neg for Called<COUNTS> {
     type Output = Self;
     fn neg(self) -> Self {
         Self(-self.0)
     }
 }
 
-impl Lift<f64> for Counted {
+impl<const COUNTS: bool> Lift<f64> for Called<COUNTS> {
     fn lift(value: f64) -> Self {
         Self(value)
     }
 }
 
-impl Lift<Counted> for Counted {
-    fn lift(value: Counted) -> Self {
+impl<const COUNTS: bool> Lift<Self> for Called<COUNTS> {
+    fn lift(value: Self) -> Self {
         value
     }
 }
@@ -94,8 +100,9 @@ impl Lift<Counted> for Counted {
 macro_rules! functions {
     ($counter:ident: $($name:ident)*) => {
         $(
+            #[inline(never)]
             fn $name(self) -> Self {
-                count(|counts| &mut counts.$counter);
+                count::<COUNTS>(|counts| &mut counts.$counter);
                 Self(Real::$name(self.0))
             }
         )*
@@ -105,15 +112,16 @@ macro_rules! functions {
 macro_rules! functions_of_two {
     ($($name:ident)*) => {
         $(
+            #[inline(never)]
             fn $name(self, other: Self) -> Self {
-                count(|counts| &mut counts.functions);
+                count::<COUNTS>(|counts| &mut counts.functions);
                 Self(Real::$name(self.0, other.0))
             }
         )*
     };
 }
 
-impl Real for Counted {
+impl<const COUNTS: bool> Real for Called<COUNTS> {
     type Mask = bool;
     type Size = f64;
     const LANES: u32 = 1;
@@ -160,9 +168,10 @@ impl Real for Counted {
     fn sign(self) -> Self {
         Self(self.0.sign())
     }
+    #[inline(never)]
     fn sin_cos(self) -> (Self, Self) {
-        count(|counts| &mut counts.functions);
-        let (sin, cos) = self.0.sin_cos();
+        count::<COUNTS>(|counts| &mut counts.functions);
+        let (sin, cos) = Real::sin_cos(self.0);
         (Self(sin), Self(cos))
     }
     functions!(roots: sqrt);

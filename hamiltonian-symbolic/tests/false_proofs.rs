@@ -87,14 +87,17 @@ impl Random {
     }
 }
 
-/// Values of an expression of q, at p = 1/2 and given parameters.
+/// Values of an expression of q, at p = 1/2 and given parameters; NaN where a part of it is not defined
+/// either, though C's `pow` says that NaN⁰ is 1.
 fn values(model: &mut Model, node: Node, parameters: [f64; 2], at: &[f64]) -> Vec<f64> {
     let [q, p, a, b] = ["q", "p", "k[0]", "k[1]"].map(|leaf| parse(model, leaf));
+    let parts = model.dag.reachable(&[node]);
     let value = |at: &f64| {
         let given = [(q, *at), (p, 0.5), (a, parameters[0]), (b, parameters[1])];
-        let (values, _) = sample(model, &[node], &[], Sample::default(), &given).unwrap();
-        let value = values[0];
-        if value.error < 1e-6 * (1.0 + value.value.abs()) {
+        let (values, _) = sample(model, &parts, &[], Sample::default(), &given).unwrap();
+        let value = values[parts.len() - 1];
+        let is_defined = values.iter().all(|part| !part.value.is_nan());
+        if is_defined && value.error < 1e-6 * (1.0 + value.value.abs()) {
             value.value
         } else {
             f64::NAN

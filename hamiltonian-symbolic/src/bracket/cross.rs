@@ -406,21 +406,24 @@ impl Place {
         let vanishes = |dag: &mut Dag, node: Node| {
             dag.is_zero(node) || normal_form::vanishes(dag, node, Scope::Densely)
         };
-        // The value of its own that a jump may have, where the limits are finite.
+        // On that side no trajectory comes near.
+        let is_infinite = above.is_infinite || below.is_infinite;
+        // The value of its own that a jump may have. Where the limits may not be finite, at another
+        // place that may be this one, they are not compared.
         let nothing = dag.integer(0);
-        let is_joined = !self.jumps || !both.is_continuous || {
-            let limit = replaced(dag, above.node, u, nothing);
-            let own = self.near(dag, root, nothing);
-            let apart = dag.sub(own, limit);
-            vanishes(dag, apart)
-        };
+        let is_joined = !self.jumps
+            || is_infinite
+            || both.is_continuous && {
+                let limit = replaced(dag, above.node, u, nothing);
+                let own = self.near(dag, root, nothing);
+                let apart = dag.sub(own, limit);
+                vanishes(dag, apart)
+            };
         let is_same = is_joined && both.is_single_valued && vanishes(dag, difference);
         let is_continuous = is_joined && both.is_continuous && {
             let there = replaced(dag, difference, u, nothing);
             vanishes(dag, there)
         };
-        // On that side no trajectory comes near.
-        let is_infinite = above.is_infinite || below.is_infinite;
         Ok(Ends {
             is_continuous,
             is_projective: is_continuous || is_infinite || is_same && both.is_meromorphic,

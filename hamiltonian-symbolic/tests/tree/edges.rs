@@ -52,6 +52,10 @@ pub fn region(tree: &Tree, point: &[f64]) -> Region {
                         }
                     },
                 );
+                // What a condition does not take may be NaN, with its error.
+                if slope.eps == 0.0 {
+                    return 0.0;
+                }
                 slope.eps.abs() * errors[operand]
             })
             .sum();
@@ -85,6 +89,10 @@ fn distances(part: Part, v: &[f64], e: &[f64]) -> Vec<(f64, f64)> {
             _ => vec![],
         },
         Part::Call2(Op::Min | Op::Max, a, b) => vec![tie(a, b)],
+        // Of a difference that is 0 the sign is rounding's: x − x is 0, and (x − x)·y may be −0.
+        Part::Call2(Op::Atan2, a, b) if v[a] == 0.0 && v[a].is_sign_negative() && v[b] < 0.0 => {
+            vec![(0.0, f64::MIN_POSITIVE)]
+        }
         Part::Call2(Op::Atan2, a, b) if v[b] <= 8.0 * e[b] => vec![from(a, 0.0)],
         Part::Call2(Op::Hypot, a, b) => vec![(v[a].hypot(v[b]), e[a] + e[b])],
         Part::Call2(Op::Pow, a, b) => {

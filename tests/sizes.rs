@@ -267,7 +267,7 @@ hamiltonian! {
     pub struct Long<const N: usize, const M: usize> {}
     H(q[M]; p[M]) = norm_squared(p)/2 + sum(i in 0..N, j in i + 1..N, k in j + 1..N) { q[k]*q[j]*q[i] }
 }
-fn main() { println!(\"{}\", Long::<20000, 20001> {}.energy(&State::new([0.0; 20001], [0.0; 20001]))) }",
+fn main() { println!(\"{}\", Long::<4000, 4001> {}.energy(&State::new([0.0; 4001], [0.0; 4001]))) }",
         error: None,
     },
     Case {

@@ -36,9 +36,9 @@ pub fn expand(input: TokenStream) -> TokenStream {
         );
     }
     match code.and_then(|code| report.barrier(code)) {
-        Some(code) if ast.item.is_some() => {
-            let warnings = unused::warnings(&ast, definition);
-            quote!(#code #warnings)
+        Some(mut code) if ast.item.is_some() => {
+            code.extend(unused::warnings(&ast, definition));
+            code
         }
         // In the place of an item rustc refuses the block and names the macro it comes from, which is
         // all that can be said there: a macro does not know where it stands.

@@ -279,6 +279,12 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
                 dag.product(&c, &outside),
             )
         }
+        // A constant, and terms that rest, move nothing of the pair.
+        Kind::Sum(_, mut terms) => {
+            terms.retain(|(_, term)| space.set(*term) & own != 0);
+            let k = space.dag().linear(&Rational::ZERO, &terms);
+            (k, space.dag().integer(1))
+        }
         _ => (u, space.dag().integer(1)),
     };
     if space.set(k) & !own == 0 {

@@ -430,6 +430,14 @@ impl Space {
     /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
     /// or the point decide.
     pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
+        // Most are numbers, and seen at once.
+        if let Some(value) = self.model.dag.as_constant(node) {
+            return Some(match value {
+                value if value.is_zero() => 0,
+                value if value.is_negative() => -1,
+                _ => 1,
+            });
+        }
         if is_positive(&self.model.dag, node) {
             return Some(1);
         }

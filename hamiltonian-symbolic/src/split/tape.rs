@@ -178,6 +178,7 @@ fn called(op: Op, arguments: &[f64]) -> f64 {
         (Op::Exp, [a]) => a.exp(),
         (Op::Ln, [a]) => a.ln(),
         (Op::Atan2, [a, b]) => a.atan2(*b),
+        (Op::Hypot, [a, b]) => a.hypot(*b),
         _ => op.eval(arguments),
     }
 }

@@ -84,7 +84,7 @@ pub(super) fn reduce(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
     reducer.sum(dag, node, false)
 }
 
-/// The nodes that stand inside a function.
+/// The nodes that stand inside a function or below a fraction line.
 fn inside(dag: &Dag, order: &[Node]) -> Map<Node, ()> {
     let mut inside: Map<Node, ()> = Map::default();
     for &node in order.iter().rev() {
@@ -97,6 +97,10 @@ fn inside(dag: &Dag, order: &[Node]) -> Map<Node, ()> {
             dag.for_children(node, |child| {
                 inside.insert(child, ());
             });
+        } else if let Kind::Product(_, factors) = dag.kind(node) {
+            for (factor, _) in factors.iter().filter(|(_, n)| *n < 0) {
+                inside.insert(*factor, ());
+            }
         }
     }
     inside

@@ -34,6 +34,13 @@ fn nothing_is_proven_across_a_jump() {
     }
     accepted(&mut oscillator, "u^2 + if x < 0 { x^2 } else { x*abs(x) }");
     accepted(&mut oscillator, "max(x^2 + u^2, y^2 + v^2)");
+    // At q = k the first term is 0, and the pole of the second may be there.
+    let mut free = system("q; p", "", "k", "p^2/2");
+    jumps(
+        &mut free,
+        "sign((q - k)^2)^2 + (max(q - 5, 0) - max(5 - q, 0))/(q - 5)",
+    );
+    accepted(&mut free, "(max(q - 5, 0) - max(5 - q, 0))/(q - 5)");
     // A step of H changes a momentum, and no derivative shows it.
     let mut step = system(
         "x, y; u, v",

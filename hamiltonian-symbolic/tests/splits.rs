@@ -360,15 +360,17 @@ fn slope(found: &Found) -> Option<f64> {
             .map(|(_, value)| value)
             .collect::<Vec<_>>()
     };
-    let [a, b, c] = [8, 16, 32].map(end);
+    let ends = [8, 16, 32].map(end);
+    (count > 1).then(|| slope_of(ends))
+}
+
+/// The order of a composition, by its ends after steps that are halved twice.
+fn slope_of([a, b, c]: [Vec<DoubleDouble>; 3]) -> f64 {
     let apart = |a: &[DoubleDouble], b: &[DoubleDouble]| {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| (*a - *b).to_f64().powi(2))
-            .sum::<f64>()
-            .sqrt()
+        let squares = a.iter().zip(b).map(|(a, b)| (*a - *b).to_f64().powi(2));
+        squares.sum::<f64>().sqrt()
     };
-    (count > 1).then(|| (apart(&a, &b) / apart(&b, &c)).log2())
+    (apart(&a, &b) / apart(&b, &c)).log2()
 }
 
 /// Short flows of (34)'s coupled piece, there and back: rounding leaves its energy where it was, to

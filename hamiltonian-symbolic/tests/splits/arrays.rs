@@ -155,13 +155,5 @@ fn ring_slope(model: &mut Model) -> f64 {
             .flat_map(|(_, columns)| columns[0].clone())
             .collect::<Vec<_>>()
     };
-    let [a, b, c] = [8, 16, 32].map(end);
-    let apart = |a: &[DoubleDouble], b: &[DoubleDouble]| {
-        a.iter()
-            .zip(b)
-            .map(|(a, b)| (*a - *b).to_f64().powi(2))
-            .sum::<f64>()
-            .sqrt()
-    };
-    (apart(&a, &b) / apart(&b, &c)).log2()
+    super::slope_of([8, 16, 32].map(end))
 }

@@ -9,18 +9,20 @@ use crate::ast::{Ast, StatementKind};
 use crate::tokens::{TokenKind, Tokens};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
+use std::collections::HashMap;
 
 /// The function, or nothing where every name is read.
 pub fn warnings(ast: &Ast, definition: TokenStream) -> TokenStream {
     let Some(item) = &ast.item else {
         return TokenStream::new();
     };
-    let tokens = Tokens::flatten(definition).list;
-    let occurs_once = |name: &Ident| {
-        let name = name.to_string();
-        let is_it = |kind, text: &str| kind == TokenKind::Ident && text == name;
-        tokens.iter().filter(|t| is_it(t.kind, &t.text)).count() == 1
-    };
+    let mut occurrences: HashMap<String, usize> = HashMap::new();
+    for token in Tokens::flatten(definition).list {
+        if token.kind == TokenKind::Ident {
+            *occurrences.entry(token.text).or_default() += 1;
+        }
+    }
+    let occurs_once = |name: &Ident| occurrences.get(&name.to_string()) == Some(&1);
     let parameters = item.parameters.iter().map(|p| (&p.name, &p.attributes[..]));
     let sizes = item.generics.iter().map(|name| (name, &[][..]));
     let lets = ast.statements.iter().filter_map(|s| match &s.kind {

@@ -3,7 +3,7 @@
 //! `compiled/expressions.rs` is written by the generator here (a test asks for the file to be what
 //! it makes). The macro reads the text of a tree; the interpreter runs the program derived from
 //! the same tree. Both go H → structure → program with the same purposes in the same order, so
-//! every value computed ahead agrees, and over `f64` every bit must.
+//! every value computed ahead agrees, and every bit of an `f64` must.
 
 // Not every random expression reads every parameter.
 #[allow(unused_variables)]

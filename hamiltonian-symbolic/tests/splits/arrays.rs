@@ -1,7 +1,7 @@
 //! Sums over arrays as loops of exact flows: their pieces, and the order of their composition.
 
 use crate::common;
-use hamiltonian_lanes::{DoubleDouble, Real};
+use hamiltonian_lanes::DoubleDouble;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::eval::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;

@@ -1,4 +1,4 @@
-//! What a definition costs its user's build: the time in the macro, compiled as cargo compiles it,
+//! The cost of a definition in its user's build: the time in the macro, compiled as cargo compiles it,
 //! and the time of rustc with full optimisation on definitions written out term by term.
 //!
 //! `cargo bench --bench compile` prints the shortest of several times; nothing depends on them. The

@@ -136,7 +136,7 @@ fn distance(a: &States, b: &States) -> f64 {
     })
 }
 
-/// How many times the scalar loop a level must reach.
+/// The ratio to the scalar loop that a level must reach.
 fn target(cpu: Cpu) -> f64 {
     match cpu {
         Cpu::Avx512 => 25.0,

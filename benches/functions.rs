@@ -1,4 +1,4 @@
-//! What an elementary function costs: nanoseconds a value for scalars and for the packs of every
+//! The cost of an elementary function: nanoseconds a value for scalars and for the packs of every
 //! level of this CPU, one register (`avx512`) and several in lock-step (`avx512-wide`), beside the
 //! standard library and the crate `wide`, all in one process.
 //!
@@ -30,7 +30,7 @@ const ROUNDS: usize = 50;
 /// One function as it is written over every scalar, and as its rivals have it.
 trait Function {
     const NAME: &'static str;
-    /// Where arguments are drawn from, uniformly.
+    /// The range of arguments, drawn uniformly.
     const RANGE: (f64, f64);
     fn ours<T: Real>(x: T) -> T;
     /// `None` where the standard library has no such function.
@@ -132,7 +132,7 @@ functions! {
     erfc(x) in -3.0 .. 3.0: x.erfc();
 }
 
-/// How a level goes through the arguments.
+/// A level's way through the arguments.
 #[derive(Clone, Copy)]
 enum Shape {
     /// One register after the other.

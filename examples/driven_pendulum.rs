@@ -27,9 +27,9 @@ hamiltonian! {
         l = 1.0,
         /// Acceleration of gravity.
         g = 1.0,
-        /// How far the pivot is shaken, up and down.
+        /// The amplitude of the pivot, up and down.
         a,
-        /// How fast.
+        /// Its angular frequency.
         omega,
     }
     // The frame's acceleration is added to gravity.

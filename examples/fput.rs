@@ -39,7 +39,7 @@ fn frequency(k: usize) -> f64 {
     2.0 * (PI * k as f64 / (2 * SPRINGS) as f64).sin()
 }
 
-/// How far particle i = 0, 1, … moves in mode k, normalised.
+/// The displacement of particle i = 0, 1, … in mode k, normalised.
 fn shape(k: usize, i: usize) -> f64 {
     (2.0 / SPRINGS as f64).sqrt() * (PI * (k * (i + 1)) as f64 / SPRINGS as f64).sin()
 }
@@ -50,7 +50,7 @@ fn energy(k: usize, q: &[f64], p: &[f64]) -> f64 {
     (component(p).powi(2) + (frequency(k) * component(q)).powi(2)) / 2.0
 }
 
-/// What became of the energy.
+/// The fate of the energy.
 struct Story {
     /// Energies of the lowest modes against time in periods of the first.
     modes: Vec<Curve>,

@@ -39,7 +39,7 @@ hamiltonian! {
 
 const STEP: f64 = 0.02;
 
-/// Where an orbit crosses x = 0 with p_x > 0: (y, p_y), by interpolation between two steps.
+/// The crossings of x = 0 with p_x > 0: (y, p_y), by interpolation between two steps.
 fn section<const STEPS: usize>(start: (f64, f64, f64, f64)) -> Result<Vec<(f64, f64)>, Error> {
     let (x, y, p_x, p_y) = start;
     let mut points = Vec::new();

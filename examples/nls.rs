@@ -30,7 +30,7 @@ mod plot;
 hamiltonian! {
     /// A ring of N sites.
     pub struct Ring<const N: usize> {
-        /// How a site acts on itself.
+        /// The action of a site on itself.
         g = 1.0,
     }
     H(q[N]; p[N]) = sum(i in 0..N) { g*(q[i]^2 + p[i]^2)^2/4 }
@@ -49,7 +49,7 @@ fn at(site: usize) -> (f64, f64) {
     (sign, (TAU * RIPPLES * site as f64 / SITES as f64).cos())
 }
 
-/// How high the ripple is on the amplitude of a wave that has turned by some angle.
+/// The height of the ripple on the amplitude of a wave that has turned by some angle.
 fn ripple(wave: &Wave, angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let of_site = |site: usize| {

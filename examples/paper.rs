@@ -76,7 +76,7 @@ struct Row {
     curve: Vec<(f64, f64)>,
 }
 
-/// A system with its start, the length of the runs, and what came of them.
+/// A system with its start, the length of the runs, and their results.
 struct Problem<'a, S: System<f64>> {
     name: &'static str,
     system: &'a S,
@@ -125,7 +125,7 @@ impl<S: System<f64> + Unforced> Problem<'_, S> {
         })
     }
 
-    /// How far the copies of (29) or (30) are apart at the end.
+    /// The distance of the copies of (29) or (30) at the end.
     fn copy_distance(&self, scheme: Pihajoki) -> Result<f64, Error> {
         let mut run = Integrator::new(self.system, scheme, self.start.clone(), STEP)?;
         run.advance_to(self.end)?;
@@ -281,7 +281,7 @@ fn csv(rows: &[Row]) -> String {
     text
 }
 
-/// What the paper reports, in per cent, for a system, an equation and its start.
+/// The paper's figure, in per cent, for a system, an equation and its start.
 fn reported(row: &Row) -> Option<f64> {
     let paper_start = matches!(row.start, "" | "equal");
     match (row.system, row.equations) {

@@ -100,7 +100,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{steps:>10} {off:>22.1e} {drift:>14.1e}");
     }
     checks.compare("off after one period, 40 000 steps", off, 0.0, 5e-7);
-    // Rounding is what is left of that: Gauss' method carries low words.
+    // Rounding remains of that: Gauss' method carries low words.
     let mut run = Integrator::new(&system, Gauss::<8>::default(), start.clone(), PERIOD / 1e4)?;
     let end = run.advance(10_000)?;
     let off = (end.q - start.q).norm().max((end.p - start.p).norm());

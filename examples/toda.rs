@@ -98,7 +98,7 @@ impl Soliton {
     fn speed(&self) -> f64 {
         self.kappa.sinh() / self.kappa
     }
-    /// Where it is in `wave` = exp(q[i] − q[i+1]) − 1, near site `guess`: 1/√wave ∝ cosh(κ(i − x)).
+    /// Its position in `wave` = exp(q[i] − q[i+1]) − 1, near site `guess`: 1/√wave ∝ cosh(κ(i − x)).
     fn find(&self, wave: &[f64], guess: f64) -> f64 {
         let nearest = guess.round() as i64;
         let at = |i: i64| wave[i.rem_euclid(N as i64) as usize];

@@ -1,4 +1,4 @@
-//! Work against precision: what a digit costs with each scheme.
+//! Work against precision: the price of a digit with each scheme.
 //!
 //! Three races: Hénon–Heiles, which is separable; the paper's (34) and an orbit round a black hole, which
 //! are not, but fall into pieces with exact flows. There each order has its own race: compositions of
@@ -80,7 +80,7 @@ struct Race<'a, S: System<f64>> {
     entries: Vec<Entered>,
 }
 
-/// What came of a scheme.
+/// The results of a scheme.
 struct Entered {
     kind: &'static str,
     name: String,
@@ -88,14 +88,14 @@ struct Entered {
     runs: Vec<Ran>,
 }
 
-/// What came of a run.
+/// The result of a run.
 #[derive(Clone, Copy)]
 struct Ran {
     /// Nanoseconds for a unit of time.
     nanoseconds: f64,
     /// max |H/H(0) − 1|
     of_energy: f64,
-    /// How far the end point is from the exact one.
+    /// The distance of the end point from the exact one.
     of_end: f64,
 }
 
@@ -181,7 +181,7 @@ impl<'a, S: System<f64>> Race<'a, S> {
         });
     }
 
-    /// Exact flows of pieces and what takes any H, order by order.
+    /// Exact flows of pieces and the schemes for any H, order by order.
     fn enter_all(&mut self)
     where
         S: Split<f64> + Exact + Unforced,

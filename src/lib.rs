@@ -47,7 +47,7 @@ pub use hamiltonian_core::private;
 #[doc(hidden)]
 pub use hamiltonian_macros as __private_macros;
 
-/// What a program that defines and runs systems names.
+/// The names that a program needs to define and run systems.
 pub mod prelude {
     pub use crate::hamiltonian;
     pub use hamiltonian_core::prelude::*;
@@ -96,7 +96,7 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
 #[doc = include_str!("../LANGUAGE.md")]
 pub mod language {}
 
-/// Whole programs for what is often wanted.
+/// Whole programs for frequent tasks.
 #[doc = include_str!("../RECIPES.md")]
 pub mod recipes {}
 

@@ -19,7 +19,7 @@ use hamiltonian::private::SVector;
 use hamiltonian::{Dynamics, Flow, Piece, Point, Scratch, Separable, System, VectorField};
 use interpret::Interpreted;
 
-/// An `f64` whose functions are calls: written out where they are called, they would be most of what rustc
+/// An `f64` whose functions are calls: inlined, they would be most of what rustc
 /// compiles here.
 type Number = Called<false>;
 
@@ -28,7 +28,7 @@ fn numbers<const N: usize>(values: [f64; N]) -> [Number; N] {
     values.map(Called)
 }
 
-/// Where everything is evaluated.
+/// The point of evaluation.
 #[derive(Clone, Debug)]
 pub struct At {
     /// Time.

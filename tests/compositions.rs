@@ -68,7 +68,7 @@ fn compositions_are_symplectic() {
     symplectic(vortices, &[1.0, -1.0, 0.1], &[0.1, 0.2, 1.3], 0.3);
 }
 
-/// Where an orbit is after a time, by the composition of order 8, beside the printed figures; the
+/// The point of an orbit after a time, by the composition of order 8, beside the printed figures; the
 /// error over κ, and over what is large.
 #[track_caller]
 fn ends<S: Split<f64> + Exact>(

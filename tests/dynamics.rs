@@ -188,7 +188,7 @@ hamiltonian! {
 #[test]
 fn monitor_functions_are_of_coordinates_and_momenta_alone() {
     assert!(TimeTransformed::by(Lit {}, "place").is_ok());
-    // Where q = 0 the light does not change.
+    // At q = 0 the light does not change.
     let timed = TimeTransformed::by(Lit {}, "light").expect_err("time is in it");
     let (name, system) = ("light", "Lit");
     assert_eq!(timed, Error::Timed { name, system });

@@ -327,7 +327,7 @@ fn damped_oscillator_in_closed_form() {
     assert!((end.q[0] - exact(10.0)).abs() < 1e-6);
 }
 
-/// Where V = 0 the kick alone is the exact flow of the friction: p e^(−γt), to rounding, in any step.
+/// With V = 0 the kick alone is the exact flow of the friction: p e^(−γt), to rounding, in any step.
 #[test]
 fn friction_alone_is_exact() {
     hamiltonian! {

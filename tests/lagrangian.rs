@@ -308,7 +308,7 @@ fn steps_are_those_of_the_discrete_lagrangian() {
             + number(1.8 * 9.81 * 1.2) * a.cos()
             + number(0.8 * 9.81 * 0.9) * b.cos()
     }
-    /// How far the action and the momenta of a step are from those of S with these nodes and weights.
+    /// The distance of the action and the momenta of a step from those of S with these nodes and weights.
     fn apart<const POINTS: usize>(
         scheme: Variational<1, POINTS>,
         rule: [(f64, f64); POINTS],

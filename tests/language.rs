@@ -199,7 +199,7 @@ fn gradients_and_hessians_are_those_of_duals() {
     check(&driven, [0.4], [-1.2]);
 }
 
-/// Where scalar coordinates are kept.
+/// The memory of scalar coordinates.
 type Scalars<T, const N: usize> =
     <[T; N] as hamiltonian::IntoVector<hamiltonian::shape::Array>>::Vector;
 

@@ -154,7 +154,7 @@ hamiltonian! {
     split { Oscillator = (q^2 + p^2 + 1)/2; Product = q^2*p^2/2; }
 }
 
-/// Where rustc refuses them they lose two orders: `tests/ui/rustc/nystrom.rs`.
+/// Pairings that rustc refuses lose two orders: `tests/ui/rustc/nystrom.rs`.
 #[test]
 fn order_is_lost_where_the_bound_forbids_it() {
     Order::new(Squares::default(), &[0.8], &[-0.5], 2.0, 0.2).visit(OnPieces(Srkn11b));

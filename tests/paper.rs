@@ -100,7 +100,7 @@ fn scheme_33_with_half_euler_start_is_29() {
         worst = [worst[0].max(dp).max(to_copy), worst[1].max(dp).max(to_seen)];
     }
     assert!(worst[0] <= 1e-12, "(33) against the copy: {:e}", worst[0]);
-    // Against (q, p) it differs by what the copies do.
+    // Against (q, p) it differs by the motion of the copies.
     assert_digits("(33) against (q, p)", worst[1], 2.5e-3, 2);
 }
 

@@ -173,7 +173,7 @@ fn states_of_another_length_are_errors() {
     assert_eq!(started.unwrap_err(), shape("p", 3, 2));
     let run = Integrator::new(&system, RungeKutta4, long, 0.1);
     assert_eq!(run.map(|_| ()).unwrap_err(), shape("q", 3, 4));
-    // Where nobody asked, the panic has both lengths.
+    // Without a check before, the panic has both lengths.
     let panic = std::panic::catch_unwind(|| system.gradient(&state(4, 4))).unwrap_err();
     let text = panic.downcast_ref::<String>().expect("it is formatted");
     assert!(

@@ -181,7 +181,7 @@ fn a_flow_that_leaves_its_domain_is_an_error() {
         }
         other => panic!("{other:?}"),
     }
-    // Where the formula still holds it is the orbit: q → q·u², p → p/u with u = 1 + p·t.
+    // As long as the formula holds, it is the orbit: q → q·u², p → p/u with u = 1 + p·t.
     let mut run = Integrator::new(&Explodes::default(), Strang, start, 0.5).unwrap();
     let end = run.advance(1).unwrap();
     assert!((end.q[0] - 0.25).abs() < 1e-15 && (end.p[0] + 2.0).abs() < 1e-15);

@@ -259,7 +259,7 @@ fn starts_off_the_shell_are_errors() {
     close(due, 0.5);
     let mut on = kepler.on_shell(&start);
     run(on.clone()).unwrap();
-    // Where a run with an error in its energy ended another can go on.
+    // Another run can go on where a run with an error in its energy ended.
     on.p[2] = 0.500_1;
     run(on.clone()).unwrap();
     on.p[2] = 0.51;

@@ -29,7 +29,7 @@ const STEP: f64 = 1e-3;
 
 /// A workload: its name, and both ways to make `n` steps; the result is q and p at the end.
 pub struct Workload {
-    /// What is run.
+    /// The workload.
     pub name: &'static str,
     /// By the library.
     pub library: fn(u64) -> Vec<f64>,

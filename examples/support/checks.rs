@@ -30,7 +30,7 @@ impl Checks {
     /// Prints the table.
     ///
     /// # Errors
-    /// Where a number is not what it is known to be; a NaN never is.
+    /// A number that is not the known one; a NaN never is.
     pub fn finish(self) -> Result<(), Box<dyn Error>> {
         println!(
             "\n{:<46} {:>18} {:>18} {:>10} {:>9}",

@@ -1,4 +1,4 @@
-//! How well schemes keep H, side by side: the largest |H − H(0)| since the last point of a curve,
+//! Conservation of H by schemes, side by side: the largest |H − H(0)| since the last point of a curve,
 //! against time, both axes logarithmic.
 
 use super::plot::{Curve, Figure};
@@ -22,7 +22,7 @@ pub struct Contest<'a, S: System<f64>> {
     pub start: State<S::Vector>,
     pub step: f64,
     pub end: f64,
-    /// How many steps lie between two looks at H.
+    /// The number of steps between two looks at H.
     pub every: u64,
     pub curves: Vec<Curve>,
 }

@@ -75,7 +75,7 @@ impl Figure<'_> {
         if let Some(folder) = path.parent() {
             std::fs::create_dir_all(folder)?;
         }
-        // With the margins below, a square of 640 for what has one scale.
+        // With the margins below, a square of 640 for plots with one scale.
         let size = if self.equal { (756, 756) } else { (900, 580) };
         let (width, height) = (size.0 * FINE, size.1 * FINE);
         let mut text = String::new();

@@ -1,6 +1,6 @@
 //! Runs of different systems side by side.
 //!
-//! Input: a run of any type. Output: [`AnyRun`], what of a run does not depend on its type.
+//! Input: a run of any type. Output: [`AnyRun`], the part of a run that does not depend on its type.
 //! Invariant: numbers are `f64`, the first lane of each.
 
 use crate::error::Error;

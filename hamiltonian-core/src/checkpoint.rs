@@ -53,7 +53,7 @@ pub struct Checkpoint {
     pub(crate) counts: [u64; 3],
     /// The time at which the clock began, the step, then all that is carried.
     pub(crate) numbers: Memory,
-    /// What observers remember, in their order.
+    /// The memory of the observers, in their order.
     pub(crate) observers: Memory,
 }
 
@@ -160,7 +160,7 @@ impl Checkpoint {
             std::fs::rename(&beside, path)
         };
         write().map_err(|error| {
-            // What was written beside is of no use; that it cannot be removed says nothing new.
+            // The file written beside is of no use; that it cannot be removed says nothing new.
             let _ = std::fs::remove_file(&beside);
             file_error(path, &error)
         })
@@ -221,7 +221,7 @@ fn checksum(bytes: &[u8]) -> u64 {
     })
 }
 
-/// Numbers and texts one after the other: what observers remember is written to it and read from it
+/// Numbers and texts one after the other: the memory of observers is written to it and read from it
 /// in the same order.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Memory {

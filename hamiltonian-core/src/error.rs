@@ -1,4 +1,4 @@
-//! What can go wrong in a run.
+//! Errors of a run.
 //!
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
@@ -6,7 +6,7 @@
 use alloc::string::String;
 use alloc::vec::Vec;
 
-/// What can go wrong in a run. Memory is allocated only when something did.
+/// An error of a run. Memory is allocated only when one happened.
 #[derive(Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -237,7 +237,7 @@ pub enum Error {
     Component {
         /// The index given.
         index: usize,
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// An index of an observable that there is not.
@@ -245,7 +245,7 @@ pub enum Error {
     Observable {
         /// The index given.
         index: usize,
-        /// How many there are.
+        /// Their number.
         count: usize,
     },
     /// No value of a momentum gives the energy asked for (on the branch asked for).
@@ -314,7 +314,7 @@ pub enum CheckpointError {
     /// The bytes are not those that were written.
     #[error("the saved run is damaged: {reason}")]
     Damaged {
-        /// What does not fit.
+        /// The part that does not fit.
         reason: &'static str,
     },
     /// It is the run of something else.

@@ -81,7 +81,7 @@ impl<V: Vector> Event<V> {
         Event { slope: -1, ..self }
     }
 
-    /// Where the function is a multiple of `period`, which is positive: for angles, that grow or jump by
+    /// The function is a multiple of `period`, which is positive: for angles, that grow or jump by
     /// 2π. In a step it changes by less than half a period.
     #[must_use]
     pub fn modulo(self, period: V::Scalar) -> Self {
@@ -153,7 +153,7 @@ pub struct Located<V: Vector> {
 
 /// Locates events of a run: an [`Observer`].
 ///
-/// Where a function has different signs after two steps, its root is found by parts of a step of a copy,
+/// If a function has different signs after two steps, its root is found by parts of a step of a copy,
 /// by the scheme itself and so of its own order: the state at the event is, to rounding, the one that
 /// [`advance_until`](crate::Integrator::advance_until) returns for its time, and the function is 0 there
 /// to rounding. (A scheme that carries a second point starts it anew in a part of a step; the state is
@@ -200,7 +200,7 @@ pub struct Located<V: Vector> {
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
-    /// What is known of each function: as many as there are events, once attached.
+    /// The history of each function: as many as there are events, once attached.
     tracks: Vec<Track<V::Scalar>>,
     /// The last step and the state after it.
     before: Option<(u64, State<V>)>,
@@ -211,7 +211,7 @@ pub struct Events<V: Vector> {
     failure: Option<Error>,
 }
 
-/// What is known of a function after a step.
+/// A function's value after a step, and its past.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Track<T> {
     /// The index of an observable; none for a closure.
@@ -222,7 +222,7 @@ struct Track<T> {
     change: T,
     /// Its last sign.
     side: i8,
-    /// How often the event happened.
+    /// The number of times the event happened.
     count: u64,
 }
 
@@ -251,7 +251,7 @@ impl<V: Vector> Events<V> {
         (self.located.iter().filter(of_name)).map(|located| &located.state)
     }
 
-    /// How often events of that name happened.
+    /// The number of times events of that name happened.
     pub fn count(&self, name: &str) -> u64 {
         let events = self.events.iter().zip(&self.tracks);
         let of_name = events.filter(|(event, _)| event.name == name);
@@ -319,7 +319,7 @@ impl<V: Vector> Events<V> {
         }
     }
 
-    /// What happened in a step from `before` to the present state, in the order of time.
+    /// The events of a step from `before` to the present state, in the order of time.
     fn step<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
@@ -394,7 +394,7 @@ impl<V: Vector> Events<V> {
                 side => track.side = side,
             }
         }
-        // Stable: what happens at once comes in the order of the events.
+        // Stable: simultaneous events come in their own order.
         found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
         self.left
             .extend(found.into_iter().map(|(_, located)| located));
@@ -422,7 +422,7 @@ impl<V: Vector> Events<V> {
     }
 }
 
-/// Adds `part` of the difference between an end and what was reached.
+/// Adds `part` of the difference between an end and the point reached.
 fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
     for index in 0..to.len() {
         let missed = end.component(index) - reached.component(index);

@@ -1,8 +1,8 @@
 //! The exact flow of a quadratic form, as a matrix.
 //!
-//! Input: what the macro emitted for c·J∇h of a form h = ½zᵀAz + gᵀz over a whole point. Output:
+//! Input: the emitted program of c·J∇h of a form h = ½zᵀAz + gᵀz over a whole point. Output:
 //! [`Exponential`], z ← e^{cM}z + ∫e^{sM}ds·b with M = JA and b = Jg, prepared once a step size.
-//! Invariant: what is kept is e^{cM} − 1, so that a short step loses no digits.
+//! Invariant: e^{cM} − 1 is kept, so that a short step loses no digits.
 
 use crate::flow::Flow;
 use crate::state::Point;
@@ -25,7 +25,7 @@ use hamiltonian_lanes::{Mask, Real};
 pub struct Exponential<F, T, const N: usize> {
     /// e^{cM} − 1
     less_one: [[T; N]; N],
-    /// What the origin becomes.
+    /// The image of the origin.
     shift: [T; N],
     of: PhantomData<fn() -> F>,
 }

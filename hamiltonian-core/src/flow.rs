@@ -1,4 +1,4 @@
-//! What moves a point: the vector field, exact flows of pieces of H, and splittings into pieces.
+//! Motions of a point: the vector field, exact flows of pieces of H, and splittings into pieces.
 //!
 //! Input: a prepared system and a step coefficient. Output: [`VectorField`], which accumulates
 //! c·J∇H, and [`Flow`], the exact map of a piece of H over a fixed duration, which a [`Piece`] makes;
@@ -51,7 +51,7 @@ pub trait Flow<X: Vector>: Clone + Debug {
     /// piece is a loop over terms that do not commute: the map is then the exact flows of the terms
     /// one after the other.
     const MERGES: bool = true;
-    /// What it computes in.
+    /// The scalar it computes in.
     type Work: Scratch<X>;
 
     /// Moves the point; the first term of a loop first.
@@ -97,7 +97,7 @@ pub trait Pieces<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     fn inner(&self, prepared: &P, down: T, up: T) -> Self::Inner;
 }
 
-/// The flow of no piece: what is inside a splitting into one.
+/// The flow of no piece, inside a splitting into one.
 #[derive(Debug, Clone, Copy)]
 pub struct Nothing;
 

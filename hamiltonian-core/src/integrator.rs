@@ -1,6 +1,6 @@
 //! A run: a system, a scheme, a start and a step under way.
 //!
-//! Input: those four. Output: states, and what observers make of them. Invariants: time is
+//! Input: those four. Output: states, and the results of observers. Invariants: time is
 //! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
 //! is not finite is never shown, but found, located and reported.
 
@@ -62,9 +62,9 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     map: R,
     work: R::Work,
     pub(crate) carried: R::Carried,
-    /// What was carried at the beginning of the present block.
+    /// The carried value at the beginning of the present block.
     snapshot: R::Carried,
-    /// A copy with its closing piece: what is seen.
+    /// A copy with its closing piece: the state that is seen.
     shown: R::Carried,
     pub(crate) clock: Clock<T>,
     pub(crate) step: T,
@@ -73,7 +73,7 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     pub(crate) steps: u64,
     pub(crate) state: State<S::Vector>,
     pub(crate) ended: bool,
-    /// What the observers of a saved run remember, until they are attached.
+    /// The memory of the observers of a saved run, until they are attached.
     pub(crate) memory: Memory,
     /// Why no step can be made: an attached observer is not the one that was saved, or cannot go on.
     pub(crate) refused: Option<Error>,
@@ -227,7 +227,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         };
         self.step = step;
         self.began = self.steps;
-        // What is seen besides the state, a second copy, is what was started.
+        // The second copy, seen besides the state, is the one that was started.
         self.arrives(self.steps);
         Ok(())
     }
@@ -303,7 +303,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// The same run with what is made of its observer.
+    /// The same run with another observer, made of its own.
     fn with_observer<N>(self, make: impl FnOnce(O) -> N) -> Integrator<T, S, R, N> {
         Integrator {
             prepared: self.prepared,
@@ -367,7 +367,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integr
     }
 }
 
-/// What a system is, in words.
+/// A description of a system in words.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SystemText {
     /// Its name, H, the number of components.

@@ -1,7 +1,7 @@
 //! The schemes and runs of `hamiltonian`.
 //!
 //! Input: a [`System`], which the `hamiltonian!` macro implements (this crate knows nothing of
-//! it), a [`State`] and a [`Scheme`]. Output: an [`Integrator`] and what its observers make of
+//! it), a [`State`] and a [`Scheme`]. Output: an [`Integrator`] and the results its observers make of
 //! the run. Invariants: nothing allocates or dispatches inside a step; the bits of a trajectory
 //! depend on the system, the scheme, the start and the step, and on nothing else.
 //!
@@ -20,7 +20,7 @@
 //!
 //! The modules follow the data: vectors and states, the system at a state, what moves it (vector
 //! fields and exact flows), one-step maps and the schemes that make them, the run and parts of its
-//! steps, what is seen of it, saved runs; starts on a surface and other coordinates of a state.
+//! steps, observers, saved runs; starts on a surface and other coordinates of a state.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
@@ -106,7 +106,7 @@ pub use vector::{IntoVector, Vector, shape};
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
 pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 
-/// What a program that runs systems names.
+/// The names that a program needs to run systems.
 ///
 /// Its traits are there without their names too: a type of yours may be called `System`, and
 /// `energy` is still a method of it.

@@ -1,8 +1,8 @@
-//! One-step maps: what a scheme becomes for a given step.
+//! One-step maps: schemes prepared for a given step.
 //!
-//! Input: what is carried, and the time. Output: what is carried a step later. Invariants: a map owns
+//! Input: the carried value, and the time. Output: the value a step later. Invariants: a map owns
 //! constants and no state, so threads share one, stages of a composition share its scratch, and a
-//! part of a step is another map; nothing allocates or dispatches inside a step; what is carried
+//! part of a step is another map; nothing allocates or dispatches inside a step; the carried value
 //! depends on the number of steps made and on nothing else, so that the bits of a trajectory are the
 //! same however it is cut into blocks and whoever observes it.
 
@@ -11,7 +11,7 @@ use crate::state::Carried;
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-/// The scalar of what a map carries.
+/// The scalar of the value a map carries.
 pub type ScalarOf<M> = <<M as Map>::Carried as Vector>::Scalar;
 
 /// A one-step map Φ = close ∘ body ∘ open.
@@ -73,7 +73,7 @@ pub trait Map {
             return;
         }
         let end = made + n;
-        // Moved out, what is carried is a variable of this loop alone and stays in registers.
+        // Moved out, the carried value is a variable of this loop alone and stays in registers.
         let mut carried = z.take();
         if made == 0 {
             self.open(clock.at(0), &mut carried, work);

@@ -1,6 +1,6 @@
 //! Watching a run.
 //!
-//! Input: states of a run, as [`View`]s. Output: what an [`Observer`] makes of them:
+//! Input: states of a run, as [`View`]s. Output: the results of an [`Observer`]:
 //! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
 //! changes no bit of the run.
 
@@ -21,7 +21,7 @@ pub struct View<'a, T: Real, S: System<T>> {
     pub state: &'a State<S::Vector>,
     /// The system with its parameters worked in.
     pub prepared: &'a S::Prepared,
-    /// How the state at other times is found.
+    /// The way to states at other times.
     pub(crate) between: &'a dyn Between<S::Vector>,
 }
 
@@ -65,7 +65,7 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
     }
 }
 
-/// What watches a run, and may end it.
+/// A watcher of a run, which may end it.
 ///
 /// It is shown the state at which it is attached, and from then on every state whose step number,
 /// counted from the start of the run, is a multiple of its interval. Which states it is shown
@@ -95,17 +95,17 @@ pub trait Observer<T: Real, S: System<T>> {
     fn restore(&mut self, _view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("")
     }
-    /// How it ended the run, after a `Break`: at a state between two steps, which the run then shows
+    /// The end it made of the run, after a `Break`: at a state between two steps, which the run then shows
     /// as its own, or (none) at the state it was shown.
     ///
     /// # Errors
-    /// Where it could not go on observing; the run returns the error.
+    /// The error that kept it from observing on; the run returns it.
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         Ok(None)
     }
 }
 
-/// What a closure that watches may return: nothing, or whether the run goes on.
+/// The value a watching closure returns: nothing, or whether the run goes on.
 pub trait Verdict {
     /// Whether the run goes on.
     fn control(self) -> ControlFlow<()>;
@@ -305,7 +305,7 @@ tuple!(A 0, B 1, C 2, D 3);
 tuple!(A 0, B 1, C 2, D 3, E 4);
 tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 
-/// How far a function of the state goes from its value where the observer was attached.
+/// The largest change of a function of the state since the observer was attached.
 ///
 /// Differences are taken in the run's scalar, then rounded to `f64`.
 #[derive(Debug, Clone, PartialEq)]
@@ -363,7 +363,7 @@ impl<T: Real> Deviation<T> {
         self.start
     }
 
-    /// How many states were seen.
+    /// The number of states seen.
     pub fn count(&self) -> u64 {
         self.count
     }
@@ -413,7 +413,7 @@ impl<T: Real> EnergyDrift<T> {
         EnergyDrift { drift: None }
     }
 
-    /// What was seen; `None` before it is attached.
+    /// The extremes seen; `None` before it is attached.
     pub fn drift(&self) -> Option<&Deviation<T>> {
         self.drift.as_ref()
     }
@@ -480,7 +480,7 @@ pub struct Monitor<T> {
     pub name: &'static str,
     /// How it was declared.
     pub kind: ObservableKind,
-    /// What was seen.
+    /// The extremes seen.
     pub drift: Deviation<T>,
 }
 

@@ -52,7 +52,7 @@ impl<T: Real, S: System<T>, M: Scheme<T, S>> Recipe<T, S, M::Map> for M {
     }
 }
 
-/// What parts of a step are made of.
+/// Ingredients of a part of a step.
 pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
     pub(crate) prepared: &'a S::Prepared,
     pub(crate) recipe: &'a dyn Recipe<T, S, R>,
@@ -66,7 +66,7 @@ pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
     fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         let now = self.state.t;
-        // Where durations are carried the step before and the one after are longer or shorter.
+        // If durations are carried, the step before and the one after are longer or shorter.
         let (step, most) = match self.duration {
             Some(duration) => (duration, 2.0),
             None => (self.clock.interval, 1.0),
@@ -215,7 +215,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// A run whose steps vary in time passes `t` by a part of a step: how long the next one is, is known
     /// when it is made.
     ///
-    /// Where an observer ends the run before, the state at which it did is returned; see
+    /// If an observer ends the run before, the state at which it did is returned; see
     /// [`has_ended`](Integrator::has_ended).
     ///
     /// # Errors
@@ -287,7 +287,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         }
     }
 
-    /// How many steps lead to `t`: (none, that number), or where none does the numbers before and
+    /// The number of steps to `t`: (none, that number), or where none leads there the numbers before and
     /// after it.
     fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
         /// Numbers of steps up to here are exact in `f64`.

@@ -1,6 +1,6 @@
 //! The only paths that code emitted by `hamiltonian!` names.
 //!
-//! Input: nothing. Output: re-exports and [`Never`]. Invariant: what is here may be named by code
+//! Input: nothing. Output: re-exports and [`Never`]. Invariant: these names may be used by code
 //! in a crate that has neither this crate nor its dependencies in scope; nothing is removed or
 //! renamed without the macro changing with it.
 
@@ -136,7 +136,7 @@ impl<X> SetByNew<X> {
     pub fn new(value: X) -> Self {
         SetByNew(value)
     }
-    /// What is in it, to be filled by derivatives.
+    /// Its content, to be filled by derivatives.
     pub fn get_mut(field: &mut Self) -> &mut X {
         &mut field.0
     }
@@ -156,7 +156,7 @@ impl<X: core::fmt::Debug> core::fmt::Debug for SetByNew<X> {
     }
 }
 
-/// A piece, a flow or pieces that cannot exist: what a structure's associated types are on a system
+/// A piece, a flow or pieces that cannot exist: a structure's associated types on a system
 /// that does not have the structure.
 #[derive(Debug)]
 pub struct Never<X>(PhantomData<fn() -> X>, Infallible);

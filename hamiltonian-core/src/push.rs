@@ -1,6 +1,6 @@
 //! Kicks of systems with a force.
 //!
-//! Input: what the macro emitted for ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations that
+//! Input: the emitted program of ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations that
 //! are the exact flow together, [`Coupled`], the exact flow where momenta push each other, and
 //! [`SubStep`], a symmetric step for a force that has no exact flow. Invariant: only momenta move.
 
@@ -73,7 +73,7 @@ impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled
         let half = V::Scalar::constant(0.5, 0.0);
         let rounding = Size::<V>::constant(V::Scalar::epsilon(), 0.0);
         let none = <<V::Scalar as Real>::Mask as Mask>::splat(false);
-        // What is left of the duration, and the part that is tried.
+        // The rest of the duration, and the part that is tried.
         let (mut left, mut part) = (one, one);
         let mut lost = none;
         for _ in 0..PARTS {

@@ -1,4 +1,4 @@
-//! Where an index leads that only the values of sizes decide.
+//! Indices whose bounds only the values of sizes decide.
 //!
 //! Input: an index and the loops it runs in, affine, as numbers. Output: its least and greatest
 //! value. Invariants: exact (an iteration that does not take place reaches nothing); usable in

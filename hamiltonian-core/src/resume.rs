@@ -17,7 +17,7 @@ use alloc::borrow::ToOwned;
 use hamiltonian_lanes::Real;
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// The run and what its observers remember, to be saved. Closures remember nothing.
+    /// The run and the memory of its observers, to be saved. Closures remember nothing.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         for scalar in [self.clock.start, self.step] {

@@ -1,4 +1,4 @@
-//! Where a function of one variable is 0, between two points where its signs differ.
+//! Roots of a function of one variable between two points where its signs differ.
 //!
 //! Input: the function, its values at 0 and 1. Output: the point, to the rounding of 1, and the value
 //! there. Invariant: points are made of constants alone, so a derivative part of a value never gets
@@ -63,7 +63,7 @@ fn nearer<T: Real>(a: Sample<T>, b: Sample<T>) -> Sample<T> {
     }
 }
 
-/// Where between `a` and `b` the inverse parabola through three points is 0, if it is monotonic there.
+/// The root between `a` and `b` of the inverse parabola through three points, if it is monotonic there.
 fn interpolated<T: Real>(a: Sample<T>, b: Sample<T>, c: Sample<T>) -> Option<f64> {
     let apart = |x: T, y: T| (x - y).to_f64();
     let values = |x: Sample<T>, y: Sample<T>| apart(x.value, y.value);

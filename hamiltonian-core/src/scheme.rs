@@ -1,4 +1,4 @@
-//! What a scheme is: a table entry that, given a prepared system and a step, becomes a one-step map.
+//! Schemes: table entries that, given a prepared system and a step, become one-step maps.
 //!
 //! Input: a prepared system. Output: [`Scheme::prepare`] → [`Map`], [`Scheme::start`] → what it
 //! carries. Invariant: what a scheme asks of a system is the bound of its implementation, so a wrong
@@ -27,7 +27,7 @@ pub enum Form {
     Nothing,
 }
 
-/// What a scheme asks of a system.
+/// The structure a scheme asks of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Needs {
     /// Nothing: any H(q, p, t), with forces.
@@ -49,7 +49,7 @@ pub enum Needs {
     TimeTransformed,
 }
 
-/// What is known about a scheme: one line of the [catalogue](crate::schemes::catalogue).
+/// Facts about a scheme: one line of the [catalogue](crate::schemes::catalogue).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entry {
     /// The type's name.
@@ -62,7 +62,7 @@ pub struct Entry {
     pub order: u32,
     /// The time one step advances, in units of the step size Δt.
     pub duration: u32,
-    /// What it asks of a system.
+    /// The structure it asks of a system.
     pub needs: Needs,
     /// The form it preserves.
     pub preserves: Form,
@@ -89,7 +89,7 @@ pub trait Listed: Clone + Debug + Send + Sync + 'static {
 
 /// A scheme for the system `S` over the scalar `T`.
 ///
-/// What a scheme needs of a system is the bound of its implementation, so a wrong pairing is a
+/// The bound of its implementation says what a scheme needs of a system, so a wrong pairing is a
 /// compile error where the run is made.
 pub trait Scheme<T: Real, S: System<T>>: Listed {
     /// The scheme with the system's flows and all coefficients folded in.
@@ -110,7 +110,7 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     {
         (self == before).then(|| self.prepare(prepared, step))
     }
-    /// What is carried at the beginning of steps of size `h` from a state.
+    /// The carried value at the beginning of steps of size `h` from a state.
     fn start(
         &self,
         prepared: &S::Prepared,

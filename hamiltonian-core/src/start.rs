@@ -1,6 +1,6 @@
 //! Starts on an energy surface: one momentum from H = E, one coordinate from an event.
 //!
-//! Input: a system, a state as the guess, what is to be solved for. Output: the state with one
+//! Input: a system, a state as the guess, the unknown. Output: the state with one
 //! momentum (and one coordinate) replaced. Invariant: a root is bracketed before it is refined, so
 //! a state that comes back lies on the surface to rounding; everything else of it is as it was.
 //!
@@ -28,7 +28,7 @@ use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 use search::{FINEST, Sample, Search, polished};
 
-/// Which of several momenta with H = E.
+/// The choice among several momenta with H = E.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Branch {
     /// The one nearest to the guess; of two at the same distance the larger.
@@ -164,7 +164,7 @@ pub fn on_section<T: Real, S: System<T>>(
             momentum_from_energy(system, &at, momentum, energy, branch)
         }
         Err(value) => {
-            // Without a momentum where the event is, that is what is missing.
+            // Without a momentum at the event, the momentum is missing.
             solved?;
             Err(no_crossing::<T, S>(event, coordinate, state, value))
         }

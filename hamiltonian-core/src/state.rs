@@ -49,7 +49,7 @@ impl<V: Vector> State<V> {
     }
 }
 
-/// Coordinates and momenta without a time: what a scheme carries from step to step.
+/// Coordinates and momenta without a time, as a scheme carries them from step to step.
 ///
 /// It is a [`Vector`] itself, its parts those of `q`, then those of `p`.
 #[derive(Debug, Clone, PartialEq)]
@@ -147,7 +147,7 @@ impl<V: Vector> State<V> {
     }
 }
 
-/// What a scheme carries from step to step: a [`Vector`] that shows a point of phase space.
+/// A value carried from step to step: a [`Vector`] that shows a point of phase space.
 ///
 /// Most carry the [`Point`] itself; others a [`Pair`] of it with a second point, with slopes for
 /// the next guess, or with a multiplier.

@@ -1,4 +1,4 @@
-//! What a Hamiltonian system is to the schemes; the `hamiltonian!` macro implements these traits.
+//! The traits of a Hamiltonian system, as schemes need them; the `hamiltonian!` macro implements them.
 //!
 //! Input: parameters. Output: [`System`] → [`System::prepare`] → [`Dynamics`] → [`VectorField`], and
 //! by [`Split`] and [`Separable`] exact flows. Invariant: every number that depends on parameters
@@ -29,7 +29,7 @@ pub struct Group {
     pub columns: usize,
 }
 
-/// What a named function of (t, q, p) was declared as.
+/// The declaration of a named function of (t, q, p).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ObservableKind {
     /// `monitor name = e`
@@ -45,7 +45,7 @@ pub enum ObservableKind {
 pub struct Observable {
     /// The declared name, with the component in brackets for vectors: `angular_momentum[2]`.
     pub name: &'static str,
-    /// How it was declared.
+    /// Its declaration.
     pub kind: ObservableKind,
     /// Whether t is in it.
     pub depends_on_time: bool,
@@ -276,7 +276,7 @@ pub(crate) fn declared_energy<T: Real, S: System<T>>(
     energy / velocities.component(last) - p.component(last)
 }
 
-/// H as a sum of pieces with exact flows: what splittings and their compositions ask for.
+/// H as a sum of pieces with exact flows, as splittings and their compositions need it.
 ///
 /// It is implemented for every [`Separable`] system, with kick and drift as its pieces, and for those
 /// whose author declared pieces, `split { A = …; B = …; }`, or for which the macro found them. A force is
@@ -302,7 +302,7 @@ pub trait Separable<T: Real>: System<T> {
     const DRIFT: Self::Drift;
 }
 
-/// H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow: what tables of Nyström type
+/// H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow, as tables of Nyström type
 /// ask for, since {V, {V, {V, A}}} = 0 there.
 ///
 /// The macro implements it where the two are the pieces of [`Split`], in either order, and where H is
@@ -319,7 +319,7 @@ pub trait Nystrom<T: Real>: System<T> {
     const QUADRATIC: Self::Quadratic;
 }
 
-/// No force acts besides −∂H/∂q: what schemes ask for that would not integrate one.
+/// No force acts besides −∂H/∂q. Schemes that would not integrate one ask for it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be without forces",
     label = "this scheme integrates H alone",
@@ -327,7 +327,7 @@ pub trait Nystrom<T: Real>: System<T> {
 )]
 pub trait Unforced {}
 
-/// The flows of all pieces are exact: what compositions of order above 2 ask for. A force that is not
+/// The flows of all pieces are exact, as compositions of order above 2 need them. A force that is not
 /// affine in p is integrated by a symmetric sub-step of order 2 instead.
 #[diagnostic::on_unimplemented(
     message = "the pieces of `{Self}` are not known to have exact flows",

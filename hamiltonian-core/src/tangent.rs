@@ -1,4 +1,4 @@
-//! How orbits near one move: the tangent of the numerical map, and what is read off it.
+//! Motion of orbits near one: the tangent of the numerical map, and quantities read off it.
 //!
 //! Input: a system, a scheme, a start and a step. Output: [`Tangent`], the run with deviations from it;
 //! Lyapunov exponents, alignment indices, [`monodromy`] matrices. Invariants: deviations are exact

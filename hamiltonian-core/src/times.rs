@@ -55,7 +55,7 @@ pub struct AtTimes<V: Vector, I, O> {
     times: I,
     /// The time that comes next.
     next: Option<V::Scalar>,
-    /// How many times were shown.
+    /// The number of times shown.
     shown: u64,
     before: Option<State<V>>,
     end: Option<State<V>>,

@@ -2,7 +2,7 @@
 //!
 //! Input: a system, and a function g > 0 of its coordinates. Output: [`TimeTransformed`], whose time is s
 //! with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the long and short steps are
-//! part of what is integrated, not of a control beside it.
+//! part of the integrated system, not of a control beside it.
 
 use crate::error::Error;
 use crate::flow::VectorField;
@@ -36,7 +36,7 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// depends on no momentum is refused, so a g(q) is a monitor, or a [`System`] written by hand. In a
 /// `hamiltonian!` definition `dt = g*ds` says the same for one g, and H and g may depend on t there.
 ///
-/// What is symplectic for K is so in (q, t, p, p_t):
+/// A step that is symplectic for K is so in (q, t, p, p_t):
 /// [`TransformedVerlet`](crate::schemes::TransformedVerlet) for H = ½pᵀM⁻¹p + V(q) and g(q), with its
 /// compositions; for any H and g every scheme that asks for no structure, such as
 /// [`Gauss`](crate::schemes::Gauss).

@@ -19,7 +19,7 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The scalar of every component.
     type Scalar: Real;
-    /// How many contiguous parts there are (1 except for mixed shapes).
+    /// The number of contiguous parts (1 except for mixed shapes).
     const PARTS: usize;
     /// Part `k < PARTS` as a slice.
     fn part(&self, k: usize) -> &[Self::Scalar];
@@ -294,7 +294,7 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     }
 }
 
-/// What [`State::new`](crate::State::new) takes: arrays, vectors, and every [`Vector`] itself.
+/// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same

@@ -271,7 +271,7 @@ mod kills {
     use std::process::{Command, Stdio};
     use std::time::Duration;
 
-    /// Where the process that is killed saves its run.
+    /// The file to which the process that is killed saves its run.
     const PLACE: &str = "HAMILTONIAN_SAVED_RUN";
     /// Steps between two times it saves.
     const CHUNK: u64 = 1009;

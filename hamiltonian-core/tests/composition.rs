@@ -115,7 +115,7 @@ fn every_adjoint_undoes_a_step() {
     assert_eq!(adjoints.others, ["RungeKutta4", "Ruth3", euler, euler]);
 }
 
-/// How far the derivative M of some steps is from symplectic: the largest component of MᵀJM − J.
+/// The distance of the derivative M of some steps from symplectic: the largest component of MᵀJM − J.
 fn asymplecticity<S, M>(system: &S, scheme: M, q: &[f64], p: &[f64]) -> f64
 where
     S: System<Dual<f64>>,
@@ -281,7 +281,7 @@ fn euler_composed_with_its_adjoint_is_verlet() {
     assert!(rounded > 0);
 }
 
-/// Where a stage closes with the piece the next one opens with, both are one, across steps too.
+/// If a stage closes with the piece the next one opens with, both are one, across steps too.
 #[test]
 fn compositions_fuse() {
     use crate::common::systems::counting;

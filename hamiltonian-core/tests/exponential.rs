@@ -28,7 +28,7 @@ fn exponential<T: Real>(c: T) -> Exponential<Rates<T>, T, 2> {
     Exponential::new(&rates, &Point { q: zero, p: zero })
 }
 
-/// Where so many steps lead from (1, ½).
+/// The point that so many steps lead to from (1, ½).
 fn turned<T: Real>(flow: &Exponential<Rates<T>, T, 2>, steps: u32) -> [T; 2] {
     let mut x = Point {
         q: SVector::from([T::one()]),

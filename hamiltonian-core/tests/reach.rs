@@ -1,4 +1,4 @@
-//! Where indices lead: against running the loops.
+//! Bounds of indices, against running the loops.
 
 use hamiltonian_core::Error;
 use hamiltonian_core::private::Reach;

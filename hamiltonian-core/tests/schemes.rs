@@ -49,7 +49,7 @@ where
         .collect()
 }
 
-/// How far the mean of the last three of four slopes is from the entry's order.
+/// The distance of the mean of the last three of four slopes from the entry's order.
 fn off_order<S, M>(system: &S, scheme: &M, start: &State<S::Vector>, span: f64, steps: u64) -> f64
 where
     S: System<DoubleDouble>,

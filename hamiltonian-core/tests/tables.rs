@@ -21,14 +21,14 @@ fn weight(Weight(hi, lo): Weight) -> Number {
 /// A word: its letters as numbers from 0, and where to find it without its first letters.
 struct Word {
     letters: Vec<usize>,
-    /// How many letters of the second kind, for near-integrable tables.
+    /// The number of letters of the second kind, for near-integrable tables.
     perturbations: usize,
     weight: u32,
     /// The words that are this one without its last 1, 2, … letters.
     prefixes: Vec<usize>,
 }
 
-/// All words over letters of the given weights, up to what `keep` allows for prefixes too.
+/// All words over letters of the given weights whose prefixes `keep` allows.
 fn words(weights: &[u32], keep: impl Fn(&Word) -> bool) -> Vec<Word> {
     let mut found = vec![Word {
         letters: vec![],
@@ -323,7 +323,7 @@ fn nystrom_tables_ask_for_their_first_piece() {
                 First::Drift => First::Kick,
             };
             let swapped = nystrom(table.stages, other, table.order);
-            // Where kick and drift first are both of order 4, there is nothing to lose.
+            // If kick first and drift first are both of order 4, there is nothing to lose.
             let general = general(table.stages, table.order);
             println!(
                 "{}: swapped {swapped:.1e}, general {general:.1e}",

@@ -167,7 +167,7 @@ fn apart(a: (Pair, Pair), b: (Pair, Pair)) -> f64 {
 
 const START: (Pair, Pair) = ([0.8, -0.4], [0.3, 0.2]);
 
-/// How far a scheme's step is from the stationary path of the action in the Lagrangian between the
+/// The distance of a scheme's step from the stationary path of the action in the Lagrangian between the
 /// same ends.
 fn from_the_action<const D: usize, const S: usize>(
     scheme: Variational<D, S>,
@@ -404,7 +404,7 @@ fn discrete_momentum_maps_are_kept() {
     assert!((moment - 0.43).abs() <= 1e-13, "{moment}");
 }
 
-/// The derivatives of the action by what is given of the ends are what is not, the paper's (4), (5)
+/// The derivatives of the action by the given ends are the unknown ones, the paper's (4), (5)
 /// and (18), (19); and the paths are the scheme's steps.
 #[test]
 fn momenta_are_derivatives_of_the_action() {

@@ -26,7 +26,7 @@ use crate::real::{Mask, Real};
 ///   where the exponent's derivative part is 0 (so integer powers of negative bases have
 ///   derivatives), and 0 at `x = 0 < y`.
 /// - `min`, `max`: the derivative of the operand returned; of the first where they are equal.
-/// - Outside the domain the value is NaN; the derivative part is what the formula gives.
+/// - Outside the domain the value is NaN; the derivative part is the formula's value.
 ///
 /// In each case an operand whose derivative part is exactly 0 adds exactly 0.
 ///

@@ -2,7 +2,7 @@
 //!
 //! Input: the equation in units of the distance and of the time. Output: the universal anomaly, and
 //! Stumpff's functions. Invariant: a lane that has converged is not touched any more, so its bits
-//! depend on nothing in the other lanes; what does not converge is NaN.
+//! depend on nothing in the other lanes; a lane that does not converge is NaN.
 
 use crate::double_double::constants::{COS, COS_TAIL, SIN, SIN_TAIL};
 use crate::real::{Mask, Real};
@@ -26,7 +26,7 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
         return (two, three);
     }
     let half = T::constant(0.5, 0.0);
-    // What is not wanted in a lane is the function of a number that does no harm.
+    // An unwanted value in a lane is the function of a harmless number.
     let turns = one.le(psi);
     let angle = T::select(turns, psi, one).sqrt();
     let (sin, cos) = (half * angle).sin_cos();
@@ -64,7 +64,7 @@ fn alternating<T: Real, const N: usize, const M: usize>(
 ) -> T {
     let square = psi * psi;
     let mut sums = [T::zero(); 2];
-    // 1/18! and 1/19! are what a double is short of by a thousandth of its last place.
+    // 1/18! and 1/19! are a thousandth of a double's last place.
     let short = if T::epsilon() < f64::EPSILON { M } else { 1 };
     let mut at = N + short;
     while at > 0 {

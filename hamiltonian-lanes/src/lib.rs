@@ -1,4 +1,4 @@
-//! The scalars of `hamiltonian`: what schemes and emitted programs compute with.
+//! The scalars of `hamiltonian`, with which schemes and emitted programs compute.
 //!
 //! Input: numbers of the caller. Output: [`Real`], the arithmetic everything is generic over, for
 //! `f64`, `f32`, [`Dual`] numbers (exact derivatives, nested for higher orders), [`DoubleDouble`]

@@ -1,4 +1,4 @@
-//! Which values become which scalars.
+//! Conversions of values to scalars.
 //!
 //! Input: floats, double-doubles, duals, integers. Output: [`Lift`] between them. Invariant: every
 //! scalar lifts from itself and from `f64`; a value too wide for the scalar is rounded to nearest,

@@ -133,11 +133,11 @@ pub trait Real:
     + Lift<f64>
     + Lift<Self>
 {
-    /// What comparisons return.
+    /// The result of comparisons.
     type Mask: Mask;
-    /// What a [`size`](Self::size) is: one number a lane, without derivative parts.
+    /// The type of a [`size`](Self::size): one number a lane, without derivative parts.
     type Size: Real<Mask = Self::Mask>;
-    /// How many independent numbers a value holds: 1 for scalars.
+    /// The number of independent numbers in a value: 1 for scalars.
     const LANES: u32;
 
     /// The number `hi + lo` (two words, so that double-double constants are exact to 106 bits).

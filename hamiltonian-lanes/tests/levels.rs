@@ -26,7 +26,7 @@ macro_rules! on_every_level {
     };
 }
 
-/// What decides signs, roundings and exceptions.
+/// Numbers that decide signs, roundings and exceptions.
 const SPECIAL: [f64; 20] = [
     0.0,
     -0.0,
@@ -229,7 +229,7 @@ fn remainders_are_padded<P: Pack>() {
         }
         assert!(x.lane(P::LANES).is_nan());
         assert_eq!(x.to_f64(), x.lane(0));
-        // What is beyond the slice or beyond the lanes is not written.
+        // Nothing beyond the slice or beyond the lanes is written.
         let mut into = vec![7.0; len];
         (x + x).store(&mut into);
         for (k, value) in into.iter().enumerate() {
@@ -333,7 +333,7 @@ fn features_can_be_hidden() {
         };
         assert_eq!((lanes, fused), expected);
     }
-    // A limit above the machine is no way to what it has not.
+    // A limit above the machine's level gives no more than the machine has.
     assert!(dispatch_at_most(Cpu::Avx512, Which).0 <= Cpu::best());
     assert_eq!(dispatch_at_most(Cpu::Portable, Which).0, Cpu::Portable);
 }

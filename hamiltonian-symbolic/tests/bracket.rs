@@ -562,7 +562,7 @@ fn pairs_above_the_diagonal_are_those_below() {
     accepted(&mut bodies, &pairs("0..i"));
 }
 
-/// Where a parameter has one certain value it still has it.
+/// A parameter with one certain value keeps it.
 #[test]
 fn equality_of_parameters_counts() {
     let mut m = system(

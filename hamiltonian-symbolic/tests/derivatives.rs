@@ -271,7 +271,7 @@ fn judge(
                 got.value.to_bits() == bits.to_bits() || (got.value.is_nan() && bits.is_nan()),
                 "the tape changes nothing"
             );
-            // Where H is not finite its derivatives are the values of the formulas.
+            // If H is not finite, its derivatives are the values of the formulas.
             if !case.energy.is_finite()
                 && (name != "result" || function.purpose == Purpose::TimeDerivative)
             {

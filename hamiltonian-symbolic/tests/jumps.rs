@@ -56,7 +56,7 @@ fn nothing_is_proven_across_a_jump() {
         "u^2/2 + v^2/2 + if x < 1 { 0 } else { x - 1 }",
     );
     accepted(&mut ramp, "v");
-    // Where one element is 0 the sum over all is not: it binds another element.
+    // If one element is 0 the sum over all is not: it binds another element.
     let mut saddles = system("x[N]; u[N]", "N", "", "sum(i in 0..N) { x[i]*u[i] }");
     jumps(
         &mut saddles,

@@ -1,6 +1,6 @@
 //! Operation counts of value and full gradient against careful hand-written code and SymPy's cse.
 //!
-//! Where the hand-written count is not reached: the double pendulum's uses that T is homogeneous of
+//! One hand-written count is not reached: the double pendulum's uses that T is homogeneous of
 //! degree 2 in p (H's kinetic part is half of p·∂H/∂p), which the engine does not look for; Kerr's
 //! trades two of three divisions for six multiplications by inverting one product of all
 //! denominators, whose range is smaller than theirs; the dipole's writes the gradient of 1/r³ by

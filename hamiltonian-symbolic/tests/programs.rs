@@ -90,7 +90,7 @@ fn program(signature: &str, parameters: &str, h: &str, wanted: &[Purpose]) -> Pr
     program
 }
 
-/// How many instructions of the first function are such.
+/// The number of such instructions of the first function.
 fn count(program: &Program, such: impl Fn(&Instruction) -> bool) -> usize {
     let mut total = 0;
     soundness::every(&program.functions[0].evaluation, &mut |value| {

@@ -119,7 +119,7 @@ fn text_reads_back() {
         let written = text(&m, node);
         let mut other = setting();
         let back = parse(&mut other, &written);
-        // What is read may be flatter than what was written (a sum whose first term is a sum),
+        // The expression read may be flatter than the one written (a sum whose first term is a sum),
         // but only once.
         let again = text(&other, back);
         let mut third = setting();

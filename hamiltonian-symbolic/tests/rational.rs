@@ -1,4 +1,4 @@
-//! Rational numbers: what is read, rounded, ordered and printed.
+//! Rational numbers: reading, rounding, order, printing.
 
 use hamiltonian_symbolic::rational::Rational;
 use num_bigint::BigInt;

@@ -115,7 +115,7 @@ fn a_distance_is_not_computed_by_cancellation() {
         "the square was multiplied out: {text}"
     );
     let mut free = 0;
-    // Where the sum is one of H's own, it is.
+    // If the sum is one of H's own, it is.
     for h in ["(x + a)^2 + y^2", "x*((x + a)^2 + y^2)"] {
         let text = shown(&polar(h, "a"));
         free += usize::from(!text.contains("sin"));

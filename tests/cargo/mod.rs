@@ -83,7 +83,7 @@ impl Package {
 /// A workspace in the target directory.
 #[derive(Debug)]
 pub struct Workspace {
-    /// Where it is.
+    /// Its folder.
     pub path: PathBuf,
     target: PathBuf,
 }

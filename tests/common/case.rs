@@ -149,7 +149,7 @@ impl Case<'_> {
         kappa
     }
 
-    /// How far from its start the system ends.
+    /// The distance of the system's end from its start.
     pub fn gap<E: System<DoubleDouble>>(&self, system: &E) -> f64 {
         difference(&self.ends(system), &self.start(system, |x| x))
     }

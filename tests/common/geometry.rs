@@ -93,7 +93,7 @@ where
         .collect()
 }
 
-/// The tangent of one step of what is carried, by dual numbers, at a carried point that the run
+/// The tangent of one step of the carried value, by dual numbers, at a carried point that the run
 /// from `start` reaches after `made` steps.
 pub fn carried_tangent<S, M>(
     system: &S,

@@ -34,7 +34,7 @@ pub fn state<T: Real, S: System<T>>(
     }
 }
 
-/// How many schemes of the catalogue are measured on systems the macro makes. The others differ from
+/// The number of schemes of the catalogue that are measured on systems the macro makes. The others differ from
 /// these by tables and by the equations they solve, not by the code that is emitted: they are
 /// measured on systems written by hand, in the tests of their crate.
 pub fn measured_here() -> usize {

@@ -5,9 +5,9 @@ use crate::tree::{PAIRS, Part, Random, TIME, Test, Tree, grow};
 use hamiltonian_symbolic::dag::{Kind, Node, Stage};
 use std::fmt::Write;
 
-/// How many expressions there are.
+/// The number of expressions.
 pub const COUNT: usize = 256;
-/// How many points each is evaluated at.
+/// The number of points each is evaluated at.
 pub const TESTS: usize = 16;
 
 /// The trees, each with the function of `compiled.rs` that evaluates it. Every third one is made

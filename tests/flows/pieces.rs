@@ -136,7 +136,7 @@ impl Equations {
         all
     }
 
-    /// Where the orbit from z is after c: extrapolated midpoint steps; `None` where it does not get
+    /// The point of the orbit from z after c: extrapolated midpoint steps; `None` where it does not get
     /// there.
     fn orbit(&self, z: &[f64], c: f64) -> Option<Vec<f64>> {
         const ROWS: usize = 9;

@@ -1,4 +1,4 @@
-//! What a run is refused for.
+//! Reasons to refuse a run.
 //!
 //! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
 //! first derivatives are finite, and in another time on the shell H = 0.

@@ -1,4 +1,4 @@
-//! What a run is asked for.
+//! Questions to a run.
 //!
 //! Input: a run. Output: its state, clock, energy, second copy and observer. Invariant: nothing here
 //! changes a run.
@@ -88,7 +88,7 @@ where
         self.shown.y.clone()
     }
 
-    /// How far the two copies are apart: the Euclidean norm of (q − q̃, p − p̃).
+    /// The distance of the two copies: the Euclidean norm of (q − q̃, p − p̃).
     pub fn copy_distance(&self) -> f64 {
         let mut sum = T::zero();
         for (a, b) in self.shown.x.components().zip(self.shown.y.components()) {

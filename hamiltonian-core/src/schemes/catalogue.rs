@@ -1,7 +1,7 @@
 //! The list of all schemes.
 //!
 //! Input: the schemes with each of their choices. Output: [`catalogue`] to print,
-//! [`visit_any`] and its like to run. Invariant: what is in the list is measured by the
+//! [`visit_any`] and its like to run. Invariant: every entry is measured by the
 //! tests, which iterate over it; a scheme that is not in it is not in the library.
 
 use super::{
@@ -20,7 +20,7 @@ use crate::system::{
 use crate::transformed::TimeTransformed;
 use hamiltonian_lanes::Real;
 
-/// What is done with each scheme of the catalogue.
+/// A visitor of the schemes of the catalogue.
 pub trait Visitor<T: Real, S: System<T>> {
     /// Does it with one.
     fn visit<M: Scheme<T, S>>(&mut self, scheme: M);

@@ -37,7 +37,7 @@ pub struct Collocation<const S: usize> {
     pub weights: [DoubleDouble; S],
     /// `integrals[i][j] = aᵢⱼ/bⱼ`, where `aᵢⱼ` is the integral of ℓⱼ from 0 to cᵢ.
     pub integrals: [[DoubleDouble; S]; S],
-    /// What the quadrature makes of 1/⟨Pₛ₋₁, Pₛ₋₁⟩, in units of 2s − 1.
+    /// The quadrature's value of 1/⟨Pₛ₋₁, Pₛ₋₁⟩, in units of 2s − 1.
     last: DoubleDouble,
 }
 
@@ -82,7 +82,7 @@ impl<const S: usize> Collocation<S> {
     }
 
     /// The method at nodes x on [−1, 1] with their weights on [0, 1], given from the largest x down to
-    /// the middle; `last` is what the term k = s − 1 is multiplied by.
+    /// the middle; `last` is the factor of the term k = s − 1.
     fn at(node: impl Fn(usize) -> (DoubleDouble, DoubleDouble), last: DoubleDouble) -> Self {
         let mut x = [number(0.0); S];
         let mut weights = [number(0.0); S];
@@ -231,7 +231,7 @@ pub(super) fn constant<T: Real>(x: DoubleDouble) -> T {
 #[derive(Clone, Copy)]
 struct Legendre {
     x: DoubleDouble,
-    /// How often [`Legendre::next`] was called.
+    /// The number of calls of [`Legendre::next`].
     degree: usize,
     before: (DoubleDouble, DoubleDouble),
     /// Value and derivative.

@@ -24,7 +24,7 @@ use hamiltonian_lanes::Real;
 /// y = low + cF;   z[+] = z + y;   low[+] = (z − z[+]) + y
 /// ```
 ///
-/// for each kick and each drift. The low words are part of what is carried, and of checkpoints. The
+/// for each kick and each drift. The low words are part of the carried value, and of checkpoints. The
 /// durations of the stages are rounded so that kicks, and drifts, add up to h exactly, for a clock that
 /// is wrong by ε makes an error that grows like t. Kick first; preserves dq∧dp. Costs three additions a
 /// component.
@@ -70,7 +70,7 @@ symmetric!(Compensated<M>, M: Table + OneStep<Adjoint = M>);
 /// The point and its low words.
 type Words<V> = Pair<Point<V>, Point<V>>;
 
-/// `z + low` as a new z and what rounding takes from it, for |low| ≤ |z| in a few steps' time.
+/// `z + low` as a new z and its rounding error, for |low| ≤ |z| in a few steps' time.
 #[inline(always)]
 pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
     for k in 0..V::PARTS {
@@ -89,7 +89,7 @@ pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
 #[derive(Debug, Clone, Copy)]
 pub struct Carrying<A, const KICK: bool>(A);
 
-/// What a flow of points computes in.
+/// The scalar that a flow of points computes in.
 #[derive(Debug)]
 pub struct OfPoint<W>(W);
 

@@ -32,7 +32,7 @@ pub type Copies<V> = Pair<Point<V>, Point<V>>;
 /// are one. On a separable system (q, p) of (29) is drift–kick–drift Störmer–Verlet bit for bit,
 /// that of (30) kick–drift–kick.
 ///
-/// Preserves dq∧dp + dq̃∧dp̃ in the extended space, which is *not* dq∧dp of what is seen: **the
+/// Preserves dq∧dp + dq̃∧dp̃ in the extended space, which is *not* dq∧dp of the state that is seen: **the
 /// copies part**, on H = ½(q²+1)(p²+1) from (−3, 0) by 2.7 at t = 4. Watch
 /// [`Integrator::copy_distance`](crate::Integrator::copy_distance). (Pihajoki's mixing maps are
 /// not in the paper's equations, nor here.)

@@ -27,7 +27,7 @@ use hamiltonian_lanes::Real;
 /// `z[n+1]` are carried to the next step (compensated summation). A force is part of the vector field. With one
 /// stage it is the [`ImplicitMidpoint`](super::ImplicitMidpoint) rule.
 ///
-/// Which S: an evaluation of J∇H is made S times an iteration. Two stages serve errors of 1e-6, four to
+/// Choice of S: an evaluation of J∇H is made S times an iteration. Two stages serve errors of 1e-6, four to
 /// six those of 1e-12, eight and more `DoubleDouble`.
 ///
 /// Source: J. C. Butcher, Math. Comp. 18 (1964) 50, doi:10.1090/S0025-5718-1964-0159424-9; E. Hairer,

@@ -1,4 +1,4 @@
-//! Fixed-point iteration, lane by lane: what every implicit step shares.
+//! Fixed-point iteration, lane by lane, shared by all implicit steps.
 //!
 //! Input: a contraction and a guess. Output: its fixed point to rounding, or which lanes have none.
 //! Invariant: a lane that has converged is not touched any more, so its bits depend on nothing in
@@ -16,7 +16,7 @@ pub trait Contraction<V: Vector> {
     fn scale(&self, x: &V) -> <V::Scalar as Real>::Size;
 }
 
-/// How an iteration ended.
+/// The end of an iteration.
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome<T: Real> {
     /// The lanes that were solved.
@@ -60,7 +60,7 @@ pub fn iterate<V: Vector, G: Contraction<V>>(
         g.map(x, next);
         let change = next.size_of_difference(x);
         residual = Size::<V>::select(solved, residual, change);
-        // Before the update: what is left behind is a function of the final x alone.
+        // Before the update: the values left behind are functions of the final x alone.
         x.copy_where(!solved, next);
         iterations += 1;
         let mut now = change.equals(Size::<V>::zero());

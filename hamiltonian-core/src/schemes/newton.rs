@@ -1,4 +1,4 @@
-//! Newton's method for implicit stages: what is left where the fixed point is none.
+//! Newton's method for implicit stages, for steps at which the fixed-point iteration fails.
 //!
 //! Input: a prepared system, the stages' points, their equations. Output: the slopes one Newton step
 //! further. Invariant: lanes do not mix; rows are exchanged lane by lane.
@@ -14,7 +14,7 @@ use hamiltonian_lanes::Real;
 /// has their square.
 const LARGEST: usize = 256;
 
-/// How the point of one stage depends on the unknowns (x, y) of another, or on its own.
+/// The dependence of a stage's point on the unknowns (x, y) of another, or on its own.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entries<T> {
     /// ∂Q/∂x.
@@ -72,7 +72,7 @@ impl<V: Vector> Linear<V> {
         };
         let n = z.len();
         let (half, size) = (n / 2, stages * n);
-        // Coordinates first: what of P depends on x is added to their columns.
+        // Coordinates first: the part of P that depends on x is added to their columns.
         for k in 0..n {
             self.unit.set_zero();
             *self.unit.component_mut(k) = V::Scalar::one();

@@ -12,9 +12,9 @@ use crate::vector::Vector;
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
-/// Where steps are to be short: Q(t, q, p) > 0, in any unit; steps will be proportional to 1/Q.
+/// A measure of how short steps are to be: Q(t, q, p) > 0, in any unit; steps will be proportional to 1/Q.
 ///
-/// What is asked for is the rate d ln Q/dt along the motion, given q̇ and ṗ: for Kepler's problem with
+/// Its method gives the rate d ln Q/dt along the motion, given q̇ and ṗ: for Kepler's problem with
 /// Q = r^(−3/2), −(3/2) q·q̇/q·q.
 pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
     /// d ln Q/dt at (t, q, p), where the velocity is (dq, dp).
@@ -37,9 +37,9 @@ pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
 /// doi:10.1137/040606995.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Paced<M, G> {
-    /// What makes the steps.
+    /// The scheme that makes the steps.
     pub scheme: M,
-    /// How short they are to be.
+    /// The measure of how short they are to be.
     pub density: G,
 }
 
@@ -57,7 +57,7 @@ impl<M: OneStep, G: Clone + Debug + Send + Sync + 'static> Listed for Paced<M, G
     }
 }
 
-/// What [`Paced`] carries: the point, and the density of steps ρ, the rate G and the time.
+/// The value [`Paced`] carries: the point, and the density of steps ρ, the rate G and the time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pace<V: Vector> {
     point: Point<V>,

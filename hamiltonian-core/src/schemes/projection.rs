@@ -527,7 +527,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Projected<M> {
         };
         match self.solve(t, end, z, work) {
             Cause::Overflow => Cause::Overflow,
-            // Where the splitting itself leaves its domain, that is the cause.
+            // If the splitting itself leaves its domain, that is the cause.
             unsolved => match (self.inner).explain(t, end, true, &mut copies, &mut work.inner) {
                 Cause::Piece(piece) if !copies.is_finite() => Cause::Piece(piece),
                 _ => unsolved,

@@ -98,7 +98,7 @@ impl<const S: usize> Listed for GaussNystrom<S> {
 
 symmetric!(GaussNystrom<S>, const S: usize);
 
-/// What [`GaussNystrom`] carries: the point; the forces at the stages of the last step; the low words of
+/// The value [`GaussNystrom`] carries: the point; the forces at the stages of the last step; the low words of
 /// the point.
 pub type CarriesForces<V, const S: usize> = Pair<Point<V>, Pair<Stages<V, S>, Point<V>>>;
 

@@ -86,12 +86,12 @@ pub(super) fn extrapolation<T: Real, const S: usize>(
     })
 }
 
-/// What a step with stages carries: the point; the unknowns of the last step, for
+/// The value a step with stages carries: the point; the unknowns of the last step, for
 /// [`Gauss`](super::Gauss) the slopes J∇H at the stages, which make a guess for a step of any size; the
 /// low words of the point.
 pub type Carries<V, const S: usize> = Pair<Point<V>, Pair<Stages<Point<V>, S>, Point<V>>>;
 
-/// What is carried from a start on.
+/// The carried value at a start.
 pub(super) fn at_rest<V: Vector, const S: usize>(state: &State<V>) -> Carries<V, S> {
     let point = state.point();
     let slope = point.zeros_like();
@@ -292,7 +292,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         }
     }
 
-    /// How the point at stage `i`, and dq/dt there, depend on the unknowns of stage `j`.
+    /// The dependence of the point at stage `i`, and of dq/dt there, on the unknowns of stage `j`.
     fn entries(&self, i: usize, j: usize) -> Entries<T> {
         let (zero, one) = (T::zero(), T::one());
         let (across, velocity) = match &self.modes {

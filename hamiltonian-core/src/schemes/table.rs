@@ -42,7 +42,7 @@ pub trait Table: Listed + Copy {
     type Of<U>: AsRef<[U]>;
     /// The durations of the stages.
     fn stages(&self) -> Self::Of<Durations>;
-    /// The array with what `f` makes of each element, in order.
+    /// The array of the values of `f` at each element, in order.
     fn map<A, U>(of: Self::Of<A>, f: impl FnMut(A) -> U) -> Self::Of<U>;
 }
 

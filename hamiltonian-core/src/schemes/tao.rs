@@ -21,10 +21,10 @@ use hamiltonian_lanes::Real;
 /// (q − q̃, p − p̃) by the angle 2ωh; three evaluations of J∇H a step.
 ///
 /// Preserves dq∧dp + dq̃∧dp̃ in the doubled space, and there an energy near H(q, p̃) + H(q̃, p) + the
-/// binding; dq∧dp of what is seen is *not* preserved, but the copies stay together where ω is large
+/// binding; dq∧dp of the state that is seen is *not* preserved, but the copies stay together where ω is large
 /// enough.
 ///
-/// Which ω: larger than the rate at which copies of the unbound scheme part, that is of the order of
+/// ω should be larger than the rate at which copies of the unbound scheme part, that is of the order of
 /// the largest frequency of the motion; the error grows as ωh², and stability asks for ωh well below 1.
 /// Ten to twenty times the frequency is a start. Its copies are bound by no theorem where ω is small:
 /// watch [`Integrator::copy_distance`](crate::Integrator::copy_distance).

@@ -13,7 +13,7 @@ use crate::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::Real;
 
-/// How the second starting point, half a leap before the first, is made.
+/// The construction of the second starting point, half a leap before the first.
 ///
 /// An error of it excites the parasitic mode (root −1) of these schemes, which is then seen as an
 /// oscillation of H for ever; on some systems it grows.
@@ -120,7 +120,7 @@ macro_rules! entries {
 /// ```
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of the last two points, not dq∧dp of one. The start asks for
-/// `z[−1]`, made by [`Start`]. No term of its derivation needs H separable; what limits it is its
+/// `z[−1]`, made by [`Start`]. No term of its derivation needs H separable; it is limited by its
 /// parasitic root −1.
 ///
 /// Source: the paper, eqs. 25a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
@@ -138,7 +138,7 @@ macro_rules! entries {
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
-    /// How `z[−1]` is made.
+    /// The construction of `z[−1]`.
     pub start: Start,
 }
 
@@ -176,7 +176,7 @@ entries!(TwoStepMidpoint, "25", 1);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
-    /// How `z[−½]` is made.
+    /// The construction of `z[−½]`.
     pub start: Start,
 }
 
@@ -209,7 +209,7 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {
-    /// How `z[−½]` is made.
+    /// The construction of `z[−½]`.
     pub start: Start,
 }
 

@@ -1,7 +1,7 @@
 //! Störmer–Verlet in another time.
 //!
 //! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
-//! Invariant: one ∂V/∂q a step; what is implicit are two equations for a number each.
+//! Invariant: one ∂V/∂q a step; implicit are two equations for a number each.
 
 use super::iterate::{Contraction, iterate};
 use crate::flow::Scratch;

@@ -319,7 +319,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// The stationary path of a step from time `t` to `t + h` between given ends, with its action and both
     /// its ends.
     ///
-    /// Of the action as a function of the ends, the derivatives are what is not given there: the
+    /// The derivatives of the action as a function of the ends are the unknowns there: the
     /// discrete form of the paper's (4), (5) and (18) to (21).
     ///
     /// ```text
@@ -466,7 +466,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     }
 }
 
-/// What is given of the ends of a path.
+/// Conditions at the ends of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Ends<V> {
     /// q₀ and q₁, type I.

@@ -1,4 +1,4 @@
-//! Where H = E along one momentum.
+//! Solutions of H = E along one momentum.
 //!
 //! Input: H − E and its slope as functions of the momentum, a guess. Output: up to two roots on each side
 //! of it, and the sample nearest to H = E. Invariant: a root is bracketed before it is refined.
@@ -39,7 +39,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
     /// Walks from the guess in one direction with doubling steps, and notes up to two roots.
     pub(super) fn walk(&mut self, guess: Sample<T>, direction: T) {
         let mut last = guess;
-        // On a root, the sign is that of what follows.
+        // On a root, the sign is that of the next value.
         let mut negative = sign_after(&last, direction);
         let newton = Real::abs((last.f / last.slope).to_f64());
         let default = Real::abs(last.x.to_f64()).max(1.0) / 1024.0;
@@ -75,7 +75,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
                 count += 1;
                 negative = !negative;
             } else {
-                // How fast |H − E| grows on the way.
+                // The growth of |H − E| on the way.
                 let rate = |s: &Sample<T>| {
                     let slope = s.slope * direction;
                     (if negative { -slope } else { slope }).to_f64()

@@ -29,7 +29,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
-/// How often `work` allocates.
+/// The number of allocations of `work`.
 pub fn allocations(work: impl FnOnce()) -> u64 {
     let before = CALLS.get();
     work();

@@ -1,4 +1,4 @@
-//! Systems by hand: what the macro would emit, without its care for speed.
+//! Systems by hand: code like that of the macro, without its care for speed.
 
 pub use super::chain::Chain;
 use hamiltonian_core::private::SVector;

@@ -30,7 +30,7 @@ pub(super) const fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
 #[inline(always)]
 pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;
-    // Where the target is known to fuse, one instruction gives the same error term.
+    // If the target is known to fuse, one instruction gives the same error term.
     #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
     {
         (p, a.mul_add(b, -p))

@@ -133,7 +133,7 @@ impl Big {
         u128::from(self.0[1]) << 64 | u128::from(self.0[0])
     }
 
-    /// How this compares with half of `2^shift`.
+    /// The comparison with half of `2^shift`.
     pub(super) fn compare_with_half(&self, shift: u32) -> core::cmp::Ordering {
         let half = if shift == 0 {
             Self::from(0)

@@ -16,7 +16,7 @@ use super::big::Big;
 const DIGITS: u32 = 32;
 /// Digits that are computed at most: as many as fit in 128 bits.
 const MOST_DIGITS: u32 = 38;
-/// Digits that are read; what follows only rounds.
+/// Digits that are read; later ones only round.
 const MOST_DIGITS_READ: u32 = 80;
 
 /// The text is not a decimal number.

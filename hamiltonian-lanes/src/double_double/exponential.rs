@@ -1,7 +1,7 @@
 //! Exponential, logarithm, hyperbolic functions, their inverses, and powers.
 //!
 //! Input: a double-double. Output: the function's value, relative error as measured in
-//! `tests/double_double.rs`. Invariant: what is 0 at 0 is relatively accurate near it and keeps
+//! `tests/double_double.rs`. Invariant: a function that is 0 at 0 is relatively accurate near it and keeps
 //! the sign of zero; overflow gives infinity, underflow 0, a point outside the domain NaN.
 //!
 //! exp: `x = k·ln 2 + r` with ln 2 in three words, so that the reduction costs no accuracy, then
@@ -250,7 +250,7 @@ impl DoubleDouble {
     }
 }
 
-/// What the sign of a power of a negative base depends on.
+/// Kinds of exponents, which decide the sign of a power of a negative base.
 #[derive(Clone, Copy, PartialEq)]
 enum Exponent {
     Even,

@@ -85,7 +85,7 @@ impl DoubleDouble {
         self.hi
     }
 
-    /// The trailing word: what `hi` leaves out.
+    /// The trailing word: the value minus `hi`.
     ///
     /// ```
     /// use hamiltonian_lanes::DoubleDouble;

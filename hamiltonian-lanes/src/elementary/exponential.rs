@@ -1,7 +1,7 @@
 //! Exponential and hyperbolic functions.
 //!
 //! Input: any double. Output: the function's value. Invariant: `x = k·ln 2 + r` with |r| ≤ ln 2/2;
-//! exp r = cosh r + sinh r by two polynomials, and what a leading sum cuts off is kept. Arguments
+//! exp r = cosh r + sinh r by two polynomials, and the rounding error of a leading sum is kept. Arguments
 //! at which a power of two leaves the normal range go lane by lane; in exp only where the level has
 //! no instruction that scales by a power.
 
@@ -182,7 +182,7 @@ fn exp_of_large(x: f64) -> f64 {
     exp_any(x, 0.0, 0)
 }
 
-/// `exp x − 1`: `(2^k − 1) + 2^k·r + 2^k·r²/2 + …`, the sums with what they cut off.
+/// `exp x − 1`: `(2^k − 1) + 2^k·r + 2^k·r²/2 + …`, the sums with their rounding errors.
 #[inline(always)]
 pub(crate) fn exp_m1<W: Word>(x: W) -> W {
     let reduced = reduce_alone(x);

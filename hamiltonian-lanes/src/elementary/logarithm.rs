@@ -38,7 +38,7 @@ fn assemble<W: Word>(k: W, f: W, more: W) -> W {
     let z = s * s;
     let half = W::splat(0.5) * f;
     let inner = z.fma(polynomial(z, &LOGARITHM), half * f);
-    // The product with k is exact, and so is what the sum cuts off.
+    // The product with k is exact, and so is the rounding error of the sum.
     let high = k.fma(W::splat(LN_2_HIGH), f);
     let cut = f + k.fma(W::splat(LN_2_HIGH), -high);
     let low = k.fma(W::splat(LN_2_LOW), more + cut);
@@ -80,7 +80,7 @@ fn ln_of_rare(x: f64) -> f64 {
     }
 }
 
-/// `ln(1 + x)`: the logarithm of the rounded sum and what it cuts off.
+/// `ln(1 + x)`: the logarithm of the rounded sum, and a term for its rounding error.
 #[inline(always)]
 pub(crate) fn ln_1p<W: Word>(x: W) -> W {
     let (u, cut) = two_sum(W::one(), x);

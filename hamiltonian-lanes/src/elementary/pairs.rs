@@ -1,4 +1,4 @@
-//! Numbers of two words: what rounding cuts off, kept.
+//! Numbers of two words: a number and its rounding error.
 //!
 //! Input: words. Output: `(high, low)` with |low| of the order of one unit in the last place of
 //! `high`. Invariant: the sum of the two is exact where stated, whether the type fuses or not.

@@ -75,7 +75,7 @@ fn pow_of_rare(x: f64, y: f64) -> f64 {
     } else {
         exponent(size, y, 0.0)
     };
-    // Where the result leaves the range the second word no longer counts.
+    // If the result leaves the range, the second word no longer counts.
     let low = if high.abs() < 800.0 { low } else { 0.0 };
     flip(exp_any(high, low, 0), sign)
 }

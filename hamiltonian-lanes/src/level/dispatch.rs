@@ -8,7 +8,7 @@ use core::fmt::Debug;
 
 use crate::pack::{Pack, V, W};
 
-/// What a CPU can do, from the least on. Which levels exist depends on the architecture; the least
+/// Capabilities of a CPU, from the least on. Which levels exist depends on the architecture; the least
 /// is on all of them.
 ///
 /// | level | registers | one rounding for `fma` | where |
@@ -109,7 +109,7 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     type Pack: Pack;
     /// As many registers in lock-step as hide the latency of their operations.
     type Wide: Pack;
-    /// Which level this is.
+    /// The level this is.
     const CPU: Cpu;
 
     /// Enters the level anew: `kernel.run::<Self>()` in a function that is compiled with this
@@ -151,7 +151,7 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
 /// assert_eq!(q, [2.0; 13]);
 /// ```
 pub trait Kernel {
-    /// What is computed.
+    /// The computation.
     type Output;
     /// Computes it on level `L`.
     fn run<L: Level>(self) -> Self::Output;

@@ -12,7 +12,7 @@
 //! - [`Register`], the register types behind packs, and the types that implement [`Level`] are in
 //!   private modules and no signature of this crate gives one of them away: outside, a pack is
 //!   always `L::Pack`, `L::Wide` or `L::Scalar` of some `L: Level`, and [`Level`] is sealed.
-//! - `L` is chosen in one place, [`dispatch_at_most`], from what the CPU was found to have. Generic
+//! - `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU. Generic
 //!   code over a level is made by rustc for every level, and runs for the chosen one alone.
 //! - What a kernel hands out of its run (a boxed pack, a pointer to one of its functions) stays in
 //!   this process, on this CPU.

@@ -1,4 +1,4 @@
-//! Lanes in plain code: what every architecture has.
+//! Lanes in plain code, for every architecture.
 //!
 //! Input: one or two numbers. Output: [`Register`] for [`Two`], and [`plain!`] that makes it.
 //! Invariant: straight-line code without loops, which compilers turn into packed instructions where

@@ -1,4 +1,4 @@
-//! What a register of numbers can do: the table every pack is made from.
+//! Operations of a register of numbers: the table every pack is made from.
 //!
 //! Input: nothing. Output: [`Register`], and [`intrinsics!`] for its functions. Invariant:
 //! lane by lane each function gives the bits of the same operation on `f64`, but for

@@ -18,7 +18,7 @@ use crate::word::Word;
 
 /// A scalar that is several `f64` beside each other, lanes; `f64` itself is one lane.
 ///
-/// Which packs there are depends on the CPU, so a kernel takes them from its
+/// The packs depend on the CPU, so a kernel takes them from its
 /// [`Level`](crate::Level); [`W`] and [`Nf`] make packs from packs.
 ///
 /// ```

@@ -298,7 +298,7 @@ impl<P: Pack, const K: usize> Word for W<P, K> {
     }
     #[inline(always)]
     fn replace(self, mask: Masks<P, K>, x: Self, f: fn(f64) -> f64) -> Self {
-        // Copies: what a call is given by reference is in memory wherever it is used, so the
+        // Copies: an argument given by reference is in memory wherever it is used, so the
         // values themselves would leave their registers on the common path.
         let mut out = Self(each!(K, [P::zero(); K], k => self.0[k]));
         let x = Self(each!(K, [P::zero(); K], k => x.0[k]));

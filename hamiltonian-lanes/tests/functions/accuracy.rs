@@ -4,7 +4,7 @@ use hamiltonian_lanes::{Cpu, DoubleDouble};
 
 use super::points::{ROWS, Random, Row};
 
-/// How many points a function.
+/// The number of points a function.
 pub fn points() -> usize {
     if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
         10_000_000

@@ -22,7 +22,7 @@ impl Random {
     }
 }
 
-/// Where arguments come from.
+/// Sources of arguments.
 #[derive(Clone, Copy)]
 pub enum Range {
     /// Uniform.
@@ -68,7 +68,7 @@ impl Range {
     }
 }
 
-/// Where functions have rules of their own.
+/// Arguments at which functions have rules of their own.
 const SPECIAL: [f64; 10] = [
     0.0,
     -0.0,

@@ -1,4 +1,4 @@
-//! What functions keep between points: symmetry, monotony, identities.
+//! Properties between points: symmetry, monotony, identities.
 
 use hamiltonian_lanes::Real;
 
@@ -7,7 +7,7 @@ use super::points::{ROWS, Random, Range};
 /// The functions of two numbers.
 const TWO: [&str; 3] = ["atan2", "hypot", "pow"];
 
-/// How many neighbours, or random points, a check takes.
+/// The number of neighbours, or random points, of a check.
 fn count() -> usize {
     if std::env::var_os("HAMILTONIAN_HEAVY").is_some() {
         1_000_000

@@ -56,7 +56,7 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
     model
 }
 
-/// How many of `all` cases a test takes: a part, or with `HAMILTONIAN_HEAVY=1` every one.
+/// The number of `all` cases that a test takes: a part, or with `HAMILTONIAN_HEAVY=1` every one.
 pub fn cases(part: usize, all: usize) -> usize {
     let is_heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
     if is_heavy { all } else { part }

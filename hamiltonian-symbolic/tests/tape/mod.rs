@@ -34,7 +34,7 @@ pub fn start() {
     TAPE.with_borrow_mut(Vec::clear);
 }
 
-/// How many operations of that name were recorded (`+`, `-`, `*`, `/`, `neg`, functions by name; a
+/// The number of operations of that name that were recorded (`+`, `-`, `*`, `/`, `neg`, functions by name; a
 /// fused multiply–add is both).
 pub fn count(name: &str) -> usize {
     TAPE.with_borrow(|tape| tape.iter().filter(|r| r.name == name).count())

@@ -1,11 +1,11 @@
-//! Where a point stands: away from every edge of every operation, exactly on one, or so close
+//! The place of a point: away from every edge of every operation, exactly on one, or so close
 //! that rounding decides.
 
 use super::{Part, Test, Tree};
 use hamiltonian_lanes::Dual;
 use hamiltonian_symbolic::op::Op;
 
-/// Where a point stands.
+/// The place of a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Region {
     /// Away from edges.
@@ -16,7 +16,7 @@ pub enum Region {
     Undecided,
 }
 
-/// Where the tree stands at a point, by forward error bounds of its plain evaluation.
+/// The place of the tree at a point, by forward error bounds of its plain evaluation.
 pub fn region(tree: &Tree, point: &[f64]) -> Region {
     let values = tree.values(point);
     let mut errors: Vec<f64> = Vec::with_capacity(values.len());
@@ -52,7 +52,7 @@ pub fn region(tree: &Tree, point: &[f64]) -> Region {
                         }
                     },
                 );
-                // What a condition does not take may be NaN, with its error.
+                // The branch a condition does not take may be NaN, with its error.
                 if slope.eps == 0.0 {
                     return 0.0;
                 }

@@ -1,4 +1,4 @@
-//! How random expressions grow and where they are evaluated.
+//! Growth of random expressions, and their points of evaluation.
 
 use super::{Part, Random, TIME, Test, Tree, VARIABLES};
 use hamiltonian_symbolic::op::Op;

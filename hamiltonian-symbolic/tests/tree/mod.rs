@@ -22,7 +22,7 @@ pub const PAIRS: usize = 2;
 pub const PARAMETERS: usize = 3;
 /// All variables: q, p, t, parameters, in this order.
 pub const VARIABLES: usize = 2 * PAIRS + 1 + PARAMETERS;
-/// Where t stands among the variables.
+/// The number of t among the variables.
 pub const TIME: usize = 2 * PAIRS;
 const NAMES: [&str; VARIABLES] = ["x", "y", "px", "py", "t", "a", "b", "c"];
 
@@ -75,7 +75,7 @@ pub enum Part {
     Power(usize, i64, i64),
     Call(Op, usize),
     Call2(Op, usize, usize),
-    /// Where the test holds (or, negated, does not), and where both hold.
+    /// A test (or, negated, its contrary), and two tests together.
     If(Test, bool, usize, usize),
     IfBoth(Test, Test, bool, usize, usize),
 }

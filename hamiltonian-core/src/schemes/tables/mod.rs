@@ -25,7 +25,7 @@ pub mod nystrom;
 pub enum Class {
     /// For any pieces, and for compositions of any one-step map and its adjoint.
     General,
-    /// Where the kick is V(q, t) and the other piece is autonomous and at most quadratic in p.
+    /// The kick is V(q, t) and the other piece is autonomous and at most quadratic in p.
     QuadraticKinetic {
         /// The piece of the first stroke.
         first: First,
@@ -37,7 +37,7 @@ pub enum Class {
     },
 }
 
-/// Which piece is first in a table for kicks and drifts.
+/// The first piece in a table for kicks and drifts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum First {
     /// V(q, t), which moves p.
@@ -49,11 +49,11 @@ pub enum First {
 /// A table of `S` stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients<const S: usize> {
-    /// What the field calls it.
+    /// Its name in the field.
     pub name: &'static str,
     /// The order of convergence on splittings of its class.
     pub order: u32,
-    /// Which splittings those are.
+    /// The splittings it is for.
     pub class: Class,
     /// The durations of each stage, `(down, up)`, in units of the step.
     pub stages: [Durations; S],
@@ -64,11 +64,11 @@ pub struct Coefficients<const S: usize> {
 /// A table, whatever its number of stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Listing {
-    /// What the field calls it.
+    /// Its name in the field.
     pub name: &'static str,
     /// The order of convergence on splittings of its class.
     pub order: u32,
-    /// Which splittings those are.
+    /// The splittings it is for.
     pub class: Class,
     /// The durations of each stage, `(down, up)`, in units of the step.
     pub stages: &'static [Durations],

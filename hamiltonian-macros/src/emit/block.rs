@@ -298,7 +298,7 @@ impl<'a> Writer<'a> {
         let end = self.context.indices.saturating(&inner.end);
         if found.wrapped.is_empty() && found.cuts.is_empty() {
             line!(self, "for _i{d} in {start}..{end} {{");
-            self.iteration(&inner.body);
+            self.steps(&inner.body);
             line!(self, "}}");
             return;
         }
@@ -311,7 +311,7 @@ impl<'a> Writer<'a> {
                 self.slices.push((*slice, index.clone(), text));
             }
             line!(self, "for _i{d} in 0.._l{d} {{");
-            self.iteration(&inner.body);
+            self.steps(&inner.body);
             line!(self, "}}");
             self.slices.truncate(known_slices);
             return;
@@ -329,7 +329,7 @@ impl<'a> Writer<'a> {
         self.cut(inner.domain, &found.cuts);
         line!(self, "for _k{d} in 0.._l{d} {{");
         line!(self, "let _i{d} = _s{d} + _k{d};");
-        self.iteration(&inner.body);
+        self.steps(&inner.body);
         line!(self, "}}");
         if !found.wrapped.is_empty() {
             line!(self, "_s{d} += _l{d};");

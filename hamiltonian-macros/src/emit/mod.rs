@@ -23,7 +23,6 @@ mod generics;
 mod holder;
 mod index;
 mod item;
-mod iteration;
 mod kicks;
 mod layout;
 mod markers;

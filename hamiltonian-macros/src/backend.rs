@@ -7,7 +7,6 @@
 mod blame;
 mod docs;
 mod proofs;
-mod reaches;
 mod splits;
 mod surface;
 mod variables;
@@ -121,7 +120,7 @@ fn system(
         vectors: part.vectors,
         pieces: part.pieces,
         declared: part.declared.as_ref(),
-        reaches: reaches::reaches(checked),
+        reaches: &checked.reaches,
         model: &model,
         program: &program,
         text,

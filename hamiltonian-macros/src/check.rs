@@ -19,11 +19,10 @@ mod statement;
 
 use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
 use crate::checked::{
-    Affine, Checked, Definition, Extent, FunctionId, GroupId, Kind, LoopId, NodeId, ParameterId,
-    SizeId, Type,
+    Checked, Definition, Extent, FunctionId, GroupId, Kind, NodeId, ParameterId, Type,
 };
 use crate::report::Report;
-use hamiltonian_symbolic::index::LOOPS;
+use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
 use hamiltonian_symbolic::transform::REPLACING;
 use proc_macro2::{Ident, Span};
 use std::cell::OnceCell;
@@ -62,7 +61,7 @@ enum Binding {
     Velocity(GroupId),
     Time,
     Parameter(ParameterId),
-    Size(SizeId),
+    Size(index::Size),
     /// `None` if its value is erroneous.
     Value(Option<NodeId>),
     /// Index into [`Checker::lets`].
@@ -118,9 +117,9 @@ struct Checker<'a> {
     /// The affine form of nodes that have one, by node.
     affines: Vec<Option<Affine>>,
     /// By scope: the loop it stands for at present.
-    scope_loops: Vec<Option<LoopId>>,
+    scope_loops: Vec<Option<Domain>>,
     /// Loops in whose body the cursor is, outermost first.
-    active: Vec<LoopId>,
+    active: Vec<Domain>,
     /// By raw node: an error was reported for it.
     reported: Vec<bool>,
     call_depth: u32,
@@ -280,7 +279,7 @@ impl<'a> Checker<'a> {
         };
         let text = name.to_string();
         if let Some(index) = self.out.sizes.iter().position(|size| size.name == *name) {
-            return Some(Extent::Size(SizeId(index as u32)));
+            return Some(Extent::Size(index::Size(index as u16)));
         }
         let sizes = self.out.sizes.iter().map(|size| size.name.to_string());
         let sizes: Vec<String> = sizes.collect();

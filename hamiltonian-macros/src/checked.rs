@@ -15,14 +15,16 @@
 //!   mention only loops outside it; a [`Kind::Sum`] lists its loops outermost first. A range whose
 //!   upper bound is not above its lower is empty, its sum zero.
 //! - Loops are not shared between sums, so a loop variable stands for one loop only.
-//! - An index with [`Index::proven`] is in range whatever the sizes are (where the loops around it
-//!   run at all); others depend on the sizes and need a check where sizes are known. None is
+//! - A [`Domain`] is an index into [`Checked::loops`], a [`Size`] one into [`Checked::sizes`].
+//! - An index is in range whatever the sizes are, where the loops around it run at all, or there is
+//!   a [`Reach`]: then the sizes decide, and a check is needed where they are known. None is
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
 use crate::ast::Comparison;
 use crate::names::Builtin;
 use crate::report::Spans;
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 use hamiltonian_symbolic::model::ObservableKind;
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::{Ident, Span, TokenStream};
@@ -34,7 +36,7 @@ pub struct Checked {
     /// The header of item form; `None` in expression form.
     pub item: Option<Item>,
     /// Sizes that are not literals: const generics first, then run-time sizes.
-    pub sizes: Vec<Size>,
+    pub sizes: Vec<SizeDeclaration>,
     /// Scalar and array parameters.
     pub parameters: Vec<Parameter>,
     /// Names captured in expression form, scalars, in order of first use. Their spans are the
@@ -59,7 +61,7 @@ pub struct Checked {
     /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
     pub force: Vec<NodeId>,
     /// The i of `force(q[i]; p[i]) = …`, of which `force` has the value at row i.
-    pub force_row: Option<LoopId>,
+    pub force_row: Option<Domain>,
     /// `dt = g*ds`: g, a scalar, with the first word of the statement.
     pub time_factor: Option<(NodeId, Span)>,
     /// `coordinates polar(x, y)`.
@@ -98,14 +100,14 @@ pub struct Item {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
     /// `name: usize`
-    Size(SizeId),
+    Size(Size),
     /// `name`, `name = 1.0`, `name: [s]`, `name: [s][s]`
     Parameter(ParameterId),
 }
 
 /// A size that is not a literal.
 #[derive(Debug)]
-pub struct Size {
+pub struct SizeDeclaration {
     /// The name of the const generic or field.
     pub name: Ident,
     /// Where it comes from.
@@ -234,35 +236,6 @@ pub struct Loop {
     pub upper: Affine,
 }
 
-/// `constant + Σ coefficient·variable`, exactly.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Affine {
-    /// The constant.
-    pub constant: i64,
-    /// Variables in increasing order, without zero coefficients.
-    pub terms: Vec<(IndexVariable, i64)>,
-}
-
-/// A variable of an affine expression.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum IndexVariable {
-    /// A size.
-    Size(SizeId),
-    /// A loop variable.
-    Loop(LoopId),
-}
-
-/// `affine` or `affine % modulo` (Euclidean).
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Index {
-    /// Left of `%`.
-    pub affine: Affine,
-    /// Right of `%`.
-    pub modulo: Option<Extent>,
-    /// In range whatever the sizes are.
-    pub proven: bool,
-}
-
 /// An index of which the sizes decide whether it is in range, or the first value of such a range.
 #[derive(Debug, Clone)]
 pub struct Reach {
@@ -270,8 +243,8 @@ pub struct Reach {
     pub shown: String,
     /// and where.
     pub span: Span,
-    /// The loops whose iterations it depends on, outermost first.
-    pub loops: Vec<LoopId>,
+    /// The loops whose iterations it depends on, outermost first, each with its `[lower, upper]`.
+    pub loops: Vec<(Domain, [Affine; 2])>,
     /// The form that must be ≥ 0 in all of them.
     pub form: Affine,
     /// Its upper bound, excluded.
@@ -284,7 +257,19 @@ pub enum Extent {
     /// A number, at least 1.
     Literal(u64),
     /// A const generic or run-time size.
-    Size(SizeId),
+    Size(Size),
+}
+
+impl Extent {
+    /// The number or the size as a form.
+    pub fn affine(self) -> Affine {
+        match self {
+            Extent::Literal(value) => {
+                Affine::constant(i64::try_from(value).expect("check bounds literal sizes"))
+            }
+            Extent::Size(size) => Affine::size(size),
+        }
+    }
 }
 
 /// The type of a node.
@@ -337,9 +322,9 @@ pub enum Kind {
     /// S: a name of the scope around the macro.
     Capture(CaptureId),
     /// S: a size as a real number.
-    Size(SizeId),
+    Size(Size),
     /// S: a loop variable as a real number.
-    Loop(LoopId),
+    Loop(Domain),
     /// S: the Hamiltonian itself; only in statements that H does not depend on.
     Hamiltonian,
     /// X → X
@@ -463,10 +448,6 @@ ids! {
     ParameterId
     /// Index into [`Checked::captures`].
     CaptureId
-    /// Index into [`Checked::sizes`].
-    SizeId
-    /// Index into [`Checked::loops`].
-    LoopId
     /// Index into [`Checked::functions`].
     FunctionId
 }

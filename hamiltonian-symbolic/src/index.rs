@@ -33,17 +33,31 @@ pub struct Affine {
     pub sizes: Vec<(Size, i64)>,
 }
 
-fn merge<K: Copy + Ord>(a: &[(K, i64)], b: &[(K, i64)], factor: i64) -> Vec<(K, i64)> {
-    let mut all: Vec<(K, i64)> = a.to_vec();
-    for &(k, v) in b {
-        match all.iter_mut().find(|(key, _)| *key == k) {
-            Some(entry) => entry.1 += v * factor,
-            None => all.push((k, v * factor)),
+/// The end of its range at which a form is taken.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum End {
+    /// The first value.
+    Least,
+    /// The last value.
+    Greatest,
+}
+
+fn merge<K: Copy + Ord>(a: &[(K, i64)], factor: i64, b: &[(K, i64)]) -> Option<Vec<(K, i64)>> {
+    let mut all = a.to_vec();
+    for &(key, k) in b {
+        let k = k.checked_mul(factor)?;
+        match all.binary_search_by_key(&key, |entry| entry.0) {
+            Ok(at) => all[at].1 = all[at].1.checked_add(k)?,
+            Err(at) => all.insert(at, (key, k)),
         }
     }
     all.retain(|entry| entry.1 != 0);
-    all.sort_unstable();
-    all
+    Some(all)
+}
+
+fn factor<K: PartialEq>(terms: &[(K, i64)], wanted: K) -> i64 {
+    let term = terms.iter().find(|(key, _)| *key == wanted);
+    term.map_or(0, |(_, factor)| *factor)
 }
 
 impl Affine {
@@ -71,14 +85,24 @@ impl Affine {
             ..Affine::default()
         }
     }
+    /// `self + factor·other`; `None` where a coefficient overflows.
+    #[must_use]
+    pub fn checked_plus(&self, factor: i64, other: &Affine) -> Option<Affine> {
+        let constant = factor.checked_mul(other.constant)?;
+        Some(Affine {
+            constant: self.constant.checked_add(constant)?,
+            loops: merge(&self.loops, factor, &other.loops)?,
+            sizes: merge(&self.sizes, factor, &other.sizes)?,
+        })
+    }
     /// `self + factor·other`.
+    ///
+    /// # Panics
+    /// Where a coefficient overflows, which the macro reports as its own fault.
     #[must_use]
     pub fn plus(&self, factor: i64, other: &Affine) -> Affine {
-        Affine {
-            constant: self.constant + factor * other.constant,
-            loops: merge(&self.loops, &other.loops, factor),
-            sizes: merge(&self.sizes, &other.sizes, factor),
-        }
+        self.checked_plus(factor, other)
+            .expect("coefficients of an index fit 64 bits")
     }
     /// The value, if it is a constant.
     #[must_use]
@@ -94,14 +118,16 @@ impl Affine {
     /// The factor of a loop variable.
     #[must_use]
     pub fn factor(&self, domain: Domain) -> i64 {
-        self.loops
-            .iter()
-            .find(|(d, _)| *d == domain)
-            .map_or(0, |entry| entry.1)
+        factor(&self.loops, domain)
+    }
+    /// The factor of a size.
+    #[must_use]
+    pub fn factor_of_size(&self, size: Size) -> i64 {
+        factor(&self.sizes, size)
     }
     /// The same with each loop variable replaced.
     #[must_use]
-    pub fn substitute(&self, replace: &impl Fn(Domain) -> Affine) -> Affine {
+    pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Affine {
         let rest = Affine {
             loops: Vec::new(),
             ..self.clone()
@@ -110,10 +136,56 @@ impl Affine {
             .iter()
             .fold(rest, |sum, &(d, k)| sum.plus(k, &replace(d)))
     }
+    /// The form over sizes alone that is left when loop variables are replaced from the innermost
+    /// out: `choose` has for a variable and its factor a form over the loops around it. `None` where
+    /// a coefficient overflows.
+    pub fn eliminate(
+        &self,
+        mut choose: impl FnMut(Domain, i64) -> Option<Affine>,
+    ) -> Option<Affine> {
+        let mut form = self.clone();
+        // A range reads only loops around it, which have smaller numbers.
+        while let Some((domain, factor)) = form.loops.pop() {
+            form = form.checked_plus(factor, &choose(domain, factor)?)?;
+        }
+        Some(form)
+    }
+    /// The least or greatest value over all iterations of its loops, given the range
+    /// `lower..upper` of each, as a form over sizes.
+    pub fn extreme<'a>(
+        &self,
+        end: End,
+        mut range: impl FnMut(Domain) -> [&'a Affine; 2],
+    ) -> Option<Affine> {
+        self.eliminate(|domain, factor| end.of(range(domain), factor))
+    }
+    /// Whether a form over sizes is at least 0 whatever the sizes are.
+    #[must_use]
+    pub fn is_never_negative(&self) -> bool {
+        self.constant >= 0 && self.sizes.iter().all(|(_, factor)| *factor >= 0)
+    }
+    /// Whether a form over sizes is below 0 whatever the sizes are.
+    #[must_use]
+    pub fn is_always_negative(&self) -> bool {
+        self.constant < 0 && self.sizes.iter().all(|(_, factor)| *factor <= 0)
+    }
     /// The loop variables as a bit set.
     #[must_use]
     pub fn variables(&self) -> u64 {
         self.loops.iter().fold(0, |set, (d, _)| set | 1 << d.0)
+    }
+}
+
+impl End {
+    /// The value of a loop variable in `lower..upper` at which its multiple by `factor` is at this
+    /// end.
+    #[must_use]
+    pub fn of(self, [lower, upper]: [&Affine; 2], factor: i64) -> Option<Affine> {
+        if (factor > 0) == (self == End::Greatest) {
+            upper.checked_plus(-1, &Affine::constant(1))
+        } else {
+            Some(lower.clone())
+        }
     }
 }
 
@@ -181,8 +253,8 @@ impl Index {
     }
     /// The same with each loop variable replaced.
     #[must_use]
-    pub fn substitute(&self, replace: &impl Fn(Domain) -> Affine) -> Index {
-        let affine = self.affine.substitute(replace);
+    pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Index {
+        let affine = self.affine.substitute(&mut replace);
         match &self.modulo {
             Some(modulo) => Index::wrapped(affine, modulo.substitute(replace)),
             None => Index::plain(affine),

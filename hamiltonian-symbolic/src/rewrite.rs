@@ -110,7 +110,7 @@ impl Dag {
                             };
                             targets.insert(d, target);
                         }
-                        index.substitute(&|d| targets[&d].clone())
+                        index.substitute(|d| targets[&d].clone())
                     };
                     let (row, column) = (image(row), column.map(image));
                     self.element(array, row, column)
@@ -217,7 +217,7 @@ impl Dag {
             };
             targets.insert(d, target);
         }
-        let image = |affine: &Affine| affine.substitute(&|d| targets[&d].clone());
+        let image = |affine: &Affine| affine.substitute(|d| targets[&d].clone());
         let image = self.domain(parent, image(&range.start), image(&range.end));
         moved.insert(domain, image);
         image

@@ -1,100 +1,23 @@
-//! Affine expressions: what indices and ranges are made of.
+//! Affine expressions, of which indices and ranges are made.
 //!
-//! Input: nodes that are affine in sizes and loop variables. Output: their exact form. Invariant:
-//! coefficients never overflow (a form that would is none).
+//! Input: nodes that are affine in sizes and loop variables. Output: their exact form. Invariant: a
+//! form whose coefficients would overflow is none.
 
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::{ExprId, ExprKind};
-use crate::checked::{Affine, IndexVariable, Kind};
-
-impl Affine {
-    /// A number.
-    pub fn constant(constant: i64) -> Affine {
-        Affine {
-            constant,
-            terms: Vec::new(),
-        }
-    }
-
-    /// A size or a loop variable.
-    pub fn variable(variable: IndexVariable) -> Affine {
-        Affine {
-            constant: 0,
-            terms: vec![(variable, 1)],
-        }
-    }
-
-    /// The number, if it is one.
-    pub fn to_constant(&self) -> Option<i64> {
-        self.terms.is_empty().then_some(self.constant)
-    }
-
-    /// `self + factor·other`
-    pub fn plus(&self, factor: i64, other: &Affine) -> Option<Affine> {
-        let constant = self
-            .constant
-            .checked_add(factor.checked_mul(other.constant)?)?;
-        let mut terms = Vec::with_capacity(self.terms.len() + other.terms.len());
-        let (mut left, mut right) = (self.terms.iter().peekable(), other.terms.iter().peekable());
-        loop {
-            let (variable, coefficient) = match (left.peek(), right.peek()) {
-                (None, None) => break,
-                (Some(&&(variable, a)), None) => {
-                    left.next();
-                    (variable, a)
-                }
-                (None, Some(&&(variable, b))) => {
-                    right.next();
-                    (variable, factor.checked_mul(b)?)
-                }
-                (Some(&&(x, a)), Some(&&(y, b))) => {
-                    if x <= y {
-                        left.next();
-                    }
-                    if y <= x {
-                        right.next();
-                    }
-                    match x.cmp(&y) {
-                        std::cmp::Ordering::Less => (x, a),
-                        std::cmp::Ordering::Greater => (y, factor.checked_mul(b)?),
-                        std::cmp::Ordering::Equal => (x, a.checked_add(factor.checked_mul(b)?)?),
-                    }
-                }
-            };
-            if coefficient != 0 {
-                terms.push((variable, coefficient));
-            }
-        }
-        Some(Affine { constant, terms })
-    }
-
-    /// `factor·self`
-    pub fn times(&self, factor: i64) -> Option<Affine> {
-        Affine::default().plus(factor, self)
-    }
-
-    /// At least 0 whatever the sizes are; only sizes occur.
-    pub(super) fn never_negative(&self) -> bool {
-        self.constant >= 0 && self.terms.iter().all(|(_, coefficient)| *coefficient >= 0)
-    }
-
-    /// Less than 0 whatever the sizes are; only sizes occur.
-    pub(super) fn always_negative(&self) -> bool {
-        self.constant < 0 && self.terms.iter().all(|(_, coefficient)| *coefficient <= 0)
-    }
-}
+use crate::checked::Kind;
+use hamiltonian_symbolic::index::{Affine, Domain, Size};
 
 impl Checker<'_> {
     /// An affine form over sizes and loops as it would be written.
     pub(super) fn affine_shown(&self, form: &Affine) -> String {
         let mut text = String::new();
-        for (variable, coefficient) in &form.terms {
-            let name = match variable {
-                IndexVariable::Size(size) => &self.out.sizes[size.0 as usize].name,
-                IndexVariable::Loop(id) => &self.out.loops[id.0 as usize].name,
-            };
-            let sign = match (text.is_empty(), *coefficient < 0) {
+        let size = |&(size, k): &(Size, i64)| (&self.out.sizes[size.0 as usize].name, k);
+        let variable = |&(id, k): &(Domain, i64)| (&self.out.loops[id.0 as usize].name, k);
+        let sizes = form.sizes.iter().map(size);
+        for (name, coefficient) in sizes.chain(form.loops.iter().map(variable)) {
+            let sign = match (text.is_empty(), coefficient < 0) {
                 (true, true) => "-",
                 (true, false) => "",
                 (false, true) => " - ",

@@ -5,11 +5,10 @@
 
 use super::Checker;
 use crate::ast::StatementKind;
-use crate::checked::{
-    Affine, Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type,
-};
+use crate::checked::{Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type};
 use crate::names;
 use crate::report::Spans;
+use hamiltonian_symbolic::index::Affine;
 use proc_macro2::Ident;
 
 const CHARTS: &[&str] = &["polar", "spherical", "jacobi", "heliocentric"];

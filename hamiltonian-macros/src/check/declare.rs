@@ -6,9 +6,9 @@
 use super::{Binding, Checker};
 use crate::ast::{Expression, ParameterKind, Size, StatementKind};
 use crate::checked::{
-    Extent, Field, Item, Kind, NodeId, Parameter, ParameterId, Size as CheckedSize, SizeId,
-    SizeKind, Type,
+    Extent, Field, Item, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, SizeKind, Type,
 };
+use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
 
 /// The most numbers of an array whose size is a literal: such arrays live on the stack, a scheme holds
@@ -67,7 +67,7 @@ impl Checker<'_> {
             for parameter in &item.parameters {
                 let ty = match &parameter.kind {
                     ParameterKind::Size => {
-                        fields.push(Field::Size(SizeId(next_size as u32)));
+                        fields.push(Field::Size(index::Size(next_size as u16)));
                         next_size += 1;
                         continue;
                     }
@@ -171,9 +171,9 @@ impl Checker<'_> {
     }
 
     fn size(&mut self, name: &Ident, kind: SizeKind, attributes: Vec<proc_macro2::TokenStream>) {
-        let id = SizeId(self.out.sizes.len() as u32);
+        let id = index::Size(self.out.sizes.len() as u16);
         self.declare(name, Binding::Size(id));
-        self.out.sizes.push(CheckedSize {
+        self.out.sizes.push(SizeDeclaration {
             name: name.clone(),
             kind,
             attributes,

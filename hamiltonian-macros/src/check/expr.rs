@@ -8,9 +8,10 @@
 
 use super::Checker;
 use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, ScopeId, Symbol, UnaryOp};
-use crate::checked::{Affine, Extent, Index, IndexVariable, Kind, Node, NodeId, Type};
+use crate::checked::{Extent, Kind, Node, NodeId, Type};
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
+use hamiltonian_symbolic::index::Affine;
 
 /// How many nodes the calls of `let` functions may make in all.
 const MAX_INSTANTIATED: usize = 1 << 19;
@@ -181,7 +182,7 @@ impl Checker<'_> {
                 let (value, ty) = self.number(operand, frame)?;
                 let affine = self.affines[value.0 as usize]
                     .as_ref()
-                    .and_then(|a| a.times(-1));
+                    .and_then(|a| Affine::default().checked_plus(-1, a));
                 self.push_affine(raw, Kind::Neg(value), ty, affine)
             }
             UnaryOp::Not => {
@@ -214,11 +215,11 @@ impl Checker<'_> {
         let scalars = left_type == Type::Scalar && right_type == Type::Scalar;
         let forms = (&self.affines[a.0 as usize], &self.affines[b.0 as usize]);
         let affine = match (op, forms) {
-            (BinaryOp::Add, (Some(x), Some(y))) => x.plus(1, y),
-            (BinaryOp::Sub, (Some(x), Some(y))) => x.plus(-1, y),
-            (BinaryOp::Mul, (Some(x), Some(y))) => match (x.to_constant(), y.to_constant()) {
-                (Some(factor), _) => y.times(factor),
-                (_, Some(factor)) => x.times(factor),
+            (BinaryOp::Add, (Some(x), Some(y))) => x.checked_plus(1, y),
+            (BinaryOp::Sub, (Some(x), Some(y))) => x.checked_plus(-1, y),
+            (BinaryOp::Mul, (Some(x), Some(y))) => match (x.as_constant(), y.as_constant()) {
+                (Some(factor), _) => Affine::default().checked_plus(factor, y),
+                (_, Some(factor)) => Affine::default().checked_plus(factor, x),
                 _ => None,
             },
             _ => None,
@@ -432,7 +433,7 @@ impl Checker<'_> {
                 return None;
             }
         };
-        let index: Index = self.checked_index(value, index, frame, extent)?;
+        let index = self.checked_index(value, index, frame, extent)?;
         self.push(raw, Kind::Index { base: value, index }, ty)
     }
 
@@ -570,15 +571,5 @@ impl Checker<'_> {
         let value = self.visit(body, bound, None).value(body.root);
         self.call_depth -= 1;
         value
-    }
-
-    /// The affine form of a loop variable or size.
-    pub(super) fn index_variable(
-        &mut self,
-        raw: ExprId,
-        kind: Kind,
-        variable: IndexVariable,
-    ) -> Option<NodeId> {
-        self.push_affine(raw, kind, Type::Scalar, Some(Affine::variable(variable)))
     }
 }

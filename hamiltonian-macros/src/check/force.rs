@@ -5,7 +5,8 @@
 
 use super::Checker;
 use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
-use crate::checked::{Affine, Extent, IndexVariable, Kind, Loop, LoopId, Type};
+use crate::checked::{Extent, Kind, Loop, Type};
+use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
 
 impl Checker<'_> {
@@ -132,20 +133,19 @@ impl Checker<'_> {
                 .error(name.span(), message, "choose another name for the row");
             return;
         }
-        let id = LoopId(self.out.loops.len() as u32);
+        let id = Domain(self.out.loops.len() as u32);
         self.out.loops.push(Loop {
             name: name.clone(),
             lower: Affine::default(),
-            upper: match rows {
-                Extent::Literal(rows) => Affine {
-                    constant: i64::try_from(rows).unwrap_or(i64::MAX),
-                    terms: Vec::new(),
-                },
-                Extent::Size(size) => Affine::variable(IndexVariable::Size(size)),
-            },
+            upper: rows.affine(),
         });
         self.out.force_row = Some(id);
-        let row = self.index_variable(value.root, Kind::Loop(id), IndexVariable::Loop(id));
+        let row = self.push_affine(
+            value.root,
+            Kind::Loop(id),
+            Type::Scalar,
+            Some(Affine::variable(id)),
+        );
         self.active.push(id);
         let root = value.root;
         let arguments = symbol.map(|symbol| (symbol, row)).into_iter().collect();

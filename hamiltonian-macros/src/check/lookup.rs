@@ -6,14 +6,15 @@
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
 use crate::ast::{ExprId, ExprKind, ScopeId, StatementKind, Symbol};
-use crate::checked::{CaptureId, IndexVariable, Kind, NodeId, Type};
+use crate::checked::{CaptureId, Kind, NodeId, Type};
 use crate::names;
+use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
 
 /// A name with a meaning in the place it stands.
 pub(super) enum Found {
     /// A loop variable; `None` if its range is erroneous.
-    Loop(Option<crate::checked::LoopId>),
+    Loop(Option<Domain>),
     Argument(Option<NodeId>),
     Declared(Binding),
 }
@@ -51,7 +52,12 @@ impl Checker<'_> {
         let binding = match self.find(symbol, scope, frame) {
             Some(Found::Loop(id)) => {
                 let id = id?;
-                return self.index_variable(raw, Kind::Loop(id), IndexVariable::Loop(id));
+                return self.push_affine(
+                    raw,
+                    Kind::Loop(id),
+                    Type::Scalar,
+                    Some(Affine::variable(id)),
+                );
             }
             Some(Found::Argument(value)) => return value,
             Some(Found::Declared(binding)) => binding,
@@ -61,7 +67,9 @@ impl Checker<'_> {
             Binding::Value(value) => value,
             Binding::Erroneous => None,
             Binding::Time => self.push(raw, Kind::Time, Type::Scalar),
-            Binding::Size(id) => self.index_variable(raw, Kind::Size(id), IndexVariable::Size(id)),
+            Binding::Size(id) => {
+                self.push_affine(raw, Kind::Size(id), Type::Scalar, Some(Affine::size(id)))
+            }
             Binding::Parameter(id) => {
                 let ty = self.out.parameters[id.0 as usize].ty;
                 self.push(raw, Kind::Parameter(id), ty)

@@ -6,7 +6,8 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::{ExprId, ScopeId, Symbol};
-use crate::checked::{Loop, LoopId};
+use crate::checked::Loop;
+use hamiltonian_symbolic::index::Domain;
 
 impl Checker<'_> {
     /// `i in lower..upper`: from here on the loop variable stands for a new loop.
@@ -27,7 +28,7 @@ impl Checker<'_> {
             return;
         };
         self.checked_range(raw, &name.to_string(), bounds, [&lower, &upper]);
-        let id = LoopId(self.out.loops.len() as u32);
+        let id = Domain(self.out.loops.len() as u32);
         self.out.loops.push(Loop {
             name: name.clone(),
             lower,

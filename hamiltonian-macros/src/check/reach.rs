@@ -10,23 +10,8 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::ExprId;
-use crate::checked::{Affine, Extent, Index, IndexVariable, Kind, Loop, LoopId, NodeId, Reach};
-use proc_macro2::Span;
-
-/// An extent as an affine form.
-fn extent_form(extent: Extent) -> Option<Affine> {
-    match extent {
-        Extent::Literal(value) => i64::try_from(value).ok().map(Affine::constant),
-        Extent::Size(size) => Some(Affine::variable(IndexVariable::Size(size))),
-    }
-}
-
-/// Which end of its range an index is followed to.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum End {
-    Least,
-    Greatest,
-}
+use crate::checked::{Extent, Kind, Loop, NodeId, Reach};
+use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
 
 impl Checker<'_> {
     /// `base[index % modulo]`, checked against the extent it goes into.
@@ -42,13 +27,13 @@ impl Checker<'_> {
             None => None,
             Some(right) => Some(self.modulus(right, frame)?),
         };
-        let size = extent_form(extent)?;
+        let size = extent.affine();
         let shown = self.extent_shown(extent);
-        let span = self.ast.nodes[raw.0.0 as usize].spans.start;
         if let (Some(modulo), Some(right)) = (modulo, raw.1) {
-            let room = size.plus(-1, &extent_form(modulo)?)?;
-            if room.always_negative() {
-                let last = self.affine_shown(&extent_form(modulo)?.plus(-1, &Affine::constant(1))?);
+            let room = size.checked_plus(-1, &modulo.affine())?;
+            let last = modulo.affine().checked_plus(-1, &Affine::constant(1))?;
+            if room.is_always_negative() {
+                let last = self.affine_shown(&last);
                 self.error(
                     raw.0,
                     self.ast.nodes[right.0 as usize].spans,
@@ -57,33 +42,26 @@ impl Checker<'_> {
                 );
                 return None;
             }
-            let proven = room.never_negative() && self.runs_over(&affine, modulo);
+            let proven = room.is_never_negative() && self.runs_over(&affine, modulo);
+            let modulo = Some(modulo.affine());
+            let index = Index { affine, modulo };
             if !proven {
-                let written = self.wrapped_shown(&affine, modulo);
                 // Of the whole index nothing but the modulus matters, where it is computed at all.
-                let last = extent_form(modulo)?.plus(-1, &Affine::constant(1))?;
-                self.needs((base, span), &written, &affine, last, extent);
+                self.needs(base, raw.0, &index, last, extent);
             }
-            return Some(Index {
-                affine,
-                modulo: Some(modulo),
-                proven,
-            });
+            return Some(index);
         }
         let least = self.follow(&affine, End::Least);
         let greatest = self.follow(&affine, End::Greatest);
-        let room = greatest
-            .as_ref()
-            .and_then(|greatest| size.plus(-1, &Affine::constant(1))?.plus(-1, greatest));
+        let room = greatest.as_ref().and_then(|greatest| {
+            size.checked_plus(-1, &Affine::constant(1))?
+                .checked_plus(-1, greatest)
+        });
         let last = match extent {
             Extent::Literal(value) => (value - 1).to_string(),
             Extent::Size(_) => format!("{shown} - 1"),
         };
-        let help = if affine
-            .terms
-            .iter()
-            .any(|(variable, _)| matches!(variable, IndexVariable::Loop(_)))
-        {
+        let help = if !affine.loops.is_empty() {
             format!(
                 "indices run from 0 to {last}: change the range of the loop, or go round by `% {shown}`"
             )
@@ -98,7 +76,7 @@ impl Checker<'_> {
             let (Some(form), Some(reached)) = (form, reached) else {
                 continue;
             };
-            if form.always_negative() && self.takes_place(&affine, end, &own) {
+            if form.is_always_negative() && self.takes_place(&affine, end, &own) {
                 let reached = self.affine_shown(reached);
                 let message = if end == End::Least {
                     format!("this index reaches {reached}, but indices begin at 0")
@@ -115,37 +93,32 @@ impl Checker<'_> {
                 return None;
             }
         }
-        let proven = least.is_some_and(|form| form.never_negative())
-            && room.is_some_and(|form| form.never_negative());
+        let proven = least.is_some_and(|form| form.is_never_negative())
+            && room.is_some_and(|form| form.is_never_negative());
+        let index = Index::plain(affine);
         if !proven {
-            let written = self.affine_shown(&affine);
-            self.needs((base, span), &written, &affine, affine.clone(), extent);
+            self.needs(base, raw.0, &index, index.affine.clone(), extent);
         }
-        Some(Index {
-            affine,
-            modulo: None,
-            proven,
-        })
+        Some(index)
     }
 
     /// Notes that `form` is to stay within the extent in the own loops of `index`, which is
-    /// `written` into the brackets after `base`.
-    fn needs(
-        &mut self,
-        (base, span): (NodeId, Span),
-        written: &str,
-        index: &Affine,
-        form: Affine,
-        extent: Extent,
-    ) {
-        let shown = format!("{}[{written}]", self.base_shown(base));
+    /// written into the brackets after `base`.
+    fn needs(&mut self, base: NodeId, raw: ExprId, index: &Index, form: Affine, extent: Extent) {
         self.note(Reach {
-            shown,
-            span,
-            loops: self.own_loops(index),
+            shown: format!("{}[{}]", self.base_shown(base), self.index_shown(index)),
+            span: self.ast.nodes[raw.0 as usize].spans.start,
+            loops: self.with_bounds(self.own_loops(&index.affine)),
             form,
             extent: Some(extent),
         });
+    }
+
+    fn with_bounds(&self, loops: Vec<Domain>) -> Vec<(Domain, [Affine; 2])> {
+        let ranges = loops
+            .into_iter()
+            .map(|id| (id, self.bounds(id).map(Affine::clone)));
+        ranges.collect()
     }
 
     /// Notes a question, once.
@@ -161,13 +134,17 @@ impl Checker<'_> {
         }
     }
 
-    /// `(i + 1) % N`
-    fn wrapped_shown(&self, affine: &Affine, modulo: Extent) -> String {
-        let (written, modulo) = (self.affine_shown(affine), self.extent_shown(modulo));
-        if written.contains([' ', '*']) {
-            format!("({written}) % {modulo}")
-        } else {
-            format!("{written} % {modulo}")
+    /// `i + 1`, `(i + 1) % N`
+    fn index_shown(&self, index: &Index) -> String {
+        let written = self.affine_shown(&index.affine);
+        match index
+            .modulo
+            .as_ref()
+            .map(|modulo| self.affine_shown(modulo))
+        {
+            None => written,
+            Some(modulo) if written.contains([' ', '*']) => format!("({written}) % {modulo}"),
+            Some(modulo) => format!("{written} % {modulo}"),
         }
     }
 
@@ -189,11 +166,7 @@ impl Checker<'_> {
                 self.out.parameters[parameter.0 as usize].name.to_string()
             }
             Kind::Index { base, index } => {
-                let written = match index.modulo {
-                    Some(modulo) => self.wrapped_shown(&index.affine, modulo),
-                    None => self.affine_shown(&index.affine),
-                };
-                format!("{}[{written}]", self.base_shown(*base))
+                format!("{}[{}]", self.base_shown(*base), self.index_shown(index))
             }
             _ => "(…)".to_owned(),
         }
@@ -220,11 +193,8 @@ impl Checker<'_> {
         bounds: (ExprId, ExprId),
         [lower, upper]: [&Affine; 2],
     ) -> bool {
-        let is_backwards = |width: Affine| {
-            let is_size = |(variable, _): &_| matches!(variable, IndexVariable::Size(_));
-            width.always_negative() && width.terms.iter().all(is_size)
-        };
-        if !upper.plus(-1, lower).is_some_and(is_backwards) {
+        let is_backwards = |width: Affine| width.loops.is_empty() && width.is_always_negative();
+        if !upper.checked_plus(-1, lower).is_some_and(is_backwards) {
             return true;
         }
         let written = |id: ExprId| self.ast.nodes[id.0 as usize].spans;
@@ -240,22 +210,22 @@ impl Checker<'_> {
     /// The first value is not to be negative, where the loops around it run.
     fn begins_at_0(&mut self, raw: ExprId, name: &str, [lower, upper]: [&Affine; 2]) {
         let least = self.follow(lower, End::Least);
-        if least.as_ref().is_some_and(Affine::never_negative) {
+        if least.as_ref().is_some_and(Affine::is_never_negative) {
             return;
         }
         let own = self.own_loops(lower);
-        if let Some(least) = least.filter(Affine::always_negative)
+        if let Some(least) = least.filter(Affine::is_always_negative)
             && self.takes_place(lower, End::Least, &own)
         {
             let message = format!(
                 "this range begins at {}, but ranges begin at 0 or above",
                 self.affine_shown(&least)
             );
-            let shifted = match lower.to_constant() {
+            let shifted = match lower.as_constant() {
                 Some(first) => format!("{name} - {}", first.unsigned_abs()),
                 None => format!("{} + {name}", self.affine_shown(lower)),
             };
-            let length = upper.plus(-1, lower);
+            let length = upper.checked_plus(-1, lower);
             let length = length.map_or("…".to_owned(), |length| self.affine_shown(&length));
             let help = format!("write `{name} in 0..{length}`, and `({shifted})` for `{name}`");
             let at = self.ast.nodes[raw.0 as usize].spans;
@@ -266,7 +236,7 @@ impl Checker<'_> {
         self.note(Reach {
             shown: format!("{name} in {first}..{end}"),
             span: self.ast.nodes[raw.0 as usize].spans.start,
-            loops: own,
+            loops: self.with_bounds(own),
             form: lower.clone(),
             extent: None,
         });
@@ -274,31 +244,28 @@ impl Checker<'_> {
 
     /// Whether some loop of the index has no iteration where the modulus is 0.
     fn runs_over(&self, index: &Affine, modulus: Extent) -> bool {
-        let Extent::Size(size) = modulus else {
+        if let Extent::Literal(_) = modulus {
             return true;
-        };
+        }
         self.own_loops(index).iter().any(|id| {
-            let Loop { lower, upper, .. } = &self.out.loops[id.0 as usize];
-            let size = Affine::variable(IndexVariable::Size(size));
-            let beyond = upper.plus(-1, &size);
-            lower.never_negative() && beyond.is_some_and(|b| b.terms.is_empty() && b.constant <= 0)
+            let [lower, upper] = self.bounds(*id);
+            let beyond = upper.checked_plus(-1, &modulus.affine());
+            let least = self.follow(lower, End::Least);
+            beyond.and_then(|b| b.as_constant()).is_some_and(|b| b <= 0)
+                && least.is_some_and(|least| least.is_never_negative())
         })
     }
 
     /// The loops an affine form is made of, with those that their ranges are made of, outermost
     /// first.
-    fn own_loops(&self, form: &Affine) -> Vec<LoopId> {
-        let mut own: Vec<LoopId> = Vec::new();
+    fn own_loops(&self, form: &Affine) -> Vec<Domain> {
+        let mut own: Vec<Domain> = Vec::new();
         let mut forms = vec![form];
         while let Some(form) = forms.pop() {
-            for (variable, _) in &form.terms {
-                let IndexVariable::Loop(id) = variable else {
-                    continue;
-                };
+            for (id, _) in &form.loops {
                 if !own.contains(id) {
                     own.push(*id);
-                    let Loop { lower, upper, .. } = &self.out.loops[id.0 as usize];
-                    forms.extend([lower, upper]);
+                    forms.extend(self.bounds(*id));
                 }
             }
         }
@@ -310,12 +277,12 @@ impl Checker<'_> {
     /// The size to the right of `%`.
     fn modulus(&mut self, raw: ExprId, frame: &Frame) -> Option<Extent> {
         let form = self.affines[frame.value(raw)?.0 as usize].as_ref();
-        let extent = form.and_then(|form| match (form.constant, form.terms.as_slice()) {
-            (value, []) => u64::try_from(value)
+        let extent = form.and_then(|form| match (form.as_constant(), form.sizes.as_slice()) {
+            (Some(value), _) => u64::try_from(value)
                 .ok()
                 .filter(|value| *value > 0)
                 .map(Extent::Literal),
-            (0, [(IndexVariable::Size(size), 1)]) => Some(Extent::Size(*size)),
+            (None, &[(size, 1)]) if *form == Affine::size(size) => Some(Extent::Size(size)),
             _ => None,
         });
         if extent.is_none() {
@@ -332,65 +299,37 @@ impl Checker<'_> {
 
     /// The least or greatest value of an index over the loops around it, in terms of sizes.
     fn follow(&self, form: &Affine, end: End) -> Option<Affine> {
-        let mut form = form.clone();
-        // A loop's bounds mention only loops with smaller ids, and loops sort last.
-        while let Some(&(IndexVariable::Loop(id), coefficient)) = form.terms.last() {
-            let value = self.end_of(id, coefficient, end)?;
-            let without = Affine {
-                constant: form.constant,
-                terms: form.terms[..form.terms.len() - 1].to_vec(),
-            };
-            form = without.plus(coefficient, &value)?;
-        }
-        Some(form)
+        form.extreme(end, |id| self.bounds(id))
     }
 
-    /// The end of a loop at which a term with this coefficient is least or greatest.
-    fn end_of(&self, id: LoopId, coefficient: i64, end: End) -> Option<Affine> {
+    /// The range of a loop, `[lower, upper]`.
+    fn bounds(&self, id: Domain) -> [&Affine; 2] {
         let Loop { lower, upper, .. } = &self.out.loops[id.0 as usize];
-        if (coefficient > 0) == (end == End::Greatest) {
-            upper.plus(-1, &Affine::constant(1))
-        } else {
-            Some(lower.clone())
-        }
+        [lower, upper]
     }
 
     /// Whether `loops` run at the end an index was followed to: an inner loop may be empty there
     /// (`i in 0..n, j in i + 1..n` at `i = n - 1`).
-    fn takes_place(&self, form: &Affine, end: End, loops: &[LoopId]) -> bool {
-        let mut chosen: Vec<(LoopId, Affine)> = Vec::new();
-        let mut rest = form.clone();
-        while let Some(&(IndexVariable::Loop(id), coefficient)) = rest.terms.last() {
-            let Some(value) = self.end_of(id, coefficient, end) else {
-                return false;
-            };
-            rest.terms.pop();
-            let Some(next) = rest.plus(coefficient, &value) else {
-                return false;
-            };
-            rest = next;
-            chosen.push((id, value));
-        }
-        let substitute = |form: &Affine| -> Option<Affine> {
-            let mut form = form.clone();
-            while let Some(&(IndexVariable::Loop(id), coefficient)) = form.terms.last() {
-                let value = match chosen.iter().find(|(other, _)| *other == id) {
-                    Some((_, value)) => value,
-                    None => &self.out.loops[id.0 as usize].lower,
-                };
-                form.terms.pop();
-                form = form.plus(coefficient, value)?;
-            }
-            Some(form)
+    fn takes_place(&self, form: &Affine, end: End, loops: &[Domain]) -> bool {
+        let mut chosen: Vec<(Domain, Affine)> = Vec::new();
+        let followed = form.eliminate(|id, factor| {
+            let value = end.of(self.bounds(id), factor)?;
+            chosen.push((id, value.clone()));
+            Some(value)
+        });
+        let value = |id: Domain| match chosen.iter().find(|(other, _)| *other == id) {
+            Some((_, value)) => value.clone(),
+            None => self.bounds(id)[0].clone(),
         };
-        loops.iter().all(|id| {
-            let Loop { lower, upper, .. } = &self.out.loops[id.0 as usize];
+        let runs = |id: &Domain| {
+            let [lower, upper] = self.bounds(*id);
             // Empty whatever the sizes are: upper − lower − 1 < 0.
             let last = upper
-                .plus(-1, lower)
-                .and_then(|width| width.plus(-1, &Affine::constant(1)));
-            last.and_then(|last| substitute(&last))
-                .is_some_and(|last| !last.always_negative())
-        })
+                .checked_plus(-1, lower)
+                .and_then(|width| width.checked_plus(-1, &Affine::constant(1)));
+            last.and_then(|last| last.eliminate(|id, _| Some(value(id))))
+                .is_some_and(|last| !last.is_always_negative())
+        };
+        followed.is_some() && loops.iter().all(runs)
     }
 }

@@ -166,7 +166,7 @@ pub fn new(
         allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
     }
     let visibility = &item.visibility;
-    let questions = reach::constructed(&definition.reaches, context);
+    let questions = reach::constructed(definition.reaches, context);
     let more = if questions.is_empty() {
         TokenStream::new()
     } else {

@@ -175,7 +175,7 @@ impl<'a> Emission<'a> {
             "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{\nlet _self = self;"
         );
         self.out
-            .push_str(&reach::asked(&self.definition.reaches, context));
+            .push_str(&reach::asked(self.definition.reaches, context));
         let results: Vec<_> = self.prepared.values().collect();
         let arguments = self.held();
         let read: Vec<Slice> = (self.prepared.arrays.iter().copied())

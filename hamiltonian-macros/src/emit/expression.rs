@@ -47,7 +47,7 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
     let implementations = lex(&text);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, context, &generics);
-    let questions = reach::compiled(&definition.reaches, context, &generics);
+    let questions = reach::compiled(definition.reaches, context, &generics);
     let value = lex(name);
     let names = (0..captures.len()).map(|at| lex(&format!("c{at}")));
     quote! {

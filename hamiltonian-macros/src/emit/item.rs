@@ -88,7 +88,7 @@ pub fn generate(definition: &Definition, item: &Item) -> TokenStream {
     let functions = lex(&functions);
     let externals = externals::wrappers(definition);
     let inherent = inherent(definition, item, context, &generics);
-    let questions = reach::compiled(&definition.reaches, context, &generics);
+    let questions = reach::compiled(definition.reaches, context, &generics);
     quote! {
         #declaration
         #[allow(clippy::approx_constant)]

@@ -40,9 +40,9 @@ mod tests;
 
 pub use declared::Declared;
 pub use number::closed;
-pub use reach::{Bound, Reach};
 pub use vectors::{VectorItem, VectorUse};
 
+use crate::checked::Reach;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use proc_macro2::{Ident, TokenStream};
@@ -73,7 +73,7 @@ pub struct Definition<'a> {
     /// The systems of a split's pieces: (name of the piece, name of its type).
     pub pieces: Vec<(Ident, Ident)>,
     /// The questions that only sizes decide.
-    pub reaches: Vec<Reach>,
+    pub reaches: &'a [Reach],
 }
 
 /// Item form or expression form.

@@ -7,67 +7,71 @@ use super::block::Context;
 use super::generics::Generics;
 use super::item::located;
 use super::lex;
-use proc_macro2::{Span, TokenStream};
+use crate::checked::{Extent, Reach};
+use hamiltonian_symbolic::index::{Affine, Domain, Size};
+use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
+use std::iter;
 
-/// An index, or the first value of a range, that only the sizes can keep in its bounds. Forms are
-/// `[constant, factor of each size…, factor of each loop…]`.
-#[derive(Debug)]
-pub struct Reach {
-    /// As it is written,
-    pub shown: String,
-    /// and where.
-    pub span: Span,
-    /// The sizes in forms, by their numbers in the model.
-    pub sizes: Vec<usize>,
-    /// The ranges of its loops, outermost first, each in the loops before it.
-    pub loops: Vec<[Vec<i64>; 2]>,
-    /// The form that must be ≥ 0.
-    pub form: Vec<i64>,
-    /// Its upper bound, excluded; the first value of a range has none.
-    pub extent: Option<Bound>,
+/// The sizes in the forms of a question.
+fn sizes(reach: &Reach) -> Vec<Size> {
+    let ranges = reach.loops.iter().flat_map(|(_, range)| range);
+    let forms = ranges.chain([&reach.form]);
+    let mut sizes: Vec<Size> = forms
+        .flat_map(|form| form.sizes.iter().map(|(size, _)| *size))
+        .collect();
+    sizes.sort_unstable();
+    sizes.dedup();
+    sizes
 }
 
-/// An extent.
-#[derive(Debug, Clone, Copy)]
-pub enum Bound {
-    /// A number.
-    Literal(u64),
-    /// A size, by its number in the model.
-    Size(usize),
+/// Whether a size that is set at run time has a say.
+fn is_run_time(reach: &Reach, context: Context) -> bool {
+    let extent = reach.extent.and_then(|extent| match extent {
+        Extent::Size(size) => Some(size),
+        Extent::Literal(_) => None,
+    });
+    let mut sizes = sizes(reach).into_iter().chain(extent);
+    sizes.any(|size| context.is_run_time[usize::from(size.0)])
 }
 
-impl Reach {
-    /// Whether a size that is set at run time has a say.
-    pub fn is_run_time(&self, context: Context) -> bool {
-        let extent = match self.extent {
-            Some(Bound::Size(size)) => Some(size),
-            Some(Bound::Literal(_)) | None => None,
-        };
-        let mut sizes = self.sizes.iter().chain(&extent);
-        sizes.any(|size| context.is_run_time[*size])
-    }
+/// The value that knows the answer. Forms are `[constant, factor of each size…, factor of each
+/// loop…]`, those of a range in the loops before it.
+fn value(reach: &Reach, context: Context) -> String {
+    let sizes = sizes(reach);
+    let factors = |form: &Affine, loops: &[(Domain, [Affine; 2])]| {
+        let of_sizes = sizes.iter().map(|size| form.factor_of_size(*size));
+        let of_loops = loops.iter().map(|(id, _)| form.factor(*id));
+        let factors: Vec<i64> = iter::once(form.constant)
+            .chain(of_sizes)
+            .chain(of_loops)
+            .collect();
+        format!("&{factors:?}")
+    };
+    let range = |(level, (_, range)): (usize, &(Domain, [Affine; 2]))| {
+        let [lower, upper] = range
+            .each_ref()
+            .map(|form| factors(form, &reach.loops[..level]));
+        format!("[{lower}, {upper}]")
+    };
+    let loops: Vec<String> = reach.loops.iter().enumerate().map(range).collect();
+    let names: Vec<&str> = sizes
+        .iter()
+        .map(|size| context.indices.size(*size))
+        .collect();
+    format!(
+        "__h::Reach {{ sizes: &[{}], loops: [{}], index: {} }}",
+        names.join(", "),
+        loops.join(", "),
+        factors(&reach.form, &reach.loops)
+    )
+}
 
-    /// The value that knows the answer.
-    fn value(&self, context: Context) -> String {
-        let name = |size: &usize| context.indices.sizes[*size].as_str();
-        let sizes: Vec<&str> = self.sizes.iter().map(name).collect();
-        let ranges = |[lower, upper]: &[Vec<i64>; 2]| format!("[&{lower:?}, &{upper:?}]");
-        let loops: Vec<String> = self.loops.iter().map(ranges).collect();
-        format!(
-            "__h::Reach {{ sizes: &[{}], loops: [{}], index: &{:?} }}",
-            sizes.join(", "),
-            loops.join(", "),
-            self.form
-        )
-    }
-
-    fn extent(&self, context: Context) -> Option<String> {
-        self.extent.map(|extent| match extent {
-            Bound::Literal(value) => format!("{value}usize"),
-            Bound::Size(size) => context.indices.sizes[size].clone(),
-        })
+fn bound(extent: Extent, context: Context) -> String {
+    match extent {
+        Extent::Literal(value) => format!("{value}usize"),
+        Extent::Size(size) => context.indices.size(size).to_owned(),
     }
 }
 
@@ -76,19 +80,21 @@ impl Reach {
 pub fn compiled(reaches: &[Reach], context: Context, generics: &Generics) -> TokenStream {
     let mut constants = TokenStream::new();
     for (number, reach) in questions(reaches, context) {
-        let (value, shown) = (reach.value(context), &reach.shown);
-        let (bound, message) = match (reach.extent(context), reach.extent) {
-            (Some(extent), Some(bound)) => {
-                let last = match bound {
-                    Bound::Literal(value) => value.saturating_sub(1).to_string(),
-                    Bound::Size(size) => format!("{} - 1", context.model.sizes[size]),
+        let (value, shown) = (value(reach, context), &reach.shown);
+        let (bound, message) = match reach.extent {
+            Some(extent) => {
+                let last = match extent {
+                    Extent::Literal(value) => value.saturating_sub(1).to_string(),
+                    Extent::Size(size) => {
+                        format!("{} - 1", context.model.sizes[usize::from(size.0)])
+                    }
                 };
                 let message = format!(
                     "`{shown}` is out of range for these sizes: indices there run from 0 to {last}"
                 );
-                (extent, message)
+                (bound(extent, context), message)
             }
-            _ => (
+            None => (
                 "__h::core::primitive::usize::MAX".to_owned(),
                 format!("`{shown}` begins below 0 for these sizes"),
             ),
@@ -120,16 +126,16 @@ fn questions<'a>(
     context: Context,
 ) -> impl Iterator<Item = (usize, &'a Reach)> {
     let all = reaches.iter().enumerate();
-    all.filter(move |(_, reach)| !reach.is_run_time(context))
+    all.filter(move |(_, reach)| !is_run_time(reach, context))
 }
 
 /// The questions asked when a system is made.
 pub fn constructed(reaches: &[Reach], context: Context) -> String {
     let mut out = String::new();
-    for reach in reaches.iter().filter(|reach| reach.is_run_time(context)) {
-        let (value, shown) = (reach.value(context), &reach.shown);
-        let check = match reach.extent(context) {
-            Some(extent) => format!("check({shown:?}, {extent})"),
+    for reach in reaches.iter().filter(|reach| is_run_time(reach, context)) {
+        let (value, shown) = (value(reach, context), &reach.shown);
+        let check = match reach.extent {
+            Some(extent) => format!("check({shown:?}, {})", bound(extent, context)),
             None => format!("check_range({shown:?})"),
         };
         let _ = writeln!(out, "{value}.{check}?;");

@@ -138,7 +138,7 @@ fn emit(model: &mut Model, form: Form, separable: bool) -> TokenStream {
         vectors: Vec::new(),
         declared: None,
         pieces: Vec::new(),
-        reaches: Vec::new(),
+        reaches: &[],
     })
 }
 

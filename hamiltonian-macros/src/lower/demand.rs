@@ -6,11 +6,11 @@
 
 use super::LARGEST;
 use super::evaluate::Evaluator;
-use super::scope::size_affine;
-use crate::checked::{self, Extent, IndexVariable, Kind, LoopId, NodeId, Type};
+use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
-use hamiltonian_symbolic::index::{Affine, Domain, Index, Size, members};
+use hamiltonian_symbolic::index::{Affine, Domain, Index, members};
+use std::iter;
 
 /// The longest vector whose sums over components are unrolled.
 const LONGEST: i64 = 16;
@@ -24,7 +24,7 @@ pub struct Demand {
     /// those of [`Loops::numbers`], by construction of the demands.
     ///
     /// [`Loops::numbers`]: super::loops::Loops::numbers
-    pub values: Vec<(u32, i64)>,
+    pub values: Vec<(Domain, i64)>,
 }
 
 impl Demand {
@@ -37,10 +37,10 @@ impl Demand {
     }
 
     /// The value of a loop variable that is unrolled.
-    pub fn value(&self, id: LoopId) -> Option<i64> {
+    pub fn value(&self, id: Domain) -> Option<i64> {
         self.values
             .iter()
-            .find(|(known, _)| *known == id.0)
+            .find(|(known, _)| *known == id)
             .map(|(_, value)| *value)
     }
 
@@ -92,68 +92,38 @@ impl Run {
 }
 
 impl Evaluator<'_> {
-    /// The affine form for a demand: loop variables as the engine's, or as numbers.
-    pub fn affine(&self, dag: &mut Dag, affine: &checked::Affine, demand: &Demand) -> Affine {
-        let mut sum = Affine::constant(affine.constant);
-        for &(variable, factor) in &affine.terms {
-            let term = match variable {
-                IndexVariable::Size(size) => Affine::size(Size(size.0 as u16)),
-                IndexVariable::Loop(id) => match demand.value(id) {
-                    Some(value) => Affine::constant(value),
-                    None => Affine::variable(self.domain(dag, id, demand)),
-                },
-            };
-            sum = sum.plus(factor, &term);
-        }
-        sum
-    }
-
-    fn index(&self, dag: &mut Dag, index: &checked::Index, demand: &Demand) -> Index {
-        let affine = self.affine(dag, &index.affine, demand);
-        match index.modulo {
-            Some(modulo) => Index::wrapped(affine, size_affine(modulo)),
-            None => Index::plain(affine),
+    /// A loop variable for a demand: a number, or the engine's variable.
+    fn variable(&self, dag: &mut Dag, id: Domain, demand: &Demand) -> Affine {
+        match demand.value(id) {
+            Some(value) => Affine::constant(value),
+            None => Affine::variable(self.domain(dag, id, demand)),
         }
     }
 
     /// The engine's loop of a loop that is not unrolled.
-    pub fn domain(&self, dag: &mut Dag, id: LoopId, demand: &Demand) -> Domain {
-        // From the outermost in.
-        let mut path = Vec::new();
-        let mut at = Some(id);
-        while let Some(one) = at {
-            path.push(one);
-            at = self.loops.parent(one);
-        }
-        let mut domains: Vec<(LoopId, Domain)> = Vec::new();
-        let mut parent = None;
+    pub fn domain(&self, dag: &mut Dag, id: Domain, demand: &Demand) -> Domain {
+        let mut path = vec![id];
+        path.extend(iter::successors(self.loops.parent(id), |id| {
+            self.loops.parent(*id)
+        }));
+        let mut domains: Vec<(Domain, Domain)> = Vec::new();
         for one in path.into_iter().rev() {
-            let range = &self.checked.loops[one.0 as usize];
-            let bound = |affine: &checked::Affine| {
-                affine.terms.iter().fold(
-                    Affine::constant(affine.constant),
-                    |sum, &(variable, factor)| {
-                        let term = match variable {
-                            IndexVariable::Size(size) => Affine::size(Size(size.0 as u16)),
-                            IndexVariable::Loop(outer) => match demand.value(outer) {
-                                Some(value) => Affine::constant(value),
-                                None => domains
-                                    .iter()
-                                    .find(|(known, _)| *known == outer)
-                                    .map(|(_, domain)| Affine::variable(*domain))
-                                    .expect("a bound reads loops around it only"),
-                            },
-                        };
-                        sum.plus(factor, &term)
-                    },
-                )
+            let bound = |form: &Affine| {
+                form.substitute(|outer| match demand.value(outer) {
+                    Some(value) => Affine::constant(value),
+                    None => domains
+                        .iter()
+                        .find(|(known, _)| *known == outer)
+                        .map(|(_, domain)| Affine::variable(*domain))
+                        .expect("a bound reads loops around it only"),
+                })
             };
+            let range = &self.checked.loops[one.0 as usize];
             let (start, end) = (bound(&range.lower), bound(&range.upper));
-            let domain = dag.domain(parent, start, end);
-            domains.push((one, domain));
-            parent = Some(domain);
+            let parent = domains.last().map(|(_, domain)| *domain);
+            domains.push((one, dag.domain(parent, start, end)));
         }
-        parent.expect("a loop is in its own path")
+        domains.last().expect("a loop is in its own path").1
     }
 
     /// How the components of the vectors `operands` of `node` are run through; the sum over them
@@ -166,7 +136,7 @@ impl Evaluator<'_> {
         extent: Extent,
         demand: &Demand,
     ) -> Run {
-        let length = size_affine(extent);
+        let length = extent.affine();
         match length.as_constant() {
             Some(number)
                 if number <= LONGEST || operands.iter().any(|one| self.loops.by_number(*one)) =>
@@ -174,15 +144,12 @@ impl Evaluator<'_> {
                 Run::Numbers(number)
             }
             _ => {
-                let own = self.loops.free(node);
-                let outer = members(own).map(|id| LoopId(id.0));
-                let outer: Vec<LoopId> = outer.filter(|id| !self.loops.is_unrolled(*id)).collect();
-                let mut set = demand
-                    .indices
-                    .iter()
-                    .fold(0, |set, index| set | index.variables());
-                for id in outer {
-                    set |= 1 << self.domain(dag, id, demand).0;
+                let indices = demand.indices.iter();
+                let mut set = indices.fold(0, |set, index| set | index.variables());
+                for id in members(self.loops.free(node)) {
+                    if !self.loops.is_unrolled(id) {
+                        set |= 1 << self.domain(dag, id, demand).0;
+                    }
                 }
                 let parent = dag.deepest(set);
                 Run::Loop(dag.domain(parent, Affine::constant(0), length))
@@ -201,15 +168,15 @@ impl Evaluator<'_> {
         demand: &Demand,
     ) -> Result<Vec<Demand>, NotUnrolled> {
         let mut all = vec![demand.clone()];
-        for id in loops.map(LoopId) {
+        for id in loops.map(Domain) {
             if !self.loops.is_unrolled(id) {
                 continue;
             }
             let range = &self.checked.loops[id.0 as usize];
             let mut next = Vec::new();
             for one in &all {
-                let mut number = |bound| {
-                    let bound = self.affine(dag, bound, one);
+                let mut number = |bound: &Affine| {
+                    let bound = bound.substitute(|id| self.variable(dag, id, one));
                     bound.as_constant().ok_or(NotUnrolled::NotNumbers)
                 };
                 let (start, end) = (number(&range.lower)?, number(&range.upper)?);
@@ -218,7 +185,7 @@ impl Evaluator<'_> {
                 }
                 for value in start..end {
                     let mut with = one.clone();
-                    with.values.push((id.0, value));
+                    with.values.push((id, value));
                     next.push(with);
                 }
             }
@@ -286,7 +253,7 @@ impl Evaluator<'_> {
             }
             Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             Kind::Index { base, index } => {
-                let mut indices = vec![self.index(dag, index, demand)];
+                let mut indices = vec![index.substitute(|id| self.variable(dag, id, demand))];
                 indices.extend(demand.indices.iter().cloned());
                 wanted.push((*base, demand.with(indices)));
             }
@@ -339,7 +306,7 @@ impl Evaluator<'_> {
         // A value is the same whatever the loops are that it does not depend on.
         for (child, demand) in &mut wanted {
             let numbers = self.loops.numbers(*child);
-            demand.values.retain(|(id, _)| numbers >> id & 1 == 1);
+            demand.values.retain(|(id, _)| numbers >> id.0 & 1 == 1);
             demand.values.sort_unstable();
         }
         wanted

@@ -10,12 +10,12 @@ use super::loops::Loops;
 use super::velocity;
 use super::{Beyond, LARGEST};
 use crate::ast::Comparison;
-use crate::checked::{Checked, Definition, Kind, LoopId, NodeId, Type};
+use crate::checked::{Checked, Definition, Kind, NodeId, Type};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
-use hamiltonian_symbolic::index::{Domain, Index, Size};
+use hamiltonian_symbolic::index::{Domain, Index};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -276,7 +276,7 @@ impl<'a> Evaluator<'a> {
             (Kind::Capture(capture), _) => dag.parameter(Parameter(
                 (checked.parameters.len() + capture.0 as usize) as u16,
             )),
-            (Kind::Size(size), _) => dag.extent(Size(size.0 as u16)),
+            (Kind::Size(size), _) => dag.extent(*size),
             (Kind::Loop(id), _) => match demand.value(*id) {
                 Some(value) => dag.integer(value),
                 None => {
@@ -491,9 +491,9 @@ impl<'a> Evaluator<'a> {
     ) -> Node {
         let unrolled = self.unrolled_values(dag, loops.clone(), demand);
         let unrolled = unrolled.expect("its operands were asked for");
-        let kept: Vec<LoopId> = loops
+        let kept: Vec<Domain> = loops
             .rev()
-            .map(LoopId)
+            .map(Domain)
             .filter(|id| !self.loops.is_unrolled(*id))
             .collect();
         let mut nests: Vec<Vec<Domain>> = Vec::new();

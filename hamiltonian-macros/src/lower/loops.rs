@@ -6,9 +6,9 @@
 //! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
 //! made of are among them, but for those that a sum in it runs through.
 
-use crate::checked::{Affine, Checked, Extent, IndexVariable, Kind, LoopId, Node, NodeId, Type};
+use crate::checked::{Checked, Extent, Kind, Node, NodeId, Type};
 use crate::names::Builtin;
-use hamiltonian_symbolic::index::members;
+use hamiltonian_symbolic::index::{Domain, members};
 
 /// A set of loops; there are at most `LOOPS`.
 pub type Set = u64;
@@ -21,7 +21,7 @@ pub struct Loops {
     /// Whether components of each node (of its rows, for matrices) exist by number only.
     by_number: Vec<bool>,
     /// The loop around each loop that stays, as far as it matters.
-    parents: Vec<Option<LoopId>>,
+    parents: Vec<Option<Domain>>,
     /// How deep each loop stands.
     depths: Vec<u32>,
     /// Loops that are unrolled.
@@ -31,18 +31,8 @@ pub struct Loops {
     numbers: Vec<Set>,
 }
 
-fn bit(id: LoopId) -> Set {
+fn bit(id: Domain) -> Set {
     1 << id.0
-}
-
-fn mentioned(affine: &Affine) -> Set {
-    affine
-        .terms
-        .iter()
-        .fold(0, |set, (variable, _)| match variable {
-            IndexVariable::Loop(id) => set | bit(*id),
-            IndexVariable::Size(_) => set,
-        })
 }
 
 impl Loops {
@@ -64,7 +54,7 @@ impl Loops {
             loops.by_number.push(by_number);
         }
         if let Some(id) = checked.force_row {
-            let is_literal = checked.loops[id.0 as usize].upper.terms.is_empty();
+            let is_literal = checked.loops[id.0 as usize].upper.as_constant().is_some();
             if !checked.charts.is_empty() && is_literal {
                 loops.unrolled |= bit(id);
             }
@@ -75,7 +65,7 @@ impl Loops {
             let before = loops.unrolled;
             for (at, one) in checked.loops.iter().enumerate() {
                 if before >> at & 1 == 1 {
-                    loops.unrolled |= mentioned(&one.lower) | mentioned(&one.upper);
+                    loops.unrolled |= one.lower.variables() | one.upper.variables();
                 }
             }
             if loops.unrolled == before {
@@ -85,14 +75,14 @@ impl Loops {
         for (at, node) in checked.nodes.iter().enumerate().rev() {
             if let Kind::Sum { loops: own, .. } = &node.kind {
                 let mut parent = loops.deepest(loops.free[at] & !loops.unrolled);
-                for id in own.clone().map(LoopId) {
+                for id in own.clone().map(Domain) {
                     let number = id.0 as usize;
                     if loops.is_unrolled(id) {
                         loops.numbers[number] = bit(id);
                         continue;
                     }
                     let bounds = &checked.loops[number];
-                    let own = mentioned(&bounds.lower) | mentioned(&bounds.upper);
+                    let own = bounds.lower.variables() | bounds.upper.variables();
                     let around = parent.map_or(0, |p| loops.numbers[p.0 as usize]);
                     loops.numbers[number] = own & loops.unrolled | around;
                     loops.depths[number] = parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
@@ -109,14 +99,14 @@ impl Loops {
         node.kind.for_each_child(|child| set |= self.free(child));
         match &node.kind {
             Kind::Loop(id) => set |= bit(*id),
-            Kind::Index { index, .. } => set |= mentioned(&index.affine),
+            Kind::Index { index, .. } => set |= index.variables(),
             Kind::Sum { loops, .. } => {
                 for id in loops.clone() {
                     let one = &checked.loops[id as usize];
-                    set |= mentioned(&one.lower) | mentioned(&one.upper);
+                    set |= one.lower.variables() | one.upper.variables();
                 }
                 for id in loops.clone() {
-                    set &= !bit(LoopId(id));
+                    set &= !bit(Domain(id));
                 }
             }
             _ => {}
@@ -139,7 +129,7 @@ impl Loops {
             Kind::Index { base, index } => {
                 let base_by_number = of(*base);
                 if base_by_number && matches!(checked.node(*base).ty, Type::Vector(_)) {
-                    self.unrolled |= mentioned(&index.affine);
+                    self.unrolled |= index.variables();
                 }
                 base_by_number
             }
@@ -177,20 +167,17 @@ impl Loops {
     }
 
     /// The loop around a loop, if both stay.
-    pub fn parent(&self, id: LoopId) -> Option<LoopId> {
+    pub fn parent(&self, id: Domain) -> Option<Domain> {
         self.parents[id.0 as usize]
     }
 
     /// Whether a loop is unrolled.
-    pub fn is_unrolled(&self, id: LoopId) -> bool {
+    pub fn is_unrolled(&self, id: Domain) -> bool {
         self.unrolled & bit(id) != 0
     }
 
     /// The innermost of loops that lie on one path.
-    pub fn deepest(&self, set: Set) -> Option<LoopId> {
-        let ids = (0..self.depths.len() as u32)
-            .filter(|id| set >> id & 1 == 1)
-            .map(LoopId);
-        ids.max_by_key(|id| self.depths[id.0 as usize])
+    pub fn deepest(&self, set: Set) -> Option<Domain> {
+        members(set).max_by_key(|id| self.depths[id.0 as usize])
     }
 }

@@ -28,7 +28,7 @@ use hamiltonian_symbolic::model::{
 };
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
-use scope::{group_shape, shape, size_affine};
+use scope::{group_shape, shape};
 
 /// Past this many nodes an expression is given up: its program would be past the cap many times
 /// over.
@@ -242,7 +242,7 @@ impl Rest<'_> {
             {
                 let mut demand = Demand::default();
                 match (at_row, row.affine.as_constant()) {
-                    (Some(id), Some(number)) => demand.values.push((id.0, number)),
+                    (Some(id), Some(number)) => demand.values.push((id, number)),
                     (Some(_), None) => {}
                     (None, _) if shape == Shape::Scalar => {}
                     (None, _) => demand.indices.push(row.clone()),
@@ -315,7 +315,7 @@ fn declarations(checked: &Checked) -> Option<Model> {
 fn components(checked: &Checked, root: NodeId) -> Vec<(NodeId, Demand)> {
     match checked.node(root).ty {
         Type::Vector(extent) => {
-            let length = size_affine(extent).as_constant();
+            let length = extent.affine().as_constant();
             let length = length.expect("an observable has a literal number of components");
             (0..length)
                 .map(|at| (root, Demand::at(Index::constant(at))))

@@ -4,25 +4,14 @@
 //! the one is size `n` of the other.
 
 use crate::checked::{Extent, Type};
-use hamiltonian_symbolic::index::{Affine, Size};
 use hamiltonian_symbolic::model::Shape;
-
-/// An extent.
-pub fn size_affine(extent: Extent) -> Affine {
-    match extent {
-        Extent::Literal(value) => {
-            Affine::constant(i64::try_from(value).expect("check bounds literal sizes"))
-        }
-        Extent::Size(size) => Affine::size(Size(size.0 as u16)),
-    }
-}
 
 /// A shape.
 pub fn shape(ty: Type) -> Shape {
     match ty {
         Type::Bool | Type::Scalar => Shape::Scalar,
-        Type::Vector(rows) => Shape::Vector(size_affine(rows)),
-        Type::Matrix(rows, columns) => Shape::Matrix(size_affine(rows), size_affine(columns)),
+        Type::Vector(rows) => Shape::Vector(rows.affine()),
+        Type::Matrix(rows, columns) => Shape::Matrix(rows.affine(), columns.affine()),
     }
 }
 
@@ -31,9 +20,9 @@ pub fn shape(ty: Type) -> Shape {
 pub fn group_shape(ty: Type) -> Option<Shape<u16>> {
     Some(match ty {
         Type::Bool | Type::Scalar => Shape::Scalar,
-        Type::Vector(rows) => Shape::Vector(size_affine(rows)),
+        Type::Vector(rows) => Shape::Vector(rows.affine()),
         Type::Matrix(rows, Extent::Literal(columns)) => {
-            Shape::Matrix(size_affine(rows), u16::try_from(columns).ok()?)
+            Shape::Matrix(rows.affine(), u16::try_from(columns).ok()?)
         }
         Type::Matrix(_, Extent::Size(_)) => return None,
     })

@@ -97,7 +97,7 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
             }
             _ => return None,
         };
-        let shifted = row.affine.substitute(&|domain| {
+        let shifted = row.affine.substitute(|domain| {
             if domain == k {
                 at.affine.clone()
             } else {

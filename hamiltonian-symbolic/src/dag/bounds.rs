@@ -4,7 +4,7 @@
 //! iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
 
 use super::Dag;
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain, End, Index};
 use crate::op::Range;
 
 impl Dag {
@@ -29,24 +29,12 @@ impl Dag {
     /// ranges.
     #[must_use]
     pub(crate) fn is_never_negative(&self, affine: &Affine) -> bool {
-        let mut least = affine.clone();
-        // A range may name loops around it: from the innermost out.
-        while let Some(&(domain, factor)) = least
-            .loops
-            .iter()
-            .max_by_key(|(domain, _)| self.depth(Some(*domain)))
-        {
+        let range = |domain| {
             let range = self.range(domain);
-            let bound = if factor > 0 {
-                range.start.clone()
-            } else {
-                range.end.plus(-1, &Affine::constant(1))
-            };
-            least = least
-                .plus(-factor, &Affine::variable(domain))
-                .plus(factor, &bound);
-        }
-        least.constant >= 0 && least.sizes.iter().all(|(_, factor)| *factor >= 0)
+            [&range.start, &range.end]
+        };
+        let least = affine.extreme(End::Least, range);
+        least.is_some_and(|least| least.is_never_negative())
     }
 }
 

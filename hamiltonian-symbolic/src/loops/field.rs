@@ -68,7 +68,7 @@ fn gather(
             images.push(image);
         }
         adjoint = dag.replace(adjoint, outermost, &by);
-        row = row.substitute(&|d| match chain.iter().position(|other| *other == d) {
+        row = row.substitute(|d| match chain.iter().position(|other| *other == d) {
             Some(at) => Affine::variable(images[at]),
             None => Affine::variable(d),
         });
@@ -132,7 +132,7 @@ fn gather(
             );
             let by = Affine::variable(fresh);
             let value = dag.replace(adjoint, inner, &by);
-            let row = row.affine.substitute(&|d| {
+            let row = row.affine.substitute(|d| {
                 if d == inner {
                     by.clone()
                 } else {

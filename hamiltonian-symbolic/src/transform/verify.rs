@@ -183,7 +183,7 @@ fn at_sizes(model: &mut Model, entries: &[VectorEntry], sizes: &[i64]) -> Vec<Ve
         for at in extent(&range.start, sizes)..extent(&range.end, sizes) {
             let at = Affine::constant(at);
             all.push(VectorEntry {
-                row: entry.row.substitute(&|_| at.clone()),
+                row: entry.row.substitute(|_| at.clone()),
                 value: model.dag.replace(entry.value, domain, &at),
                 ..entry.clone()
             });

@@ -213,6 +213,10 @@ pub struct Model {
     pub force: Vec<VectorEntry>,
     /// H.
     pub hamiltonian: Option<Node>,
+    /// The pieces of H that were declared, in order; none without a `split`.
+    pub split: Vec<Node>,
+    /// g of `dt = g*ds`.
+    pub factor: Option<Node>,
     /// The pieces of H with exact flows, outermost first; none where H is not split.
     pub pieces: Vec<Piece>,
 }
@@ -294,7 +298,7 @@ impl Model {
     }
     /// H and the components of observables.
     #[must_use]
-    pub fn roots(&self) -> Vec<Node> {
+    pub fn functions(&self) -> Vec<Node> {
         let observables = self.observables.iter().flat_map(|o| &o.components);
         self.hamiltonian
             .iter()
@@ -302,27 +306,26 @@ impl Model {
             .copied()
             .collect()
     }
-    /// Puts other expressions in the places of [`Model::roots`]; gives back those that are left.
-    pub fn set_roots(&mut self, roots: Vec<Node>) -> Vec<Node> {
-        let mut roots = roots.into_iter();
-        let places = self.observables.iter_mut().flat_map(|o| &mut o.components);
-        for place in self.hamiltonian.iter_mut().chain(places) {
-            if let Some(root) = roots.next() {
-                *place = root;
-            }
-        }
-        roots.collect()
+    /// All expressions: [`Model::functions`], the declared pieces, the factor of time, then the
+    /// entries of the force and of vector functions.
+    #[must_use]
+    pub fn roots(&self) -> Vec<Node> {
+        let vectors = self.vectors.iter().flat_map(|v| &v.entries);
+        let entries = self.force.iter().chain(vectors).map(|entry| entry.value);
+        let declared = self.split.iter().chain(&self.factor).copied();
+        let functions = self.functions().into_iter();
+        functions.chain(declared).chain(entries).collect()
     }
-    /// Puts other expressions in the places of all of its own: `pass` is given them in a fixed order.
-    pub fn map_roots(&mut self, pass: impl FnOnce(&mut Dag, &mut [Node])) {
+    /// Puts other expressions in the places of [`Model::roots`], or of as many as are given.
+    pub fn set_roots(&mut self, roots: &[Node]) {
+        let vectors = self.vectors.iter_mut().flat_map(|v| &mut v.entries);
+        let entries = self.force.iter_mut().chain(vectors);
         let places = (self.hamiltonian.iter_mut())
             .chain(self.observables.iter_mut().flat_map(|o| &mut o.components))
-            .chain((self.vectors.iter_mut().flat_map(|v| &mut v.entries)).map(|e| &mut e.value));
-        let mut places: Vec<&mut Node> = places.collect();
-        let mut roots: Vec<Node> = places.iter().map(|place| **place).collect();
-        pass(&mut self.dag, &mut roots);
-        for (place, root) in places.iter_mut().zip(roots) {
-            **place = root;
+            .chain(self.split.iter_mut().chain(&mut self.factor))
+            .chain(entries.map(|entry| &mut entry.value));
+        for (place, root) in places.zip(roots) {
+            *place = *root;
         }
     }
     /// The name of time: the declared one, or `t`.

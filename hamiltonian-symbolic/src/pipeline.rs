@@ -52,7 +52,9 @@ pub enum Refusal {
 
 /// H → requests → arrays held → factored → shared → scheduled.
 pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
-    model.map_roots(balance);
+    let mut all = model.roots();
+    balance(&mut model.dag, &mut all);
+    model.set_roots(&all);
     let mut requests: Vec<Request> = Vec::with_capacity(wanted.len());
     let mut gradient = None;
     let mut arrays = Arrays::default();

@@ -290,8 +290,7 @@ fn systems_are_split_unaided() {
         };
         let names: Vec<&str> = splitting.pieces.iter().map(|p| p.name.as_str()).collect();
         assert_eq!(names, found.pieces, "{}", found.h);
-        let pieces = splitting.pieces.iter().map(|p| (p.name.clone(), p.h));
-        let pieces: Vec<_> = pieces.collect();
+        let pieces: Vec<_> = splitting.pieces.iter().map(|p| p.h).collect();
         assert!(check_split(&mut model, &pieces).is_ok(), "{}", found.h);
     }
 }

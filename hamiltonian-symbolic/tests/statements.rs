@@ -391,7 +391,7 @@ fn statements_are_decided() {
         let mut model = system(signature, sizes, parameters, h);
         let pieces: Vec<_> = pieces
             .split(';')
-            .map(|piece| (piece.to_owned(), parse(&mut model, piece)))
+            .map(|piece| parse(&mut model, piece))
             .collect();
         let found = check_split(&mut model, &pieces);
         let is_decided = match &found {

@@ -41,7 +41,7 @@ fn bodies() -> Bodies {
 
 fn polar(h: &str, parameters: &str) -> Transformed {
     let model = system("x, y; p_x, p_y; t", "", parameters, h);
-    apply(&model, &[POLAR], &[]).unwrap()
+    apply(&model, &[POLAR]).unwrap()
 }
 
 fn shown(transformed: &Transformed) -> String {
@@ -127,7 +127,7 @@ fn a_distance_is_not_computed_by_cancellation() {
 fn spherical_coordinates_give_the_textbook_hamiltonians() {
     let new = |h: &str, parameters: &str| {
         let model = system("x, y, z; p_x, p_y, p_z", "", parameters, h);
-        apply(&model, &[spherical()], &[]).unwrap()
+        apply(&model, &[spherical()]).unwrap()
     };
     assert_becomes(
         new(
@@ -162,12 +162,12 @@ fn a_vector_is_replaced_as_well_as_scalars_and_other_groups_stay() {
         kind: ObservableKind::Monitor,
         components: vec![angular],
     });
-    let carried = parse(&mut model, "u*hypot(q[0], q[1])");
+    model.split = vec![parse(&mut model, "u*hypot(q[0], q[1])")];
     let chart = Chart::Polar([0, 1].map(|row| Component {
         group: 1,
         row: Some(row),
     }));
-    let new = apply(&model, &[chart], &[carried]).unwrap();
+    let new = apply(&model, &[chart]).unwrap();
     let names: Vec<&str> = new
         .model
         .groups
@@ -178,7 +178,7 @@ fn a_vector_is_replaced_as_well_as_scalars_and_other_groups_stay() {
     assert_eq!(new.kept, [(0, 0), (2, 3)]);
     let text = |node: Node| print::text(&new.model, node);
     assert_eq!(text(new.model.observables[0].components[0]), "p_phi");
-    assert_eq!(text(new.carried[0]), "u*r");
+    assert_eq!(text(new.model.split[0]), "u*r");
     assert_becomes(
         new,
         "p_u^2/2 + u^2*w[1] + (p_w[0]^2 + p_w[1]^2 + p_w[2]^2)/2 + p_r^2/2 + k*r^2/2 + p_phi^2/(2*r^2)",
@@ -265,14 +265,14 @@ fn assert_canonical(transformed: &mut Transformed) {
 fn every_map_is_canonical_and_has_its_inverse() {
     assert_canonical(&mut polar("p_x^2", ""));
     let space = system("x, y, z; p_x, p_y, p_z", "", "", "p_x^2");
-    assert_canonical(&mut apply(&space, &[spherical()], &[]).unwrap());
+    assert_canonical(&mut apply(&space, &[spherical()]).unwrap());
     for chart in [Chart::Jacobi(bodies()), Chart::Heliocentric(bodies())] {
         let line = system("q[4]; p[4]", "", "m[4]", "p[0]^2");
-        assert_canonical(&mut apply(&line, &[chart], &[]).unwrap());
+        assert_canonical(&mut apply(&line, &[chart]).unwrap());
         let plane = system("q[3][2]; p[3][2]", "", "m[3]", "p[0][1]^2");
-        assert_canonical(&mut apply(&plane, &[chart], &[]).unwrap());
+        assert_canonical(&mut apply(&plane, &[chart]).unwrap());
         let one = system("q[1][2]; p[1][2]", "", "m[1]", "p[0][1]^2");
-        assert_canonical(&mut apply(&one, &[chart], &[]).unwrap());
+        assert_canonical(&mut apply(&one, &[chart]).unwrap());
     }
     // The check itself sees a map that is not: one momentum half as large.
     let mut wrong = polar("p_x^2", "");
@@ -300,7 +300,7 @@ fn gravity() -> Model {
 
 #[test]
 fn jacobi_coordinates_make_the_kinetic_energy_diagonal() {
-    let new = apply(&gravity(), &[Chart::Jacobi(bodies())], &[]).unwrap();
+    let new = apply(&gravity(), &[Chart::Jacobi(bodies())]).unwrap();
     assert_eq!(new.model.groups[0].coordinate, "q_jacobi");
     assert_eq!(new.model.groups[0].momentum, "p_jacobi");
     let mut model = new.model;
@@ -338,7 +338,7 @@ fn jacobi_coordinates_make_the_kinetic_energy_diagonal() {
 
 #[test]
 fn heliocentric_coordinates_keep_the_momenta() {
-    let new = apply(&gravity(), &[Chart::Heliocentric(bodies())], &[]).unwrap();
+    let new = apply(&gravity(), &[Chart::Heliocentric(bodies())]).unwrap();
     let text = shown(&new);
     assert!(
         text.contains("sqrt(q_heliocentric[1][0]^2 + q_heliocentric[1][1]^2)"),
@@ -359,7 +359,7 @@ fn ten_bodies_are_done_in_time() {
     let h = "sum(i in 0..10) { (p[i][0]^2 + p[i][1]^2 + p[i][2]^2)/(2*m[i]) } \
         - sum(i in 0..10, j in 0..i) { m[i]*m[j]/sqrt((q[i][0] - q[j][0])^2 + (q[i][1] - q[j][1])^2 + (q[i][2] - q[j][2])^2) }";
     let model = system("q[10][3]; p[10][3]", "", "m[10]", h);
-    let new = apply(&model, &[Chart::Jacobi(bodies())], &[]).unwrap();
+    let new = apply(&model, &[Chart::Jacobi(bodies())]).unwrap();
     assert_eq!(shown(&new).matches("p_jacobi").count(), 30);
 }
 
@@ -367,8 +367,7 @@ fn ten_bodies_are_done_in_time() {
 fn forces_are_transformed_with_the_momenta() {
     let mut model = system("x, y; p_x, p_y", "", "c", "(p_x^2 + p_y^2)/2");
     let (f_x, f_y) = (parse(&mut model, "-c*p_x"), parse(&mut model, "-c*p_y"));
-    let mut new = apply(&model, &[POLAR], &[f_x, f_y]).unwrap();
-    let force: Vec<VectorEntry> = [(0, new.carried[0]), (1, new.carried[1])]
+    model.force = [(0, f_x), (1, f_y)]
         .into_iter()
         .map(|(group, value)| VectorEntry {
             at: Column::first(Side::P, group),
@@ -376,7 +375,8 @@ fn forces_are_transformed_with_the_momenta() {
             value,
         })
         .collect();
-    let found = new.force(&force);
+    let new = apply(&model, &[POLAR]).unwrap();
+    let found = &new.model.force;
     let text: Vec<String> = found
         .iter()
         .map(|e| print::text(&new.model, e.value))
@@ -389,7 +389,7 @@ fn forces_are_transformed_with_the_momenta() {
 fn charts_that_do_not_fit_are_refused() {
     let taken = |parameters: &str| {
         let model = system("x, y; p_x, p_y", "", parameters, "p_x^2");
-        apply(&model, &[POLAR], &[]).unwrap_err()
+        apply(&model, &[POLAR]).unwrap_err()
     };
     assert_eq!(
         taken("p_phi").to_string(),
@@ -398,17 +398,17 @@ fn charts_that_do_not_fit_are_refused() {
     assert!(matches!(taken("r"), Refusal::NameTaken { .. }));
     // The name of a coordinate that goes is free.
     let model = system("r, y; p_r, p_y", "", "", "p_r^2");
-    assert!(apply(&model, &[POLAR], &[]).is_ok());
+    assert!(apply(&model, &[POLAR]).is_ok());
     let model = system("x, y, r; p_x, p_y, p_z", "", "", "p_x^2");
     assert!(matches!(
-        apply(&model, &[POLAR], &[]),
+        apply(&model, &[POLAR]),
         Err(Refusal::NameTaken { .. })
     ));
     // Twice, and one component of three.
     let model = system("x, y; p_x, p_y", "", "", "p_x^2");
     let twice = [POLAR, POLAR];
     assert!(matches!(
-        apply(&model, &twice, &[]),
+        apply(&model, &twice),
         Err(Refusal::NotWhole { .. })
     ));
     let model = system("q[3]; p[3]", "", "", "p[0]^2");
@@ -417,18 +417,18 @@ fn charts_that_do_not_fit_are_refused() {
         row: Some(row),
     }));
     assert!(matches!(
-        apply(&model, &[part], &[]),
+        apply(&model, &[part]),
         Err(Refusal::NotWhole { .. })
     ));
     // Bodies of a number that is not literal, masses of another number.
     let model = system("q[n]; p[n]", "n", "m[n]", "sum(i in 0..n) { p[i]^2 }");
     assert!(matches!(
-        apply(&model, &[Chart::Jacobi(bodies())], &[]),
+        apply(&model, &[Chart::Jacobi(bodies())]),
         Err(Refusal::Number { .. })
     ));
     let model = system("q[3]; p[3]", "", "m[2]", "p[0]^2");
     assert!(matches!(
-        apply(&model, &[Chart::Heliocentric(bodies())], &[]),
+        apply(&model, &[Chart::Heliocentric(bodies())]),
         Err(Refusal::Shape { .. })
     ));
     // A loop of a length that is not known over a replaced coordinate.
@@ -443,7 +443,7 @@ fn charts_that_do_not_fit_are_refused() {
         row: Some(row),
     }));
     assert!(matches!(
-        apply(&model, &[whole], &[]),
+        apply(&model, &[whole]),
         Err(Refusal::Loops { .. })
     ));
 }
@@ -456,7 +456,7 @@ fn loops_over_other_groups_stay_loops() {
         "",
         "(p_x^2 + p_y^2)/2 + sum(i in 0..n) { v[i]^2/2 + w[i]*(x^2 + y^2) }",
     );
-    let new = apply(&model, &[POLAR], &[]).unwrap();
+    let new = apply(&model, &[POLAR]).unwrap();
     assert_becomes(
         new,
         "(p_r^2 + p_phi^2/r^2)/2 + sum(i in 0..n) { v[i]^2/2 + w[i]*r^2 }",
@@ -472,7 +472,7 @@ fn loops_over_bodies_of_any_number_begin_at_the_second() {
         "sum(i in 0..n) { p[i]^2/m[i] } + sum(i in 0..n, j in 0..i) { abs(q[i] - q[j]) }",
     );
     let chart = [Chart::Heliocentric(bodies())];
-    let new = apply(&model, &chart, &[]).unwrap();
+    let new = apply(&model, &chart).unwrap();
     assert_eq!(
         shown(&new),
         "(p_heliocentric[0] - sum(i in 1..n) { p_heliocentric[i] })^2/m[0] \
@@ -482,7 +482,7 @@ fn loops_over_bodies_of_any_number_begin_at_the_second() {
     );
     // An index that may be the first body or not is told apart where it runs.
     let model = system("q[n]; p[n]", "n", "m[n]", "p[0]^2 + q[n - 1]^2");
-    let new = apply(&model, &chart, &[]).unwrap();
+    let new = apply(&model, &chart).unwrap();
     assert!(
         shown(&new).contains("if n - 1 == 0 { 0 }"),
         "{}",
@@ -496,7 +496,7 @@ fn loops_over_bodies_of_any_number_begin_at_the_second() {
         "sum(i in 0..n) { q[i]*q[(i + 1) % n] + p[i]^2 }",
     );
     assert!(matches!(
-        apply(&model, &chart, &[]),
+        apply(&model, &chart),
         Err(Refusal::Wrapped { .. })
     ));
 }

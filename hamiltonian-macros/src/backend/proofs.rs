@@ -17,7 +17,7 @@ pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     invariants(checked, lowered, report);
     events(checked, lowered, report);
     if checked.charts.is_empty() {
-        split(checked, &mut lowered.model, &lowered.split, report);
+        split(checked, &mut lowered.model, report);
     }
 }
 
@@ -112,12 +112,11 @@ fn events(checked: &Checked, lowered: &Lowered, report: &mut Report) {
 
 /// That pieces add up to H: of a definition in other coordinates in these, where loops are taken apart
 /// as the coordinates need.
-pub fn split(checked: &Checked, model: &mut Model, pieces: &[Node], report: &mut Report) {
+pub fn split(checked: &Checked, model: &mut Model, report: &mut Report) {
     let Some((first, _)) = checked.split.first() else {
         return;
     };
-    let names = checked.split.iter().map(|(name, _)| name.to_string());
-    let pieces: Vec<_> = names.zip(pieces.iter().copied()).collect();
+    let pieces = model.split.clone();
     if let Err(difference) = check_split(model, &pieces) {
         let text = shortened(&difference.text);
         match &difference.point {

@@ -34,71 +34,44 @@ pub struct System {
 
 /// Carries a definition into its final variables.
 pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
-    let Lowered {
-        model,
-        split,
-        force,
-        factor,
-        ..
-    } = lowered;
     let mut vectors = Vec::new();
     if matches!(checked.definition, Definition::Lagrangian(_)) {
         vectors.push(VectorItem::of(VectorUse::ConjugateMomentum));
         vectors.push(VectorItem::of(VectorUse::Velocity));
     }
-    let mut state = Settling {
-        model,
+    let mut system = System {
+        model: lowered.model,
         vectors,
-        pieces: split,
-        force,
-        factor,
+        pieces: Vec::new(),
         declared: None,
     };
     if !checked.charts.is_empty() {
-        state.charts(checked, report)?;
+        system.charts(checked, report)?;
     }
-    if let (Some(factor), Some((_, span))) = (state.factor, checked.time_factor)
-        && let Err((reason, help)) = state.time(factor)
+    if let Some((_, span)) = checked.time_factor
+        && let Err(reason) = system.time()
     {
         report.error(
             span,
             format!("this time cannot be introduced: {reason}"),
-            help,
+            remedy(&reason),
         );
         return None;
     }
-    state.model.force = state.force.clone();
-    if !state.force.is_empty() {
-        state.offer(
-            VectorItem::of(VectorUse::Force),
-            "force",
-            (false, true),
-            state.force.clone(),
-        );
+    if !system.model.force.is_empty() {
+        let force = system.model.force.clone();
+        let item = VectorItem::of(VectorUse::Force);
+        system.offer(item, "force", (false, true), force);
     }
-    state.gradients(checked);
-    let mut names: Vec<Ident> = checked.split.iter().map(|(name, _)| name.clone()).collect();
-    if let (Some((_, span)), true) = (checked.time_factor, !names.is_empty()) {
-        names.push(Ident::new(CLOCK, span));
-    }
-    Some(System {
-        model: state.model,
-        vectors: state.vectors,
-        pieces: names.into_iter().zip(state.pieces).collect(),
-        declared: state.declared,
-    })
+    system.gradients(checked);
+    let clock = checked.time_factor.map(|(_, span)| Ident::new(CLOCK, span));
+    let names = checked.split.iter().map(|(name, _)| name.clone());
+    let pieces = std::mem::take(&mut system.model.split);
+    system.pieces = names.chain(clock).zip(pieces).collect();
+    Some(system)
 }
 
-struct Settling {
-    model: Model,
-    vectors: Vec<VectorItem>,
-    pieces: Vec<Node>,
-    force: Vec<VectorEntry>,
-    factor: Option<Node>,
-    declared: Option<Declared>,
-}
-
-impl Settling {
+impl System {
     fn offer(
         &mut self,
         item: VectorItem,
@@ -132,38 +105,6 @@ impl Settling {
         }
     }
 
-    /// Everything that is carried along: pieces, force, factor, values of vector functions.
-    fn carried(&self) -> Vec<Node> {
-        let vectors = self.model.vectors.iter().flat_map(|v| &v.entries);
-        self.pieces
-            .iter()
-            .copied()
-            .chain(self.force.iter().map(|entry| entry.value))
-            .chain(self.factor)
-            .chain(vectors.map(|entry| entry.value))
-            .collect()
-    }
-
-    /// Puts back what was carried, into a model that may have lost its vector functions.
-    fn put_back(&mut self, mut model: Model, carried: Vec<Node>) {
-        let mut values = carried.into_iter();
-        let mut vectors = std::mem::take(&mut self.model.vectors);
-        let entries = vectors.iter_mut().flat_map(|v| &mut v.entries);
-        let places = self
-            .pieces
-            .iter_mut()
-            .chain(self.force.iter_mut().map(|entry| &mut entry.value))
-            .chain(self.factor.iter_mut())
-            .chain(entries.map(|entry| &mut entry.value));
-        for place in places {
-            if let Some(value) = values.next() {
-                *place = value;
-            }
-        }
-        model.vectors = vectors;
-        self.model = model;
-    }
-
     fn charts(&mut self, checked: &Checked, report: &mut Report) -> Option<()> {
         let spans = checked.charts[0].name.span();
         let mut refuse = |message: String, help: &str| {
@@ -177,8 +118,7 @@ impl Settling {
             return None;
         }
         let charts: Vec<Chart> = checked.charts.iter().map(chart).collect();
-        self.force = transform::apart(&mut self.model, &charts, &self.force);
-        let transformed = match transform::apply(&self.model, &charts, &self.carried()) {
+        let mut transformed = match transform::apply(&self.model, &charts) {
             Ok(transformed) => transformed,
             Err(reason) => {
                 refuse(
@@ -188,34 +128,17 @@ impl Settling {
                 return None;
             }
         };
-        let mut transformed = transformed;
-        let carried = std::mem::take(&mut transformed.carried);
         let from = transformed.forward_placed();
         let from = map(&mut transformed, from);
         let to = transformed.inverse_placed();
         let to = map(&mut transformed, to);
         self.declared = Some(Declared {
             model: names_of(&transformed.source),
-            places: transformed.places.clone(),
+            places: transformed.places,
             time: None,
         });
-        self.put_back(transformed.model.clone(), carried);
-        let number = |old: u16| transformed.kept.iter().find(|(kept, _)| *kept == old);
-        let mut force = Vec::new();
-        let mut replaced = Vec::new();
-        for entry in std::mem::take(&mut self.force) {
-            match number(entry.at.group) {
-                Some(&(_, group)) => force.push(VectorEntry {
-                    at: Column { group, ..entry.at },
-                    ..entry
-                }),
-                None => replaced.push(entry),
-            }
-        }
-        force.extend(transformed.force(&replaced));
-        self.model.dag = transformed.model.dag;
-        self.force = force;
-        proofs::split(checked, &mut self.model, &self.pieces, report);
+        self.model = transformed.model;
+        proofs::split(checked, &mut self.model, report);
         report.barrier(())?;
         let both = (true, true);
         self.offer(
@@ -233,7 +156,7 @@ impl Settling {
         Some(())
     }
 
-    fn time(&mut self, factor: Node) -> Result<(), (String, &'static str)> {
+    fn time(&mut self) -> Result<(), Refusal> {
         let whole = |group: u16| Placement {
             old: (group, None),
             new: group,
@@ -245,26 +168,9 @@ impl Settling {
             time: None,
         });
         declared.time = Some(groups);
-        let retimed = transform::retime(&self.model, factor, &self.carried());
-        let mut retimed = retimed.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
-        let names: Vec<(String, Node)> = {
-            let pieces = retimed.carried[..self.pieces.len()].iter();
-            pieces.map(|piece| (String::new(), *piece)).collect()
-        };
-        let pieces = if names.is_empty() {
-            Vec::new()
-        } else {
-            retimed.pieces(&names)
-        };
-        let carried = std::mem::take(&mut retimed.carried);
+        let retimed = transform::retime(&self.model)?;
         let (group, start) = (retimed.group, retimed.start);
-        self.put_back(retimed.model.clone(), carried);
-        self.pieces = pieces.into_iter().map(|(_, piece)| piece).collect();
-        if !self.force.is_empty() {
-            let force = retimed.force(&self.force);
-            self.force = force.map_err(|reason| (reason.to_string(), remedy(&reason)))?;
-        }
-        self.model.dag = retimed.model.dag;
+        self.model = retimed.model;
         // dt/dt = 1
         let one = self.model.dag.integer(1);
         for (item, vector) in self.vectors.iter().zip(&mut self.model.vectors) {

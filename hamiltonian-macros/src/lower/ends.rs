@@ -24,28 +24,10 @@ pub fn guard(lowered: &mut Lowered) -> Option<()> {
     if is_safe {
         return Some(());
     }
-    let mut observables = std::mem::take(&mut model.observables);
-    let mut vectors = std::mem::take(&mut model.vectors);
-    let places = (model.hamiltonian.iter().copied())
-        .chain(observables.iter().flat_map(|o| o.components.clone()))
-        .chain(vectors.iter().flat_map(|v| &v.entries).map(|e| e.value))
-        .chain(lowered.split.iter().copied())
-        .chain(lowered.force.iter().map(|entry| entry.value))
-        .chain(lowered.factor);
-    let values: Vec<_> = places.collect();
-    let mut images = Vec::with_capacity(values.len());
-    for value in values {
-        images.push(guarded(model, value, &is_written)?);
+    let mut roots = model.roots();
+    for root in &mut roots {
+        *root = guarded(model, *root, &is_written)?;
     }
-    let places = (model.hamiltonian.iter_mut())
-        .chain(observables.iter_mut().flat_map(|o| &mut o.components))
-        .chain((vectors.iter_mut().flat_map(|v| &mut v.entries)).map(|e| &mut e.value))
-        .chain(&mut lowered.split)
-        .chain(lowered.force.iter_mut().map(|entry| &mut entry.value))
-        .chain(&mut lowered.factor);
-    for (place, image) in places.zip(images) {
-        *place = image;
-    }
-    (model.observables, model.vectors) = (observables, vectors);
+    model.set_roots(&roots);
     Some(())
 }

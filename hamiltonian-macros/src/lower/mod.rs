@@ -45,12 +45,6 @@ pub struct Lowered {
     pub model: Model,
     /// The shell of each observable, where one is declared.
     pub shells: Vec<Option<Node>>,
-    /// The pieces of a split, in order.
-    pub split: Vec<Node>,
-    /// The force on each momentum.
-    pub force: Vec<VectorEntry>,
-    /// g of `dt = g*ds`.
-    pub factor: Option<Node>,
     /// The components of the observables before velocities became functions of momenta.
     pub in_velocities: Vec<Node>,
     /// How H was made of a Lagrangian.
@@ -116,15 +110,14 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         .iter()
         .map(|(_, piece)| (*piece, Demand::default()))
         .collect();
-    let split = rest.values(&mut model, &split)?;
+    model.split = rest.values(&mut model, &split)?;
     let factor: Vec<_> = checked
         .time_factor
         .iter()
         .map(|(g, _)| (*g, Demand::default()))
         .collect();
-    let factor = rest.values(&mut model, &factor)?.first().copied();
-    let force = rest.force(&mut model)?;
-    model.force = force.clone();
+    model.factor = rest.values(&mut model, &factor)?.first().copied();
+    model.force = rest.force(&mut model)?;
     // Proofs and derivatives from here on would be of other loops.
     if model.dag.has_too_many_loops() {
         let message = format!("this system needs more than {LOOPS} loops");
@@ -139,9 +132,6 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
         beyond,
         model,
         shells,
-        split,
-        force,
-        factor,
         in_velocities,
         legendre: made,
         derived,

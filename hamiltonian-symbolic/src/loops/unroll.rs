@@ -12,13 +12,13 @@ use crate::model::{Model, Shape};
 /// The most nodes a system unrolled may have.
 pub const LARGEST: usize = 1 << 20;
 
-/// The system at the given sizes, without loops; observables included.
+/// The system at the given sizes, without loops: its [functions](Model::functions).
 ///
 /// # Errors
 /// A sentence, where an index is outside its array at these sizes or the result is too large.
 pub fn unroll(model: &Model, sizes: &[i64]) -> Result<Model, String> {
-    let (mut unrolled, images) = unroll_nodes(model, sizes, &model.roots())?;
-    unrolled.set_roots(images);
+    let (mut unrolled, images) = unroll_nodes(model, sizes, &model.functions())?;
+    unrolled.set_roots(&images);
     Ok(unrolled)
 }
 

@@ -206,8 +206,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
 /// A splitting into loops of flows.
 fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
     let pieces = sweep::find(model, h)?;
-    let parts = pieces.iter().map(|piece| (piece.name.clone(), piece.h));
-    let parts: Vec<(String, Node)> = parts.collect();
+    let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).collect();
     // More pieces than a splitting may have are refused with the first refusal.
     if pieces.is_empty() || pieces.len() > MOST || check_split(model, &parts).is_err() {
         return Err(h);

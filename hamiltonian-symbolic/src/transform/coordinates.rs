@@ -21,10 +21,8 @@ use crate::model::{Model, VectorEntry};
 /// A system in new coordinates, with the maps.
 #[derive(Clone, Debug)]
 pub struct Transformed {
-    /// The system in the new coordinates: its H and observables.
+    /// The system in the new coordinates. Its force acts on the new momenta.
     pub model: Model,
-    /// What was carried along, in the new coordinates.
-    pub carried: Vec<Node>,
     /// The system as it was written; its arena holds the values of `forward`.
     pub source: Model,
     /// The new coordinates and momenta (of `model`) from the old ones (of `source`).
@@ -49,21 +47,25 @@ pub struct Placement {
     pub new: u16,
 }
 
-/// The system in the coordinates of the charts, which replace different coordinates; `carried` are
-/// further functions of (q, p, t) to be written in the new ones.
+/// The system in the coordinates of the charts, which replace different coordinates.
 ///
 /// Loops that read a replaced coordinate are unrolled, so their lengths must be literal, but
 /// for heliocentric coordinates of any number of bodies.
 ///
 /// # Errors
 /// [`Refusal`].
-pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transformed, Refusal> {
+pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
     let layout = Layout::new(model, charts)?;
     let mut source = model.clone();
     let bodies = bodies(&mut source, charts, &layout);
+    for of in &bodies {
+        let force = std::mem::take(&mut source.force);
+        let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
+        source.force = parts.collect();
+    }
     let model = &source.clone();
     let below = Below::new(model, &bodies);
-    let (mut new, roots) = written_out(model, &layout, &bodies, carried)?;
+    let (mut new, roots) = written_out(model, &layout, &bodies)?;
     new.groups = layout.groups.clone();
 
     let mut rules = Rules::default();
@@ -100,7 +102,7 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         inverse.extend(of.inverse(&mut new.dag));
     }
     let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
-    let carried = new.set_roots(roots);
+    new.set_roots(&roots);
     let mut places: Vec<Placement> = charts
         .iter()
         .zip(&layout.places)
@@ -110,9 +112,9 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         old: (old, None),
         new,
     }));
-    let transformed = Transformed {
+    let force = std::mem::take(&mut new.force);
+    let mut transformed = Transformed {
         model: new,
-        carried,
         source,
         forward,
         inverse,
@@ -128,6 +130,7 @@ pub fn apply(model: &Model, charts: &[Chart], carried: &[Node]) -> Result<Transf
         return Err(Refusal::TooManyLoops);
     }
     check(&transformed)?;
+    transformed.force(force);
     Ok(transformed)
 }
 
@@ -187,15 +190,21 @@ impl Transformed {
         self.inverse.iter().map(moved).collect()
     }
 
-    /// A force on the old momenta, ṗ += f, as one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
-    /// P = (∂q/∂Q)ᵀ p. The values of `force` are in the new coordinates (from `carried`); each
-    /// names the old momentum it acts on ([`apart`] for bodies in loops). Groups that are kept keep theirs and are not named here.
-    pub fn force(&mut self, force: &[VectorEntry]) -> Vec<VectorEntry> {
+    /// A force on the old momenta, ṗ += f, becomes one on the new ones, Ṗ += (∂q/∂Q)ᵀ f, because
+    /// P = (∂q/∂Q)ᵀ p. The values of `force` are in the new coordinates; each names the old momentum
+    /// it acts on.
+    fn force(&mut self, force: Vec<VectorEntry>) {
+        let mut unchanged: Vec<VectorEntry> = Vec::new();
         let mut found: Vec<VectorEntry> = Vec::new();
         let dag = &mut self.model.dag;
-        for entry in force {
+        for mut entry in force {
+            if let Some((_, group)) = self.kept.iter().find(|(old, _)| *old == entry.at.group) {
+                entry.at.group = *group;
+                unchanged.push(entry);
+                continue;
+            }
             if let Some(bodies) = self.bodies.iter().find(|b| b.old == entry.at.group) {
-                bodies.force(dag, entry, &mut found);
+                bodies.force(dag, &entry, &mut found);
                 continue;
             }
             let of_q = (entry.at.on(Side::Q), &entry.row);
@@ -217,7 +226,8 @@ impl Transformed {
             entry.value = reduce::reduce(dag, entry.value, &self.rules);
         }
         found.sort_by_key(|e| (e.at, e.row.clone()));
-        found
+        unchanged.extend(found);
+        self.model.force = unchanged;
     }
 }
 
@@ -287,32 +297,14 @@ fn bodies(model: &mut Model, charts: &[Chart], layout: &Layout) -> Vec<Bodies> {
         .collect()
 }
 
-/// A force as [`Transformed::force`] takes it: on a group of bodies of any number, row 0 has an
-/// entry of its own.
-#[must_use]
-pub fn apart(model: &mut Model, charts: &[Chart], force: &[VectorEntry]) -> Vec<VectorEntry> {
-    let mut force = force.to_vec();
-    for chart in charts {
-        if let Chart::Heliocentric(chart) = chart
-            && let Some(bodies) = Bodies::new(model, chart.group, 0)
-        {
-            let parts = force.iter().flat_map(|f| bodies.apart(&mut model.dag, f));
-            force = parts.collect();
-        }
-    }
-    force
-}
-
-/// The model whose arena the new system is built in, with all roots (H, observables, carried ones),
-/// unrolled where a loop reads a replaced coordinate.
+/// The model whose arena the new system is built in, with all its expressions, unrolled where a loop
+/// reads a replaced coordinate.
 fn written_out(
     model: &Model,
     layout: &Layout,
     bodies: &[Bodies],
-    carried: &[Node],
 ) -> Result<(Model, Vec<Node>), Refusal> {
-    let mut roots = model.roots();
-    roots.extend(carried);
+    let roots = model.roots();
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
     let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).collect();
     if model.sizes.is_empty() {

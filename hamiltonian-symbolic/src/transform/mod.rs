@@ -17,7 +17,7 @@ pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component, REPLACING};
-pub use coordinates::{Placement, Transformed, apart, apply};
+pub use coordinates::{Placement, Transformed, apply};
 pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;

@@ -32,14 +32,10 @@ pub struct Difference {
 ///
 /// # Errors
 /// [`Difference`] with H − Σ A.
-pub fn check_split(model: &mut Model, pieces: &[(String, Node)]) -> Result<(), Box<Difference>> {
+pub fn check_split(model: &mut Model, pieces: &[Node]) -> Result<(), Box<Difference>> {
     let h = model.h();
     let mut terms = vec![(Rational::ONE, h)];
-    terms.extend(
-        pieces
-            .iter()
-            .map(|(_, piece)| (Rational::MINUS_ONE, *piece)),
-    );
+    terms.extend(pieces.iter().map(|piece| (Rational::MINUS_ONE, *piece)));
     let difference = model.dag.linear(&Rational::ZERO, &terms);
     // Multiplied out first, so that the point names only what the difference depends on.
     let node = multiplied_out(&mut model.dag, difference);

@@ -26,30 +26,33 @@ use crate::rational::Rational;
 #[derive(Clone, Debug)]
 pub struct Retimed {
     /// The system in the time s: H is K, the groups are those of the old system and then
-    /// (t; p_t); observables are the same functions.
+    /// (t; p_t); observables and vector functions are the same, t read from the new coordinate.
     pub model: Model,
-    /// What was carried along: the same functions, t read from the new coordinate.
-    pub carried: Vec<Node>,
     /// The number of the group (t; p_t).
     pub group: u16,
-    /// dt/ds = g.
-    pub factor: Node,
     /// H(q, p, t) of the old system, which is no longer the conserved quantity K.
     pub energy: Node,
     /// p_t of a start: −H(q, p, t).
     pub start: Node,
 }
 
-/// The system of `model` in the time s with dt = g ds; `carried` are further functions of (q, p, t)
-/// to be kept.
+/// The system of `model` in the time s with dt = g ds, where g is the factor of the model. Pieces of
+/// H become pieces of K: g times each, and g·p_t last. A force becomes g·f on each momentum, and
+/// −g Σ f·∂H/∂p on p_t, which keeps p_t = −H while the force does work.
 ///
 /// The new coordinate has the declared name of time, or `t`; its momentum is `p_t`; where these are
 /// taken, a number follows.
 ///
 /// # Errors
-/// [`Refusal::Factor`] if g is 0, or depends on something other than coordinates, momenta, time and
-/// parameters.
-pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refusal> {
+/// [`Refusal::Factor`] if there is no g, or g is 0 or depends on something other than coordinates,
+/// momenta, time and parameters. [`Refusal::Power`] where ∂H/∂p of an array on which a force acts is
+/// not known element by element.
+pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
+    let Some(g) = model.factor else {
+        return Err(Refusal::Factor {
+            reason: "is missing",
+        });
+    };
     if model.dag.is_zero(g) {
         return Err(Refusal::Factor { reason: "is 0" });
     }
@@ -83,79 +86,57 @@ pub fn retime(model: &Model, g: Node, carried: &[Node]) -> Result<Retimed, Refus
 
     let time = element(&mut new.dag, Side::Q, group, 0, 0);
     let p_t = element(&mut new.dag, Side::P, group, 0, 0);
-    let mut roots = vec![g, new.h()];
-    roots.extend(&new.roots()[1..]);
-    roots.extend(carried);
+    let roots = new.roots();
     let roots = at_coordinate(&mut new.dag, &roots, time);
-    let (factor, energy) = (roots[0], roots[1]);
-    let carried = new.set_roots(roots[1..].to_vec());
+    new.set_roots(&roots);
+    let (factor, energy) = (new.factor.unwrap_or(g), new.h());
     let start = new.dag.neg(energy);
-    new.hamiltonian = Some(product(&mut new.dag, factor, energy, p_t));
+    let dag = &mut new.dag;
+    new.hamiltonian = Some(product(dag, factor, energy, p_t));
+    if !new.split.is_empty() {
+        let zero = dag.integer(0);
+        for piece in &mut new.split {
+            *piece = product(dag, factor, *piece, zero);
+        }
+        new.split.push(dag.mul(&[factor, p_t]));
+    }
+    if !new.force.is_empty() {
+        force(&mut new, factor, energy, group)?;
+    }
     Ok(Retimed {
-        carried,
         model: new,
         group,
-        factor,
         energy,
         start,
     })
 }
 
-impl Retimed {
-    /// The pieces of a split of H as pieces of K: g times each, and g·p_t last, under the name of
-    /// the time coordinate. The pieces are nodes of the new model (from `carried`).
-    pub fn pieces(&mut self, pieces: &[(String, Node)]) -> Vec<(String, Node)> {
-        let dag = &mut self.model.dag;
-        let zero = dag.integer(0);
-        let p_t = element(dag, Side::P, self.group, 0, 0);
-        let mut all: Vec<(String, Node)> = pieces
-            .iter()
-            .map(|(name, piece)| (name.clone(), product(dag, self.factor, *piece, zero)))
-            .collect();
-        let clock = self.model.groups[usize::from(self.group)]
-            .coordinate
-            .clone();
-        all.push((clock, dag.mul(&[self.factor, p_t])));
-        all
-    }
-
-    /// A force on the old momenta as one in the new time: g·f on each, and −g Σ f·∂H/∂p on p_t,
-    /// which keeps p_t = −H while the force does work. Values are nodes of the new model (from
-    /// `carried`).
-    ///
-    /// # Errors
-    /// [`Refusal::Power`] where ∂H/∂p of an array is not known element by element.
-    pub fn force(&mut self, force: &[VectorEntry]) -> Result<Vec<VectorEntry>, Refusal> {
-        let mut velocities = Velocities {
-            leaves: crate::diff::gradient(&mut self.model.dag, self.energy, Dependence::P),
-            known: Map::default(),
-        };
-        let mut all = Vec::with_capacity(force.len() + 1);
-        let mut work = Vec::new();
-        for entry in force {
-            let velocity = velocities.of(&mut self.model, entry)?;
-            let dag = &mut self.model.dag;
-            let mut power = dag.mul(&[self.factor, entry.value, velocity]);
-            for domain in dag
-                .path(dag.deepest(entry.row.variables()))
-                .into_iter()
-                .rev()
-            {
-                power = dag.reduce(domain, power);
-            }
-            work.push((Rational::MINUS_ONE, power));
-            all.push(VectorEntry {
-                value: dag.mul(&[self.factor, entry.value]),
-                ..entry.clone()
-            });
+/// g times the force, and its work on p_t.
+fn force(model: &mut Model, factor: Node, energy: Node, group: u16) -> Result<(), Refusal> {
+    let mut velocities = Velocities {
+        leaves: crate::diff::gradient(&mut model.dag, energy, Dependence::P),
+        known: Map::default(),
+    };
+    let mut force = std::mem::take(&mut model.force);
+    let mut work = Vec::new();
+    for entry in &mut force {
+        let velocity = velocities.of(model, entry)?;
+        let dag = &mut model.dag;
+        let mut power = dag.mul(&[factor, entry.value, velocity]);
+        let loops = dag.path(dag.deepest(entry.row.variables()));
+        for domain in loops.into_iter().rev() {
+            power = dag.reduce(domain, power);
         }
-        all.push(VectorEntry {
-            at: Column::first(Side::P, self.group),
-            row: Index::constant(0),
-            value: self.model.dag.linear(&Rational::ZERO, &work),
-        });
-        Ok(all)
+        work.push((Rational::MINUS_ONE, power));
+        entry.value = dag.mul(&[factor, entry.value]);
     }
+    force.push(VectorEntry {
+        at: Column::first(Side::P, group),
+        row: Index::constant(0),
+        value: model.dag.linear(&Rational::ZERO, &work),
+    });
+    model.force = force;
+    Ok(())
 }
 
 /// ∂H/∂p, an array's as an expression of the row.

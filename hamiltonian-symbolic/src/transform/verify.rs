@@ -32,7 +32,7 @@ const CLOSE: f64 = 1e-8;
 /// there is none to compare at: what was not looked at is not called checked.
 pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     let old = &transformed.source;
-    let old_roots = old.roots();
+    let old_roots = old.functions();
     let fitting = choices(old.sizes.len())
         .filter(|sizes| sizes.is_empty() || loops::is_in_range(old, &old_roots, sizes))
         .take(CHOICES);
@@ -81,7 +81,7 @@ fn check_at(
     let mut old = transformed.source.clone();
     let mut new = transformed.model.clone();
     let inverse = at_sizes(&mut new, &transformed.inverse, sizes);
-    let new_roots = new.roots();
+    let new_roots = new.functions();
     let new_slots = slots(&new, sizes);
     // To all the digits asked for, and to fewer.
     let (mut compared, mut roughly) = (0, 0);

@@ -59,7 +59,7 @@ fn the_check_compares_where_every_index_is_in_range() {
         ("n", "sqrt(1/20 - q[0]^2)"),
     ] {
         let h = format!("{kinetic} + {more}");
-        let new = apply(&system("q[n]; p[n]", sizes, "m[n]", &h), &chart, &[]).unwrap();
+        let new = apply(&system("q[n]; p[n]", sizes, "m[n]", &h), &chart).unwrap();
         assert!(check(&new).unwrap() > 0, "{h}");
         let wrong = with_term(new, "p_heliocentric[n - 1]/64");
         assert!(matches!(wrong, Err(Refusal::Unverified { .. })));
@@ -71,7 +71,7 @@ fn the_check_compares_where_every_index_is_in_range() {
         ("n k", "sum(i in 0..k + 1) { q[n - k + i] }", "no sizes"),
     ] {
         let model = system("q[n]; p[n]", sizes, "m[n]", h);
-        match apply(&model, &chart, &[]) {
+        match apply(&model, &chart) {
             Err(Refusal::Uncompared { reason }) => assert!(reason.contains(why), "{reason}"),
             other => panic!("{h}: {other:?}"),
         }
@@ -85,7 +85,7 @@ fn the_check_compares_where_every_index_is_in_range() {
         components,
     });
     assert!(matches!(
-        apply(&model, &chart, &[]),
+        apply(&model, &chart),
         Err(Refusal::Uncompared { .. })
     ));
 }

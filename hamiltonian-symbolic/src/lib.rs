@@ -7,7 +7,6 @@ mod closed;
 pub mod count;
 pub mod dag;
 pub mod diff;
-pub mod eval;
 pub mod factor;
 pub mod facts;
 pub mod forces;

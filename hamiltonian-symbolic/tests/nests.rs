@@ -2,6 +2,7 @@
 //! and against the same system written out over scalar coordinates; the operations of the loops.
 
 use crate::common;
+use crate::eval::{Point, run};
 use crate::soundness;
 use crate::systems::{GRAVITY, Instance, Place, SQUARE_ROOT, SYSTEMS, System, TODA, at};
 use crate::tape;
@@ -9,7 +10,6 @@ use crate::tape::Traced;
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
-use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 use std::collections::HashMap;

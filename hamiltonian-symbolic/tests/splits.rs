@@ -5,11 +5,11 @@ mod arrays;
 mod table;
 
 use crate::common;
+use crate::eval::{Point, run};
 use crate::flows::{Case, check};
 use crate::tree::{Random, grow};
 use hamiltonian_lanes::{DoubleDouble, Real};
 use hamiltonian_symbolic::dag::{Column, Side};
-use hamiltonian_symbolic::eval::{Point, run};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};

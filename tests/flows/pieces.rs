@@ -5,9 +5,9 @@
 mod text;
 
 use crate::common::geometry::{defect, one_point};
+use crate::eval::{self, run};
 use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Scratch, Split, System, Vector};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
-use hamiltonian_symbolic::eval::{self, run};
 use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};

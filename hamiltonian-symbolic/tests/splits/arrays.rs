@@ -1,9 +1,9 @@
 //! Sums over arrays as loops of exact flows: their pieces, and the order of their composition.
 
 use crate::common;
+use crate::eval::{Point, run, run_reversed};
 use hamiltonian_lanes::DoubleDouble;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
-use hamiltonian_symbolic::eval::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};

@@ -3,10 +3,11 @@
 //! Input: a program and a point. Output: what a function returns and stores. Invariant: the same
 //! operations in the same order as the emitted code, so that over `f64` the bits agree.
 
-use crate::dag::{Array, Map, Part, Relation};
-use crate::index::{Affine, Domain, Index};
-use crate::program::{Function, Instruction, Program, Step, Target, Update, Value};
 use hamiltonian_lanes::Real;
+use hamiltonian_symbolic::PI_LOW;
+use hamiltonian_symbolic::dag::{Array, Map, Part, Relation};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::program::{Function, Instruction, Program, Step, Target, Update, Value};
 
 /// A function written in Rust: the part asked for, at its arguments.
 pub type ExternalFunction<T> = fn(Part, &[T]) -> T;
@@ -210,7 +211,7 @@ impl<T: Real> Machine<'_, T> {
                 let (hi, lo) = rational.to_words();
                 T::constant(hi, lo)
             }
-            Instruction::Pi => T::constant(core::f64::consts::PI, crate::PI_LOW),
+            Instruction::Pi => T::constant(core::f64::consts::PI, PI_LOW),
             Instruction::Scalar(parameter) => self.point.scalars[parameter.0 as usize],
             Instruction::Time => self.point.t,
             Instruction::Coefficient => self.point.c,

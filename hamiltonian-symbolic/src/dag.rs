@@ -436,6 +436,15 @@ impl Dag {
             self.for_children(node, |child| ahead.add(child));
         })
     }
+    /// Whether the roots need a node of a kind.
+    pub(crate) fn has(&self, roots: &[Node], is_asked: impl Fn(&Kind) -> bool) -> bool {
+        let nodes = self.reachable(roots);
+        nodes.iter().any(|node| is_asked(self.kind(*node)))
+    }
+    /// Whether there are sums over loops below the roots.
+    pub(crate) fn has_loops(&self, roots: &[Node]) -> bool {
+        self.has(roots, |kind| matches!(kind, Kind::Reduce(..)))
+    }
     /// All nodes that are reached from the roots by going from a node to those that `next` adds, some
     /// of its children: children before parents.
     pub(crate) fn reached(

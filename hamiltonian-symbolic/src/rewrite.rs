@@ -133,8 +133,7 @@ impl Dag {
     /// The same expression with its sums inside the loop `here`, each in the sum it stands in: the
     /// loops lie on one path, and none of them is open twice.
     pub(crate) fn nested(&mut self, root: Node, here: Option<Domain>) -> Node {
-        let is_sum = |node: &Node| matches!(self.kind(*node), Kind::Reduce(..));
-        if here.is_none() || !self.reachable(&[root]).iter().any(is_sum) {
+        if here.is_none() || !self.has_loops(&[root]) {
             return root;
         }
         let mut new: Map<(Node, Option<Domain>), Node> = Map::default();

@@ -57,7 +57,6 @@ fn identities_are_proven() {
         "hypot(x, y) - sqrt(x^2 + y^2)",
         "x^1.5 - x*sqrt(x)",
         "x^a*x^(1 - a) - x",
-        "(x^a)^2 - x^(2*a)",
         "a^x*a^-x - 1",
         "x^0.25*x^0.75 - x",
         "ln(x*y) - ln(x) - ln(y)",

@@ -271,8 +271,8 @@ const SPLITS: &[([&str; 4], &str, bool)] = &[
         false,
     ),
     (
-        ["q; p", "", "a b", "p^2/2 + q^a*q^b"],
-        "p^2/2; q^(a + b)",
+        ["q; p", "", "a b", "p^2/2 + exp(q)^a*exp(q)^b"],
+        "p^2/2; exp(q)^(a + b)",
         true,
     ),
     (

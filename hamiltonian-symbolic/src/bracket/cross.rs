@@ -7,15 +7,15 @@
 //!   of the constants on both sides, and where H tends to infinity no trajectory comes;
 //! - what is a quotient of analytic functions, or otherwise of one value in complex numbers, with an
 //!   H of the same kind: it is continued around the place through complex times;
-//! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|, and arctan w at a pole of
-//!   w is ±π/2 − arctan(1/w)): what is the same function on both sides, or comes to the same value;
+//! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|): what is the same function
+//!   on both sides, or comes to the same value;
 //!   what it, or H, keeps orbits away from, as it tends to infinity on one side at least; and a
 //!   place along which the flow runs.
 //!
 //! Invariant: no rule here looks at points.
 
-use super::pair::bracket;
-use crate::dag::{self, Column, Dag, Dependence, Kind, Map, Node};
+use super::derivative;
+use crate::dag::{self, Column, Dag, Dependence, Kind, Node};
 use crate::diff;
 use crate::facts::{Facts, Known, Locus, Regular};
 use crate::index::Index;
@@ -92,7 +92,7 @@ impl Claim {
             self.passes(Ends::ALL, known[1]),
         ];
         for (at, root) in self.roots.iter_mut().enumerate() {
-            if has_loops(&model.dag, *root) && !is_whole[at] {
+            if model.dag.has_loops(&[*root]) && !is_whole[at] {
                 if !model.sizes.is_empty() {
                     return Err("sums of a length known at run time are not compared".to_owned());
                 }
@@ -132,7 +132,7 @@ impl Claim {
         let u = distance(&mut model.dag);
         let limit =
             |Undecided| "the limit of expansions stops the comparison of both sides".to_owned();
-        let of_h = if has_loops(&model.dag, h) {
+        let of_h = if model.dag.has_loops(&[h]) {
             Ok(of_h)
         } else {
             place.ends(&mut model.dag, h, u)
@@ -150,7 +150,7 @@ impl Claim {
         {
             return Ok(());
         }
-        if !self.is_forced && !has_loops(&model.dag, h) && place.is_followed(model, h, u) {
+        if !self.is_forced && !model.dag.has_loops(&[h]) && place.is_followed(model, h, u) {
             return Ok(());
         }
         of_expression.and(of_h).map_err(limit)?;
@@ -158,25 +158,9 @@ impl Claim {
     }
 }
 
-fn has_loops(dag: &Dag, root: Node) -> bool {
-    let mut nodes = dag.reachable(&[root]).into_iter();
-    nodes.any(|node| matches!(dag.kind(node), Kind::Reduce(..)))
-}
-
 /// Whether a node stands in another one.
 fn reads(dag: &Dag, root: Node, node: Node) -> bool {
-    let mut seen: Map<Node, ()> = Map::default();
-    let mut left = vec![root];
-    while let Some(at) = left.pop() {
-        if at == node {
-            return true;
-        }
-        // Children have smaller numbers.
-        if at > node && seen.insert(at, ()).is_none() {
-            dag.for_children(at, |child| left.push(child));
-        }
-    }
-    false
+    dag.reachable(&[root]).binary_search(&node).is_ok()
 }
 
 /// What the two sides of an expression have in common at a place, or at all places.
@@ -261,7 +245,7 @@ fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
         // What a sum binds is not the leaf, though it may be called like it.
         let difference = dag.nested(difference, dag.home(leaf));
         let difference = replaced(dag, difference, leaf, value);
-        dag.is_zero(difference) || normal_form::vanishes(dag, difference, Scope::Everywhere)
+        normal_form::vanishes(dag, difference, Scope::Everywhere)
     })
 }
 
@@ -373,28 +357,9 @@ impl Place {
         Facts::of(dag, &[root], &known).get(root)
     }
 
-    /// A sum without its terms that are analytic near the place.
-    fn rough_part(&self, dag: &mut Dag, root: Node, u: Node) -> Node {
-        let Kind::Sum(_, terms) = dag.kind(root).clone() else {
-            return root;
-        };
-        let mut rough = Vec::new();
-        for (k, term) in terms {
-            if self.is_free() && !reads(dag, term, self.what) {
-                continue;
-            }
-            let near = self.near(dag, term, u);
-            if !self.regular(dag, near, u).is_analytic {
-                rough.push((k, term));
-            }
-        }
-        dag.linear(&Rational::ZERO, &rough)
-    }
-
     /// What the two sides of an expression do, each in its normal form over u > 0.
     fn ends(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Ends, Undecided> {
         let minus = dag.neg(u);
-        let root = self.rough_part(dag, root, u);
         let above = self.near(dag, root, u);
         let above = Side::of(dag, self, above, u)?;
         let below = self.near(dag, root, minus);
@@ -403,9 +368,7 @@ impl Place {
         // One function, read at u < 0.
         let mirrored = replaced(dag, below.node, u, minus);
         let difference = dag.sub(above.node, mirrored);
-        let vanishes = |dag: &mut Dag, node: Node| {
-            dag.is_zero(node) || normal_form::vanishes(dag, node, Scope::Densely)
-        };
+        let vanishes = |dag: &mut Dag, node: Node| normal_form::vanishes(dag, node, Scope::Densely);
         // On that side no trajectory comes near.
         let is_infinite = above.is_infinite || below.is_infinite;
         // The value of its own that a jump may have. Where the limits may not be finite, at another
@@ -439,18 +402,13 @@ impl Place {
         if !self.regular(&mut model.dag, side, u).is_analytic {
             return false;
         }
-        let Some(flow) = bracket(model, self.zero, h) else {
+        let Some(rate) = derivative(model, self.zero, h) else {
             return false;
         };
         let dag = &mut model.dag;
-        let explicit = diff::gradient(dag, self.zero, Dependence::TIME);
-        let parts: Vec<Node> = std::iter::once(flow)
-            .chain(explicit.into_iter().map(|(_, adjoint)| adjoint))
-            .collect();
-        let rate = dag.add(&parts);
         let nothing = dag.integer(0);
         let rate = self.near(dag, rate, nothing);
-        dag.is_zero(rate) || normal_form::vanishes(dag, rate, Scope::Densely)
+        normal_form::vanishes(dag, rate, Scope::Densely)
     }
 }
 
@@ -468,42 +426,41 @@ struct Side {
 
 impl Side {
     fn of(dag: &mut Dag, place: &Place, root: Node, u: Node) -> Result<Side, Undecided> {
-        let root = place.bounded(dag, root, u)?;
         let mut algebra = Algebra::beside(SMALL_BUDGET, Scope::Densely, u);
         let poly = algebra.convert(dag, root)?;
         let poly = algebra.canonical(&poly)?;
         let node = algebra.node(dag, &poly);
-        let leading = place.leading(dag, &mut algebra, &poly, u)?;
         Ok(Side {
             node,
             regular: place.regular(dag, node, u),
-            is_infinite: leading
-                .is_some_and(|(power, c)| power < 0 && place.is_never_nothing(&algebra, &c)),
+            is_infinite: place.is_infinite(dag, &mut algebra, &poly, u)?,
         })
     }
 }
 
 impl Place {
-    /// The lowest power of u, and its factor at u = 0; `None` where the factor has no value there.
-    fn leading(
+    /// Whether a polynomial tends to infinity as u tends to 0: its lowest power of u is negative, and
+    /// the factor of that has a value at u = 0 which is not 0.
+    fn is_infinite(
         &self,
         dag: &mut Dag,
         algebra: &mut Algebra,
         poly: &Poly,
         u: Node,
-    ) -> Result<Option<(i32, Poly)>, Undecided> {
+    ) -> Result<bool, Undecided> {
         let atom = algebra.leaf(dag, u);
-        let Some((power, factor)) = poly.by_power(atom).into_iter().next() else {
-            return Ok(None);
+        let powers = poly.by_power(atom);
+        let Some((..=-1, factor)) = powers.first() else {
+            return Ok(false);
         };
-        let (factor, nothing) = (algebra.node(dag, &factor), dag.integer(0));
+        let (factor, nothing) = (algebra.node(dag, factor), dag.integer(0));
         if !self.regular(dag, factor, u).is_continuous {
-            return Ok(None);
+            return Ok(false);
         }
         let factor = replaced(dag, factor, u, nothing);
         let factor = algebra.convert(dag, factor)?;
         let factor = algebra.canonical(&factor)?;
-        Ok((!factor.is_zero()).then_some((power, factor)))
+        Ok(self.is_never_nothing(algebra, &factor))
     }
 
     /// Whether a polynomial is a number, never 0, or not 0 on a whole place, whatever the parameters.
@@ -512,41 +469,6 @@ impl Place {
             || algebra.is_positive(poly)
             || algebra.is_positive(&poly.scale(&Rational::MINUS_ONE))
             || self.is_free() && algebra.is_anything_but_zero(poly)
-    }
-
-    /// The expression with arctan w and its like, where w tends to infinity with u, as their limit and
-    /// the rest: ±π/2 − arctan(1/w).
-    fn bounded(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Node, Undecided> {
-        let is_bounded = |dag: &Dag, node: Node| match dag.kind(node) {
-            Kind::Call(Op::Atan, x) => Some(x[0]),
-            _ => None,
-        };
-        let mut new: Map<Node, Node> = Map::default();
-        for node in dag.reachable(&[root]) {
-            let image = dag.rebuild(node, &|child| new[&child]);
-            let mut result = image;
-            if let Some(w) = is_bounded(dag, image)
-                && reads(dag, w, u)
-            {
-                let mut algebra = Algebra::beside(SMALL_BUDGET, Scope::Densely, u);
-                let poly = algebra.convert(dag, w)?;
-                let poly = algebra.canonical(&poly)?;
-                if let Some((power, c)) = self.leading(dag, &mut algebra, &poly, u)?
-                    && power < 0
-                    && self.is_never_nothing(&algebra, &c)
-                {
-                    let c = algebra.node(dag, &c);
-                    let (sign, pi) = (dag.call(Op::Sign, &[c]), dag.pi());
-                    let limit = dag.product(&Rational::new(1, 2), &[(sign, 1), (pi, 1)]);
-                    let w = algebra.node(dag, &poly);
-                    let inverse = dag.powi(w, -1);
-                    let rest = dag.call(Op::Atan, &[inverse]);
-                    result = dag.sub(limit, rest);
-                }
-            }
-            new.insert(node, result);
-        }
-        Ok(new[&root])
     }
 
     /// What is not 0 on the whole of u = 0, whatever the parameters.

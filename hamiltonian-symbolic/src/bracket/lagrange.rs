@@ -6,7 +6,7 @@
 //! and −∂I/∂v, with (∂I/∂q)·v + ∂I/∂t in the corner: a polynomial in M, which is never inverted.
 //! Invariant: M has a determinant that is not 0 everywhere (the Legendre transform saw to it).
 
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Dag, Dependence, Map, Node, Side};
 use crate::diff;
 use crate::legendre::Legendre;
 use crate::model::Model;
@@ -20,19 +20,15 @@ const MOST: usize = 6;
 /// change along the motion. Not where loops are left.
 pub(super) fn vanishes(model: &Model, legendre: &Legendre, expression: Node) -> bool {
     let mut dag = model.dag.clone();
-    derivative(&mut dag, legendre, expression).is_some_and(|rate| {
-        dag.is_zero(rate) || normal_form::vanishes(&mut dag, rate, Scope::Densely)
-    })
+    derivative(&mut dag, legendre, expression)
+        .is_some_and(|rate| normal_form::vanishes(&mut dag, rate, Scope::Densely))
 }
 
 /// dI/dt times the determinant of the mass matrix.
 fn derivative(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Option<Node> {
     let masses = || legendre.masses.iter();
     let velocities: Vec<Node> = masses().flat_map(|mass| mass.elements.clone()).collect();
-    let nodes = dag.reachable(&[expression, legendre.lagrangian]);
-    let has_loops = nodes
-        .iter()
-        .any(|node| matches!(dag.kind(*node), Kind::Reduce(..)));
+    let has_loops = dag.has_loops(&[expression, legendre.lagrangian]);
     if velocities.len() > MOST || has_loops || masses().any(|mass| mass.domain.is_some()) {
         return None;
     }

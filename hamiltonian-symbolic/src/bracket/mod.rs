@@ -86,11 +86,8 @@ pub fn is_invariant_of_lagrangian(
 /// The verdict, with what derivatives and points do not see.
 fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
     let h = model.h();
-    let has_rust = model
-        .dag
-        .reachable(&[h, expression])
-        .iter()
-        .any(|n| matches!(model.dag.kind(*n), Kind::External(..)));
+    let is_rust = |kind: &Kind| matches!(kind, Kind::External(..));
+    let has_rust = model.dag.has(&[h, expression], is_rust);
     match verdict {
         // A point refutes for the function that was tried, which is not the one in Rust.
         Verdict::Disproven { residual, .. } if has_rust => Verdict::Undecided {
@@ -115,8 +112,7 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
     let general = derivative(&mut model, expression, h);
     // A proof for all points, and all sizes, is the common case and the cheapest.
     if let Some(residual) = general
-        && (model.dag.is_zero(residual)
-            || normal_form::vanishes(&mut model.dag, residual, Scope::Densely))
+        && normal_form::vanishes(&mut model.dag, residual, Scope::Densely)
     {
         return Verdict::Proven;
     }
@@ -124,12 +120,7 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         || "the bracket with H".to_owned(),
         |node| readable(&mut model, node),
     );
-    let has_loops = model
-        .dag
-        .reachable(&[h, expression])
-        .iter()
-        .any(|n| matches!(model.dag.kind(*n), Kind::Reduce(..)));
-    if !has_loops && model.sizes.is_empty() {
+    if !model.dag.has_loops(&[h, expression]) && model.sizes.is_empty() {
         return match general {
             Some(residual) => decide(&mut model, residual, difference, &[h, expression], text),
             None => Verdict::Undecided {

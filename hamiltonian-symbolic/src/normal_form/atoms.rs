@@ -88,8 +88,6 @@ pub(crate) struct Algebra {
     pub(super) converted: Map<Node, Rc<Poly>>,
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
-    /// Powers of signs so far: the sign and the exponent.
-    pub(super) powers: Vec<(Poly, Poly)>,
     pub(super) any_redefined: bool,
     /// Whether a condition stands before a fraction: what is not defined there may then be.
     pub(super) any_guarded: bool,
@@ -114,7 +112,6 @@ impl Algebra {
             exponents: Map::default(),
             converted: Map::default(),
             arguments: Vec::new(),
-            powers: Vec::new(),
             any_redefined: false,
             any_guarded: false,
             has_conditions: false,

@@ -13,13 +13,12 @@ use std::rc::Rc;
 impl Algebra {
     /// The polynomial of a node.
     pub(crate) fn convert(&mut self, dag: &Dag, root: Node) -> Result<Poly, Undecided> {
-        let nodes = dag.reachable(&[root]);
-        self.has_conditions |= nodes.iter().any(|node| match dag.kind(*node) {
+        self.has_conditions |= dag.has(&[root], |kind| match kind {
             Kind::Select(..) => true,
             Kind::Call(Op::Sign, _) => self.scope == Scope::Everywhere,
             _ => false,
         });
-        for node in nodes {
+        for node in dag.reachable(&[root]) {
             if !self.converted.contains_key(&node) {
                 let poly = self.convert_one(dag, node)?;
                 self.converted.insert(node, Rc::new(poly));

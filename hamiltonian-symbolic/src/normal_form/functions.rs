@@ -11,10 +11,6 @@ use crate::rational::Rational;
 
 /// How many arguments of functions are compared with each other.
 const MOST_ARGUMENTS: usize = 64;
-/// The largest ratio of exponents that is looked for.
-const LARGEST_RATIO: i64 = 8;
-/// How many powers of one sign are compared with each other.
-const MOST_POWERS: usize = 8;
 
 impl Algebra {
     /// An elementary function.
@@ -269,68 +265,9 @@ impl Algebra {
         } else {
             self.mul(&size, &sign)?
         };
-        let power = self.power_of_sign(&sign, exponent);
-        self.mul(&size, &power)
-    }
-
-    /// s^y. Where s^y and s^(my) both have values, s^(my) is (s^y)^m; and s^(x + y) is s^x·s^y where
-    /// all three have.
-    fn power_of_sign(&mut self, sign: &Poly, exponent: Poly) -> Poly {
-        let one = Some((2, Poly::integer(1)));
-        let atom = |algebra: &mut Algebra, exponent: &Poly| {
-            let arguments = vec![sign.clone(), exponent.clone()];
-            algebra.function(Key::Function(Op::Pow, arguments), one.clone())
-        };
-        if self.has_conditions {
-            return Poly::atom(atom(self, &exponent), 1);
-        }
-        let multiple = |of: &Poly, other: &Poly| {
-            (2..=LARGEST_RATIO).find(|m| of.scale(&Rational::integer(*m)) == *other)
-        };
-        for at in 0..self.powers.len() {
-            let (other, known) = self.powers[at].clone();
-            if other != *sign {
-                continue;
-            }
-            let base = Poly::atom(atom(self, &known), 1);
-            if let Some(m) = multiple(&known, &exponent) {
-                return if m % 2 == 0 { Poly::integer(1) } else { base };
-            }
-            if let Some(m) = multiple(&exponent, &known) {
-                let finer = Poly::atom(atom(self, &exponent), 1);
-                let old = atom(self, &known);
-                self.redefine(old, if m % 2 == 0 { Poly::integer(1) } else { finer });
-            }
-        }
-        let of_sign = |algebra: &Algebra| -> Vec<Poly> {
-            let same = algebra.powers.iter().filter(|(other, _)| other == sign);
-            same.map(|(_, known)| known.clone())
-                .take(MOST_POWERS)
-                .collect()
-        };
-        let is_sum = |of: &Poly, x: &Poly, y: &Poly| [x.add(y), x.sub(y), y.sub(x)].contains(of);
-        let known = of_sign(self);
-        for (at, x) in known.iter().enumerate() {
-            for y in &known[at + 1..] {
-                if is_sum(&exponent, x, y) {
-                    let (x, y) = (atom(self, x), atom(self, y));
-                    return Poly::atom(x, 1).times(&Monomial::atom(y, 1));
-                }
-            }
-        }
-        let power = atom(self, &exponent);
-        self.powers.push((sign.clone(), exponent.clone()));
-        // The sum may have come first.
-        for (at, whole) in known.iter().enumerate() {
-            for (_, part) in known.iter().enumerate().filter(|(other, _)| *other != at) {
-                if is_sum(whole, &exponent, part) {
-                    let (whole, part) = (atom(self, whole), atom(self, part));
-                    let product = Poly::atom(part, 1).times(&Monomial::atom(power, 1));
-                    self.redefine(whole, product);
-                }
-            }
-        }
-        Poly::atom(power, 1)
+        let square = Some((2, Poly::integer(1)));
+        let power = self.function(Key::Function(Op::Pow, vec![sign, exponent]), square);
+        Ok(size.times(&Monomial::atom(power, 1)))
     }
 
     /// ln x, which is about points at which x > 0.

@@ -78,7 +78,7 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
     }
     // Loops over literal ranges are sums like any other.
     if model.sizes.is_empty()
-        && has_loops(&model.dag, node)
+        && model.dag.has_loops(&[node])
         && let Ok((mut written, images)) = unroll_nodes(model, &[], &[node])
         && vanishes(&mut written.dag, images[0], Scope::Everywhere)
     {
@@ -88,12 +88,6 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
         Some((point, value)) => Proof::NonZero { point, value },
         None => Proof::Undecided,
     }
-}
-
-fn has_loops(dag: &Dag, node: Node) -> bool {
-    dag.reachable(&[node])
-        .iter()
-        .any(|n| matches!(dag.kind(*n), Kind::Reduce(..)))
 }
 
 /// The verdict of the normal form on a node.
@@ -145,12 +139,15 @@ pub(crate) fn answer(dag: &mut Dag, node: Node, scope: Scope) -> Answer {
 }
 
 fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
+    if dag.is_zero(node) {
+        return Answer::Zero;
+    }
     let mut decide = || {
         let poly = algebra.convert(dag, node)?;
         if symmetry::summands_vanish(algebra, &poly)? {
             return Ok(true);
         }
-        if !has_loops(dag, node) {
+        if !dag.has_loops(&[node]) {
             return Ok(false);
         }
         let poly = symmetry::canonical(algebra, dag, &poly)?;
@@ -235,9 +232,8 @@ pub(crate) fn witness(
     if !model.dag.dependence(node).on(given) {
         return None;
     }
-    let nodes = model.dag.reachable(&[node]);
-    let is_power = |node: &Node| matches!(model.dag.kind(*node), Kind::Call(Op::Pow, _));
-    let is_power = effort == Effort::Search && nodes.iter().any(is_power);
+    let is_power = |kind: &Kind| matches!(kind, Kind::Call(Op::Pow, _));
+    let is_power = effort == Effort::Search && model.dag.has(&[node], is_power);
     let mut all = vec![node];
     all.extend(others);
     let seeds = if is_power { 0..64 } else { 0..0 };
@@ -309,14 +305,9 @@ pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
         algebra.node(&mut model.dag, &kinetic),
         algebra.node(&mut model.dag, &potential),
     );
+    let is_condition = |kind: &Kind| matches!(kind, Kind::Select(..));
+    let is_sign = |kind: &Kind| matches!(kind, Kind::Call(Op::Sign, _));
     let dag = &model.dag;
-    let has = |roots: &[Node], is: fn(&Kind) -> bool| {
-        let mut nodes = dag.reachable(roots).into_iter();
-        nodes.any(|node| is(dag.kind(node)))
-    };
-    let has_condition = has(&[h], |kind| matches!(kind, Kind::Select(..)));
-    let has_sign = has(&[kinetic, potential], |kind| {
-        matches!(kind, Kind::Call(Op::Sign, _))
-    });
-    (!(has_condition && has_sign)).then_some((kinetic, potential))
+    (!(dag.has(&[h], is_condition) && dag.has(&[kinetic, potential], is_sign)))
+        .then_some((kinetic, potential))
 }

@@ -141,11 +141,8 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
         }
     }
     let body = algebra.node(dag, &Poly::term(Rational::ONE, body));
-    let is_flat = !dag
-        .reachable(&[body])
-        .iter()
-        .any(|n| matches!(dag.kind(*n), Kind::Reduce(..) | Kind::Count(_)));
-    is_flat.then_some(Nest { loops, body })
+    let is_loop = |kind: &Kind| matches!(kind, Kind::Reduce(..) | Kind::Count(_));
+    (!dag.has(&[body], is_loop)).then_some(Nest { loops, body })
 }
 
 /// All re-indexings of a nest, itself first.

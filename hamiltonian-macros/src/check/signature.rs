@@ -8,6 +8,7 @@ use crate::ast::{Signature, StatementKind, Variable};
 use crate::checked::{Extent, Group, GroupId, Type};
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
+use std::collections::HashMap;
 
 impl Checker<'_> {
     /// The signature of the definition. Whether its names are known.
@@ -155,20 +156,15 @@ impl Checker<'_> {
         word: &str,
     ) -> bool {
         let all = || coordinates.iter().chain(others);
-        let names: Vec<(&Variable, String)> = all().map(|v| (v, v.name.to_string())).collect();
-        let owner = |variable: &Variable| {
-            let name = variable.name.to_string();
-            let mut names = names.iter();
-            let found = names.find(|(_, of)| is_partner_of(&name, of, word));
-            found.map(|(variable, _)| *variable)
-        };
+        let owners = Owners::new(all(), word);
+        let owner = |variable| owners.of(variable);
         let mut found = false;
         for (coordinate, other) in coordinates.iter().zip(others) {
             let name = coordinate.name.to_string();
             let Some(of) = owner(coordinate) else {
                 continue;
             };
-            if is_partner_of(&other.name.to_string(), &name, word) {
+            if owners.is_of(other, coordinate) {
                 continue;
             }
             found = true;
@@ -197,22 +193,18 @@ impl Checker<'_> {
     /// Whether a momentum (velocity) has the name of another coordinate's, as in `H(x, y; p_y, p_x)`,
     /// which would make p_y the momentum of x.
     fn is_crossed(&mut self, coordinates: &[Variable], others: &[Variable], word: &str) -> bool {
-        let partner_of = |of: &Variable| {
-            let of = of.name.to_string();
-            let is = |other: &&Variable| is_partner_of(&other.name.to_string(), &of, word);
-            others.iter().find(is)
-        };
+        let owners = Owners::new(coordinates.iter(), word);
         let mut found = false;
         for (coordinate, other) in coordinates.iter().zip(others) {
             let name = other.name.to_string();
-            let is = |of: &&Variable| is_partner_of(&name, &of.name.to_string(), word);
-            let Some(owner) = coordinates.iter().find(is) else {
+            let Some(owner) = owners.of(other) else {
                 continue;
             };
-            if is_partner_of(&name, &coordinate.name.to_string(), word) {
+            if owners.is_of(other, coordinate) {
                 continue;
             }
             found = true;
+            let partner_of = |of| others.iter().find(|other| owners.is_of(other, of));
             let partner = if word == "L" { "velocity" } else { "momentum" };
             let ordered: Option<Vec<&Variable>> = coordinates.iter().map(partner_of).collect();
             let help = match ordered {
@@ -347,14 +339,45 @@ fn suggested(word: &str, prefix: &str, names: &[Variable]) -> String {
     }
 }
 
-/// Whether `name` is what the momentum (velocity) of `of` is called: `p_x` and `px` belong to `x`,
-/// `p1` belongs to `q1`.
-fn is_partner_of(name: &str, of: &str, word: &str) -> bool {
-    let prefix = if word == "L" { 'v' } else { 'p' };
-    let Some(rest) = name.strip_prefix(prefix) else {
-        return false;
-    };
-    rest.strip_prefix('_') == Some(of) || rest == of || of.strip_prefix('q') == Some(rest)
+/// Variables by the names of their momenta (velocities).
+struct Owners<'a> {
+    prefix: char,
+    by_name: HashMap<String, &'a Variable>,
+}
+
+impl<'a> Owners<'a> {
+    fn new(variables: impl Iterator<Item = &'a Variable>, word: &str) -> Owners<'a> {
+        let prefix = if word == "L" { 'v' } else { 'p' };
+        let by_name = variables.map(|variable| (variable.name.to_string(), variable));
+        let by_name = by_name.collect();
+        Owners { prefix, by_name }
+    }
+
+    /// The names that own `name`: `x` owns `p_x` and `px`, `q1` owns `p1`.
+    fn names(&self, name: &str) -> Vec<String> {
+        let Some(rest) = name.strip_prefix(self.prefix) else {
+            return Vec::new();
+        };
+        let underscored = rest.strip_prefix('_').map(str::to_owned);
+        [rest.to_owned(), format!("q{rest}")]
+            .into_iter()
+            .chain(underscored)
+            .collect()
+    }
+
+    /// The variable whose momentum (velocity) has the name of this one.
+    fn of(&self, variable: &Variable) -> Option<&'a Variable> {
+        let names = self.names(&variable.name.to_string());
+        names
+            .iter()
+            .find_map(|name| self.by_name.get(name).copied())
+    }
+
+    /// Whether `variable` has the name of the momentum (velocity) of `owner`.
+    fn is_of(&self, variable: &Variable, owner: &Variable) -> bool {
+        let names = self.names(&variable.name.to_string());
+        names.contains(&owner.name.to_string())
+    }
 }
 
 fn list<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> String {

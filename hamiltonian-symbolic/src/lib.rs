@@ -10,6 +10,7 @@ pub mod diff;
 pub mod factor;
 pub mod facts;
 pub mod forces;
+mod formula;
 pub mod hold;
 pub mod index;
 mod instruct;

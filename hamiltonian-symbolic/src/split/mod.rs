@@ -5,7 +5,6 @@
 //! is an instance of a row of [`ROWS`], or made of such by rules that are theorems.
 
 mod cover;
-mod formula;
 mod growth;
 mod motion;
 mod rank;

@@ -6,7 +6,7 @@
 
 use super::reduce::Rules;
 use crate::dag::{Dag, Node, Parameter};
-use crate::op::Op;
+use crate::formula::Names;
 use crate::rational::Rational;
 
 /// A scalar coordinate: a group, or one component of a vector group.
@@ -57,6 +57,14 @@ pub enum Chart {
     Heliocentric(Bodies),
 }
 
+/// The old coordinates of a chart.
+pub(super) enum Replaced<'a> {
+    /// Scalars, mapped by formulas.
+    Scalars(&'static Formulas, &'a [Component]),
+    /// Bodies, mapped component by component.
+    Bodies(Bodies),
+}
+
 impl Chart {
     /// The word that declares it.
     #[must_use]
@@ -66,6 +74,13 @@ impl Chart {
             Chart::Spherical(_) => "spherical",
             Chart::Jacobi(_) => "jacobi",
             Chart::Heliocentric(_) => "heliocentric",
+        }
+    }
+    pub(super) fn replaced(&self) -> Replaced<'_> {
+        match self {
+            Chart::Polar(components) => Replaced::Scalars(&POLAR, components),
+            Chart::Spherical(components) => Replaced::Scalars(&SPHERICAL, components),
+            Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => Replaced::Bodies(*bodies),
         }
     }
 }
@@ -99,112 +114,87 @@ fn total(dag: &mut Dag, terms: &[(Rational, Node)]) -> Node {
     dag.linear(&Rational::ZERO, terms)
 }
 
-/// (x, y) from (r, φ).
-pub(super) fn polar_to_old(dag: &mut Dag, new: &Variables, rules: &mut Rules) -> Variables {
-    let [r, phi] = [new.q[0], new.q[1]];
-    let [p_r, p_phi] = [new.p[0], new.p[1]];
-    let (s, c) = (dag.call(Op::Sin, &[phi]), dag.call(Op::Cos, &[phi]));
-    rules.angles.push((s, c));
-    rules.positive.push(r);
-    let p_x = [
-        times(dag, 1, &[(p_r, 1), (c, 1)]),
-        times(dag, -1, &[(p_phi, 1), (s, 1), (r, -1)]),
-    ];
-    let p_y = [
-        times(dag, 1, &[(p_r, 1), (s, 1)]),
-        times(dag, 1, &[(p_phi, 1), (c, 1), (r, -1)]),
-    ];
-    Variables {
-        q: vec![dag.mul(&[r, c]), dag.mul(&[r, s])],
-        p: vec![total(dag, &p_x), total(dag, &p_y)],
+/// A point transformation of scalars by formulas; the momentum of `x` is `p_x`.
+pub(super) struct Formulas {
+    old: &'static [&'static str],
+    pub(super) new: &'static [&'static str],
+    to_old: &'static str,
+    to_new: &'static str,
+    /// Sine and cosine of each angle, by name.
+    angles: &'static [(&'static str, &'static str)],
+    /// Names of what is > 0.
+    positive: &'static [&'static str],
+}
+
+static POLAR: Formulas = Formulas {
+    old: &["x", "y"],
+    new: &["r", "phi"],
+    to_old: "s = sin(phi); c = cos(phi); \
+        p_x = p_r*c - p_phi*s/r; p_y = p_r*s + p_phi*c/r; x = r*c; y = r*s",
+    to_new: "r = hypot(x, y); phi = atan2(y, x); p_r = (x*p_x + y*p_y)/r; p_phi = x*p_y - y*p_x",
+    angles: &[("s", "c")],
+    positive: &["r"],
+};
+
+static SPHERICAL: Formulas = Formulas {
+    old: &["x", "y", "z"],
+    new: &["r", "theta", "phi"],
+    to_old: "s = sin(theta); c = cos(theta); sf = sin(phi); cf = cos(phi); \
+        p_x = p_r*s*cf + p_theta*c*cf/r - p_phi*sf/r/s; \
+        p_y = p_r*s*sf + p_theta*c*sf/r + p_phi*cf/r/s; \
+        p_z = p_r*c - p_theta*s/r; x = r*s*cf; y = r*s*sf; z = r*c",
+    to_new: "rho = hypot(x, y); r = hypot(rho, z); theta = atan2(rho, z); phi = atan2(y, x); \
+        flat = x*p_x + y*p_y; p_r = (x*p_x + y*p_y + z*p_z)/r; \
+        p_theta = flat*z/rho - rho*p_z; p_phi = x*p_y - y*p_x",
+    angles: &[("s", "c"), ("sf", "cf")],
+    positive: &["r", "s"],
+};
+
+impl Formulas {
+    /// The old variables from the new ones; the rules of the chart are added.
+    pub(super) fn to_old(&self, dag: &mut Dag, new: &Variables, rules: &mut Rules) -> Variables {
+        let names = named(dag, self.new, new, self.to_old);
+        let angles = self.angles.iter();
+        rules
+            .angles
+            .extend(angles.map(|(s, c)| (node(&names, s), node(&names, c))));
+        let positive = self.positive.iter();
+        rules
+            .positive
+            .extend(positive.map(|name| node(&names, name)));
+        variables(&names, self.old)
+    }
+    /// The new variables from the old ones.
+    pub(super) fn to_new(&self, dag: &mut Dag, old: &Variables) -> Variables {
+        let names = named(dag, self.old, old, self.to_new);
+        variables(&names, self.new)
     }
 }
 
-/// (r, φ) from (x, y): p_r = (x p_x + y p_y)/r, p_φ = x p_y − y p_x.
-pub(super) fn polar_to_new(dag: &mut Dag, old: &Variables) -> Variables {
-    let ([x, y], [p_x, p_y]) = ([old.q[0], old.q[1]], [old.p[0], old.p[1]]);
-    let r = dag.call(Op::Hypot, &[x, y]);
-    let phi = dag.call(Op::Atan2, &[y, x]);
-    let along = [
-        times(dag, 1, &[(x, 1), (p_x, 1)]),
-        times(dag, 1, &[(y, 1), (p_y, 1)]),
-    ];
-    let along = total(dag, &along);
-    Variables {
-        q: vec![r, phi],
-        p: vec![dag.div(along, r), turning(dag, x, y, p_x, p_y)],
+/// The nodes of formulas over some coordinates.
+fn named(dag: &mut Dag, from: &[&str], given: &Variables, formulas: &str) -> Names {
+    let mut names = Names::default();
+    for (at, name) in from.iter().enumerate() {
+        names.set(name, given.q[at]);
+        names.set(&format!("p_{name}"), given.p[at]);
     }
+    names
+        .read(dag, formulas)
+        .expect("the formulas of a chart read");
+    names
 }
 
-/// x p_y − y p_x.
-fn turning(dag: &mut Dag, x: Node, y: Node, p_x: Node, p_y: Node) -> Node {
-    let terms = [
-        times(dag, 1, &[(x, 1), (p_y, 1)]),
-        times(dag, -1, &[(y, 1), (p_x, 1)]),
-    ];
-    total(dag, &terms)
+fn node(names: &Names, name: &str) -> Node {
+    names.get(name).expect("the formulas of a chart name it")
 }
 
-/// (x, y, z) from (r, θ, φ).
-pub(super) fn spherical_to_old(dag: &mut Dag, new: &Variables, rules: &mut Rules) -> Variables {
-    let [r, theta, phi] = [new.q[0], new.q[1], new.q[2]];
-    let [p_r, p_theta, p_phi] = [new.p[0], new.p[1], new.p[2]];
-    let (s, c) = (dag.call(Op::Sin, &[theta]), dag.call(Op::Cos, &[theta]));
-    let (sf, cf) = (dag.call(Op::Sin, &[phi]), dag.call(Op::Cos, &[phi]));
-    rules.angles.extend([(s, c), (sf, cf)]);
-    rules.positive.extend([r, s]);
-    let p_x = [
-        times(dag, 1, &[(p_r, 1), (s, 1), (cf, 1)]),
-        times(dag, 1, &[(p_theta, 1), (c, 1), (cf, 1), (r, -1)]),
-        times(dag, -1, &[(p_phi, 1), (sf, 1), (r, -1), (s, -1)]),
-    ];
-    let p_y = [
-        times(dag, 1, &[(p_r, 1), (s, 1), (sf, 1)]),
-        times(dag, 1, &[(p_theta, 1), (c, 1), (sf, 1), (r, -1)]),
-        times(dag, 1, &[(p_phi, 1), (cf, 1), (r, -1), (s, -1)]),
-    ];
-    let p_z = [
-        times(dag, 1, &[(p_r, 1), (c, 1)]),
-        times(dag, -1, &[(p_theta, 1), (s, 1), (r, -1)]),
-    ];
+fn variables(names: &Names, to: &[&str]) -> Variables {
     Variables {
-        q: vec![dag.mul(&[r, s, cf]), dag.mul(&[r, s, sf]), dag.mul(&[r, c])],
-        p: vec![total(dag, &p_x), total(dag, &p_y), total(dag, &p_z)],
-    }
-}
-
-/// (r, θ, φ) from (x, y, z), with ρ = √(x²+y²): p_r = q·p/r, p_θ = (x p_x + y p_y) z/ρ − ρ p_z,
-/// p_φ = x p_y − y p_x.
-pub(super) fn spherical_to_new(dag: &mut Dag, old: &Variables) -> Variables {
-    let [x, y, z] = [old.q[0], old.q[1], old.q[2]];
-    let [p_x, p_y, p_z] = [old.p[0], old.p[1], old.p[2]];
-    let rho = dag.call(Op::Hypot, &[x, y]);
-    let r = dag.call(Op::Hypot, &[rho, z]);
-    let flat = [
-        times(dag, 1, &[(x, 1), (p_x, 1)]),
-        times(dag, 1, &[(y, 1), (p_y, 1)]),
-    ];
-    let along = [
-        flat[0].clone(),
-        flat[1].clone(),
-        times(dag, 1, &[(z, 1), (p_z, 1)]),
-    ];
-    let (flat, along) = (total(dag, &flat), total(dag, &along));
-    let p_theta = [
-        times(dag, 1, &[(flat, 1), (z, 1), (rho, -1)]),
-        times(dag, -1, &[(rho, 1), (p_z, 1)]),
-    ];
-    Variables {
-        q: vec![
-            r,
-            dag.call(Op::Atan2, &[rho, z]),
-            dag.call(Op::Atan2, &[y, x]),
-        ],
-        p: vec![
-            dag.div(along, r),
-            total(dag, &p_theta),
-            turning(dag, x, y, p_x, p_y),
-        ],
+        q: to.iter().map(|name| node(names, name)).collect(),
+        p: to
+            .iter()
+            .map(|name| node(names, &format!("p_{name}")))
+            .collect(),
     }
 }
 

@@ -7,7 +7,7 @@
 
 use super::Refusal;
 use super::bodies::Bodies;
-use super::charts::{self, Chart, Masses, REPLACING, Variables};
+use super::charts::{self, Chart, Masses, REPLACING, Replaced, Variables};
 use super::layout::{Layout, Slot, coordinate, placements};
 use super::peel::{Below, peel};
 use super::reduce::{self, Rules};
@@ -92,12 +92,12 @@ pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
             kept.push((REPLACING + bodies.group, place.first));
         }
     }
-    let mut images = images(&mut new.dag, &roots, &inverse, &kept);
+    let images = images(&mut new.dag, &roots, &inverse, &kept, &bodies, &below).map_err(|old| {
+        Refusal::Wrapped {
+            coordinate: coordinate(model, old),
+        }
+    })?;
     for of in &bodies {
-        let dag = &mut new.dag;
-        rows(dag, &roots, of, &below, &mut images).ok_or_else(|| Refusal::Wrapped {
-            coordinate: coordinate(model, of.old),
-        })?;
         forward.extend(of.forward(&mut source.dag));
         inverse.extend(of.inverse(&mut new.dag));
     }
@@ -242,14 +242,13 @@ fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> 
 }
 
 fn to_new(chart: &Chart, model: &Model, dag: &mut Dag, old: &Variables) -> Variables {
-    match chart {
-        Chart::Polar(_) => charts::polar_to_new(dag, old),
-        Chart::Spherical(_) => charts::spherical_to_new(dag, old),
-        Chart::Jacobi(bodies) => {
+    match (chart.replaced(), chart) {
+        (Replaced::Scalars(formulas, _), _) => formulas.to_new(dag, old),
+        (Replaced::Bodies(bodies), Chart::Jacobi(_)) => {
             let masses = masses_of(model, dag, bodies.masses);
             charts::jacobi_to_new(dag, old, &masses)
         }
-        Chart::Heliocentric(_) => charts::heliocentric_to_new(dag, old),
+        (Replaced::Bodies(_), _) => charts::heliocentric_to_new(dag, old),
     }
 }
 
@@ -260,14 +259,13 @@ fn to_old(
     new: &Variables,
     rules: &mut Rules,
 ) -> Variables {
-    match chart {
-        Chart::Polar(_) => charts::polar_to_old(dag, new, rules),
-        Chart::Spherical(_) => charts::spherical_to_old(dag, new, rules),
-        Chart::Jacobi(bodies) => {
+    match (chart.replaced(), chart) {
+        (Replaced::Scalars(formulas, _), _) => formulas.to_old(dag, new, rules),
+        (Replaced::Bodies(bodies), Chart::Jacobi(_)) => {
             let masses = masses_of(model, dag, bodies.masses);
             charts::jacobi_to_old(dag, new, &masses)
         }
-        Chart::Heliocentric(_) => charts::heliocentric_to_old(dag, new),
+        (Replaced::Bodies(_), _) => charts::heliocentric_to_old(dag, new),
     }
 }
 
@@ -336,53 +334,37 @@ fn written_out(
     Ok((peeled, roots))
 }
 
-/// What replaces each element of bodies that is read; `None` where an index wraps around.
-fn rows(
-    dag: &mut Dag,
-    roots: &[Node],
-    bodies: &Bodies,
-    below: &Below,
-    images: &mut Map<Node, Node>,
-) -> Option<()> {
-    for node in dag.reachable(roots) {
-        let Some((column, row)) = dag.phase_place(node) else {
-            continue;
-        };
-        if column.group == bodies.old {
-            let row = row.clone();
-            let image = bodies.image(dag, below, (column.side, column.column), &row)?;
-            images.insert(node, image);
-        }
-    }
-    Some(())
-}
-
-/// What replaces each element that is read: old coordinates by the map, kept ones by their new
-/// number.
+/// The image of each element that is read: by the map of its chart, by that of its bodies, or at the
+/// number of its group in the new model. The group of bodies is the error where an index wraps around.
 fn images(
     dag: &mut Dag,
     roots: &[Node],
     inverse: &[VectorEntry],
     kept: &[(u16, u16)],
-) -> Map<Node, Node> {
+    bodies: &[Bodies],
+    below: &Below,
+) -> Result<Map<Node, Node>, u16> {
     let mut images: Map<Node, Node> = Map::default();
     for entry in inverse {
         let old = dag.phase(entry.at, entry.row.clone());
         images.insert(old, entry.value);
     }
     for node in dag.reachable(roots) {
-        if images.contains_key(&node) {
-            continue;
-        }
         let Some((column, row)) = dag.phase_place(node) else {
             continue;
         };
-        let Some(&(_, group)) = kept.iter().find(|(old, _)| *old == column.group) else {
-            continue;
-        };
         let row = row.clone();
-        let moved = dag.phase(Column { group, ..column }, row);
-        images.insert(node, moved);
+        let of = bodies.iter().find(|of| of.old == column.group);
+        let to = kept.iter().find(|(old, _)| *old == column.group);
+        let image = match (of, to) {
+            (Some(of), _) => {
+                let image = of.image(dag, below, (column.side, column.column), &row);
+                image.ok_or(of.old)?
+            }
+            (None, Some(&(_, group))) => dag.phase(Column { group, ..column }, row),
+            (None, None) => continue,
+        };
+        images.insert(node, image);
     }
-    images
+    Ok(images)
 }

@@ -3,10 +3,11 @@
 //! Input: a model and charts. Output: [`Layout`], or why the charts do not fit. Invariant: the new
 //! groups of a chart stand where its first old group stood; names are told apart.
 
-use super::charts::{Chart, Component, Variables};
+use super::Refusal;
+use super::charts::{Chart, Component, Replaced, Variables};
 use super::coordinates::Placement;
-use super::{Refusal, element};
-use crate::dag::{Column, Dag, Side};
+use crate::dag::{Column, Dag, Node, Side};
+use crate::index::Index;
 use crate::model::{Group, Model, Shape};
 
 /// A scalar place of phase space.
@@ -27,6 +28,14 @@ impl Slot {
             column,
         }
     }
+    /// Its row.
+    pub(super) fn row(self) -> Index {
+        Index::constant(i64::from(self.row))
+    }
+    /// The scalar there.
+    pub(super) fn node(self, dag: &mut Dag, side: Side) -> Node {
+        dag.phase(self.at(side), self.row())
+    }
 }
 
 /// One set of variables that a chart maps as a whole: bodies are mapped component by component.
@@ -39,9 +48,8 @@ impl Block {
     pub(super) fn variables(&self, dag: &mut Dag, old: bool) -> Variables {
         let mut variables = Variables::default();
         for slot in if old { &self.old } else { &self.new } {
-            let mut read = |side| element(dag, side, slot.group, slot.row, slot.column);
-            variables.q.push(read(Side::Q));
-            variables.p.push(read(Side::P));
+            variables.q.push(slot.node(dag, Side::Q));
+            variables.p.push(slot.node(dag, Side::P));
         }
         variables
     }
@@ -93,7 +101,7 @@ impl Layout {
             }
         }
         // Old names go, so they may come back: what is left must not meet what is new.
-        let mut left = model.clone_names();
+        let mut left = model.clone();
         left.groups = kept
             .iter()
             .map(|(old, _)| model.groups[usize::from(*old)].clone())
@@ -129,23 +137,6 @@ impl Layout {
     }
 }
 
-impl Model {
-    /// The declarations without the mathematics.
-    fn clone_names(&self) -> Model {
-        Model {
-            name: self.name.clone(),
-            groups: self.groups.clone(),
-            parameters: self.parameters.clone(),
-            sizes: self.sizes.clone(),
-            time: self.time.clone(),
-            evolution: self.evolution.clone(),
-            externals: self.externals.clone(),
-            observables: self.observables.clone(),
-            ..Model::default()
-        }
-    }
-}
-
 pub(super) fn coordinate(model: &Model, group: u16) -> String {
     model
         .groups
@@ -155,10 +146,9 @@ pub(super) fn coordinate(model: &Model, group: u16) -> String {
 
 /// The groups a chart names, each once.
 fn members(chart: &Chart) -> Vec<u16> {
-    let components: &[Component] = match chart {
-        Chart::Polar(components) => components,
-        Chart::Spherical(components) => components,
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => return vec![bodies.group],
+    let components = match chart.replaced() {
+        Replaced::Scalars(_, components) => components,
+        Replaced::Bodies(bodies) => return vec![bodies.group],
     };
     let mut groups: Vec<u16> = components.iter().map(|c| c.group).collect();
     groups.sort_unstable();
@@ -177,10 +167,9 @@ fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
         let Some(shape) = model.groups.get(usize::from(group)).map(|g| &g.shape) else {
             return Err(refused("declared"));
         };
-        let components: &[Component] = match chart {
-            Chart::Polar(components) => components,
-            Chart::Spherical(components) => components,
-            Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
+        let components = match chart.replaced() {
+            Replaced::Scalars(_, components) => components,
+            Replaced::Bodies(bodies) => {
                 let Some(rows) = shape.rows() else {
                     return Err(refused("an array of bodies"));
                 };
@@ -218,86 +207,70 @@ fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
 }
 
 fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
-    let scalar = |name: &&str| Group::scalar(*name, format!("p_{name}"));
-    let bodies = |group: u16| {
-        let old = &model.groups[usize::from(group)];
-        vec![Group {
-            coordinate: format!("{}_{}", old.coordinate, chart.word()),
-            momentum: format!("{}_{}", old.momentum, chart.word()),
-            velocity: None,
-            shape: old.shape.clone(),
-        }]
-    };
-    match chart {
-        Chart::Polar(_) => ["r", "phi"].iter().map(scalar).collect(),
-        Chart::Spherical(_) => ["r", "theta", "phi"].iter().map(scalar).collect(),
-        Chart::Jacobi(b) | Chart::Heliocentric(b) => bodies(b.group),
+    match chart.replaced() {
+        Replaced::Scalars(formulas, _) => {
+            let scalar = |name: &&str| Group::scalar(*name, format!("p_{name}"));
+            formulas.new.iter().map(scalar).collect()
+        }
+        Replaced::Bodies(bodies) => {
+            let old = &model.groups[usize::from(bodies.group)];
+            vec![Group {
+                coordinate: format!("{}_{}", old.coordinate, chart.word()),
+                momentum: format!("{}_{}", old.momentum, chart.word()),
+                velocity: None,
+                shape: old.shape.clone(),
+            }]
+        }
     }
 }
 
 /// The sets of variables of a chart whose first new group has the given number.
 fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
-    let scalars = |components: &[Component]| {
-        let old = components.iter().map(|c| Slot {
-            group: c.group,
-            row: c.row.unwrap_or(0),
-            column: 0,
-        });
-        let new = (0..components.len() as u16).map(|at| Slot {
-            group: first + at,
-            row: 0,
-            column: 0,
-        });
-        vec![Block {
-            old: old.collect(),
-            new: new.collect(),
-        }]
-    };
-    match chart {
-        Chart::Polar(components) => scalars(components),
-        Chart::Spherical(components) => scalars(components),
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => {
+    let slot = |group, row, column| Slot { group, row, column };
+    match chart.replaced() {
+        Replaced::Scalars(_, components) => {
+            let old = components
+                .iter()
+                .map(|c| slot(c.group, c.row.unwrap_or(0), 0));
+            let new = (first..)
+                .take(components.len())
+                .map(|group| slot(group, 0, 0));
+            vec![Block {
+                old: old.collect(),
+                new: new.collect(),
+            }]
+        }
+        Replaced::Bodies(bodies) => {
             let shape = &model.groups[usize::from(bodies.group)].shape;
             // Where their number is not literal there are no blocks: `bodies` maps them in loops.
             let Some((rows, columns)) = shape.literal() else {
                 return Vec::new();
             };
-            let column = |group: u16, column: u16| -> Vec<Slot> {
-                (0..rows)
-                    .map(|row| Slot {
-                        group,
-                        row: row as u32,
-                        column,
-                    })
-                    .collect()
+            let slots = |group, column| (0..rows as u32).map(move |row| slot(group, row, column));
+            let block = |column| Block {
+                old: slots(bodies.group, column).collect(),
+                new: slots(first, column).collect(),
             };
-            (0..columns)
-                .map(|at| Block {
-                    old: column(bodies.group, at),
-                    new: column(first, at),
-                })
-                .collect()
+            (0..columns).map(block).collect()
         }
     }
 }
 
 /// Where the old variables of a chart stand among its new ones.
 pub(super) fn placements(model: &Model, chart: &Chart, first: u16) -> Vec<Placement> {
-    let scalars = |components: &[Component]| {
-        let place = |(component, new): (&Component, u16)| {
-            let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
-            let row = component.row.filter(|_| !is_scalar);
-            Placement {
-                old: (component.group, row),
-                new,
-            }
-        };
-        components.iter().zip(first..).map(place).collect()
-    };
-    match chart {
-        Chart::Polar(components) => scalars(components),
-        Chart::Spherical(components) => scalars(components),
-        Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) => vec![Placement {
+    match chart.replaced() {
+        Replaced::Scalars(_, components) => {
+            let place = |(component, new): (&Component, u16)| {
+                let is_scalar = model.groups[usize::from(component.group)].shape == Shape::Scalar;
+                let row = component.row.filter(|_| !is_scalar);
+                Placement {
+                    old: (component.group, row),
+                    new,
+                }
+            };
+            components.iter().zip(first..).map(place).collect()
+        }
+        Replaced::Bodies(bodies) => vec![Placement {
             old: (bodies.group, None),
             new: first,
         }],

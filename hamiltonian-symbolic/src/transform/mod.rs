@@ -22,8 +22,7 @@ pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;
 
-use crate::dag::{Column, Dag, Node, Side};
-use crate::index::{Index, LOOPS};
+use crate::index::LOOPS;
 use crate::loops::Point;
 use std::fmt;
 
@@ -134,13 +133,3 @@ impl fmt::Display for Refusal {
 }
 
 impl std::error::Error for Refusal {}
-
-/// The scalar at a literal place of phase space.
-fn element(dag: &mut Dag, side: Side, group: u16, row: u32, column: u16) -> Node {
-    let column = Column {
-        side,
-        group,
-        column,
-    };
-    dag.phase(column, Index::constant(i64::from(row)))
-}

@@ -14,7 +14,7 @@
 //! Numerical Integration, 2nd ed. 2006, §VIII.2 for the extended Hamiltonian (there with −p_t).
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
-use super::{Refusal, element};
+use super::Refusal;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::index::{Affine, Index};
 use crate::loops::field::{elements, field};
@@ -84,8 +84,8 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
     new.groups.push(Group::scalar(coordinate, momentum));
     new.evolution = Some(free(&new, "s"));
 
-    let time = element(&mut new.dag, Side::Q, group, 0, 0);
-    let p_t = element(&mut new.dag, Side::P, group, 0, 0);
+    let time = new.scalar(Side::Q, usize::from(group));
+    let p_t = new.scalar(Side::P, usize::from(group));
     let roots = new.roots();
     let roots = at_coordinate(&mut new.dag, &roots, time);
     new.set_roots(&roots);

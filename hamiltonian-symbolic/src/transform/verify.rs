@@ -4,9 +4,9 @@
 //! are the same on every machine; agreement at points is no proof, and what is looked for is a slip
 //! of the engine, which any point shows.
 
+use super::Refusal;
 use super::coordinates::Transformed;
 use super::layout::Slot;
-use super::{Refusal, element};
 use crate::dag::{Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample, Signs};
@@ -108,7 +108,7 @@ fn check_at(
         let further = seed.saturating_sub(POINTS as u64) as i32;
         let scale = 4f64.powi(if further % 2 == 0 { further } else { -further });
         for &(side, slot) in &new_slots {
-            let node = element(&mut new.dag, side, slot.group, slot.row, slot.column);
+            let node = slot.node(&mut new.dag, side);
             // Between 1/4 and 9/4: inside every chart as it is; what need not be positive is of
             // either sign. A sine that must be positive is that of the second coordinate.
             let size = 0.25 + 2.0 * fraction(&mut random);
@@ -134,7 +134,8 @@ fn check_at(
         }
         for (&(side, slot), (_, value)) in new_slots.iter().zip(&given) {
             if let Some((group, _)) = transformed.kept.iter().find(|(_, to)| *to == slot.group) {
-                let node = element(&mut old.dag, side, *group, slot.row, slot.column);
+                let group = *group;
+                let node = Slot { group, ..slot }.node(&mut old.dag, side);
                 old_given.push((node, *value));
             }
         }

@@ -7,8 +7,8 @@
 
 use super::circle::TURN;
 use crate::dag::Node;
+use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::space::{Space, differ};
 

@@ -5,9 +5,9 @@
 
 use super::flight::is_not_central;
 use crate::dag::Node;
+use crate::formula::Names;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::split::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::solve::flow;
 use crate::split::space::Space;

@@ -6,8 +6,8 @@
 //! anomaly past ten costs half a digit, and shorter steps do not.
 
 use crate::dag::Node;
+use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::space::{Space, differ};
 

@@ -5,8 +5,8 @@
 
 use super::{Axes, Moved};
 use crate::dag::Node;
+use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::formula::Names;
 use crate::split::growth::Growth;
 use crate::split::space::Space;
 

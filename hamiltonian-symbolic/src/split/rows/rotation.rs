@@ -4,7 +4,7 @@
 //! proven, so that the momenta stand in h through L alone.
 
 use crate::dag::Node;
-use crate::split::formula::Names;
+use crate::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::space::{Space, bits, differ};
 

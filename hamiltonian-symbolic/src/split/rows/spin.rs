@@ -7,9 +7,9 @@
 use super::Axes;
 use super::circle::TURN;
 use crate::dag::{Kind, Node};
+use crate::formula::Names;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::split::formula::Names;
 use crate::split::motion::Motion;
 use crate::split::space::{Space, bits, differ};
 

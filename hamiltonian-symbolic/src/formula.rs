@@ -1,4 +1,4 @@
-//! Formulas as text over named nodes: flows stand in the table of rows as they stand on paper.
+//! Formulas as text over named nodes: flows and charts stand in the source as they stand on paper.
 //!
 //! Input: statements `name = expression;` and the nodes of names. Output: the nodes of all names.
 //! Invariant: the text is ours, never a user's; one that does not read gives `None`, and the tests

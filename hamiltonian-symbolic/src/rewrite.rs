@@ -79,6 +79,16 @@ impl Dag {
         of(&new, root)
     }
 
+    /// The expression with products of products, which differentiation keeps apart, as one.
+    pub(crate) fn rebuilt(&mut self, root: Node) -> Node {
+        let mut new: Map<Node, Node> = Map::default();
+        for node in self.reachable(&[root]) {
+            let image = self.rebuild(node, &|child| new[&child]);
+            new.insert(node, image);
+        }
+        new[&root]
+    }
+
     /// The expression with a loop variable replaced by an affine index; loops inside it that
     /// depend on the variable move with it.
     pub fn replace(&mut self, root: Node, variable: Domain, by: &Affine) -> Node {

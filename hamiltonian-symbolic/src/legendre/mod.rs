@@ -12,7 +12,7 @@
 mod elements;
 mod form;
 
-use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Domain, Index};
 use crate::loops::{field, unrolled};
@@ -441,16 +441,12 @@ impl Block {
     }
 }
 
-/// The expression where all velocities are 0, with products of products multiplied together, so
-/// that factors which differentiation kept apart cancel.
+/// The expression where all velocities are 0, with factors that differentiation kept apart
+/// cancelled.
 fn at_rest(dag: &mut Dag, root: Node) -> Node {
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[root]) {
-        let image = match dag.kind(node) {
-            Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => dag.integer(0),
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
-    new[&root]
+    let still = dag.substitute(root, |dag, node| match dag.kind(node) {
+        Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Some(dag.integer(0)),
+        _ => None,
+    });
+    dag.rebuilt(still)
 }

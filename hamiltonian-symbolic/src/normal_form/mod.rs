@@ -133,6 +133,14 @@ pub(crate) fn vanishes_within(dag: &mut Dag, node: Node, products: &mut usize) -
     answer == Answer::Zero
 }
 
+/// The expression as its normal form writes it.
+pub(crate) fn tidy(dag: &mut Dag, node: Node) -> Option<Node> {
+    let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
+    let poly = algebra.convert(dag, node).ok()?;
+    let poly = algebra.canonical(&poly).ok()?;
+    Some(algebra.node(dag, &poly))
+}
+
 /// The verdict of the normal form on a node, loops re-indexed where that helps.
 pub(crate) fn answer(dag: &mut Dag, node: Node, scope: Scope) -> Answer {
     answer_in(&mut Algebra::new(BUDGET, scope), dag, node)

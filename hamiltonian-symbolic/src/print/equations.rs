@@ -4,7 +4,6 @@
 //! momentum, for each element that is read by number, for each column of an array. Invariants: the
 //! model is not changed; derivatives are taken once, however often they are written.
 
-use super::lagrangian::multiplied;
 use super::layout::Writer;
 use super::names::is_taken;
 use super::{Notation, write_within};
@@ -68,7 +67,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
     if !is_large {
         for (leaf, value) in diff::gradient(&mut model.dag, h, what) {
             // What differentiation multiplies one after another is one product to a reader.
-            let value = multiplied(&mut model.dag, value);
+            let value = model.dag.rebuilt(value);
             leaves.push((leaf, value));
             length = written_length(model, value).saturating_add(length);
             if length > LONGEST {

@@ -319,7 +319,7 @@ impl Readable {
                 None => self.model.dag.integer(0),
             };
             let force = self.model.dag.substitute(slope, velocity_of);
-            let force = multiplied(&mut self.model.dag, force);
+            let force = self.model.dag.rebuilt(force);
             motion.push((*rates.get(&momentum)?, force));
         }
         Some(motion)
@@ -454,14 +454,4 @@ fn content(dag: &mut Dag, node: Node) -> (Rational, Vec<(Node, i32)>, Node) {
         rest.push((k, dag.product(&Rational::ONE, &factors)));
     }
     (Rational::ONE, shared, dag.linear(&Rational::ZERO, &rest))
-}
-
-/// Products of products as one.
-pub(super) fn multiplied(dag: &mut Dag, root: Node) -> Node {
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[root]) {
-        let image = dag.rebuild(node, &|child| new[&child]);
-        new.insert(node, image);
-    }
-    new[&root]
 }

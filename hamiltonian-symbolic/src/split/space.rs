@@ -15,7 +15,7 @@ use crate::diff;
 use crate::index::Index;
 use crate::loops::Sample;
 use crate::model::Model;
-use crate::normal_form::{Algebra, BUDGET, Effort, Scope, vanishes_within, witness};
+use crate::normal_form::{Effort, tidy, vanishes_within, witness};
 use crate::rational::Rational;
 
 /// The most questions whether an expression is zero.
@@ -470,14 +470,6 @@ fn is_positive(dag: &Dag, node: Node) -> bool {
         },
         _ => false,
     }
-}
-
-/// The expression as its normal form writes it.
-fn tidy(dag: &mut Dag, node: Node) -> Option<Node> {
-    let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
-    let poly = algebra.convert(dag, node).ok()?;
-    let poly = algebra.canonical(&poly).ok()?;
-    Some(algebra.node(dag, &poly))
 }
 
 /// Whether two values of size 1 or so are certainly not of the same number: their difference is far

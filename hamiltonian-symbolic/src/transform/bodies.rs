@@ -8,7 +8,6 @@ use super::peel::Below;
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, VectorEntry};
-use crate::rational::Rational;
 
 /// A group of bodies whose number is a size.
 #[derive(Clone, Debug)]
@@ -213,10 +212,7 @@ impl Bodies {
             |entry: &&mut VectorEntry| entry.at == moved.at && entry.row == Index::constant(0);
         let of_first = found.iter_mut().find(is_first);
         match of_first {
-            Some(entry) => {
-                let terms = [(Rational::ONE, entry.value), (Rational::ONE, to_first)];
-                entry.value = dag.linear(&Rational::ZERO, &terms);
-            }
+            Some(entry) => entry.value = dag.add(&[entry.value, to_first]),
             None => found.push(VectorEntry {
                 row: Index::constant(0),
                 value: to_first,

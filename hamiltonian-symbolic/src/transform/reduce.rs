@@ -170,18 +170,20 @@ impl Reducer<'_> {
 
     /// How many terms a node has when multiplied out, without collecting.
     fn width(&mut self, dag: &Dag, root: Node) -> u64 {
-        let mut stack = vec![(root, false)];
-        while let Some((node, ready)) = stack.pop() {
+        let nodes = dag.reached(&[root], |node, ahead| match dag.kind(node) {
+            Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..)
+                if !self.widths.contains_key(&node) =>
+            {
+                dag.for_children(node, |child| ahead.add(child));
+            }
+            _ => {}
+        });
+        for node in nodes {
             if self.widths.contains_key(&node) {
                 continue;
             }
-            let known = |child: &Node| self.widths.get(child).copied().unwrap_or(1);
+            let known = |child: &Node| self.widths[child];
             let width = match dag.kind(node) {
-                Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..) if !ready => {
-                    stack.push((node, true));
-                    dag.for_children(node, |child| stack.push((child, false)));
-                    continue;
-                }
                 Kind::Sum(c, terms) => terms
                     .iter()
                     .map(|(_, n)| known(n))
@@ -196,7 +198,7 @@ impl Reducer<'_> {
             };
             self.widths.insert(node, width);
         }
-        self.widths.get(&root).copied().unwrap_or(1)
+        self.widths[&root]
     }
 
     /// The sum with those of its operands multiplied out and collected that gain by it.
@@ -357,12 +359,6 @@ fn parted(dag: &Dag, term: &Term) -> (Factors, Factors) {
 
 /// A term by the rules, into a collection; whether any rule applied.
 fn rewrite(term: &Term, rules: &Rules, way: u32, into: &mut Collected) -> bool {
-    let power = |factors: &[(Node, i32)], node: Node| {
-        factors
-            .iter()
-            .find(|(other, _)| *other == node)
-            .map_or(0, |(_, n)| *n)
-    };
     let mut terms = vec![term.clone()];
     let mut rewritten = false;
     for (at, &(sin, cos)) in rules.angles.iter().enumerate() {
@@ -371,65 +367,50 @@ fn rewrite(term: &Term, rules: &Rules, way: u32, into: &mut Collected) -> bool {
         } else {
             (cos, sin)
         };
-        let mut next = Vec::with_capacity(terms.len());
-        for term in terms {
-            let n = power(&term.factors, gone);
-            if !(2..=HIGHEST).contains(&n) {
-                next.push(term);
-                continue;
-            }
-            rewritten = true;
-            // gone^n = gone^(n mod 2)·(1 − kept²)^(n/2)
-            let half = n / 2;
-            let mut binomial = Rational::ONE;
-            for k in 0..=half {
-                next.push(exchanged(
-                    &term,
-                    &binomial,
-                    &[(gone, -2 * half), (kept, 2 * k)],
-                ));
-                binomial = next_binomial(&binomial, half, k).neg();
-            }
-        }
-        terms = next;
+        // gone² = 1 − kept²
+        rewritten |= exchange(&mut terms, (gone, 2), |_, k| vec![(kept, 2 * k)]);
     }
     for &(mass, sum, before) in &rules.masses {
-        let mut next = Vec::with_capacity(terms.len());
-        for term in terms {
-            let n = power(&term.factors, mass);
-            if !(1..=HIGHEST).contains(&n) {
-                next.push(term);
-                continue;
-            }
-            rewritten = true;
-            // m^n = (M − M′)^n
-            let mut binomial = Rational::ONE;
-            for k in 0..=n {
-                next.push(exchanged(
-                    &term,
-                    &binomial,
-                    &[(mass, -n), (sum, n - k), (before, k)],
-                ));
-                binomial = next_binomial(&binomial, n, k).neg();
-            }
-        }
-        terms = next;
+        // m = M − M′
+        rewritten |= exchange(&mut terms, (mass, 1), |n, k| {
+            vec![(sum, n - k), (before, k)]
+        });
     }
     terms.into_iter().for_each(|term| into.add(term));
     rewritten
 }
 
-/// From C(n, k) to C(n, k+1), sign kept.
-fn next_binomial(value: &Rational, n: i32, k: i32) -> Rational {
-    value.mul(&Rational::new(i64::from(n - k), i64::from(k + 1)))
-}
-
-/// A term times a number and some powers, which are small.
-fn exchanged(term: &Term, k: &Rational, powers: &[(Node, i32)]) -> Term {
-    Term {
-        coefficient: term.coefficient.mul(k),
-        factors: times(&term.factors, powers).expect("powers that are rewritten are small"),
+/// Writes powers of `gone`^`step` = a − b as powers of the difference, aⁿ⁻ᵏbᵏ being the powers that
+/// are given for n and k; whether there was any.
+fn exchange(
+    terms: &mut Vec<Term>,
+    (gone, step): (Node, i32),
+    powers: impl Fn(i32, i32) -> Vec<(Node, i32)>,
+) -> bool {
+    let mut rewritten = false;
+    for term in std::mem::take(terms) {
+        let own = term.factors.iter().find(|(node, _)| *node == gone);
+        let own = own.map_or(0, |(_, n)| *n);
+        if !(step..=HIGHEST).contains(&own) {
+            terms.push(term);
+            continue;
+        }
+        rewritten = true;
+        let n = own / step;
+        let mut binomial = Rational::ONE;
+        for k in 0..=n {
+            let mut powers = powers(n, k);
+            powers.push((gone, -step * n));
+            terms.push(Term {
+                coefficient: term.coefficient.mul(&binomial),
+                factors: times(&term.factors, &powers)
+                    .expect("powers that are rewritten are small"),
+            });
+            let next = Rational::new(i64::from(k - n), i64::from(k + 1));
+            binomial = binomial.mul(&next);
+        }
     }
+    rewritten
 }
 
 /// The sum of terms, those that differ in parameters only under one coefficient.

@@ -4,14 +4,14 @@
 //! that passes adds up to H, proven by the normal form; where that does not decide, the difference
 //! is reported as it is, never passed on trust.
 
-use crate::dag::{Dag, Kind, Node};
+use crate::count::work;
+use crate::dag::{Dag, Node};
 use crate::loops::Point;
 use crate::model::Model;
 use crate::normal_form::{self, Proof, Scope};
-use crate::op::Op;
 use crate::print;
 use crate::rational::Rational;
-use crate::structure::{Term, expand};
+use crate::structure::expand;
 
 /// H is not the sum of its pieces, or was not shown to be.
 #[derive(Clone, PartialEq, Debug)]
@@ -56,43 +56,16 @@ pub fn check_split(model: &mut Model, pieces: &[Node]) -> Result<(), Box<Differe
     }))
 }
 
-/// The node multiplied out and collected, cos² written 1 − sin²; itself where there are too many
-/// terms.
+/// The node multiplied out and collected, or in its normal form where that is shorter.
 fn multiplied_out(dag: &mut Dag, node: Node) -> Node {
-    let Some(terms) = expand(dag, node) else {
-        return node;
-    };
-    let mut nodes = Vec::with_capacity(terms.len());
-    for term in &terms {
-        nodes.push(without_cosine_squares(dag, term));
-    }
-    let sum = dag.add(&nodes);
-    match expand(dag, sum) {
+    let expanded = match expand(dag, node) {
         Some(terms) => {
             let nodes: Vec<Node> = terms.iter().map(|term| term.node(dag)).collect();
             dag.add(&nodes)
         }
-        None => sum,
-    }
-}
-
-fn without_cosine_squares(dag: &mut Dag, term: &Term) -> Node {
-    let mut factors = Vec::with_capacity(term.factors.len());
-    for &(node, n) in &term.factors {
-        let angle = match dag.kind(node) {
-            Kind::Call(Op::Cos, arguments) if n >= 2 => arguments[0],
-            _ => {
-                factors.push((node, n));
-                continue;
-            }
-        };
-        let sine = dag.call(Op::Sin, &[angle]);
-        let square = dag.powi(sine, 2);
-        let square = dag.linear(&Rational::ONE, &[(Rational::MINUS_ONE, square)]);
-        factors.push((square, n / 2));
-        if n % 2 == 1 {
-            factors.push((node, 1));
-        }
-    }
-    dag.product(&term.coefficient, &factors)
+        None => node,
+    };
+    let tidy = normal_form::tidy(dag, expanded);
+    tidy.filter(|tidy| work(dag, &[*tidy]) < work(dag, &[expanded]))
+        .unwrap_or(expanded)
 }

@@ -15,8 +15,9 @@
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
 use super::Refusal;
-use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
-use crate::index::{Affine, Index};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
+use crate::diff;
+use crate::index::Index;
 use crate::loops::field::{elements, field};
 use crate::loops::guarded;
 use crate::model::{Group, Model, VectorEntry};
@@ -86,8 +87,11 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
 
     let time = new.scalar(Side::Q, usize::from(group));
     let p_t = new.scalar(Side::P, usize::from(group));
-    let roots = new.roots();
-    let roots = at_coordinate(&mut new.dag, &roots, time);
+    let mut roots = new.roots();
+    for root in &mut roots {
+        let is_time = |dag: &mut Dag, node| (*dag.kind(node) == Kind::Time).then_some(time);
+        *root = new.dag.substitute(*root, is_time);
+    }
     new.set_roots(&roots);
     let (factor, energy) = (new.factor.unwrap_or(g), new.h());
     let start = new.dag.neg(energy);
@@ -113,14 +117,11 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
 
 /// g times the force, and its work on p_t.
 fn force(model: &mut Model, factor: Node, energy: Node, group: u16) -> Result<(), Refusal> {
-    let mut velocities = Velocities {
-        leaves: crate::diff::gradient(&mut model.dag, energy, Dependence::P),
-        known: Map::default(),
-    };
+    let leaves = diff::gradient(&mut model.dag, energy, Dependence::P);
     let mut force = std::mem::take(&mut model.force);
     let mut work = Vec::new();
     for entry in &mut force {
-        let velocity = velocities.of(model, entry)?;
+        let velocity = velocity(model, &leaves, entry)?;
         let dag = &mut model.dag;
         let mut power = dag.mul(&[factor, entry.value, velocity]);
         let loops = dag.path(dag.deepest(entry.row.variables()));
@@ -139,47 +140,30 @@ fn force(model: &mut Model, factor: Node, energy: Node, group: u16) -> Result<()
     Ok(())
 }
 
-/// ∂H/∂p, an array's as an expression of the row.
-struct Velocities {
-    leaves: Vec<(Node, Node)>,
-    known: Map<Column, Node>,
-}
-
-impl Velocities {
-    /// What belongs to the momentum that an entry of a force acts on.
-    fn of(&mut self, model: &mut Model, entry: &VectorEntry) -> Result<Node, Refusal> {
-        let at = entry.at.on(Side::P);
-        let group = usize::from(at.group);
-        let Some(rows) = model.groups[group].shape.rows().cloned() else {
-            let momentum = model.scalar(Side::P, group);
-            let found = self.leaves.iter().find(|(leaf, _)| *leaf == momentum);
-            return Ok(found.map_or_else(|| model.dag.integer(0), |(_, slope)| *slope));
-        };
-        let whole = match self.known.get(&at) {
-            Some(known) => *known,
-            None => {
-                // A neighbour's momentum is read under a condition, where it need not exist.
-                let found = field(&mut model.dag, &self.leaves, Array::Phase(at), &rows);
-                let found = match found {
-                    Some(found) => guarded(model, found, &|_| false),
-                    None => None,
-                };
-                if model.dag.has_too_many_loops() {
-                    return Err(Refusal::TooManyLoops);
-                }
-                let found = found.ok_or_else(|| Refusal::Power {
-                    momentum: model.groups[group].momentum.clone(),
-                })?;
-                self.known.insert(at, found);
-                found
-            }
-        };
-        let own = elements(&mut model.dag, &rows);
-        if entry.row.affine == Affine::variable(own) {
-            return Ok(whole);
-        }
-        Ok(model.dag.replace(whole, own, &entry.row.affine))
+/// ∂H/∂p of the momentum that an entry of a force acts on, by the derivatives of H.
+fn velocity(
+    model: &mut Model,
+    leaves: &[(Node, Node)],
+    entry: &VectorEntry,
+) -> Result<Node, Refusal> {
+    let at = entry.at.on(Side::P);
+    let group = usize::from(at.group);
+    let Some(rows) = model.groups[group].shape.rows().cloned() else {
+        let momentum = model.scalar(Side::P, group);
+        let found = leaves.iter().find(|(leaf, _)| *leaf == momentum);
+        return Ok(found.map_or_else(|| model.dag.integer(0), |(_, slope)| *slope));
+    };
+    // A neighbour's momentum is read under a condition, where it need not exist.
+    let found = field(&mut model.dag, leaves, Array::Phase(at), &rows);
+    let found = found.and_then(|found| guarded(model, found, &|_| false));
+    if model.dag.has_too_many_loops() {
+        return Err(Refusal::TooManyLoops);
     }
+    let found = found.ok_or_else(|| Refusal::Power {
+        momentum: model.groups[group].momentum.clone(),
+    })?;
+    let own = elements(&mut model.dag, &rows);
+    Ok(model.dag.replace(found, own, &entry.row.affine))
 }
 
 /// The name, or the name with the first number that makes it free.
@@ -191,22 +175,6 @@ fn free(model: &Model, name: &str) -> String {
         number += 1;
     }
     candidate
-}
-
-/// The roots with the time leaf replaced.
-fn at_coordinate(dag: &mut Dag, roots: &[Node], time: Node) -> Vec<Node> {
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(roots) {
-        let image = if *dag.kind(node) == Kind::Time {
-            time
-        } else if dag.dependence(node).on(Dependence::TIME) {
-            dag.rebuild(node, &|child| new[&child])
-        } else {
-            node
-        };
-        new.insert(node, image);
-    }
-    roots.iter().map(|root| new[root]).collect()
 }
 
 /// g·(h + p): terms of h that have g, or a factor of it, below their fraction line meet it there;

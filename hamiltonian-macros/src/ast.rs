@@ -203,12 +203,12 @@ pub struct Signature {
     /// The parentheses.
     pub spans: Spans,
     /// The sections between the semicolons, as many as were written.
-    pub sections: Vec<Vec<Variable>>,
+    pub sections: Vec<Vec<Declarator>>,
 }
 
 /// `q`, `q[N]`, `q[N][3]` in a signature.
 #[derive(Debug)]
-pub struct Variable {
+pub struct Declarator {
     /// The name, without sizes.
     pub name: Ident,
     /// The sizes in the brackets.

@@ -19,7 +19,7 @@ mod statement;
 
 use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
 use crate::checked::{
-    Checked, Definition, Extent, FunctionId, GroupId, Kind, NodeId, ParameterId, Type,
+    Checked, Definition, Extent, FunctionId, GroupId, Kind, NodeId, ParameterId, Type, Variable,
 };
 use crate::report::Report;
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
@@ -56,9 +56,7 @@ const MOST: usize = REPLACING as usize;
 /// The binding of a name.
 #[derive(Debug, Clone, Copy)]
 enum Binding {
-    Coordinate(GroupId),
-    Momentum(GroupId),
-    Velocity(GroupId),
+    Phase(Variable, GroupId),
     Time,
     Parameter(ParameterId),
     Size(index::Size),
@@ -196,9 +194,9 @@ impl<'a> Checker<'a> {
     /// The kind of a declared name, in words.
     fn described(&self, binding: Binding) -> &'static str {
         match binding {
-            Binding::Coordinate(_) => "a coordinate",
-            Binding::Momentum(_) => "a momentum",
-            Binding::Velocity(_) => "a velocity",
+            Binding::Phase(Variable::Coordinate | Variable::NewCoordinate, _) => "a coordinate",
+            Binding::Phase(Variable::Momentum | Variable::NewMomentum, _) => "a momentum",
+            Binding::Phase(Variable::Velocity, _) => "a velocity",
             Binding::Time => "time",
             Binding::Parameter(_) => "a parameter",
             Binding::Size(_) => "a size",
@@ -327,7 +325,10 @@ impl<'a> Checker<'a> {
                 continue;
             }
             let node = &self.out.nodes[id];
-            if matches!(node.kind, Kind::Momentum(_) | Kind::Velocity(_)) {
+            if matches!(
+                node.kind,
+                Kind::Phase(Variable::Momentum | Variable::Velocity, _)
+            ) {
                 return;
             }
             node.kind

@@ -21,7 +21,7 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::Comparison;
+use crate::ast::{BinaryOp, UnaryOp};
 use crate::names::Builtin;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
@@ -152,13 +152,28 @@ pub struct Group {
     pub ty: Type,
 }
 
+/// The variables of a group that expressions read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Variable {
+    /// The coordinates.
+    Coordinate,
+    /// The momenta.
+    Momentum,
+    /// The coordinates that a chart of bodies puts in the place of the group, in a split.
+    NewCoordinate,
+    /// The momenta of these.
+    NewMomentum,
+    /// The velocities, under a Lagrangian.
+    Velocity,
+}
+
 /// The given function.
 #[derive(Debug, Clone, Copy)]
 pub enum Definition {
     /// `H(q; p[; t]) = …`, a scalar
     Hamiltonian(NodeId),
-    /// `L(q; v[; t]) = …`, a scalar without [`Kind::Momentum`] and [`Kind::Hamiltonian`].
-    /// Elsewhere in such a definition [`Kind::Velocity`] means the velocity as a function of q, p.
+    /// `L(q; v[; t]) = …`, a scalar without [`Variable::Momentum`] and [`Kind::Hamiltonian`].
+    /// Elsewhere in such a definition [`Variable::Velocity`] means the velocity as a function of q, p.
     Lagrangian(NodeId),
 }
 
@@ -285,6 +300,17 @@ pub enum Type {
     Matrix(Extent, Extent),
 }
 
+impl Type {
+    /// A number.
+    pub fn is_scalar(self) -> bool {
+        self == Type::Scalar
+    }
+    /// `[extent]`
+    pub fn is_vector(self) -> bool {
+        matches!(self, Type::Vector(_))
+    }
+}
+
 /// An expression node.
 #[derive(Debug)]
 pub struct Node {
@@ -305,16 +331,8 @@ pub enum Kind {
     Number(Rational),
     /// S: π.
     Pi,
-    /// X: a whole group of coordinates.
-    Coordinate(GroupId),
-    /// X: a whole group of momenta.
-    Momentum(GroupId),
-    /// The coordinate that a chart of bodies puts in the place of a group, in a split; of its shape.
-    NewCoordinate(GroupId),
-    /// Its momentum.
-    NewMomentum(GroupId),
-    /// X: a whole group of velocities, under a Lagrangian.
-    Velocity(GroupId),
+    /// X: the variables of a whole group.
+    Phase(Variable, GroupId),
     /// S: time.
     Time,
     /// X: a parameter.
@@ -327,26 +345,12 @@ pub enum Kind {
     Loop(Domain),
     /// S: the Hamiltonian itself; only in statements that H does not depend on.
     Hamiltonian,
-    /// X → X
-    Neg(NodeId),
-    /// X, X → X, the same type
-    Add(NodeId, NodeId),
-    /// X, X → X, the same type
-    Sub(NodeId, NodeId),
-    /// S, X → X; X, S → X; a matrix parameter `[r][c]` times `[c]` → `[r]`
-    Mul(NodeId, NodeId),
-    /// X, S → X
-    Div(NodeId, NodeId),
-    /// S, S → S; `pow(x, y)` too
-    Pow(NodeId, NodeId),
-    /// S, S → B
-    Compare(Comparison, NodeId, NodeId),
-    /// B, B → B
-    And(NodeId, NodeId),
-    /// B, B → B
-    Or(NodeId, NodeId),
-    /// B → B
-    Not(NodeId),
+    /// `-`: X → X; `!`: B → B
+    Unary(UnaryOp, NodeId),
+    /// `+ -`: X, X → X, the same type. `*`: S, X → X; X, S → X; a matrix parameter `[r][c]` times
+    /// `[c]` → `[r]`. `/`: X, S → X. `^`, and `pow(x, y)`: S, S → S. Comparisons: S, S → B.
+    /// `&& ||`: B, B → B. Never `%`.
+    Binary(BinaryOp, NodeId, NodeId),
     /// `base[index]`: V → S, M → V (a row)
     Index {
         /// The indexed value.
@@ -387,27 +391,15 @@ impl Kind {
         match self {
             Kind::Number(_)
             | Kind::Pi
-            | Kind::Coordinate(_)
-            | Kind::Momentum(_)
-            | Kind::NewCoordinate(_)
-            | Kind::NewMomentum(_)
-            | Kind::Velocity(_)
+            | Kind::Phase(..)
             | Kind::Time
             | Kind::Parameter(_)
             | Kind::Capture(_)
             | Kind::Size(_)
             | Kind::Loop(_)
             | Kind::Hamiltonian => {}
-            Kind::Neg(a) | Kind::Not(a) => visit(*a),
-            Kind::Add(a, b)
-            | Kind::Sub(a, b)
-            | Kind::Mul(a, b)
-            | Kind::Div(a, b)
-            | Kind::Pow(a, b)
-            | Kind::Compare(_, a, b)
-            | Kind::And(a, b)
-            | Kind::Or(a, b)
-            | Kind::Bracket(a, b) => {
+            Kind::Unary(_, a) => visit(*a),
+            Kind::Binary(_, a, b) | Kind::Bracket(a, b) => {
                 visit(*a);
                 visit(*b);
             }

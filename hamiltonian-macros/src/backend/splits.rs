@@ -5,7 +5,7 @@
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::surface::Part;
-use crate::checked::{self, Checked, Kind};
+use crate::checked::{self, Checked, Kind, Variable};
 use crate::emit::Reason;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
@@ -31,8 +31,12 @@ pub fn decide(
     large: bool,
     report: &mut Report,
 ) -> Found {
-    let is_new =
-        |node: &checked::Node| matches!(node.kind, Kind::NewCoordinate(_) | Kind::NewMomentum(_));
+    let is_new = |node: &checked::Node| {
+        matches!(
+            node.kind,
+            Kind::Phase(Variable::NewCoordinate | Variable::NewMomentum, _)
+        )
+    };
     let is_in_these = checked.charts.is_empty() || checked.nodes.iter().any(is_new);
     let is_written_so = is_in_these && checked.time_factor.is_none();
     let mut found = if declared.is_empty() {

@@ -87,12 +87,7 @@ impl Checker<'_> {
                 "write indices such as `i`, `i + 1`, `2*i + j`, `N - 1 - i`, `(i + 1) % N`".into(),
             ),
         };
-        self.error(
-            culprit,
-            ast.nodes[culprit.0 as usize].spans,
-            &message,
-            &help,
-        );
+        self.error_over(culprit, message, help);
         None
     }
 }

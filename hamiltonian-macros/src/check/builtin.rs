@@ -6,7 +6,7 @@
 use super::expr::Frame;
 use super::lookup::Found;
 use super::{Binding, Checker};
-use crate::ast::{ExprId, ScopeId, Symbol};
+use crate::ast::{BinaryOp, ExprId, ScopeId, Symbol};
 use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::{self, Builtin, Domain, Entry};
 use hamiltonian_symbolic::op::Op;
@@ -25,7 +25,6 @@ impl Checker<'_> {
     ) -> Option<NodeId> {
         let ast = self.ast;
         let name = ast.symbols.name(symbol);
-        let at = ast.nodes[raw.0 as usize].at;
         match self.find(symbol, scope, frame) {
             Some(Found::Declared(Binding::LetFunction(index))) => {
                 let arity = self.lets[index].arguments.len();
@@ -52,13 +51,7 @@ impl Checker<'_> {
                     Found::Declared(binding) => self.described(binding),
                 };
                 let message = format!("`{name}` is {what}, not a function");
-                self.error(
-                    raw,
-                    at,
-                    &message,
-                    &format!("write `{name}*(…)` for a product"),
-                );
-                None
+                self.refuse(raw, message, format!("write `{name}*(…)` for a product"))
             }
             None => match names::function(name) {
                 Some(entry) => self.builtin(raw, &entry, arguments, frame),
@@ -73,38 +66,26 @@ impl Checker<'_> {
     fn unknown_function(&mut self, raw: ExprId, symbol: Symbol) {
         let ast = self.ast;
         let name = ast.symbols.name(symbol);
-        let at = ast.nodes[raw.0 as usize].at;
         if name == "H" {
-            self.error(raw, at, "`H` is a value here, not a function", "write `H`");
+            self.error(raw, "`H` is a value here, not a function", "write `H`");
         } else if name == "pi" {
             self.error(
                 raw,
-                at,
                 "`pi` is a constant, not a function",
                 "write `pi*(…)` for a product",
             );
         } else if names::meaning(name).is_some() {
             let message = format!("`{name}` is a word of the language, not a function");
-            self.error(raw, at, &message, "choose another name");
+            self.error(raw, message, "choose another name");
         } else if PRODUCTS.contains(&name) {
             let message =
                 format!("`{name}` is not a function: the language has no product over a range");
             let help =
                 "write the factors with `*`; of positive ones, `exp(sum(i in 0..N) { ln(…) })`";
-            self.error(raw, at, &message, help);
-        } else if self.defining == Some(symbol) {
-            let message = format!("`{name}` is defined in terms of itself");
-            self.error(
-                raw,
-                at,
-                &message,
-                "a `let` uses only names defined above it",
-            );
-        } else if self.later[symbol.0 as usize] {
-            let message = format!("`{name}` is used above its definition");
-            let help = format!("move the definition of `{name}` above this statement");
-            self.error(raw, at, &message, &help);
-        } else if !std::mem::replace(&mut self.unknown[symbol.0 as usize], true) {
+            self.error(raw, message, help);
+        } else if !self.is_early(raw, symbol)
+            && !std::mem::replace(&mut self.unknown[symbol.0 as usize], true)
+        {
             let help = if let Some(known) = names::synonym(name) {
                 if known.contains('(') || names::function(known).is_none() {
                     format!("write `{known}`")
@@ -121,7 +102,7 @@ impl Checker<'_> {
                     ),
                 }
             };
-            self.error(raw, at, &format!("unknown function `{name}`"), &help);
+            self.error(raw, format!("unknown function `{name}`"), help);
         }
     }
 
@@ -133,46 +114,31 @@ impl Checker<'_> {
         let name = shown.split('(').next().unwrap_or(shown);
         let arguments = if due == 1 { "argument" } else { "arguments" };
         let message = format!("`{name}` takes {due} {arguments}, not {given}");
-        let at = self.ast.nodes[raw.0 as usize].at;
-        self.error(raw, at, &message, &format!("write `{shown}`"));
-        None
+        self.refuse(raw, message, format!("write `{shown}`"))
     }
 
     /// Arguments that are scalars.
     fn scalars(&mut self, name: &str, arguments: &[ExprId], frame: &Frame) -> Option<Vec<NodeId>> {
-        let mut values = Vec::with_capacity(arguments.len());
-        for argument in arguments {
-            let Some((value, ty)) = self.number(*argument, frame) else {
-                continue;
-            };
-            if ty == Type::Scalar {
-                values.push(value);
-                continue;
-            }
-            let shown = self.written(*argument);
+        let count = arguments.len();
+        self.operands(arguments, frame, Type::is_scalar, |checker, argument, ty| {
             let message = format!(
-                "`{name}` takes scalars, but {shown} is {}",
-                self.type_shown(ty)
+                "`{name}` takes scalars, but {} is {}",
+                checker.written(argument),
+                checker.type_shown(ty)
             );
             let help = match (name, ty) {
                 ("abs", _) => "write `norm(…)` for the length of a vector".into(),
-                (_, Type::Vector(extent)) if arguments.len() == 1 => {
-                    let extent = self.extent_shown(extent);
-                    let vector = self.name_of(*argument).unwrap_or("…");
+                (_, Type::Vector(extent)) if count == 1 => {
+                    let extent = checker.extent_shown(extent);
+                    let vector = checker.name_of(argument).unwrap_or("…");
                     format!(
                         "write a component, or `sum(i in 0..{extent}) {{ {name}({vector}[i]) }}`"
                     )
                 }
                 _ => "write a component".into(),
             };
-            self.error(
-                *argument,
-                self.ast.nodes[argument.0 as usize].spans,
-                &message,
-                &help,
-            );
-        }
-        (values.len() == arguments.len()).then_some(values)
+            (message, help)
+        })
     }
 
     /// A node for messages: its name if it is one.
@@ -200,16 +166,16 @@ impl Checker<'_> {
             Domain::Scalars => {
                 let values = self.scalars(entry.name, arguments, frame)?;
                 let kind = match (entry.function, values.as_slice()) {
-                    (Builtin::Elementary(Op::Pow), [base, exponent]) => Kind::Pow(*base, *exponent),
+                    (Builtin::Elementary(Op::Pow), [base, exponent]) => {
+                        Kind::Binary(BinaryOp::Pow, *base, *exponent)
+                    }
                     (Builtin::Bracket, [a, b]) => {
                         if !self.active.is_empty() {
-                            self.error(
+                            return self.refuse(
                                 raw,
-                                self.ast.nodes[raw.0 as usize].at,
                                 "`bracket` cannot be used inside a `sum`",
                                 "take the bracket of the whole sums: `bracket(sum(…) { … }, b)`",
                             );
-                            return None;
                         }
                         Kind::Bracket(*a, *b)
                     }
@@ -233,7 +199,6 @@ impl Checker<'_> {
                             entry.name,
                             self.type_shown(ty)
                         );
-                        let at = self.ast.nodes[argument.0 as usize].spans;
                         let help = if ty == Type::Vector(Extent::Literal(2)) {
                             let [a, b] = [0, 1].map(|at| self.name_of(arguments[at]));
                             let (a, b) = (a.unwrap_or("a"), b.unwrap_or("b"));
@@ -241,7 +206,7 @@ impl Checker<'_> {
                         } else {
                             "a vector product is one of space".into()
                         };
-                        self.error(*argument, at, &message, &help);
+                        self.error_over(*argument, message, help);
                         return None;
                     }
                 }
@@ -257,40 +222,31 @@ impl Checker<'_> {
         arguments: &[ExprId],
         frame: &Frame,
     ) -> Option<Vec<NodeId>> {
-        let mut values = Vec::with_capacity(arguments.len());
-        for argument in arguments {
-            let Some((value, ty)) = self.number(*argument, frame) else {
-                continue;
-            };
-            if matches!(ty, Type::Vector(_)) {
-                values.push(value);
-                continue;
-            }
-            let name = entry.name;
-            let shown = self.written(*argument);
-            let message = format!(
-                "`{name}` takes vectors, but {shown} is {}",
-                self.type_shown(ty)
-            );
-            let help = match (entry.function, ty) {
-                (Builtin::Norm, Type::Scalar) => "write `abs(…)`".into(),
-                (Builtin::NormSquared, Type::Scalar) => "write `(…)^2`".into(),
-                (Builtin::Dot, Type::Scalar) => "write a product, `a*b`".into(),
-                (_, Type::Matrix(rows, _)) => {
-                    let rows = self.extent_shown(rows);
-                    let matrix = self.name_of(*argument).unwrap_or("…");
-                    format!("write a row, `{matrix}[i]`, inside `sum(i in 0..{rows}) {{ … }}`")
-                }
-                _ => format!("write `{}` of vectors", entry.signature()),
-            };
-            self.error(
-                *argument,
-                self.ast.nodes[argument.0 as usize].spans,
-                &message,
-                &help,
-            );
-        }
-        (values.len() == arguments.len()).then_some(values)
+        let name = entry.name;
+        self.operands(
+            arguments,
+            frame,
+            Type::is_vector,
+            |checker, argument, ty| {
+                let message = format!(
+                    "`{name}` takes vectors, but {} is {}",
+                    checker.written(argument),
+                    checker.type_shown(ty)
+                );
+                let help = match (entry.function, ty) {
+                    (Builtin::Norm, Type::Scalar) => "write `abs(…)`".into(),
+                    (Builtin::NormSquared, Type::Scalar) => "write `(…)^2`".into(),
+                    (Builtin::Dot, Type::Scalar) => "write a product, `a*b`".into(),
+                    (_, Type::Matrix(rows, _)) => {
+                        let rows = checker.extent_shown(rows);
+                        let matrix = checker.name_of(argument).unwrap_or("…");
+                        format!("write a row, `{matrix}[i]`, inside `sum(i in 0..{rows}) {{ … }}`")
+                    }
+                    _ => format!("write `{}` of vectors", entry.signature()),
+                };
+                (message, help)
+            },
+        )
     }
 
     fn equal_extents(&mut self, raw: ExprId, entry: &Entry, values: &[NodeId]) -> Option<()> {
@@ -303,9 +259,7 @@ impl Checker<'_> {
                 self.type_shown(self.type_of(*a)),
                 self.type_shown(self.type_of(*b))
             );
-            let at = self.ast.nodes[raw.0 as usize].at;
-            self.error(raw, at, &message, "both need the same number of components");
-            return None;
+            return self.refuse(raw, message, "both need the same number of components");
         }
         Some(())
     }

@@ -5,7 +5,9 @@
 
 use super::Checker;
 use crate::ast::StatementKind;
-use crate::checked::{Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type};
+use crate::checked::{
+    Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type, Variable,
+};
 use crate::names;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
@@ -140,24 +142,23 @@ impl Checker<'_> {
         })
     }
 
-    /// What a chart puts in the place of a group of bodies: the group, whether the name is of its
-    /// momentum, and the chart's word.
-    pub(super) fn new_of_bodies(&self, name: &str) -> Option<(GroupId, bool, String)> {
+    /// The variable of a group of bodies in the coordinates of a chart, with the chart's word.
+    pub(super) fn new_of_bodies(&self, name: &str) -> Option<(GroupId, Variable, String)> {
         self.charts_of_bodies().find_map(|(group, word)| {
-            let momentum = [false, true]
+            let variable = [Variable::NewCoordinate, Variable::NewMomentum]
                 .into_iter()
-                .find(|momentum| self.new_name(group, *momentum).as_deref() == Some(name))?;
-            Some((group, momentum, word))
+                .find(|new| self.new_name(group, *new).as_deref() == Some(name))?;
+            Some((group, variable, word))
         })
     }
 
-    /// The name of what stands in the place of a group of bodies.
-    pub(super) fn new_name(&self, group: GroupId, momentum: bool) -> Option<String> {
+    /// The name of a variable in the coordinates that a chart puts in the place of a group of bodies.
+    pub(super) fn new_name(&self, group: GroupId, new: Variable) -> Option<String> {
         let (_, word) = self.charts_of_bodies().find(|(of, _)| *of == group)?;
         let group = &self.out.groups[group.0 as usize];
-        let old = match momentum {
-            true => &group.momentum,
-            false => &group.coordinate,
+        let old = match new {
+            Variable::NewMomentum => &group.momentum,
+            _ => &group.coordinate,
         };
         Some(format!("{old}_{word}"))
     }

@@ -142,12 +142,8 @@ impl Checker<'_> {
             match &node.kind {
                 Kind::Number(_)
                 | Kind::Pi
-                | Kind::Neg(_)
-                | Kind::Add(..)
-                | Kind::Sub(..)
-                | Kind::Mul(..)
-                | Kind::Div(..)
-                | Kind::Pow(..)
+                | Kind::Unary(..)
+                | Kind::Binary(..)
                 | Kind::Vector(_)
                 | Kind::Call(..) => node.kind.for_each_child(|child| pending.push(child)),
                 _ => {

@@ -8,7 +8,7 @@
 
 use super::Checker;
 use crate::ast::{BinaryOp, ExprId, ExprKind, Expression, ScopeId, Symbol, UnaryOp};
-use crate::checked::{Extent, Kind, Node, NodeId, Type};
+use crate::checked::{Extent, Kind, Node, NodeId, Type, Variable};
 use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
@@ -60,7 +60,7 @@ impl Checker<'_> {
                 }
                 _ => "write `norm_squared(…)`, `dot(a, b)` or a component".into(),
             };
-            self.error(raw, self.ast.nodes[raw.0 as usize].spans, &message, &help);
+            self.error_over(raw, message, help);
         }
         None
     }
@@ -100,11 +100,51 @@ impl Checker<'_> {
         frame
     }
 
-    /// Reports an error for a raw node once, however often its function is called.
-    pub(super) fn error(&mut self, raw: ExprId, at: Spans, message: &str, help: &str) {
+    /// Reports an error at the token that stands for a node, once, however often its function is
+    /// called.
+    pub(super) fn error(
+        &mut self,
+        raw: ExprId,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let at = self.ast.nodes[raw.0 as usize].at;
+        self.error_in(raw, at, message, help);
+    }
+
+    /// Reports an error over all tokens of a node, once.
+    pub(super) fn error_over(
+        &mut self,
+        raw: ExprId,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
+        let spans = self.ast.nodes[raw.0 as usize].spans;
+        self.error_in(raw, spans, message, help);
+    }
+
+    /// Reports an error of a node at a place of its own, once.
+    pub(super) fn error_in(
+        &mut self,
+        raw: ExprId,
+        spans: Spans,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) {
         if !std::mem::replace(&mut self.reported[raw.0 as usize], true) {
-            self.report.error(at, message, help);
+            self.report.error(spans, message, help);
         }
+    }
+
+    /// The end of a node that means nothing: [`Checker::error`].
+    pub(super) fn refuse<T>(
+        &mut self,
+        raw: ExprId,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.error(raw, message, help);
+        None
     }
 
     pub(super) fn push(&mut self, raw: ExprId, kind: Kind, ty: Type) -> Option<NodeId> {
@@ -183,11 +223,11 @@ impl Checker<'_> {
                 let affine = self.affines[value.0 as usize]
                     .as_ref()
                     .and_then(|a| Affine::default().checked_plus(-1, a));
-                self.push_affine(raw, Kind::Neg(value), ty, affine)
+                self.push_affine(raw, Kind::Unary(op, value), ty, affine)
             }
             UnaryOp::Not => {
                 let value = self.condition(operand, frame)?;
-                self.push(raw, Kind::Not(value), Type::Bool)
+                self.push(raw, Kind::Unary(op, value), Type::Bool)
             }
         }
     }
@@ -203,16 +243,10 @@ impl Checker<'_> {
         if matches!(op, BinaryOp::And | BinaryOp::Or) {
             let (a, b) = (self.condition(left, frame), self.condition(right, frame));
             let (a, b) = (a?, b?);
-            let kind = if op == BinaryOp::And {
-                Kind::And(a, b)
-            } else {
-                Kind::Or(a, b)
-            };
-            return self.push(raw, kind, Type::Bool);
+            return self.push(raw, Kind::Binary(op, a, b), Type::Bool);
         }
         let (a, b) = (self.number(left, frame), self.number(right, frame));
         let ((a, left_type), (b, right_type)) = (a?, b?);
-        let scalars = left_type == Type::Scalar && right_type == Type::Scalar;
         let forms = (&self.affines[a.0 as usize], &self.affines[b.0 as usize]);
         let affine = match (op, forms) {
             (BinaryOp::Add, (Some(x), Some(y))) => x.checked_plus(1, y),
@@ -224,28 +258,24 @@ impl Checker<'_> {
             },
             _ => None,
         };
-        let (kind, ty) = match op {
-            BinaryOp::Add if left_type == right_type => (Kind::Add(a, b), left_type),
-            BinaryOp::Sub if left_type == right_type => (Kind::Sub(a, b), left_type),
-            BinaryOp::Mul if left_type == Type::Scalar => (Kind::Mul(a, b), right_type),
-            BinaryOp::Mul if right_type == Type::Scalar => (Kind::Mul(a, b), left_type),
-            BinaryOp::Mul => match (left_type, right_type) {
-                (Type::Matrix(rows, columns), Type::Vector(extent))
-                    if columns == extent
-                        && matches!(self.out.nodes[a.0 as usize].kind, Kind::Parameter(_)) =>
-                {
-                    (Kind::Mul(a, b), Type::Vector(rows))
-                }
-                _ => return self.shapes_differ(raw, op, (left, left_type), (right, right_type)),
-            },
-            BinaryOp::Div if right_type == Type::Scalar => (Kind::Div(a, b), left_type),
-            BinaryOp::Pow if scalars => (Kind::Pow(a, b), Type::Scalar),
-            BinaryOp::Compare(comparison) if scalars => {
-                (Kind::Compare(comparison, a, b), Type::Bool)
+        let ty = match (op, left_type, right_type) {
+            (BinaryOp::Add | BinaryOp::Sub, ..) if left_type == right_type => Some(left_type),
+            (BinaryOp::Mul, Type::Scalar, ty) => Some(ty),
+            (BinaryOp::Mul | BinaryOp::Div, ty, Type::Scalar) => Some(ty),
+            (BinaryOp::Mul, Type::Matrix(rows, columns), Type::Vector(extent))
+                if columns == extent
+                    && matches!(self.out.nodes[a.0 as usize].kind, Kind::Parameter(_)) =>
+            {
+                Some(Type::Vector(rows))
             }
-            _ => return self.shapes_differ(raw, op, (left, left_type), (right, right_type)),
+            (BinaryOp::Pow, Type::Scalar, Type::Scalar) => Some(Type::Scalar),
+            (BinaryOp::Compare(_), Type::Scalar, Type::Scalar) => Some(Type::Bool),
+            _ => None,
         };
-        self.push_affine(raw, kind, ty, affine)
+        let Some(ty) = ty else {
+            return self.shapes_differ(raw, op, (left, left_type), (right, right_type));
+        };
+        self.push_affine(raw, Kind::Binary(op, a, b), ty, affine)
     }
 
     /// Two operands whose shapes an operator does not join.
@@ -346,8 +376,7 @@ impl Checker<'_> {
                 "compare scalars, such as `norm(a)`".into(),
             ),
         };
-        self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, &help);
-        None
+        self.refuse(raw, message, help)
     }
 
     /// An operand that is a scalar, vector or matrix.
@@ -359,6 +388,28 @@ impl Checker<'_> {
             return None;
         }
         Some((value, ty))
+    }
+
+    /// Operands of one sort; `refused` has message and help for one of another type.
+    pub(super) fn operands(
+        &mut self,
+        operands: &[ExprId],
+        frame: &Frame,
+        is_due: fn(Type) -> bool,
+        refused: impl Fn(&Self, ExprId, Type) -> (String, String),
+    ) -> Option<Vec<NodeId>> {
+        let mut values = Vec::with_capacity(operands.len());
+        for operand in operands {
+            match self.number(*operand, frame) {
+                Some((value, ty)) if is_due(ty) => values.push(value),
+                Some((_, ty)) => {
+                    let (message, help) = refused(self, *operand, ty);
+                    self.error_over(*operand, message, help);
+                }
+                None => {}
+            }
+        }
+        (values.len() == operands.len()).then_some(values)
     }
 
     pub(super) fn condition_as_number(&mut self, raw: ExprId) {
@@ -375,9 +426,8 @@ impl Checker<'_> {
         };
         self.error(
             raw,
-            node.at,
-            &message,
-            &format!("write `if a {op} b {{ … }} else {{ … }}`"),
+            message,
+            format!("write `if a {op} b {{ … }} else {{ … }}`"),
         );
     }
 
@@ -388,13 +438,7 @@ impl Checker<'_> {
             return Some(value);
         }
         let message = format!("expected a condition, found {}", self.type_shown(ty));
-        self.error(
-            raw,
-            self.ast.nodes[raw.0 as usize].at,
-            &message,
-            "compare it: `x > 0`",
-        );
-        None
+        self.refuse(raw, message, "compare it: `x > 0`")
     }
 
     fn index(
@@ -424,13 +468,12 @@ impl Checker<'_> {
                         "captured names are scalars: write a parameter `name: [N]` in item form"
                     }
                     Kind::Parameter(_) => "declare it as an array: `name: [N]`",
-                    Kind::Coordinate(_) | Kind::Momentum(_) => {
+                    Kind::Phase(Variable::Coordinate | Variable::Momentum, _) => {
                         "declare it with its extent: `H(q[N]; p[N])`"
                     }
                     _ => "remove the index",
                 };
-                self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, help);
-                return None;
+                return self.refuse(raw, message, help);
             }
         };
         let index = self.checked_index(value, index, frame, extent)?;
@@ -438,27 +481,15 @@ impl Checker<'_> {
     }
 
     fn vector(&mut self, raw: ExprId, items: &[ExprId], frame: &Frame) -> Option<NodeId> {
-        let mut values = Vec::with_capacity(items.len());
-        for item in items {
-            let Some((value, ty)) = self.number(*item, frame) else {
-                continue;
-            };
-            if ty == Type::Scalar {
-                values.push(value);
-                continue;
-            }
+        let values = self.operands(items, frame, Type::is_scalar, |checker, item, ty| {
+            let name = checker.name_of(item).unwrap_or("a");
             let message = format!(
                 "the components of a vector are scalars, but this is {}",
-                self.type_shown(ty)
+                checker.type_shown(ty)
             );
-            let at = self.ast.nodes[item.0 as usize].spans;
-            let name = self.name_of(*item).unwrap_or("a");
             let help = format!("write each component: `[{name}[0], {name}[1], …]`");
-            self.error(*item, at, &message, &help);
-        }
-        if values.len() != items.len() {
-            return None;
-        }
+            (message, help)
+        })?;
         let ty = Type::Vector(Extent::Literal(values.len() as u64));
         self.push(raw, Kind::Vector(values), ty)
     }
@@ -510,9 +541,7 @@ impl Checker<'_> {
                 self.type_shown(ty),
                 self.type_shown(other)
             );
-            let at = self.ast.nodes[raw.0 as usize].at;
-            self.error(raw, at, &message, "both branches need the same shape");
-            return None;
+            return self.refuse(raw, message, "both branches need the same shape");
         }
         self.push(
             raw,
@@ -543,23 +572,19 @@ impl Checker<'_> {
             .copied()
             .zip(arguments)
             .collect();
-        let at = self.ast.nodes[raw.0 as usize].at;
         if self.call_depth >= MAX_DEPTH {
-            self.error(
+            return self.refuse(
                 raw,
-                at,
-                &format!("functions call each other deeper than {MAX_DEPTH}"),
+                format!("functions call each other deeper than {MAX_DEPTH}"),
                 "inline the inner ones",
             );
-            return None;
         }
         self.instantiated += body.nodes.len();
         if self.instantiated > MAX_INSTANTIATED {
             if self.instantiated - body.nodes.len() <= MAX_INSTANTIATED {
                 self.error(
                     raw,
-                    at,
-                    &format!(
+                    format!(
                         "the calls of functions expand to more than {MAX_INSTANTIATED} operations"
                     ),
                     "name a repeated argument or result: `let name = …;`",

@@ -47,13 +47,7 @@ impl Checker<'_> {
                         .collect();
                     let message =
                         format!("a force has one component for each of the {count} momenta");
-                    let at = self.ast.nodes[root.0 as usize].spans;
-                    self.error(
-                        root,
-                        at,
-                        &message,
-                        &format!("write `[{}]`", names.join(", ")),
-                    );
+                    self.error_over(root, message, format!("write `[{}]`", names.join(", ")));
                 }
                 return;
             }
@@ -81,12 +75,10 @@ impl Checker<'_> {
                 self.type_shown(group.ty),
                 self.type_shown(ty)
             );
-            let at = self.ast.nodes[item.0 as usize].spans;
-            self.error(
+            self.error_over(
                 item,
-                at,
-                &message,
-                &match group.ty {
+                message,
+                match group.ty {
                     Type::Scalar => format!("write one number, such as `-c*{momentum}`"),
                     _ => format!(
                         "write one value of that shape, `-c*{momentum}`, or its rows, \
@@ -165,8 +157,7 @@ impl Checker<'_> {
             self.type_shown(found)
         );
         let help = format!("write one value of that shape, such as `-c*{momentum}[{name}]`");
-        let at = self.ast.nodes[root.0 as usize].spans;
-        self.error(root, at, &message, &help);
+        self.error_over(root, message, help);
     }
 
     /// The signature of a force names the coordinates and momenta of the definition again.

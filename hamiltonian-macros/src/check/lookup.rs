@@ -6,7 +6,7 @@
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
 use crate::ast::{ExprId, ExprKind, ScopeId, StatementKind, Symbol};
-use crate::checked::{CaptureId, Kind, NodeId, Type};
+use crate::checked::{CaptureId, Kind, NodeId, Type, Variable};
 use crate::names;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
@@ -74,38 +74,29 @@ impl Checker<'_> {
                 let ty = self.out.parameters[id.0 as usize].ty;
                 self.push(raw, Kind::Parameter(id), ty)
             }
-            Binding::Coordinate(id) => {
-                let ty = self.out.groups[id.0 as usize].ty;
-                self.push(raw, Kind::Coordinate(id), ty)
+            Binding::Phase(Variable::Momentum, id)
+                if self.is_lagrangian() && self.place != Place::After =>
+            {
+                let group = &self.out.groups[id.0 as usize];
+                let message = format!(
+                    "`{}` is a momentum, which `L` itself defines",
+                    group.momentum
+                );
+                let help = match &group.velocity {
+                    Some(velocity) => format!("write the velocity `{velocity}`"),
+                    None => "write the velocity".into(),
+                };
+                self.refuse(raw, message, help)
             }
-            Binding::Velocity(id) => {
+            Binding::Phase(variable, id) => {
                 let ty = self.out.groups[id.0 as usize].ty;
-                self.push(raw, Kind::Velocity(id), ty)
-            }
-            Binding::Momentum(id) => {
-                let ty = self.out.groups[id.0 as usize].ty;
-                if self.is_lagrangian() && self.place != Place::After {
-                    let group = &self.out.groups[id.0 as usize];
-                    let message = format!(
-                        "`{}` is a momentum, which `L` itself defines",
-                        group.momentum
-                    );
-                    let help = match &group.velocity {
-                        Some(velocity) => format!("write the velocity `{velocity}`"),
-                        None => "write the velocity".into(),
-                    };
-                    self.error(raw, self.ast.nodes[raw.0 as usize].at, &message, &help);
-                    return None;
-                }
-                self.push(raw, Kind::Momentum(id), ty)
+                self.push(raw, Kind::Phase(variable, id), ty)
             }
             Binding::LetFunction(_) | Binding::Function(_) => {
                 let name = self.ast.symbols.name(symbol);
                 let arguments = self.function_shown(binding);
                 let message = format!("`{name}` is a function, not a value");
-                let at = self.ast.nodes[raw.0 as usize].at;
-                self.error(raw, at, &message, &format!("write `{arguments}`"));
-                None
+                self.refuse(raw, message, format!("write `{arguments}`"))
             }
         }
     }
@@ -128,105 +119,84 @@ impl Checker<'_> {
     fn undeclared(&mut self, raw: ExprId, symbol: Symbol) -> Option<NodeId> {
         let ast = self.ast;
         let name = ast.symbols.name(symbol);
-        let at = ast.nodes[raw.0 as usize].at;
         if name == "pi" {
             return self.push(raw, Kind::Pi, Type::Scalar);
         }
         if name == "H" {
             return self.hamiltonian(raw);
         }
-        if let Some((group, is_momentum, chart)) = self.new_of_bodies(name) {
+        if let Some((group, variable, chart)) = self.new_of_bodies(name) {
             if self.in_split {
-                let kind = match is_momentum {
-                    true => Kind::NewMomentum(group),
-                    false => Kind::NewCoordinate(group),
-                };
                 let ty = self.out.groups[group.0 as usize].ty;
-                return self.push(raw, kind, ty);
+                return self.push(raw, Kind::Phase(variable, group), ty);
             }
             let message = format!(
                 "`{name}` is a variable of `coordinates {chart}`, which only `split` reads"
             );
             let help = "write it in the declared coordinates and momenta";
-            self.error(raw, at, &message, help);
-            return None;
+            return self.refuse(raw, message, help);
         }
         if let Some(function) = names::function(name) {
             let message = format!("`{name}` is a function, not a value");
-            self.error(
-                raw,
-                at,
-                &message,
-                &format!("write `{}`", function.signature()),
-            );
-            return None;
+            return self.refuse(raw, message, format!("write `{}`", function.signature()));
         }
         if names::meaning(name).is_some() {
             let help = match name {
                 "ds" | "dt" => "it belongs to a statement of its own: `dt = (…)*ds`",
                 _ => "choose another name",
             };
-            self.error(
+            return self.refuse(
                 raw,
-                at,
-                &format!("`{name}` is a word of the language and not a value"),
+                format!("`{name}` is a word of the language and not a value"),
                 help,
             );
-            return None;
         }
-        if self.defining == Some(symbol) {
-            let message = format!("`{name}` is defined in terms of itself");
-            self.error(
-                raw,
-                at,
-                &message,
-                "a `let` uses only names defined above it",
-            );
-            return None;
-        }
-        if self.later[symbol.0 as usize] {
-            let message = format!("`{name}` is used above its definition");
-            self.error(
-                raw,
-                at,
-                &message,
-                &format!("move the definition of `{name}` above this statement"),
-            );
-            return None;
-        }
-        if std::mem::replace(&mut self.unknown[symbol.0 as usize], true) {
+        if self.is_early(raw, symbol)
+            || std::mem::replace(&mut self.unknown[symbol.0 as usize], true)
+        {
             return None;
         }
         if self.loop_symbols[symbol.0 as usize] {
             let message =
                 format!("`{name}` is a loop variable and means nothing outside its `sum`");
-            self.error(raw, at, &message, "write it inside the braces of the `sum`");
-            return None;
+            return self.refuse(raw, message, "write it inside the braces of the `sum`");
         }
         if name == "t" {
             let help = format!("declare it: `{}`", self.signature_with_time());
-            self.error(raw, at, "`t` is not declared", &help);
-            return None;
+            return self.refuse(raw, "`t` is not declared", help);
         }
         if names::is_rust_keyword(name) {
             let message = format!("`{name}` is a keyword of Rust and not a value");
-            self.error(raw, at, &message, "choose another name");
-            return None;
+            return self.refuse(raw, message, "choose another name");
         }
         if let Some((chart, meaning)) = self.meaning_in_chart(name) {
             let message = format!(
                 "`{name}` is a variable of `coordinates {chart}`, and everything is written in the declared ones"
             );
-            self.error(raw, at, &message, &format!("write `{meaning}`"));
-            return None;
+            return self.refuse(raw, message, format!("write `{meaning}`"));
         }
         if ast.item.is_none() {
             self.unknown[symbol.0 as usize] = false;
             return self.capture(raw, symbol);
         }
         let help = self.help_for_unknown(raw, name);
-        self.error(raw, at, &format!("unknown name `{name}`"), &help);
-        None
+        self.refuse(raw, format!("unknown name `{name}`"), help)
+    }
+
+    /// Whether a name is used in its own definition or above it, which is an error.
+    pub(super) fn is_early(&mut self, raw: ExprId, symbol: Symbol) -> bool {
+        let name = self.ast.symbols.name(symbol);
+        let is_own = self.defining == Some(symbol);
+        let is_later = self.later[symbol.0 as usize];
+        if is_own {
+            let message = format!("`{name}` is defined in terms of itself");
+            self.error(raw, message, "a `let` uses only names defined above it");
+        } else if is_later {
+            let message = format!("`{name}` is used above its definition");
+            let help = format!("move the definition of `{name}` above this statement");
+            self.error(raw, message, help);
+        }
+        is_own || is_later
     }
 
     /// The name that an unknown one should have been.
@@ -356,36 +326,23 @@ impl Checker<'_> {
 
     /// `H` as a value.
     fn hamiltonian(&mut self, raw: ExprId) -> Option<NodeId> {
-        let at = self.ast.nodes[raw.0 as usize].at;
         match (self.place, self.is_lagrangian()) {
             (Place::After, _) => self.push(raw, Kind::Hamiltonian, Type::Scalar),
-            (Place::Within, false) => {
-                self.error(
-                    raw,
-                    at,
-                    "`H` is defined in terms of itself",
-                    "H depends on coordinates, momenta, time and parameters",
-                );
-                None
-            }
-            (Place::Within, true) => {
-                self.error(
-                    raw,
-                    at,
-                    "`H` follows from `L` and cannot define it",
-                    "write it in terms of coordinates and velocities",
-                );
-                None
-            }
-            (Place::Before, _) => {
-                self.error(
-                    raw,
-                    at,
-                    "`H` is used above its definition",
-                    "move this statement below the definition of `H`",
-                );
-                None
-            }
+            (Place::Within, false) => self.refuse(
+                raw,
+                "`H` is defined in terms of itself",
+                "H depends on coordinates, momenta, time and parameters",
+            ),
+            (Place::Within, true) => self.refuse(
+                raw,
+                "`H` follows from `L` and cannot define it",
+                "write it in terms of coordinates and velocities",
+            ),
+            (Place::Before, _) => self.refuse(
+                raw,
+                "`H` is used above its definition",
+                "move this statement below the definition of `H`",
+            ),
         }
     }
 

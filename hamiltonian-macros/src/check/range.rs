@@ -63,12 +63,7 @@ impl Checker<'_> {
         if let Some(what) = what {
             let name = self.ast.symbols.name(symbol);
             let message = format!("`{name}` is used twice: it is {what} already");
-            self.error(
-                raw,
-                self.ast.nodes[raw.0 as usize].at,
-                &message,
-                "choose another loop variable",
-            );
+            self.error(raw, message, "choose another loop variable");
         }
     }
 }

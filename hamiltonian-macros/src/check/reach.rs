@@ -10,8 +10,9 @@
 use super::Checker;
 use super::expr::Frame;
 use crate::ast::ExprId;
-use crate::checked::{Extent, Kind, Loop, NodeId, Reach};
+use crate::checked::{Extent, Kind, Loop, NodeId, Reach, Variable};
 use hamiltonian_symbolic::index::{Affine, Domain, End, Index};
+use proc_macro2::Ident;
 
 impl Checker<'_> {
     /// `base[index % modulo]`, checked against the extent it goes into.
@@ -34,11 +35,10 @@ impl Checker<'_> {
             let last = modulo.affine().checked_plus(-1, &Affine::constant(1))?;
             if room.is_always_negative() {
                 let last = self.affine_shown(&last);
-                self.error(
-                    raw.0,
-                    self.ast.nodes[right.0 as usize].spans,
-                    &format!("this index reaches {last}, but the extent is {shown}"),
-                    &format!("write `% {shown}`"),
+                self.error_over(
+                    right,
+                    format!("this index reaches {last}, but the extent is {shown}"),
+                    format!("write `% {shown}`"),
                 );
                 return None;
             }
@@ -88,8 +88,7 @@ impl Checker<'_> {
                 } else {
                     "; the index is checked in every iteration of its loops, even where an inner loop is empty"
                 };
-                let at = self.ast.nodes[raw.0.0 as usize].spans;
-                self.error(raw.0, at, &message, &format!("{help}{note}"));
+                self.error_over(raw.0, message, format!("{help}{note}"));
                 return None;
             }
         }
@@ -151,16 +150,18 @@ impl Checker<'_> {
     /// The name of the indexed value, as far as it has one.
     fn base_shown(&self, base: NodeId) -> String {
         match &self.out.nodes[base.0 as usize].kind {
-            Kind::Coordinate(group) => self.out.groups[group.0 as usize].coordinate.to_string(),
-            Kind::Momentum(group) => self.out.groups[group.0 as usize].momentum.to_string(),
-            Kind::NewCoordinate(group) | Kind::NewMomentum(group) => {
-                let momentum = matches!(self.out.nodes[base.0 as usize].kind, Kind::NewMomentum(_));
-                let name = self.new_name(*group, momentum);
-                name.expect("a chart made it")
-            }
-            Kind::Velocity(group) => {
-                let velocity = &self.out.groups[group.0 as usize].velocity;
-                velocity.as_ref().expect("it is named").to_string()
+            Kind::Phase(variable, group) => {
+                let names = &self.out.groups[group.0 as usize];
+                let name = match variable {
+                    Variable::Coordinate => Some(&names.coordinate),
+                    Variable::Momentum => Some(&names.momentum),
+                    Variable::Velocity => names.velocity.as_ref(),
+                    Variable::NewCoordinate | Variable::NewMomentum => None,
+                };
+                let name = name
+                    .map(Ident::to_string)
+                    .or_else(|| self.new_name(*group, *variable));
+                name.expect("a group has a name for what is read of it")
             }
             Kind::Parameter(parameter) => {
                 self.out.parameters[parameter.0 as usize].name.to_string()
@@ -203,7 +204,7 @@ impl Checker<'_> {
         let message = format!("the range `{start}..{end}` ends before it starts");
         let help =
             format!("write the smaller one first, as in `{end}..{start}`; the end is not included");
-        self.error(raw, at, &message, &help);
+        self.error_in(raw, at, message, help);
         false
     }
 
@@ -228,8 +229,7 @@ impl Checker<'_> {
             let length = upper.checked_plus(-1, lower);
             let length = length.map_or("…".to_owned(), |length| self.affine_shown(&length));
             let help = format!("write `{name} in 0..{length}`, and `({shifted})` for `{name}`");
-            let at = self.ast.nodes[raw.0 as usize].spans;
-            self.error(raw, at, &message, &help);
+            self.error_over(raw, message, help);
             return;
         }
         let (first, end) = (self.affine_shown(lower), self.affine_shown(upper));
@@ -286,10 +286,8 @@ impl Checker<'_> {
             _ => None,
         });
         if extent.is_none() {
-            let at = self.ast.nodes[raw.0 as usize].at;
             self.error(
                 raw,
-                at,
                 "the right side of `%` is not a size",
                 "write `% N` with a size or a number",
             );

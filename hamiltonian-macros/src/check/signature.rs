@@ -4,8 +4,8 @@
 //! Invariant: each coordinate has a partner of its shape.
 
 use super::{Binding, Checker};
-use crate::ast::{Signature, StatementKind, Variable};
-use crate::checked::{Extent, Group, GroupId, Type};
+use crate::ast::{Declarator, Signature, StatementKind};
+use crate::checked::{Extent, Group, GroupId, Type, Variable};
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 use std::collections::HashMap;
@@ -73,18 +73,19 @@ impl Checker<'_> {
                 Binding::Erroneous
             }
         };
-        self.declare(&coordinate, known(Binding::Coordinate(id)));
+        self.declare(&coordinate, known(Binding::Phase(Variable::Coordinate, id)));
         match &velocity {
             Some(velocity) => {
-                self.declare(velocity, known(Binding::Velocity(id)));
+                self.declare(velocity, known(Binding::Phase(Variable::Velocity, id)));
                 // Not declared by its author: anything else of that name wins.
                 if let Some(symbol) = self.symbol(&momentum)
                     && self.bindings[symbol.0 as usize].is_none()
                 {
-                    self.bindings[symbol.0 as usize] = Some(known(Binding::Momentum(id)));
+                    self.bindings[symbol.0 as usize] =
+                        Some(known(Binding::Phase(Variable::Momentum, id)));
                 }
             }
-            None => self.declare(&momentum, known(Binding::Momentum(id))),
+            None => self.declare(&momentum, known(Binding::Phase(Variable::Momentum, id))),
         }
         let ty = ty.unwrap_or(Type::Scalar);
         self.out.groups.push(Group {
@@ -151,8 +152,8 @@ impl Checker<'_> {
     /// momentum that is named after it, it was meant.
     fn is_interleaved(
         &mut self,
-        coordinates: &[Variable],
-        others: &[Variable],
+        coordinates: &[Declarator],
+        others: &[Declarator],
         word: &str,
     ) -> bool {
         let all = || coordinates.iter().chain(others);
@@ -173,7 +174,7 @@ impl Checker<'_> {
             } else {
                 ("momentum", "momenta")
             };
-            let (second, first): (Vec<&Variable>, Vec<&Variable>) =
+            let (second, first): (Vec<&Declarator>, Vec<&Declarator>) =
                 all().partition(|variable| owner(variable).is_some());
             let help = if first.len() == second.len() {
                 let (first, second) = (list(first), list(second));
@@ -192,7 +193,12 @@ impl Checker<'_> {
 
     /// Whether a momentum (velocity) has the name of another coordinate's, as in `H(x, y; p_y, p_x)`,
     /// which would make p_y the momentum of x.
-    fn is_crossed(&mut self, coordinates: &[Variable], others: &[Variable], word: &str) -> bool {
+    fn is_crossed(
+        &mut self,
+        coordinates: &[Declarator],
+        others: &[Declarator],
+        word: &str,
+    ) -> bool {
         let owners = Owners::new(coordinates.iter(), word);
         let mut found = false;
         for (coordinate, other) in coordinates.iter().zip(others) {
@@ -206,7 +212,7 @@ impl Checker<'_> {
             found = true;
             let partner_of = |of| others.iter().find(|other| owners.is_of(other, of));
             let partner = if word == "L" { "velocity" } else { "momentum" };
-            let ordered: Option<Vec<&Variable>> = coordinates.iter().map(partner_of).collect();
+            let ordered: Option<Vec<&Declarator>> = coordinates.iter().map(partner_of).collect();
             let help = match ordered {
                 Some(ordered) => format!(
                     "in the order of the coordinates: `{word}({}; {})`",
@@ -258,7 +264,7 @@ impl Checker<'_> {
     }
 
     /// Whether a momentum (velocity) has the shape of its coordinate.
-    fn same_shape(&mut self, coordinate: &Variable, other: &Variable, due: Type) -> bool {
+    fn same_shape(&mut self, coordinate: &Declarator, other: &Declarator, due: Type) -> bool {
         let Some(found) = self.variable_type(other) else {
             return false;
         };
@@ -307,7 +313,7 @@ impl Checker<'_> {
     }
 
     /// The shape of a coordinate or momentum.
-    fn variable_type(&mut self, variable: &Variable) -> Option<Type> {
+    fn variable_type(&mut self, variable: &Declarator) -> Option<Type> {
         let ty = self.array(&variable.sizes)?;
         if let (Type::Matrix(_, Extent::Size(_)), Some(last)) = (ty, variable.sizes.last()) {
             let message = format!("the last extent of `{}` is not a number", variable.name);
@@ -320,7 +326,7 @@ impl Checker<'_> {
 }
 
 /// A signature that may have been meant.
-fn suggested(word: &str, prefix: &str, names: &[Variable]) -> String {
+fn suggested(word: &str, prefix: &str, names: &[Declarator]) -> String {
     let partner = if word == "L" { "v" } else { "p" };
     match names {
         [] => format!("{word}(q; {partner})"),
@@ -342,11 +348,11 @@ fn suggested(word: &str, prefix: &str, names: &[Variable]) -> String {
 /// Variables by the names of their momenta (velocities).
 struct Owners<'a> {
     prefix: char,
-    by_name: HashMap<String, &'a Variable>,
+    by_name: HashMap<String, &'a Declarator>,
 }
 
 impl<'a> Owners<'a> {
-    fn new(variables: impl Iterator<Item = &'a Variable>, word: &str) -> Owners<'a> {
+    fn new(variables: impl Iterator<Item = &'a Declarator>, word: &str) -> Owners<'a> {
         let prefix = if word == "L" { 'v' } else { 'p' };
         let by_name = variables.map(|variable| (variable.name.to_string(), variable));
         let by_name = by_name.collect();
@@ -366,7 +372,7 @@ impl<'a> Owners<'a> {
     }
 
     /// The variable whose momentum (velocity) has the name of this one.
-    fn of(&self, variable: &Variable) -> Option<&'a Variable> {
+    fn of(&self, variable: &Declarator) -> Option<&'a Declarator> {
         let names = self.names(&variable.name.to_string());
         names
             .iter()
@@ -374,13 +380,13 @@ impl<'a> Owners<'a> {
     }
 
     /// Whether `variable` has the name of the momentum (velocity) of `owner`.
-    fn is_of(&self, variable: &Variable, owner: &Variable) -> bool {
+    fn is_of(&self, variable: &Declarator, owner: &Declarator) -> bool {
         let names = self.names(&variable.name.to_string());
         names.contains(&owner.name.to_string())
     }
 }
 
-fn list<'a>(variables: impl IntoIterator<Item = &'a Variable>) -> String {
+fn list<'a>(variables: impl IntoIterator<Item = &'a Declarator>) -> String {
     let names: Vec<String> = variables
         .into_iter()
         .map(|variable| variable.name.to_string())

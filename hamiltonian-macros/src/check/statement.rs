@@ -270,11 +270,9 @@ impl<'a> Checker<'a> {
                     "{article} {word} is a scalar or a vector of known extent, but this is {}",
                     self.type_shown(ty)
                 );
-                let at = self.ast.nodes[value.root.0 as usize].spans;
-                self.error(
+                self.error_over(
                     value.root,
-                    at,
-                    &message,
+                    message,
                     "write one component, or `sum(i in 0..N) { … }`",
                 );
             }

@@ -6,6 +6,7 @@
 
 use super::LARGEST;
 use super::evaluate::Evaluator;
+use crate::ast::BinaryOp;
 use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
@@ -202,8 +203,8 @@ impl Evaluator<'_> {
         let mut at = node;
         loop {
             let (first, second, negative) = match &self.checked.node(at).kind {
-                Kind::Add(a, b) => (*a, *b, false),
-                Kind::Sub(a, b) => (*a, *b, true),
+                Kind::Binary(BinaryOp::Add, a, b) => (*a, *b, false),
+                Kind::Binary(BinaryOp::Sub, a, b) => (*a, *b, true),
                 _ => break,
             };
             terms.push((negative, second));
@@ -237,7 +238,7 @@ impl Evaluator<'_> {
             }
         };
         match &this.kind {
-            Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
+            Kind::Binary(BinaryOp::Mul, a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
                 (Type::Matrix(_, columns), Type::Vector(_)) => {
                     for k in self.run(dag, node, &[*b], columns, demand).indices() {
                         let row = &demand.indices[0];
@@ -247,11 +248,11 @@ impl Evaluator<'_> {
                 }
                 _ => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             },
-            Kind::Neg(a) | Kind::Not(a) => wanted.push((*a, same(*a))),
-            Kind::Add(..) | Kind::Sub(..) => {
+            Kind::Unary(_, a) => wanted.push((*a, same(*a))),
+            Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..) => {
                 wanted.extend(self.terms(node).into_iter().map(|(_, term)| (term, same(term))));
             }
-            Kind::Div(a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
+            Kind::Binary(_, a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             Kind::Index { base, index } => {
                 let mut indices = vec![index.substitute(|id| self.variable(dag, id, demand))];
                 indices.extend(demand.indices.iter().cloned());

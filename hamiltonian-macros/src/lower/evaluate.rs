@@ -9,8 +9,8 @@ use super::domain;
 use super::loops::Loops;
 use super::velocity;
 use super::{Beyond, LARGEST};
-use crate::ast::Comparison;
-use crate::checked::{Checked, Definition, Kind, NodeId, Type};
+use crate::ast::{BinaryOp, Comparison, UnaryOp};
+use crate::checked::{Checked, Definition, Kind, NodeId, Type, Variable};
 use crate::names::Builtin;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
@@ -166,8 +166,8 @@ impl<'a> Evaluator<'a> {
                 if self.refused {
                     return None;
                 }
-                if let Kind::Coordinate(_) | Kind::Momentum(_) | Kind::Parameter(_) =
-                    &self.checked.node(node).kind
+                if let Kind::Phase(Variable::Coordinate | Variable::Momentum, _)
+                | Kind::Parameter(_) = &self.checked.node(node).kind
                 {
                     self.derived.wrote(value);
                 }
@@ -249,17 +249,9 @@ impl<'a> Evaluator<'a> {
         match (&this.kind, values) {
             (Kind::Number(value), _) => dag.constant(value.clone()),
             (Kind::Pi, _) => dag.pi(),
-            (Kind::Coordinate(group), _) => self.phase(model, node, group.0, demand, Array::Phase),
-            (Kind::Momentum(group), _) => self.phase(model, node, group.0, demand, |at| {
-                Array::Phase(at.conjugate())
-            }),
-            (Kind::NewCoordinate(group), _) => self.phase(model, node, group.0, demand, |at| {
-                Array::Phase(replaced(at))
-            }),
-            (Kind::NewMomentum(group), _) => self.phase(model, node, group.0, demand, |at| {
-                Array::Phase(replaced(at).conjugate())
-            }),
-            (Kind::Velocity(group), _) => self.phase(model, node, group.0, demand, Array::Velocity),
+            (Kind::Phase(variable, group), _) => {
+                self.phase(model, node, *variable, group.0 as u16, demand)
+            }
             (Kind::Time, _) => dag.time(),
             (Kind::Parameter(parameter), _) => {
                 let parameter = Parameter(parameter.0 as u16);
@@ -285,9 +277,9 @@ impl<'a> Evaluator<'a> {
                 }
             },
             (Kind::Hamiltonian, _) => model.h(),
-            (Kind::Neg(_), [a]) => dag.neg(*a),
-            (Kind::Not(_), [a]) => dag.not(*a),
-            (Kind::Add(..) | Kind::Sub(..), values) => {
+            (Kind::Unary(UnaryOp::Neg, _), [a]) => dag.neg(*a),
+            (Kind::Unary(UnaryOp::Not, _), [a]) => dag.not(*a),
+            (Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..), values) => {
                 let signs = self
                     .terms(node)
                     .into_iter()
@@ -298,28 +290,32 @@ impl<'a> Evaluator<'a> {
                 let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
                 dag.linear(&Rational::ZERO, &terms)
             }
-            (Kind::Div(_, divisor), [a, b]) => {
+            (Kind::Binary(BinaryOp::Div, _, divisor), [a, b]) => {
                 if is_zero(dag, *b) {
                     let spans = checked.node(*divisor).spans;
                     self.refuse(spans, "division by 0", "write a divisor other than 0");
                 }
                 dag.div(*a, *b)
             }
-            (Kind::Pow(base, _), [a, b]) => {
+            (Kind::Binary(BinaryOp::Pow, base, _), [a, b]) => {
                 self.refuse_outside(model, Op::Pow, *base, demand, values);
                 model.dag.pow(*a, *b)
             }
-            (Kind::And(..), [a, b]) => dag.and(*a, *b),
-            (Kind::Or(..), [a, b]) => dag.or(*a, *b),
-            (Kind::Compare(comparison, ..), [a, b]) => compare(dag, *comparison, *a, *b),
+            (Kind::Binary(BinaryOp::And, ..), [a, b]) => dag.and(*a, *b),
+            (Kind::Binary(BinaryOp::Or, ..), [a, b]) => dag.or(*a, *b),
+            (Kind::Binary(BinaryOp::Compare(comparison), ..), [a, b]) => {
+                compare(dag, *comparison, *a, *b)
+            }
             (Kind::Bracket(..), [a, b]) => self.bracket(model, node, *a, *b),
-            (Kind::Mul(a, b), values) => match (checked.node(*a).ty, checked.node(*b).ty) {
-                (Type::Matrix(_, columns), Type::Vector(_)) => {
-                    let run = self.run(dag, node, &[*b], columns, demand);
-                    products(dag, run, values)
+            (Kind::Binary(BinaryOp::Mul, a, b), values) => {
+                match (checked.node(*a).ty, checked.node(*b).ty) {
+                    (Type::Matrix(_, columns), Type::Vector(_)) => {
+                        let run = self.run(dag, node, &[*b], columns, demand);
+                        products(dag, run, values)
+                    }
+                    _ => dag.mul(values),
                 }
-                _ => dag.mul(values),
-            },
+            }
             (Kind::Index { .. } | Kind::Vector(_), [value, ..]) => *value,
             (Kind::Call(Builtin::Elementary(op), items), values) => {
                 self.refuse_outside(model, *op, items[0], demand, values);
@@ -413,32 +409,40 @@ impl<'a> Evaluator<'a> {
         image
     }
 
-    /// An element of a group, of the array that belongs to a column of its coordinates.
+    /// An element of a group's variables.
     fn phase(
         &mut self,
         model: &mut Model,
         node: NodeId,
-        group: u32,
+        variable: Variable,
+        group: u16,
         demand: &Demand,
-        array: fn(Column) -> Array,
     ) -> Node {
-        let column = match &model.groups[group as usize].shape {
+        let shape = &model.groups[usize::from(group)].shape;
+        let column = match shape {
             Shape::Matrix(_, columns) => match demand.number(1, usize::from(*columns)) {
-                Some(column) => column,
+                Some(column) => column as u16,
                 None => return self.fault(node, "its column is not a literal"),
             },
             Shape::Scalar | Shape::Vector(_) => 0,
         };
-        let at = Column {
-            side: Side::Q,
-            group: group as u16,
-            column: column as u16,
-        };
-        let row = match &model.groups[group as usize].shape {
+        let row = match shape {
             Shape::Scalar => Index::constant(0),
             Shape::Vector(_) | Shape::Matrix(..) => demand.indices[0].clone(),
         };
-        model.dag.element(array(at), row, None)
+        let of = |group| Column {
+            side: Side::Q,
+            group,
+            column,
+        };
+        let array = match variable {
+            Variable::Coordinate => Array::Phase(of(group)),
+            Variable::Momentum => Array::Phase(of(group).conjugate()),
+            Variable::NewCoordinate => Array::Phase(of(REPLACING + group)),
+            Variable::NewMomentum => Array::Phase(of(REPLACING + group).conjugate()),
+            Variable::Velocity => Array::Velocity(of(group)),
+        };
+        model.dag.element(array, row, None)
     }
 
     fn call(
@@ -559,10 +563,4 @@ fn products(dag: &mut Dag, run: Run, values: &[Node]) -> Node {
         Run::Loop(domain) => dag.reduce(domain, terms[0]),
         Run::Numbers(_) => dag.add(&terms),
     }
-}
-
-/// The column of what a chart puts in the place of a group of bodies.
-fn replaced(at: Column) -> Column {
-    let group = REPLACING + at.group;
-    Column { group, ..at }
 }

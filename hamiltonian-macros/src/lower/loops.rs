@@ -6,6 +6,7 @@
 //! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
 //! made of are among them, but for those that a sum in it runs through.
 
+use crate::ast::{BinaryOp, UnaryOp};
 use crate::checked::{Checked, Extent, Kind, Node, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::index::{Domain, members};
@@ -60,16 +61,10 @@ impl Loops {
             }
             loops.numbers[id.0 as usize] = loops.unrolled & bit(id);
         }
-        // Bounds of a loop that is unrolled are numbers.
-        loop {
-            let before = loops.unrolled;
-            for (at, one) in checked.loops.iter().enumerate() {
-                if before >> at & 1 == 1 {
-                    loops.unrolled |= one.lower.variables() | one.upper.variables();
-                }
-            }
-            if loops.unrolled == before {
-                break;
+        // Bounds of a loop that is unrolled are numbers; they read only loops before it.
+        for (at, one) in checked.loops.iter().enumerate().rev() {
+            if loops.unrolled >> at & 1 == 1 {
+                loops.unrolled |= one.lower.variables() | one.upper.variables();
             }
         }
         for (at, node) in checked.nodes.iter().enumerate().rev() {
@@ -118,11 +113,7 @@ impl Loops {
         let of = |child: NodeId| self.by_number[child.0 as usize];
         match &node.kind {
             // Columns of coordinates are separate arrays.
-            Kind::Coordinate(_)
-            | Kind::Momentum(_)
-            | Kind::NewCoordinate(_)
-            | Kind::NewMomentum(_)
-            | Kind::Velocity(_) => {
+            Kind::Phase(..) => {
                 matches!(node.ty, Type::Matrix(..))
             }
             Kind::Vector(_) | Kind::Call(Builtin::Cross, _) => true,
@@ -133,12 +124,12 @@ impl Loops {
                 }
                 base_by_number
             }
-            Kind::Mul(a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
+            Kind::Binary(BinaryOp::Mul, a, b) => match (checked.node(*a).ty, checked.node(*b).ty) {
                 (Type::Matrix(..), Type::Vector(_)) => false,
                 _ => of(*a) || of(*b),
             },
-            Kind::Neg(a) => of(*a),
-            Kind::Add(a, b) | Kind::Sub(a, b) | Kind::Div(a, b) => of(*a) || of(*b),
+            Kind::Unary(UnaryOp::Neg, a) => of(*a),
+            Kind::Binary(BinaryOp::Add | BinaryOp::Sub | BinaryOp::Div, a, b) => of(*a) || of(*b),
             // A sum is formed for each component.
             Kind::Sum { body, .. } => {
                 of(*body) || matches!(node.ty, Type::Vector(Extent::Literal(_)))

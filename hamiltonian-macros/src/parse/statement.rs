@@ -5,7 +5,7 @@
 
 use super::header::Attribute;
 use super::{Abort, Parser, Result};
-use crate::ast::{BinaryOp, ExprKind, Expression, Signature, Statement, StatementKind, Variable};
+use crate::ast::{BinaryOp, Declarator, ExprKind, Expression, Signature, Statement, StatementKind};
 use crate::names;
 use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
@@ -363,7 +363,7 @@ impl Parser<'_> {
             let name = self.declared("a name", &help)?;
             let sizes = self.sizes()?;
             if let Some(section) = sections.last_mut() {
-                section.push(Variable { name, sizes });
+                section.push(Declarator { name, sizes });
             }
             if self.at_punct(',') {
                 self.position += 1;

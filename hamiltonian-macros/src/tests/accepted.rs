@@ -1,8 +1,10 @@
 //! Definitions that are accepted, and what they become.
 
 use super::accept;
+use crate::ast::BinaryOp;
 use crate::checked::{
     ChartKind, Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, SizeKind, Type,
+    Variable,
 };
 use hamiltonian_symbolic::index::Size;
 
@@ -96,7 +98,7 @@ fn in_order(checked: &Checked) {
     for (index, node) in checked.nodes.iter().enumerate() {
         node.kind
             .for_each_child(|child| assert!((child.0 as usize) < index));
-        if let Kind::Add(a, b) | Kind::Sub(a, b) = node.kind {
+        if let Kind::Binary(BinaryOp::Add | BinaryOp::Sub, a, b) = node.kind {
             assert_eq!(checked.node(a).ty, node.ty);
             assert_eq!(checked.node(b).ty, node.ty);
         }
@@ -175,7 +177,7 @@ fn functions_are_instantiated_for_each_call() {
     let powers = checked
         .nodes
         .iter()
-        .filter(|node| matches!(node.kind, Kind::Pow(..)))
+        .filter(|node| matches!(node.kind, Kind::Binary(BinaryOp::Pow, ..)))
         .count();
     assert_eq!(powers, 3);
     assert!(checked.captures.is_empty());
@@ -184,7 +186,7 @@ fn functions_are_instantiated_for_each_call() {
     let momenta = checked
         .nodes
         .iter()
-        .filter(|node| matches!(node.kind, Kind::Momentum(_)))
+        .filter(|node| matches!(node.kind, Kind::Phase(Variable::Momentum, _)))
         .count();
     assert_eq!(momenta, 1);
 }
@@ -219,7 +221,10 @@ fn lagrangians_have_momenta_elsewhere() {
 fn time_factors_and_charts_are_taken_apart() {
     let checked = accept("H(r; p_r) = p_r^2; dt = r*2*ds");
     let (factor, _) = checked.time_factor.expect("it has one");
-    assert!(matches!(checked.node(factor).kind, Kind::Mul(..)));
+    assert!(matches!(
+        checked.node(factor).kind,
+        Kind::Binary(BinaryOp::Mul, ..)
+    ));
     let checked = accept("H(q[2]; p[2]) = norm_squared(p); coordinates polar(q)");
     assert!(matches!(&checked.charts[0].kind, ChartKind::Polar([x, y])
         if x.index == Some(0) && y.index == Some(1)));

@@ -170,19 +170,8 @@ pub enum StatementKind {
         /// The right side: one expression, or `[f1, f2, …]`.
         value: Expression,
     },
-    /// `fn name(a, …) = value, (first, …)[, (second, …)]`
-    Function {
-        /// The name it defines.
-        name: Ident,
-        /// Its arguments.
-        arguments: Vec<Ident>,
-        /// The path of the Rust function.
-        value: TokenStream,
-        /// Paths of the partial derivatives, one an argument, with the span of the list.
-        first: (Vec<TokenStream>, Spans),
-        /// Paths of the second partials: the upper triangle row by row (xx, xy, yy).
-        second: Option<(Vec<TokenStream>, Spans)>,
-    },
+    /// A Rust function.
+    Function(Function),
     /// `dt = factor*ds`
     Time {
         /// dt/ds.
@@ -195,6 +184,30 @@ pub enum StatementKind {
         /// Names of coordinates and, for `jacobi` and `heliocentric`, of the masses.
         arguments: Vec<Ident>,
     },
+}
+
+/// `fn name(a, …) = value, (first, …)[, (second, …)]`: scalars to a scalar.
+#[derive(Debug, Clone)]
+pub struct Function {
+    /// The name it defines.
+    pub name: Ident,
+    /// Its arguments, at least one.
+    pub arguments: Vec<Ident>,
+    /// The path of the function.
+    pub value: TokenStream,
+    /// The partial derivatives, one an argument.
+    pub first: Paths,
+    /// The second partials: the upper triangle row by row (xx, xy, yy), `n(n+1)/2` of them.
+    pub second: Option<Paths>,
+}
+
+/// `(path, …)`
+#[derive(Debug, Clone)]
+pub struct Paths {
+    /// The parentheses.
+    pub spans: Spans,
+    /// The paths of Rust functions.
+    pub paths: Vec<TokenStream>,
 }
 
 /// `(coordinates; momenta or velocities; time)`.

@@ -115,7 +115,7 @@ fn system(
         root: root.clone(),
         form: part.form,
         structure: verdicts,
-        externals: surface::externals(checked),
+        functions: &checked.functions,
         observables: part.observables,
         vectors: part.vectors,
         pieces: part.pieces,

@@ -21,7 +21,7 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::{BinaryOp, UnaryOp};
+use crate::ast::{BinaryOp, Function, UnaryOp};
 use crate::names::Builtin;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
@@ -175,21 +175,6 @@ pub enum Definition {
     /// `L(q; v[; t]) = …`, a scalar without [`Variable::Momentum`] and [`Kind::Hamiltonian`].
     /// Elsewhere in such a definition [`Variable::Velocity`] means the velocity as a function of q, p.
     Lagrangian(NodeId),
-}
-
-/// `fn name(a, …) = value, (first, …)[, (second, …)]`: scalars to a scalar.
-#[derive(Debug)]
-pub struct Function {
-    /// The name in expressions.
-    pub name: Ident,
-    /// Its arguments, at least one.
-    pub arguments: Vec<Ident>,
-    /// The path of the function.
-    pub value: TokenStream,
-    /// Paths of the partial derivatives, one an argument.
-    pub first: Vec<TokenStream>,
-    /// Paths of the second partials: the upper triangle row by row (xx, xy, yy), `n(n+1)/2` of them.
-    pub second: Option<Vec<TokenStream>>,
 }
 
 /// An invariant, a monitor or an event.

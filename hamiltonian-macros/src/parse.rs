@@ -133,6 +133,13 @@ impl<'a> Parser<'a> {
         matches!(self.kind(), Some(TokenKind::Punct(found, _)) if found == character)
     }
 
+    /// Moves past a punctuation character, if it is the next token.
+    fn eat(&mut self, character: char) -> bool {
+        let found = self.at_punct(character);
+        self.position += usize::from(found);
+        found
+    }
+
     /// A lone `=`, not the beginning of `==`.
     fn at_equals(&self, ahead: usize) -> bool {
         match self.kind_at(ahead) {
@@ -206,10 +213,7 @@ impl<'a> Parser<'a> {
     /// From the opening of the group at the cursor to its closing.
     fn group_spans(&self) -> Spans {
         let open = &self.tokens[self.position];
-        Spans {
-            start: open.span,
-            end: self.tokens[open.close].span,
-        }
+        Spans::from(open.span).to(self.tokens[open.close].span)
     }
 
     /// The next token, for messages.
@@ -230,6 +234,12 @@ impl<'a> Parser<'a> {
         Err(Abort)
     }
 
+    /// The end of a statement whose next token is another than expected.
+    fn expected<T>(&mut self, expected: &str, help: impl Into<String>) -> Result<T> {
+        let message = format!("expected {expected}, {}", self.found());
+        self.abort(self.here(), message, help)
+    }
+
     /// One level deeper, or the end of the statement.
     fn deeper(&mut self, span: Span) -> Result<()> {
         self.depth += 1;
@@ -247,8 +257,7 @@ impl<'a> Parser<'a> {
     /// A forbidden one is reported and returned, so that reading goes on.
     fn declared(&mut self, what: &str, help: &str) -> Result<Ident> {
         let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
-            let found = self.found();
-            return self.abort(self.here(), format!("expected {what}, {found}"), help);
+            return self.expected(what, help);
         };
         self.position += 1;
         if self.is_plain(token) {

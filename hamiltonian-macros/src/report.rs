@@ -17,10 +17,10 @@ pub struct Spans {
 
 impl Spans {
     /// From one piece to another.
-    pub fn to(self, end: Spans) -> Spans {
+    pub fn to(self, end: impl Into<Spans>) -> Spans {
         Spans {
             start: self.start,
-            end: end.end,
+            end: end.into().end,
         }
     }
 }

@@ -5,8 +5,7 @@
 
 use crate::checked::{self, Checked, Definition, SizeKind, Type};
 use crate::emit::{
-    self, Declared, External, Field, Form, Item, ObservableItem, ParameterItem, SizeItem,
-    VectorItem,
+    self, Declared, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
 };
 use crate::lower::constants;
 use crate::report::Report;
@@ -87,16 +86,6 @@ pub fn form(checked: &Checked, defaults: &Defaults) -> Form {
             })
             .collect(),
     })
-}
-
-/// Functions written in Rust.
-pub fn externals(checked: &Checked) -> Vec<External> {
-    let functions = checked.functions.iter().map(|function| External {
-        value: function.value.clone(),
-        first: function.first.clone(),
-        second: function.second.clone(),
-    });
-    functions.collect()
 }
 
 /// Names and docs of observables.

@@ -274,10 +274,7 @@ impl Checker<'_> {
                 "`{positions}` and `{masses}` are not positions and masses of as many bodies"
             );
             self.report.error(
-                Spans {
-                    start: positions.span(),
-                    end: masses.span(),
-                },
+                Spans::from(positions.span()).to(masses.span()),
                 message,
                 form,
             );

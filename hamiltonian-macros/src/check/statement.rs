@@ -5,19 +5,18 @@
 //! may use all of them.
 
 use super::{Binding, Checker, LetFunction, Place};
-use crate::ast::{Expression, Statement, StatementKind};
-use crate::checked::{Definition, Extent, Function, FunctionId, NodeId, Observable, Type};
+use crate::ast::{Expression, Function, Statement, StatementKind};
+use crate::checked::{Definition, Extent, FunctionId, NodeId, Observable, Type};
 use crate::names;
-use crate::report::Spans;
 use hamiltonian_symbolic::model::ObservableKind;
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::Ident;
 
 impl<'a> Checker<'a> {
     /// `let`, `fn`, H and L, in source order.
     pub(super) fn values(&mut self) {
         let ast = self.ast;
         for statement in &ast.statements {
-            if let StatementKind::Let { name, .. } | StatementKind::Function { name, .. } =
+            if let StatementKind::Let { name, .. } | StatementKind::Function(Function { name, .. }) =
                 &statement.kind
                 && let Some(symbol) = self.symbol(name)
             {
@@ -35,15 +34,7 @@ impl<'a> Checker<'a> {
                     self.let_statement(name, arguments.as_deref(), value);
                     self.defining = None;
                 }
-                StatementKind::Function {
-                    name,
-                    arguments,
-                    value,
-                    first,
-                    second,
-                } => {
-                    self.function(name, arguments, value, first, second.as_ref());
-                }
+                StatementKind::Function(function) => self.function(function),
                 StatementKind::Hamiltonian { value, .. } => {
                     self.definition("H", value, Definition::Hamiltonian);
                 }
@@ -107,55 +98,39 @@ impl<'a> Checker<'a> {
         self.declare(name, Binding::LetFunction(self.lets.len() - 1));
     }
 
-    fn function(
-        &mut self,
-        name: &Ident,
-        arguments: &[Ident],
-        value: &TokenStream,
-        first: &(Vec<TokenStream>, Spans),
-        second: Option<&(Vec<TokenStream>, Spans)>,
-    ) {
-        let arity = arguments.len();
+    fn function(&mut self, function: &Function) {
+        let (name, first) = (&function.name, &function.first);
+        let arity = function.arguments.len();
         let pairs = arity * (arity + 1) / 2;
         let plural = |count: usize| if count == 1 { "" } else { "s" };
-        if first.0.len() != arity {
-            self.report.error(
-                first.1,
-                format!(
-                    "`{name}` takes {arity} argument{}, but {} partial derivative{} given",
-                    plural(arity),
-                    first.0.len(),
-                    if first.0.len() == 1 { " is" } else { "s are" }
-                ),
-                "write one for each argument, in their order",
+        if first.paths.len() != arity {
+            let given = first.paths.len();
+            let message = format!(
+                "`{name}` takes {arity} argument{}, but {given} partial derivative{} given",
+                plural(arity),
+                if given == 1 { " is" } else { "s are" }
             );
+            let help = "write one for each argument, in their order";
+            self.report.error(first.spans, message, help);
         }
-        if let Some((second, spans)) = second
-            && second.len() != pairs
+        if let Some(second) = &function.second
+            && second.paths.len() != pairs
         {
-            self.report.error(
-                *spans,
-                format!(
-                    "`{name}` takes {arity} argument{}, so it has {pairs} second partial{}, not {}",
-                    plural(arity),
-                    plural(pairs),
-                    second.len()
-                ),
-                "write the upper triangle row by row: `(xx, xy, yy)` for two arguments",
+            let message = format!(
+                "`{name}` takes {arity} argument{}, so it has {pairs} second partial{}, not {}",
+                plural(arity),
+                plural(pairs),
+                second.paths.len()
             );
+            let help = "write the upper triangle row by row: `(xx, xy, yy)` for two arguments";
+            self.report.error(second.spans, message, help);
         }
         let id = FunctionId(self.out.functions.len() as u32);
         if let Some(symbol) = self.symbol(name) {
             self.later[symbol.0 as usize] = false;
         }
         self.declare(name, Binding::Function(id));
-        self.out.functions.push(Function {
-            name: name.clone(),
-            arguments: arguments.to_vec(),
-            value: value.clone(),
-            first: first.0.clone(),
-            second: second.map(|second| second.0.clone()),
-        });
+        self.out.functions.push(function.clone());
     }
 
     /// Everything else.

@@ -13,13 +13,8 @@ use quote::quote;
 /// The wrappers of all functions.
 pub fn wrappers(definition: &Definition) -> TokenStream {
     let mut out = TokenStream::new();
-    for (number, (external, declared)) in definition
-        .externals
-        .iter()
-        .zip(&definition.model.externals)
-        .enumerate()
-    {
-        let (number, arity) = (number as u16, declared.arguments.len() as u16);
+    for (number, function) in definition.functions.iter().enumerate() {
+        let (number, arity) = (number as u16, function.arguments.len() as u16);
         let mut wrap = |part: Part, path: &TokenStream| {
             let name = lex(&block::external(number, part));
             let arguments: Vec<TokenStream> =
@@ -36,12 +31,12 @@ pub fn wrappers(definition: &Definition) -> TokenStream {
                 fn #name<#scalar: __h::Real>(#(#arguments: #scalar),*) -> #scalar { #path #call }
             });
         };
-        wrap(Part::Value, &external.value);
-        for (i, path) in external.first.iter().enumerate() {
+        wrap(Part::Value, &function.value);
+        for (i, path) in function.first.paths.iter().enumerate() {
             wrap(Part::First(i as u16), path);
         }
         let pairs = (0..arity).flat_map(|i| (i..arity).map(move |j| (i, j)));
-        for ((i, j), path) in pairs.zip(external.second.iter().flatten()) {
+        for ((i, j), path) in pairs.zip(function.second.iter().flat_map(|second| &second.paths)) {
             wrap(Part::Second(i, j), path);
         }
     }

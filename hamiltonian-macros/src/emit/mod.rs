@@ -42,6 +42,7 @@ pub use declared::Declared;
 pub use number::closed;
 pub use vectors::{VectorItem, VectorUse};
 
+use crate::ast::Function;
 use crate::checked::Reach;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
@@ -63,7 +64,7 @@ pub struct Definition<'a> {
     /// The printed text.
     pub text: Text,
     /// Functions written in Rust, in the model's order.
-    pub externals: Vec<External>,
+    pub functions: &'a [Function],
     /// Monitors, invariants and events, in the model's order.
     pub observables: Vec<ObservableItem>,
     /// Vector functions, in the model's order.
@@ -142,17 +143,6 @@ pub struct ObservableItem {
     pub name: Ident,
     /// Docs.
     pub attributes: Vec<TokenStream>,
-}
-
-/// The paths of a function written in Rust.
-#[derive(Debug)]
-pub struct External {
-    /// That of the function itself.
-    pub value: TokenStream,
-    /// Its partial derivatives.
-    pub first: Vec<TokenStream>,
-    /// Its second partials: the upper triangle row by row.
-    pub second: Option<Vec<TokenStream>>,
 }
 
 /// The proven structure of H.

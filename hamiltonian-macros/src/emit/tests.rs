@@ -134,7 +134,7 @@ fn emit(model: &mut Model, form: Form, separable: bool) -> TokenStream {
             hamiltonian: "H = …".into(),
             ..Text::default()
         },
-        externals: Vec::new(),
+        functions: &[],
         vectors: Vec::new(),
         declared: None,
         pieces: Vec::new(),

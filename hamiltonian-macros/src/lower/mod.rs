@@ -66,7 +66,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     };
     let mut evaluator = Evaluator::new(checked, report);
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
-    let value = evaluator.evaluate(&mut model, &[(h, Demand::default())])?;
+    let value = evaluator.evaluate(&mut model, &whole([h]))?;
     model.hamiltonian = Some(value[0]);
     let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
@@ -87,47 +87,34 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
             }
         }
     }
-    let mut rest = Rest { checked, evaluator };
     let observables: Vec<_> = checked
         .observables
         .iter()
         .flat_map(|o| components(checked, o.value))
         .collect();
-    let in_velocities = rest.evaluator.evaluate(&mut model, &observables)?;
-    let values = rest.in_momenta(&mut model, &observables, &in_velocities)?;
+    let in_velocities = evaluator.evaluate(&mut model, &observables)?;
+    let values = evaluator.all_in_momenta(&mut model, &observables, &in_velocities)?;
     observables_of(checked, &mut model, values);
     let mut shells = Vec::new();
     for observable in &checked.observables {
-        let shell: Vec<_> = observable
-            .shell
-            .iter()
-            .map(|shell| (*shell, Demand::default()))
-            .collect();
-        shells.push(rest.values(&mut model, &shell)?.first().copied());
+        let shell = evaluator.values(&mut model, &whole(observable.shell))?;
+        shells.push(shell.first().copied());
     }
-    let split: Vec<_> = checked
-        .split
-        .iter()
-        .map(|(_, piece)| (*piece, Demand::default()))
-        .collect();
-    model.split = rest.values(&mut model, &split)?;
-    let factor: Vec<_> = checked
-        .time_factor
-        .iter()
-        .map(|(g, _)| (*g, Demand::default()))
-        .collect();
-    model.factor = rest.values(&mut model, &factor)?.first().copied();
-    model.force = rest.force(&mut model)?;
+    let pieces = checked.split.iter().map(|(_, piece)| *piece);
+    model.split = evaluator.values(&mut model, &whole(pieces))?;
+    let factor = whole(checked.time_factor.map(|(g, _)| g));
+    model.factor = evaluator.values(&mut model, &factor)?.first().copied();
+    model.force = evaluator.force(&mut model)?;
     // Proofs and derivatives from here on would be of other loops.
     if model.dag.has_too_many_loops() {
         let message = format!("this system needs more than {LOOPS} loops");
         let at = checked.node(h).spans;
-        rest.evaluator.refuse(at, &message, SHARE_LOOPS);
+        evaluator.refuse(at, &message, SHARE_LOOPS);
         return None;
     }
     let Evaluator {
         derived, beyond, ..
-    } = rest.evaluator;
+    } = evaluator;
     Some(Lowered {
         beyond,
         model,
@@ -145,11 +132,8 @@ pub fn constants(
     report: &mut Report,
 ) -> Option<(Dag, Vec<Node>)> {
     let mut model = Model::default();
-    let demands: Vec<_> = roots
-        .iter()
-        .map(|root| (*root, Demand::default()))
-        .collect();
-    let values = Evaluator::new(checked, report).evaluate(&mut model, &demands)?;
+    let values =
+        Evaluator::new(checked, report).evaluate(&mut model, &whole(roots.iter().copied()))?;
     Some((model.dag, values))
 }
 
@@ -173,20 +157,22 @@ fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     Ok(legendre)
 }
 
-/// The declarations beside H.
-struct Rest<'a> {
-    checked: &'a Checked,
-    evaluator: Evaluator<'a>,
+/// Expressions without indices as roots.
+fn whole(roots: impl IntoIterator<Item = NodeId>) -> Vec<(NodeId, Demand)> {
+    roots
+        .into_iter()
+        .map(|root| (root, Demand::default()))
+        .collect()
 }
 
-impl Rest<'_> {
+impl Evaluator<'_> {
     /// The values of roots, velocities as functions of (q, p, t).
     fn values(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
-        let values = self.evaluator.evaluate(model, roots)?;
-        self.in_momenta(model, roots, &values)
+        let values = self.evaluate(model, roots)?;
+        self.all_in_momenta(model, roots, &values)
     }
 
-    fn in_momenta(
+    fn all_in_momenta(
         &mut self,
         model: &mut Model,
         roots: &[(NodeId, Demand)],
@@ -195,7 +181,7 @@ impl Rest<'_> {
         let mut images = Vec::with_capacity(values.len());
         for ((root, _), value) in roots.iter().zip(values) {
             let spans = self.checked.node(*root).spans;
-            images.push(self.evaluator.in_momenta(model, spans, *value)?);
+            images.push(self.in_momenta(model, spans, *value)?);
         }
         Some(images)
     }
@@ -211,10 +197,8 @@ impl Rest<'_> {
             let at_row = self.checked.force_row;
             let by_number = !self.checked.charts.is_empty()
                 || match at_row {
-                    Some(id) => self.evaluator.loops.is_unrolled(id),
-                    None => {
-                        matches!(shape, Shape::Vector(_)) && self.evaluator.loops.by_number(*root)
-                    }
+                    Some(id) => self.loops.is_unrolled(id),
+                    None => matches!(shape, Shape::Vector(_)) && self.loops.by_number(*root),
                 };
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],

@@ -21,10 +21,7 @@ impl Parser<'_> {
         self.deeper(opening.span)?;
         let outer = self.enter();
         if self.position == self.limit && opening.kind != TokenKind::Open(Delimiter::Bracket) {
-            let spans = Spans {
-                start: opening.span,
-                end: self.tokens[outer.close].span,
-            };
+            let spans = Spans::from(opening.span).to(self.tokens[outer.close].span);
             return self.abort(spans, "there is nothing inside", format!("write {what}"));
         }
         let result = inner(self)?;
@@ -43,16 +40,15 @@ impl Parser<'_> {
         let mut items = Vec::new();
         while self.position != self.limit {
             items.push(self.expression()?);
-            if self.at_punct(',') {
-                self.position += 1;
-            } else if self.at_punct(';') {
+            if self.at_punct(';') {
                 let span = self.here();
                 return self.abort(
                     span,
                     "`;` does not separate the members of a list",
                     format!("write `{shown}`"),
                 );
-            } else if self.position != self.limit {
+            }
+            if !self.eat(',') && self.position != self.limit {
                 return self.left_over("`,` or the end of the list");
             }
         }
@@ -126,8 +122,7 @@ impl Parser<'_> {
                 if self.at_equals(0) {
                     return self.left_over("`{`");
                 }
-                let message = format!("expected `{{` after the condition, {}", self.found());
-                return self.abort(self.here(), message, FORM);
+                return self.expected("`{` after the condition", FORM);
             }
             let then = self.group("one value", |parser| parser.expression())?;
             branches.push((at, condition, then));
@@ -139,8 +134,7 @@ impl Parser<'_> {
                 continue;
             }
             if !self.at_open(Delimiter::Brace) {
-                let message = format!("expected `{{` after `else`, {}", self.found());
-                return self.abort(self.here(), message, FORM);
+                return self.expected("`{` after `else`", FORM);
             }
             break self.group("one value", |parser| parser.expression())?;
         };
@@ -153,7 +147,7 @@ impl Parser<'_> {
                 then,
                 otherwise: value,
             };
-            value = self.push(kind, Spans { start: at, end }, at);
+            value = self.push(kind, Spans::from(at).to(end), at);
         }
         Ok(value)
     }
@@ -169,18 +163,7 @@ impl Parser<'_> {
         }
         let parentheses = self.group_spans();
         self.deeper(at)?;
-        let outer = self.enter();
-        let mut scopes = Vec::new();
-        while self.position != self.limit {
-            scopes.push(self.binder(FORM)?);
-            if self.at_punct(',') {
-                self.position += 1;
-            } else if self.position != self.limit {
-                let message = format!("expected `,` or `)` after a range, {}", self.found());
-                return self.abort(self.here(), message, FORM);
-            }
-        }
-        self.leave(outer);
+        let scopes = self.members(FORM, |parser| parser.binder(FORM))?;
         if scopes.is_empty() {
             return self.abort(
                 parentheses,
@@ -195,10 +178,7 @@ impl Parser<'_> {
         let body = self.group("one value", |parser| parser.expression())?;
         self.depth -= 1;
         self.scope = outer_scope;
-        let spans = Spans {
-            start: at,
-            end: self.previous_span(),
-        };
+        let spans = Spans::from(at).to(self.previous_span());
         Ok(self.push(ExprKind::Sum { scopes, body }, spans, at))
     }
 
@@ -214,13 +194,9 @@ impl Parser<'_> {
         self.position += 1;
         let lower = self.bound("where it begins", form)?;
         if self.kind() != Some(TokenKind::Punct('.', true)) {
-            let message = format!("expected `..` in a range, {}", self.found());
-            return self.abort(self.here(), message, form);
+            return self.expected("`..` in a range", form);
         }
-        let dots = Spans {
-            start: self.here(),
-            end: self.tokens[self.position + 1].span,
-        };
+        let dots = Spans::from(self.here()).to(self.tokens[self.position + 1].span);
         self.position += 2;
         if self.at_punct('=') || self.at_punct('.') {
             let dots = Spans {

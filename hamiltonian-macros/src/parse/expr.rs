@@ -138,10 +138,7 @@ impl Parser<'_> {
             }
             TokenKind::Punct('.', _) if self.kind_at(1) == Some(TokenKind::Literal) => {
                 let digits = self.tokens[self.position + 1].text.clone();
-                let spans = Spans {
-                    start: token.span,
-                    end: self.tokens[self.position + 1].span,
-                };
+                let spans = Spans::from(token.span).to(self.tokens[self.position + 1].span);
                 self.report.error(
                     spans,
                     format!("`.{digits}` does not begin with a digit"),
@@ -294,10 +291,7 @@ impl Parser<'_> {
             self.skip();
         }
         let name = &function.text;
-        let spans = Spans {
-            start: function.span,
-            end: self.previous_span(),
-        };
+        let spans = Spans::from(function.span).to(self.previous_span());
         self.report.error(
             spans,
             format!("`{name}^{power}` is not a function: write the power after the argument"),
@@ -320,10 +314,7 @@ impl Parser<'_> {
             }
             self.position += 1;
         }
-        let spans = Spans {
-            start,
-            end: self.previous_span(),
-        };
+        let spans = Spans::from(start).to(self.previous_span());
         let help = match last {
             "PI" => "write `pi`".to_owned(),
             _ if names::function(last).is_some() => format!("write `{last}`"),
@@ -433,19 +424,9 @@ impl Parser<'_> {
                 let message = format!("`.{}` after a value means nothing", member.shown());
                 (message, format!("write `{receiver}[0]` for a component"))
             };
-            return self.abort(
-                Spans {
-                    start,
-                    end: member.span,
-                },
-                message,
-                help,
-            );
+            return self.abort(Spans::from(start).to(member.span), message, help);
         }
-        let spans = Spans {
-            start,
-            end: member.span,
-        };
+        let spans = Spans::from(start).to(member.span);
         if self.at_open(Delimiter::Parenthesis) {
             let argument = self.peek_at(1).map_or("", |token| token.text.as_str());
             // `Math.pow(q, 2)`, `Math.atan2(y, x)`
@@ -474,7 +455,7 @@ impl Parser<'_> {
             let end = self.group_spans().end;
             self.skip();
             self.report.error(
-                Spans { start, end },
+                Spans::from(start).to(end),
                 format!("`{receiver}.{word}(…)`: write a function before its argument"),
                 help,
             );

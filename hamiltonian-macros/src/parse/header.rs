@@ -80,8 +80,7 @@ impl Parser<'_> {
             }
         }
         if !self.at_word("struct") {
-            let message = format!("expected `struct`, {}", self.found());
-            return self.abort(self.here(), message, STRUCT);
+            return self.expected("`struct`", STRUCT);
         }
         self.position += 1;
         let name = self.declared("the name of the type", STRUCT)?;
@@ -95,17 +94,12 @@ impl Parser<'_> {
         };
         self.ast.item = Some(item);
         self.item_attributes(attributes);
-        if self.at_punct('<') {
-            self.position += 1;
+        if self.eat('<') {
             self.generics()?;
         }
         if !self.at_open(Delimiter::Brace) {
             let help = format!("write `struct {name} {{}}` if it has no parameters");
-            let message = format!(
-                "expected `{{` and the parameters of `{name}`, {}",
-                self.found()
-            );
-            return self.abort(self.here(), message, help);
+            return self.expected(&format!("`{{` and the parameters of `{name}`"), help);
         }
         let outer = self.enter();
         self.parameters();
@@ -159,13 +153,11 @@ impl Parser<'_> {
     fn generics(&mut self) -> Result<()> {
         const FORM: &str = "only sizes are allowed between `<` and `>`: write `<const N: usize>`";
         loop {
-            if self.at_punct('>') {
-                self.position += 1;
+            if self.eat('>') {
                 return Ok(());
             }
             if !self.at_word("const") {
-                let message = format!("expected `const`, {}", self.found());
-                return self.abort(self.here(), message, FORM);
+                return self.expected("`const`", FORM);
             }
             self.position += 1;
             let name = self.declared("the name of a size", FORM)?;
@@ -186,11 +178,8 @@ impl Parser<'_> {
             if let Some(item) = &mut self.ast.item {
                 item.generics.push(name);
             }
-            if self.at_punct(',') {
-                self.position += 1;
-            } else if !self.at_punct('>') {
-                let message = format!("expected `,` or `>`, {}", self.found());
-                return self.abort(self.here(), message, FORM);
+            if !self.eat(',') && !self.at_punct('>') {
+                return self.expected("`,` or `>`", FORM);
             }
         }
     }
@@ -240,8 +229,7 @@ impl Parser<'_> {
         let kind = if self.at_equals(0) {
             self.position += 1;
             ParameterKind::Scalar(Some(self.default_value(&name, "1.0")?))
-        } else if self.at_punct(':') {
-            self.position += 1;
+        } else if self.eat(':') {
             self.parameter_type(&name)?
         } else {
             ParameterKind::Scalar(None)
@@ -277,22 +265,12 @@ impl Parser<'_> {
     /// The expression of numbers after `=`.
     fn default_value(&mut self, name: &Ident, form: &str) -> Result<Expression> {
         if self.position >= self.limit || self.at_punct(',') {
-            let message = format!(
-                "expected a number as the default of `{name}`, {}",
-                self.found()
-            );
-            return self.abort(
-                self.here(),
-                message,
+            return self.expected(
+                &format!("a number as the default of `{name}`"),
                 format!("write `{name} = {form}`, or `{name}` for a parameter without default"),
             );
         }
-        let start = self.ast.nodes.len() as u32;
-        let root = self.expression()?;
-        Ok(Expression {
-            nodes: start..self.ast.nodes.len() as u32,
-            root,
-        })
+        self.right_side()
     }
 
     /// `usize`, `[s]`, `[s][s]`, after the colon.
@@ -308,10 +286,8 @@ impl Parser<'_> {
             return Ok(ParameterKind::Array(sizes, default));
         }
         let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
-            let message = format!("expected what `{name}` is, {}", self.found());
-            return self.abort(
-                self.here(),
-                message,
+            return self.expected(
+                &format!("`usize` or the extents of `{name}`"),
                 format!("write `{name}: usize` for a size or `{name}: [N]` for an array"),
             );
         };
@@ -394,10 +370,7 @@ impl Parser<'_> {
                 self.position += 1;
                 Ok(Size::Name(ident.clone()))
             }
-            _ => {
-                let message = format!("expected a size, {}", self.found());
-                self.abort(token.span, message, SIZE)
-            }
+            _ => self.expected("a size", SIZE),
         }
     }
 }

@@ -66,10 +66,7 @@ impl Parser<'_> {
             TokenKind::Punct('+', _) => (BinaryOp::Add, 1),
             TokenKind::Punct('-', _) => (BinaryOp::Sub, 1),
             TokenKind::Punct('*', true) if then(self, '*') => {
-                let spans = Spans {
-                    start: span,
-                    end: self.tokens[self.position + 1].span,
-                };
+                let spans = Spans::from(span).to(self.tokens[self.position + 1].span);
                 self.report
                     .error(spans, "`**` is not an operator", "write `^` for a power");
                 (BinaryOp::Pow, 2)
@@ -124,7 +121,7 @@ impl Parser<'_> {
         };
         let end = self.tokens[self.position + length - 1].span;
         self.position += length;
-        Ok(Some((op, Spans { start: span, end })))
+        Ok(Some((op, Spans::from(span).to(end))))
     }
 
     /// Two values side by side, or two statements.

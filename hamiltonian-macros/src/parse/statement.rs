@@ -5,9 +5,11 @@
 
 use super::header::Attribute;
 use super::{Abort, Parser, Result};
-use crate::ast::{BinaryOp, Declarator, ExprKind, Expression, Signature, Statement, StatementKind};
+use crate::ast::{
+    BinaryOp, Declarator, ExprKind, Expression, Function, Paths, Signature, Statement,
+    StatementKind,
+};
 use crate::names;
-use crate::report::Spans;
 use crate::tokens::{Token, TokenKind};
 use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::{Delimiter, Ident, Span, TokenStream};
@@ -50,8 +52,7 @@ impl Parser<'_> {
     /// One statement with its separator.
     fn statement(&mut self, attributes: Vec<Attribute>) -> Result<()> {
         let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
-            let message = format!("expected a statement, {}", self.found());
-            return self.abort(self.here(), message, KINDS);
+            return self.expected("a statement", KINDS);
         };
         let keyword = token.span;
         let word = token.text.as_str();
@@ -65,12 +66,20 @@ impl Parser<'_> {
         let kind = match word {
             "let" => self.let_statement()?,
             "H" => self.hamiltonian()?,
-            "L" => self.lagrangian(keyword)?,
+            "L" => {
+                let missing = "a Lagrangian names its coordinates and velocities";
+                let (signature, value) = self.of_signature(word, "L(q; v)", missing)?;
+                StatementKind::Lagrangian { signature, value }
+            }
             "invariant" => self.observable(ObservableKind::Invariant, assumed)?,
             "monitor" => self.observable(ObservableKind::Monitor, false)?,
             "event" => self.observable(ObservableKind::Event, false)?,
             "split" => self.split(keyword, assumed)?,
-            "force" => self.force(keyword)?,
+            "force" => {
+                let missing = "a force names the coordinates and momenta it acts on";
+                let (signature, value) = self.of_signature(word, "force(q; p)", missing)?;
+                StatementKind::Force { signature, value }
+            }
             "fn" => self.function()?,
             "dt" => self.time()?,
             "coordinates" => self.coordinates()?,
@@ -114,11 +123,10 @@ impl Parser<'_> {
 
     /// The `;` after a statement, or the end.
     fn separator(&mut self, optional: bool) -> Result<()> {
-        if self.at_punct(';') {
-            self.position += 1;
-            return Ok(());
-        }
-        if self.position == self.limit || optional || self.separator_missing == Some(self.position)
+        if self.eat(';')
+            || self.position == self.limit
+            || optional
+            || self.separator_missing == Some(self.position)
         {
             return Ok(());
         }
@@ -278,7 +286,7 @@ impl Parser<'_> {
     fn arguments(&mut self, function: &Ident) -> Result<Vec<Ident>> {
         let form = format!("write `{function}(x)` or `{function}(x, y)`");
         let spans = self.group_spans();
-        let arguments = self.name_list(&form, |parser| parser.declared("an argument", &form))?;
+        let arguments = self.members(&form, |parser| parser.declared("an argument", &form))?;
         if arguments.is_empty() {
             return self.abort(
                 spans,
@@ -299,7 +307,7 @@ impl Parser<'_> {
     }
 
     /// A comma-separated list in the parentheses at the cursor.
-    fn name_list<T>(
+    pub(super) fn members<T>(
         &mut self,
         form: &str,
         mut member: impl FnMut(&mut Self) -> Result<T>,
@@ -308,11 +316,8 @@ impl Parser<'_> {
         let mut members = Vec::new();
         while self.position != self.limit {
             members.push(member(self)?);
-            if self.at_punct(',') {
-                self.position += 1;
-            } else if self.position != self.limit {
-                let message = format!("expected `,` or `)`, {}", self.found());
-                return self.abort(self.here(), message, form);
+            if !self.eat(',') && self.position != self.limit {
+                return self.expected("`,` or `)`", form);
             }
         }
         self.leave(outer);
@@ -320,32 +325,33 @@ impl Parser<'_> {
     }
 
     fn hamiltonian(&mut self) -> Result<StatementKind> {
-        let signature = if self.at_open(Delimiter::Parenthesis) {
-            Some(self.signature("H(q; p)")?)
-        } else {
-            None
-        };
-        self.equals(if signature.is_some() { "H(…)" } else { "H" })?;
+        if self.at_open(Delimiter::Parenthesis) {
+            let (signature, value) = self.of_signature("H", "H(q; p)", "")?;
+            let signature = Some(signature);
+            return Ok(StatementKind::Hamiltonian { signature, value });
+        }
+        self.equals("H")?;
         Ok(StatementKind::Hamiltonian {
-            signature,
+            signature: None,
             value: self.right_side()?,
         })
     }
 
-    fn lagrangian(&mut self, keyword: Span) -> Result<StatementKind> {
+    /// `(q; p) = value`, the cursor after the word; `missing` is the error where there is no
+    /// parenthesis.
+    fn of_signature(
+        &mut self,
+        word: &str,
+        form: &str,
+        missing: &str,
+    ) -> Result<(Signature, Expression)> {
         if !self.at_open(Delimiter::Parenthesis) {
-            return self.abort(
-                keyword,
-                "a Lagrangian names its coordinates and velocities",
-                "write `L(q; v) = …`",
-            );
+            let span = self.previous_span();
+            return self.abort(span, missing, format!("write `{form} = …`"));
         }
-        let signature = self.signature("L(q; v)")?;
-        self.equals("L(…)")?;
-        Ok(StatementKind::Lagrangian {
-            signature,
-            value: self.right_side()?,
-        })
+        let signature = self.signature(form)?;
+        self.equals(&format!("{word}(…)"))?;
+        Ok((signature, self.right_side()?))
     }
 
     /// `(q, r[N]; p, s[N]; t)`, the cursor at the parenthesis.
@@ -355,8 +361,7 @@ impl Parser<'_> {
         let outer = self.enter();
         let mut sections = vec![Vec::new()];
         while self.position != self.limit {
-            if self.at_punct(';') {
-                self.position += 1;
+            if self.eat(';') {
                 sections.push(Vec::new());
                 continue;
             }
@@ -365,16 +370,13 @@ impl Parser<'_> {
             if let Some(section) = sections.last_mut() {
                 section.push(Declarator { name, sizes });
             }
-            if self.at_punct(',') {
-                self.position += 1;
-            } else if self.position != self.limit && !self.at_punct(';') {
+            if !self.eat(',') && self.position != self.limit && !self.at_punct(';') {
                 if self.at_punct(':') {
                     let message = "coordinates and momenta have no type here";
                     let help = "write a name, or `q[3]` for an array";
                     return self.abort(self.here(), message, help);
                 }
-                let message = format!("expected `,` or `;`, {}", self.found());
-                return self.abort(self.here(), message, help);
+                return self.expected("`,` or `;`", help);
             }
         }
         self.leave(outer);
@@ -390,8 +392,7 @@ impl Parser<'_> {
         if kind == ObservableKind::Invariant && self.at_word("on") {
             self.position += 1;
             if !self.at_word("H") {
-                let message = format!("expected `H` after `on`, {}", self.found());
-                return self.abort(self.here(), message, "write `on H = …`");
+                return self.expected("`H` after `on`", "write `on H = …`");
             }
             self.position += 1;
             self.equals("on H")?;
@@ -436,23 +437,6 @@ impl Parser<'_> {
         Ok(StatementKind::Split { assumed, pieces })
     }
 
-    fn force(&mut self, keyword: Span) -> Result<StatementKind> {
-        const FORM: &str = "force(q; p)";
-        if !self.at_open(Delimiter::Parenthesis) {
-            return self.abort(
-                keyword,
-                "a force names the coordinates and momenta it acts on",
-                format!("write `{FORM} = …`"),
-            );
-        }
-        let signature = self.signature(FORM)?;
-        self.equals("force(…)")?;
-        Ok(StatementKind::Force {
-            signature,
-            value: self.right_side()?,
-        })
-    }
-
     /// `name(a, …) = value, (first, …)[, (second, …)]`
     fn function(&mut self) -> Result<StatementKind> {
         const FORM: &str = "write `fn name(x) = value, (derivative)`, with paths of Rust functions";
@@ -478,29 +462,24 @@ impl Parser<'_> {
         } else {
             None
         };
-        Ok(StatementKind::Function {
+        Ok(StatementKind::Function(Function {
             name,
             arguments,
             value,
             first,
             second,
-        })
+        }))
     }
 
     /// `, (path, …)`
-    fn path_list(&mut self, what: &str, form: &str) -> Result<(Vec<TokenStream>, Spans)> {
-        if self.at_punct(',') {
-            self.position += 1;
-        }
+    fn path_list(&mut self, what: &str, form: &str) -> Result<Paths> {
+        self.eat(',');
         if !self.at_open(Delimiter::Parenthesis) {
-            let message = format!("expected {what} in parentheses, {}", self.found());
-            return self.abort(self.here(), message, form);
+            return self.expected(&format!("{what} in parentheses"), form);
         }
         let spans = self.group_spans();
-        Ok((
-            self.name_list(form, |parser| parser.rust_path(form))?,
-            spans,
-        ))
+        let paths = self.members(form, |parser| parser.rust_path(form))?;
+        Ok(Paths { spans, paths })
     }
 
     /// A path of Rust: identifiers, `::`, generics.
@@ -519,8 +498,7 @@ impl Parser<'_> {
             self.position += 1;
         }
         if path.is_empty() {
-            let message = format!("expected the path of a Rust function, {}", self.found());
-            return self.abort(self.here(), message, form);
+            return self.expected("the path of a Rust function", form);
         }
         // Code that rustc could not read would take the whole definition with it.
         if let Err(error) = syn::parse2::<syn::ExprPath>(path.clone()) {
@@ -572,7 +550,7 @@ impl Parser<'_> {
             let message = format!("the coordinates that `{chart}` replaces are missing");
             return self.abort(chart.span(), message, FORM);
         }
-        let arguments = self.name_list(FORM, |parser| {
+        let arguments = self.members(FORM, |parser| {
             parser.declared("the name of a coordinate", FORM)
         })?;
         Ok(StatementKind::Coordinates { chart, arguments })

@@ -106,19 +106,8 @@ pub struct Locus {
     pub jumps: bool,
 }
 
-/// What a pass is told beside the arena.
-#[derive(Default)]
-pub struct Known {
-    /// Conditions whose branches agree where they switch.
-    pub meeting: Map<Node, ()>,
-    /// Nodes that are not identically 0 on `locus`.
-    pub nonzero: Map<Node, ()>,
-    /// Pairs whose difference is not identically 0 there.
-    pub distinct: Map<(Node, Node), ()>,
-    /// A leaf: only points near where it is 0 are asked for, all of them but sets that have one
-    /// dimension less.
-    pub locus: Option<Node>,
-}
+/// Conditions whose branches agree where they switch.
+pub type Meeting = Map<Node, ()>;
 
 /// What is known of the nodes below some roots.
 #[derive(Debug)]
@@ -131,28 +120,17 @@ pub struct Facts {
 impl Facts {
     /// The pass.
     #[must_use]
-    pub fn of(dag: &Dag, roots: &[Node], known: &Known) -> Facts {
+    pub fn of(dag: &Dag, roots: &[Node], meeting: &Meeting) -> Facts {
         let mut facts = Facts {
             of: Map::default(),
             loci: Vec::new(),
         };
-        let mut reads: Map<Node, bool> = Map::default();
         for node in dag.reachable(roots) {
-            if let Some(leaf) = known.locus {
-                let mut is_read = node == leaf;
-                dag.for_children(node, |child| is_read |= reads[&child]);
-                reads.insert(node, is_read);
-                if !is_read {
-                    facts.of.insert(node, Regular::STILL);
-                    continue;
-                }
-            }
-            let mut regular = if dag.dependence(node).on(Dependence::MOVING) {
-                facts.moving(dag, node, known).closed()
+            let regular = if dag.dependence(node).on(Dependence::MOVING) {
+                facts.moving(dag, node, meeting).closed()
             } else {
                 Regular::STILL
             };
-            regular.is_nonzero |= known.nonzero.contains_key(&node);
             facts.of.insert(node, regular);
         }
         facts
@@ -164,12 +142,12 @@ impl Facts {
         self.of.get(&node).copied().unwrap_or(Regular::UNKNOWN)
     }
 
-    fn moving(&mut self, dag: &Dag, node: Node, known: &Known) -> Regular {
+    fn moving(&mut self, dag: &Dag, node: Node, meeting: &Meeting) -> Regular {
         match dag.kind(node) {
             Kind::Element(..) | Kind::Time => Regular::PLAIN,
             Kind::Sum(..) => self.sum(dag, node),
             Kind::Product(_, factors) => self.product(dag, factors),
-            Kind::Call(op, x) => self.call(dag, *op, x, known),
+            Kind::Call(op, x) => self.call(dag, *op, x),
             Kind::External(_, _, x) => {
                 // Functions in Rust are taken for analytic.
                 let all = x
@@ -196,12 +174,10 @@ impl Facts {
             }
             Kind::Select(condition, yes, no) => {
                 let both = self.get(*yes).and(self.get(*no));
-                if !dag.dependence(*condition).on(Dependence::MOVING)
-                    || is_decided(dag, *condition, known)
-                {
+                if !dag.dependence(*condition).on(Dependence::MOVING) {
                     return both;
                 }
-                if !(known.meeting.contains_key(&node) && both.is_continuous) {
+                if !(meeting.contains_key(&node) && both.is_continuous) {
                     self.switches(dag, *condition);
                     return Regular::UNKNOWN;
                 }
@@ -322,7 +298,7 @@ impl Facts {
         }
     }
 
-    fn call(&mut self, dag: &Dag, op: Op, x: &[Node], known: &Known) -> Regular {
+    fn call(&mut self, dag: &Dag, op: Op, x: &[Node]) -> Regular {
         let regularity = op.row().regularity;
         let all = x
             .iter()
@@ -332,8 +308,7 @@ impl Facts {
             At::Zero => first.is_nonzero,
             At::MinusOne => dag.is_nonnegative(x[0]),
             At::Origin => self.are_nonzero_together(dag, x),
-            At::Equal => known.distinct.contains_key(&(x[0], y)),
-            At::One | At::Units | At::Cosine | At::Cut => false,
+            At::Equal | At::One | At::Units | At::Cosine | At::Cut => false,
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),
@@ -403,14 +378,6 @@ impl Facts {
         }
         found
     }
-}
-
-/// Whether a condition switches elsewhere than where it is asked for.
-fn is_decided(dag: &Dag, condition: Node, known: &Known) -> bool {
-    known.locus.is_some()
-        && dag.reachable(&[condition]).iter().all(|node| {
-            !matches!(dag.kind(*node), Kind::Compare(_, a, b) if !known.distinct.contains_key(&(*a, *b)))
-        })
 }
 
 /// The leaves of which a node is the difference, up to a number, an absolute value and a root.
@@ -512,7 +479,7 @@ fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
 #[must_use]
 pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
     let dag = &model.dag;
-    let facts = Facts::of(dag, roots, &Known::default());
+    let facts = Facts::of(dag, roots, &Meeting::default());
     let mut found: Vec<String> = Vec::new();
     let mut note = |x: Node, is: &str| {
         let condition = format!("`{}` {is}", print::text(model, x));

@@ -8,11 +8,12 @@
 //! is p + w·(f − ∂H/∂q) with w = (eᶜᵃ − 1)/a, which is c where a = 0. Where momenta push each other,
 //! f = b + A·p, the flow is a series in A, which a run sums: the program says A·p.
 
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Dag, Dependence, Node, Side};
 use crate::diff;
 use crate::model::{Model, VectorEntry};
 use crate::op::Op;
-use crate::pipeline::gradient_of;
+use crate::pipeline::partials;
+use crate::structure::degrees;
 
 /// The exact flow of ṗ = f − ∂H/∂q at frozen q.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -52,31 +53,6 @@ pub fn slopes(model: &mut Model, gradient: &[VectorEntry]) -> Vec<VectorEntry> {
         }
     }
     slopes
-}
-
-/// Whether an expression is affine in momenta as it is written. Derivatives do not tell: that of
-/// sign(p) is 0.
-fn is_affine(dag: &Dag, root: Node) -> bool {
-    let mut affine: Map<Node, bool> = Map::default();
-    for node in dag.reachable(&[root]) {
-        let moves = |node: &Node| dag.dependence(*node).on(Dependence::P);
-        let is = !moves(&node)
-            || match dag.kind(node) {
-                Kind::Element(..) => true,
-                Kind::Sum(_, terms) => terms.iter().all(|(_, term)| affine[term]),
-                Kind::Product(_, factors) => {
-                    let mut moving = factors.iter().filter(|(factor, _)| moves(factor));
-                    let first = moving.next();
-                    first.is_none_or(|(factor, power)| *power == 1 && affine[factor])
-                        && moving.next().is_none()
-                }
-                Kind::Reduce(_, body) => affine[body],
-                Kind::Select(condition, yes, no) => !moves(condition) && affine[yes] && affine[no],
-                _ => false,
-            };
-        affine.insert(node, is);
-    }
-    affine[&root]
 }
 
 /// The part of an entry that is linear in momenta, of an entry that is affine in them.
@@ -130,7 +106,9 @@ fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
 /// The entry of the force that is not affine in momenta.
 pub fn kick(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, Box<VectorEntry>> {
     let forces = model.force.clone();
-    if let Some(force) = (forces.iter()).find(|force| !is_affine(&model.dag, force.value)) {
+    // Derivatives do not tell: that of sign(p) is 0.
+    let is_affine = |f: &VectorEntry| degrees(&model.dag, f.value).is_some_and(|(_, n)| n <= 1);
+    if let Some(force) = forces.iter().find(|force| !is_affine(force)) {
         return Err(Box::new(force.clone()));
     }
     Ok(single(model, gradient).unwrap_or_else(|()| {
@@ -191,7 +169,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
         return Vec::new();
     }
     let h = model.h();
-    let mut gradient = gradient_of(model, String::new(), h).entries;
+    let mut gradient = partials(model, h);
     gradient.retain(|entry| entry.at.side == Side::Q);
     gradient
 }

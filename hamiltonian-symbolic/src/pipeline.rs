@@ -266,7 +266,7 @@ pub fn request(
 }
 
 /// The partial derivatives of a scalar by coordinates and momenta, element by element.
-fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
+pub(crate) fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
     let adjoints = diff::gradient(&mut model.dag, root, BOTH);
     let entry = |(leaf, value): (Node, Node)| {
         let place = model.dag.phase_place(leaf);

@@ -146,7 +146,7 @@ const SYSTEMS: &[System] = &[
         names: ["q; p; t", "", "a"],
         h: "q*p",
         conserved: &[
-            "sign(q)",
+            "q^2*p^2",
             "ln(abs(q)) - t",
             "abs(q)*p*sqrt(q^2)/q",
             "abs(q)^a*abs(p)^a",

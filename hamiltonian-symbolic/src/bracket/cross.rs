@@ -8,21 +8,19 @@
 //! - what is a quotient of analytic functions, or otherwise of one value in complex numbers, with an
 //!   H of the same kind: it is continued around the place through complex times;
 //! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|): what is the same function
-//!   on both sides, or comes to the same value;
-//!   what it, or H, keeps orbits away from, as it tends to infinity on one side at least; and a
-//!   place along which the flow runs.
+//!   on both sides, or comes to the same value; and what it, or H, keeps orbits away from, as it
+//!   tends to infinity on one side at least.
 //!
 //! Invariant: no rule here looks at points.
 
-use super::derivative;
 use crate::dag::{self, Column, Dag, Dependence, Kind, Node};
 use crate::diff;
-use crate::facts::{Facts, Known, Locus, Regular};
+use crate::facts::{Facts, Locus, Meeting, Regular};
 use crate::index::Index;
 use crate::loops::unrolled;
 use crate::model::Model;
 use crate::normal_form::{self, Algebra, Poly, SMALL_BUDGET, Scope, Undecided};
-use crate::op::{At, Break, Op, Range};
+use crate::op::{At, Op, Range};
 use crate::print;
 use crate::rational::Rational;
 
@@ -85,14 +83,8 @@ impl Claim {
     }
 
     fn place_by_place(mut self, model: &mut Model) -> Result<(), String> {
-        let known = [Ends::from(self.expression), Ends::from(self.h)];
-        // Of what is not looked into nothing is replaced.
-        let is_whole = [
-            self.passes(known[0], Ends::ALL),
-            self.passes(Ends::ALL, known[1]),
-        ];
-        for (at, root) in self.roots.iter_mut().enumerate() {
-            if model.dag.has_loops(&[*root]) && !is_whole[at] {
+        for root in &mut self.roots {
+            if model.dag.has_loops(&[*root]) {
                 if !model.sizes.is_empty() {
                     return Err("sums of a length known at run time are not compared".to_owned());
                 }
@@ -150,9 +142,6 @@ impl Claim {
         {
             return Ok(());
         }
-        if !self.is_forced && !model.dag.has_loops(&[h]) && place.is_followed(model, h, u) {
-            return Ok(());
-        }
         of_expression.and(of_h).map_err(limit)?;
         Err("no rule says that both sides agree".to_owned())
     }
@@ -200,19 +189,24 @@ impl From<Regular> for Ends {
     }
 }
 
+/// The facts of a node by itself.
+fn regular(dag: &Dag, node: Node) -> Regular {
+    Facts::of(dag, &[node], &Meeting::default()).get(node)
+}
+
 /// The pass over the arena, told of conditions whose branches agree.
 fn facts(model: &mut Model, roots: &[Node]) -> Facts {
-    let mut known = Known::default();
+    let mut meeting = Meeting::default();
     let dag = &mut model.dag;
     for node in dag.reachable(roots) {
         if let Kind::Select(condition, yes, no) = *dag.kind(node)
             && dag.dependence(condition).on(Dependence::MOVING)
             && meets(dag, condition, yes, no)
         {
-            known.meeting.insert(node, ());
+            meeting.insert(node, ());
         }
     }
-    Facts::of(dag, roots, &known)
+    Facts::of(dag, roots, &meeting)
 }
 
 /// The first node that is neither continuous nor of one value while all below it are.
@@ -317,19 +311,13 @@ impl Place {
         let linear = gradient.into_iter().find(|(leaf, slope)| {
             is_still(dag, *slope) && !dag.is_zero(*slope) && dag.variables(*leaf) == 0
         });
-        match linear {
-            Some((what, slope)) => Place {
-                zero,
-                what,
-                slope,
-                jumps,
-            },
-            None => Place {
-                zero,
-                what: zero,
-                slope: dag.integer(1),
-                jumps,
-            },
+        let one = dag.integer(1);
+        let (what, slope) = linear.unwrap_or((zero, one));
+        Place {
+            zero,
+            what,
+            slope,
+            jumps,
         }
     }
 
@@ -346,24 +334,13 @@ impl Place {
         replaced(dag, root, self.what, image)
     }
 
-    /// Whether the expression of the place is a free coordinate beside what is left.
-    fn is_free(&self) -> bool {
-        self.what != self.zero
-    }
-
-    /// What is known of a node near the place.
-    fn regular(&self, dag: &mut Dag, root: Node, u: Node) -> Regular {
-        let known = self.known(dag, root, u);
-        Facts::of(dag, &[root], &known).get(root)
-    }
-
     /// What the two sides of an expression do, each in its normal form over u > 0.
     fn ends(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Ends, Undecided> {
         let minus = dag.neg(u);
         let above = self.near(dag, root, u);
-        let above = Side::of(dag, self, above, u)?;
+        let above = Side::of(dag, above, u)?;
         let below = self.near(dag, root, minus);
-        let below = Side::of(dag, self, below, u)?;
+        let below = Side::of(dag, below, u)?;
         let both = above.regular.and(below.regular);
         // One function, read at u < 0.
         let mirrored = replaced(dag, below.node, u, minus);
@@ -395,21 +372,6 @@ impl Place {
             is_quotient: is_same && both.is_meromorphic,
         })
     }
-
-    /// Whether the flow of an H that is analytic there runs along the place.
-    fn is_followed(&self, model: &mut Model, h: Node, u: Node) -> bool {
-        let side = self.near(&mut model.dag, h, u);
-        if !self.regular(&mut model.dag, side, u).is_analytic {
-            return false;
-        }
-        let Some(rate) = derivative(model, self.zero, h) else {
-            return false;
-        };
-        let dag = &mut model.dag;
-        let nothing = dag.integer(0);
-        let rate = self.near(dag, rate, nothing);
-        normal_form::vanishes(dag, rate, Scope::Densely)
-    }
 }
 
 /// A leaf that nothing else reads.
@@ -425,96 +387,40 @@ struct Side {
 }
 
 impl Side {
-    fn of(dag: &mut Dag, place: &Place, root: Node, u: Node) -> Result<Side, Undecided> {
+    fn of(dag: &mut Dag, root: Node, u: Node) -> Result<Side, Undecided> {
         let mut algebra = Algebra::beside(SMALL_BUDGET, Scope::Densely, u);
         let poly = algebra.convert(dag, root)?;
         let poly = algebra.canonical(&poly)?;
         let node = algebra.node(dag, &poly);
         Ok(Side {
             node,
-            regular: place.regular(dag, node, u),
-            is_infinite: place.is_infinite(dag, &mut algebra, &poly, u)?,
+            regular: regular(dag, node),
+            is_infinite: is_infinite(dag, &mut algebra, &poly, u)?,
         })
     }
 }
 
-impl Place {
-    /// Whether a polynomial tends to infinity as u tends to 0: its lowest power of u is negative, and
-    /// the factor of that has a value at u = 0 which is not 0.
-    fn is_infinite(
-        &self,
-        dag: &mut Dag,
-        algebra: &mut Algebra,
-        poly: &Poly,
-        u: Node,
-    ) -> Result<bool, Undecided> {
-        let atom = algebra.leaf(dag, u);
-        let powers = poly.by_power(atom);
-        let Some((..=-1, factor)) = powers.first() else {
-            return Ok(false);
-        };
-        let (factor, nothing) = (algebra.node(dag, factor), dag.integer(0));
-        if !self.regular(dag, factor, u).is_continuous {
-            return Ok(false);
-        }
-        let factor = replaced(dag, factor, u, nothing);
-        let factor = algebra.convert(dag, factor)?;
-        let factor = algebra.canonical(&factor)?;
-        Ok(self.is_never_nothing(algebra, &factor))
+/// Whether a polynomial tends to infinity as u tends to 0: its lowest power of u is negative, and the
+/// factor of that has a value at u = 0 which is never 0, whatever the parameters.
+fn is_infinite(
+    dag: &mut Dag,
+    algebra: &mut Algebra,
+    poly: &Poly,
+    u: Node,
+) -> Result<bool, Undecided> {
+    let atom = algebra.leaf(dag, u);
+    let powers = poly.by_power(atom);
+    let Some((..=-1, factor)) = powers.first() else {
+        return Ok(false);
+    };
+    let (factor, nothing) = (algebra.node(dag, factor), dag.integer(0));
+    if !regular(dag, factor).is_continuous {
+        return Ok(false);
     }
-
-    /// Whether a polynomial is a number, never 0, or not 0 on a whole place, whatever the parameters.
-    fn is_never_nothing(&self, algebra: &Algebra, poly: &Poly) -> bool {
-        poly.as_constant().is_some_and(|c| !c.is_zero())
-            || algebra.is_positive(poly)
-            || algebra.is_positive(&poly.scale(&Rational::MINUS_ONE))
-            || self.is_free() && algebra.is_anything_but_zero(poly)
-    }
-
-    /// What is not 0 on the whole of u = 0, whatever the parameters.
-    fn known(&self, dag: &mut Dag, root: Node, u: Node) -> Known {
-        let mut known = Known {
-            locus: self.is_free().then_some(u),
-            ..Known::default()
-        };
-        let (mut asked, mut pairs): (Vec<Node>, Vec<(Node, Node)>) = Default::default();
-        for node in dag.reachable(&[root]) {
-            match dag.kind(node) {
-                Kind::Product(_, factors) => asked.extend(factors.iter().map(|(f, _)| *f)),
-                Kind::Compare(_, a, b) => pairs.push((*a, *b)),
-                Kind::Call(op, x) => match op.row().regularity.breaks {
-                    Break::Kink(At::Equal) => pairs.push((x[0], x[1])),
-                    _ => asked.push(x[0]),
-                },
-                _ => {}
-            }
-        }
-        asked.sort_unstable();
-        asked.dedup();
-        asked.retain(|node| *node != u && reads(dag, *node, u));
-        for node in asked {
-            if self.is_nonzero(dag, node, u) {
-                known.nonzero.insert(node, ());
-            }
-        }
-        for (a, b) in pairs {
-            let difference = dag.sub(a, b);
-            if !reads(dag, difference, u) && self.is_free() || self.is_nonzero(dag, difference, u) {
-                known.distinct.insert((a, b), ());
-            }
-        }
-        known
-    }
-
-    fn is_nonzero(&self, dag: &mut Dag, node: Node, u: Node) -> bool {
-        let nothing = dag.integer(0);
-        let there = replaced(dag, node, u, nothing);
-        let mut algebra = Algebra::new(SMALL_BUDGET, Scope::Densely);
-        let mut decide = || {
-            let poly = algebra.convert(dag, there)?;
-            let poly = algebra.numerator(&poly)?;
-            Ok::<bool, Undecided>(self.is_never_nothing(&algebra, &poly))
-        };
-        decide() == Ok(true)
-    }
+    let there = replaced(dag, factor, u, nothing);
+    let there = algebra.convert(dag, there)?;
+    let there = algebra.canonical(&there)?;
+    let is_number = there.as_constant().is_some_and(|c| !c.is_zero());
+    let opposite = there.scale(&Rational::MINUS_ONE);
+    Ok(is_number || algebra.is_positive(&there) || algebra.is_positive(&opposite))
 }

@@ -101,26 +101,6 @@ fn paired(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<
     if x.is_empty() || y.is_empty() {
         return Some(Vec::new());
     }
-    let fixed = |list: &[Scatter]| -> Option<Vec<i64>> {
-        list.iter()
-            .map(|s| {
-                if s.row.modulo.is_none() {
-                    s.row.affine.as_constant()
-                } else {
-                    None
-                }
-            })
-            .collect()
-    };
-    if let (Some(a), Some(b)) = (fixed(x), fixed(y)) {
-        let mut terms = Vec::new();
-        for (s, at) in x.iter().zip(a) {
-            for (t, _) in y.iter().zip(&b).filter(|(_, other)| **other == at) {
-                terms.push(dag.mul(&[s.value, t.value]));
-            }
-        }
-        return Some(terms);
-    }
     // The side whose derivative is plain as a function of the element is read at the elements the
     // other side scatters to.
     let plain = |dag: &Dag, list: &[Scatter]| list.iter().all(|s| is_plain(dag, s, rows));

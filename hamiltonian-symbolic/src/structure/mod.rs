@@ -11,6 +11,7 @@ mod separate;
 
 pub(crate) use expand::{Collected, times};
 pub use expand::{Term, expand};
+pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;
 
 use crate::dag::{Column, Dag, Dependence, Kind, Map, Node, Side};

@@ -83,7 +83,7 @@ fn term_outside(model: &mut Model, part: Node, is_inside: fn((u32, u32)) -> bool
 
 /// The lowest and the highest degree in the momenta of the terms of a polynomial in them; `None` for
 /// anything else. Terms that cancel count.
-fn degrees(dag: &Dag, root: Node) -> Option<(u32, u32)> {
+pub(crate) fn degrees(dag: &Dag, root: Node) -> Option<(u32, u32)> {
     let both = |a: (u32, u32), b: (u32, u32)| (a.0.min(b.0), a.1.max(b.1));
     let mut found: Map<Node, (u32, u32)> = Map::default();
     for node in dag.reachable(&[root]) {

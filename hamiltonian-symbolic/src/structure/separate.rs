@@ -2,12 +2,10 @@
 //!
 //! Input: a model and its H. Output: [`Split`] or [`Coupling`]. Invariant: a term that does not
 //! couple stays as it was written; only those that do are multiplied out, and of these only those
-//! that still do are replaced by what relations between functions (sin² + cos² = 1) leave of them,
-//! where numbers do not already show that H is not separable.
+//! that still do are replaced by what relations between functions (sin² + cos² = 1) leave of them.
 
 use super::{Coupling, Split, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
-use crate::loops::{Sample, sample};
 use crate::model::Model;
 use crate::normal_form;
 use crate::print;
@@ -22,14 +20,12 @@ fn couples(dag: &Dag, node: Node) -> bool {
 
 /// The split of H, or the first coupling term.
 pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
-    let parts = apart(model, h, false);
+    let parts = apart(model, h);
     if model.dag.is_zero(parts.coupling) {
         return Ok(parts.split());
     }
     // Coupling terms may cancel.
-    let may_relate = !is_certainly_coupled(model, h);
-    let parts = apart(model, h, may_relate);
-    match resolved(model, parts, may_relate) {
+    match resolved(model, parts) {
         Ok(parts) => Ok(parts.split()),
         Err(term) => Err(Coupling {
             term,
@@ -66,7 +62,7 @@ impl Parts {
 
 /// The parts with what couples multiplied out, and then related, or the first term that couples
 /// all the same.
-fn resolved(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, Node> {
+fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, Node> {
     let zero = model.dag.integer(0);
     let mut found = vec![parts];
     if let Some(terms) = expand(&mut model.dag, parts.coupling) {
@@ -74,18 +70,13 @@ fn resolved(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, 
         for term in &terms {
             // A term may be a sum again inside a loop or an `if`.
             let term = term.node(&mut model.dag);
-            found.push(apart(model, term, false));
+            found.push(apart(model, term));
         }
     }
     let couplings: Vec<Node> = found.iter().map(|part| part.coupling).collect();
     if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
         let coupling = model.dag.add(&couplings);
-        let separated = if may_relate {
-            normal_form::separated(model, coupling)
-        } else {
-            None
-        };
-        let (kinetic, potential) = separated.ok_or(*first)?;
+        let (kinetic, potential) = normal_form::separated(model, coupling).ok_or(*first)?;
         found.push(Parts {
             kinetic,
             potential,
@@ -101,9 +92,8 @@ fn resolved(model: &mut Model, parts: Parts, may_relate: bool) -> Result<Parts, 
     })
 }
 
-/// The parts of a node by its own sums, each as it was written; with `resolves`, branches of
-/// conditions are resolved one by one.
-fn apart(model: &mut Model, root: Node, resolves: bool) -> Parts {
+/// The parts of a node by its own sums, each as it was written.
+fn apart(model: &mut Model, root: Node) -> Parts {
     let zero = model.dag.integer(0);
     let nothing = Parts {
         kinetic: zero,
@@ -160,14 +150,7 @@ fn apart(model: &mut Model, root: Node, resolves: bool) -> Parts {
             }
             Kind::Reduce(domain, body) => parts[&body].map(|part| model.dag.reduce(domain, part)),
             Kind::Select(condition, yes, no) if !model.dag.dependence(condition).on(BOTH) => {
-                let [yes, no] = [yes, no].map(|branch| {
-                    let branch = parts[&branch];
-                    if resolves && !model.dag.is_zero(branch.coupling) {
-                        resolved(model, branch, true).unwrap_or(branch)
-                    } else {
-                        branch
-                    }
-                });
+                let (yes, no) = (parts[&yes], parts[&no]);
                 Parts {
                     kinetic: model.dag.select(condition, yes.kinetic, no.kinetic),
                     potential: model.dag.select(condition, yes.potential, no.potential),
@@ -191,38 +174,4 @@ fn spine(dag: &Dag, root: Node) -> Vec<Node> {
         Kind::Select(_, yes, no) => ahead.extend([yes, no].into_iter()),
         _ => {}
     })
-}
-
-/// Whether H(q,p) − H(q′,p) − H(q,p′) + H(q′,p′) is certainly not 0 somewhere: then no T and V
-/// exist, whatever relations hold between the functions in H.
-fn is_certainly_coupled(model: &Model, h: Node) -> bool {
-    let sizes = vec![3; model.sizes.len()];
-    for seed in 0..6 {
-        let at = |q: u64, p: u64| {
-            sample(
-                model,
-                &[h],
-                &sizes,
-                Sample {
-                    seed,
-                    q,
-                    p,
-                    signed: seed % 2 == 1,
-                    ..Sample::default()
-                },
-                &[],
-            )
-            .map(|(values, _)| values[0])
-        };
-        let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(1, 0), at(0, 1), at(1, 1)) else {
-            return false;
-        };
-        let value = a.value - b.value - c.value + d.value;
-        let size = a.value.abs() + b.value.abs() + c.value.abs() + d.value.abs();
-        let error = a.error + b.error + c.error + d.error + size * f64::EPSILON;
-        if value.is_finite() && value.abs() > 16.0 * error {
-            return true;
-        }
-    }
-    false
 }

@@ -21,11 +21,11 @@ use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
 use crate::checked::{
     Checked, Definition, Extent, FunctionId, GroupId, Kind, NodeId, ParameterId, Type, Variable,
 };
+use crate::names::listed;
 use crate::report::Report;
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
 use hamiltonian_symbolic::transform::REPLACING;
 use proc_macro2::{Ident, Span};
-use std::cell::OnceCell;
 
 /// Resolves and checks a definition.
 pub fn check(ast: &Ast, report: &mut Report) -> Checked {
@@ -102,8 +102,6 @@ struct Checker<'a> {
     loop_symbols: Vec<bool>,
     /// Symbols whose being unknown was reported, by symbol.
     unknown: Vec<bool>,
-    /// Whether an expression stands in an index or a range; only errors ask for it.
-    in_indices: OnceCell<Vec<bool>>,
     /// Sizes whose being unknown was reported.
     unknown_sizes: Vec<String>,
     /// The statement that is being read defines this.
@@ -135,32 +133,11 @@ impl<'a> Checker<'a> {
         Checker {
             ast,
             report,
-            out: Checked {
-                item: None,
-                sizes: Vec::new(),
-                parameters: Vec::new(),
-                captures: Vec::new(),
-                groups: Vec::new(),
-                time: None,
-                definition: Definition::Hamiltonian(NodeId(0)),
-                lets: Vec::new(),
-                functions: Vec::new(),
-                observables: Vec::new(),
-                split: Vec::new(),
-                split_assumed: false,
-                force: Vec::new(),
-                force_row: None,
-                time_factor: None,
-                charts: Vec::new(),
-                loops: Vec::new(),
-                reaches: Vec::new(),
-                nodes: Vec::new(),
-            },
+            out: Checked::default(),
             bindings: vec![None; symbols],
             later: vec![false; symbols],
             loop_symbols,
             unknown: vec![false; symbols],
-            in_indices: OnceCell::new(),
             unknown_sizes: Vec::new(),
             defining: None,
             place: Place::Before,
@@ -209,21 +186,15 @@ impl<'a> Checker<'a> {
     /// `(q, r; p, s; t)` of the definition as it would be written with time.
     fn signature_with_time(&self) -> String {
         let shown = |name: &Ident, ty: Type| format!("{name}{}", self.extents_shown(ty));
-        let list = |names: Vec<String>| names.join(", ");
-        let coordinates = list(
-            self.out
-                .groups
+        let groups = &self.out.groups;
+        let coordinates = listed(
+            groups
                 .iter()
-                .map(|group| shown(&group.coordinate, group.ty))
-                .collect(),
+                .map(|group| shown(&group.coordinate, group.ty)),
         );
-        let partners = self
-            .out
-            .groups
-            .iter()
-            .map(|group| shown(group.velocity.as_ref().unwrap_or(&group.momentum), group.ty));
+        let partners = listed(groups.iter().map(|group| shown(group.partner(), group.ty)));
         let word = if self.is_lagrangian() { "L" } else { "H" };
-        format!("{word}({coordinates}; {}; t)", list(partners.collect()))
+        format!("{word}({coordinates}; {partners}; t)")
     }
 
     fn is_lagrangian(&self) -> bool {
@@ -334,12 +305,8 @@ impl<'a> Checker<'a> {
             node.kind
                 .for_each_child(|child| reached[child.0 as usize] = true);
         }
-        let names: Vec<String> = self
-            .out
-            .groups
-            .iter()
-            .map(|group| format!("`{}`", group.velocity.as_ref().unwrap_or(&group.momentum)))
-            .collect();
+        let groups = self.out.groups.iter();
+        let names = listed(groups.map(|group| format!("`{}`", group.partner())));
         let word = if what == "momentum" { "H" } else { "L" };
         let help = match self.out.captures.first() {
             Some(capture) if what == "momentum" => format!(
@@ -348,14 +315,11 @@ impl<'a> Checker<'a> {
             ),
             _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),
         };
-        let occur = match names.len() {
+        let occur = match self.out.groups.len() {
             1 => "does not occur",
             _ => "do not occur",
         };
-        let message = format!(
-            "`{word}` depends on no {what}: {} {occur}",
-            names.join(", ")
-        );
+        let message = format!("`{word}` depends on no {what}: {names} {occur}");
         self.report.error(self.definition_span(), message, help);
     }
 

@@ -31,7 +31,7 @@ use proc_macro2::{Ident, Span, TokenStream};
 use std::ops::Range;
 
 /// A resolved definition.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct Checked {
     /// The header of item form; `None` in expression form.
     pub item: Option<Item>,
@@ -78,6 +78,13 @@ impl Checked {
     /// A node.
     pub fn node(&self, id: NodeId) -> &Node {
         &self.nodes[id.0 as usize]
+    }
+}
+
+/// Before the definition is read.
+impl Default for Definition {
+    fn default() -> Definition {
+        Definition::Hamiltonian(NodeId(0))
     }
 }
 
@@ -150,6 +157,13 @@ pub struct Group {
     pub velocity: Option<Ident>,
     /// The type of each of them: scalar, vector, or matrix with a literal last extent.
     pub ty: Type,
+}
+
+impl Group {
+    /// The velocity under a Lagrangian, the momentum otherwise.
+    pub fn partner(&self) -> &Ident {
+        self.velocity.as_ref().unwrap_or(&self.momentum)
+    }
 }
 
 /// The variables of a group that expressions read.

@@ -211,6 +211,12 @@ pub fn synonym(name: &str) -> Option<&'static str> {
         .map(|(_, known)| *known)
 }
 
+/// The names with commas between them.
+pub fn listed(names: impl IntoIterator<Item = impl ToString>) -> String {
+    let names: Vec<String> = names.into_iter().map(|name| name.to_string()).collect();
+    names.join(", ")
+}
+
 /// The candidate nearest to a name, if one is near: the same but for case, or at most one edit in
 /// three letters away. The first of several equally near.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {

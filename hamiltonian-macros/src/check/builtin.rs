@@ -45,11 +45,7 @@ impl Checker<'_> {
             }
             Some(Found::Declared(Binding::Erroneous)) => None,
             Some(found) => {
-                let what = match found {
-                    Found::Loop(_) => "a loop variable",
-                    Found::Argument(_) => "an argument",
-                    Found::Declared(binding) => self.described(binding),
-                };
+                let what = self.found_shown(found);
                 let message = format!("`{name}` is {what}, not a function");
                 self.refuse(raw, message, format!("write `{name}*(…)` for a product"))
             }

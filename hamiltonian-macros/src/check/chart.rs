@@ -225,17 +225,13 @@ impl Checker<'_> {
             .iter()
             .position(|group| group.coordinate == *name);
         if found.is_none() {
-            let known: Vec<String> = self
-                .out
-                .groups
-                .iter()
-                .map(|group| format!("`{}`", group.coordinate))
-                .collect();
+            let groups = self.out.groups.iter();
+            let known = names::listed(groups.map(|group| format!("`{}`", group.coordinate)));
             let message = format!("`{name}` is not a coordinate");
             self.report.error(
                 name.span(),
                 message,
-                format!("the coordinates are {}", known.join(", ")),
+                format!("the coordinates are {}", known),
             );
         }
         found.map(|index| GroupId(index as u32))

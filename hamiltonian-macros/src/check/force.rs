@@ -6,6 +6,7 @@
 use super::Checker;
 use crate::ast::{ExprKind, Expression, Signature, Size, Statement};
 use crate::checked::{Extent, Kind, Loop, Type};
+use crate::names::listed;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
 
@@ -39,15 +40,11 @@ impl Checker<'_> {
             None if count == 1 => vec![root],
             None => {
                 if frame.value(root).is_some() {
-                    let names: Vec<String> = self
-                        .out
-                        .groups
-                        .iter()
-                        .map(|group| format!("f_{}", group.coordinate))
-                        .collect();
+                    let groups = self.out.groups.iter();
+                    let names = listed(groups.map(|group| format!("f_{}", group.coordinate)));
                     let message =
                         format!("a force has one component for each of the {count} momenta");
-                    self.error_over(root, message, format!("write `[{}]`", names.join(", ")));
+                    self.error_over(root, message, format!("write `[{}]`", names));
                 }
                 return;
             }
@@ -162,68 +159,33 @@ impl Checker<'_> {
 
     /// The signature of a force names the coordinates and momenta of the definition again.
     fn repeats(&mut self, signature: &Signature) -> bool {
-        let partners = self.out.groups.iter().map(|group| {
-            group
-                .velocity
-                .clone()
-                .unwrap_or_else(|| group.momentum.clone())
-        });
-        let mut due: Vec<Vec<Ident>> = vec![
-            self.out
-                .groups
-                .iter()
-                .map(|group| group.coordinate.clone())
-                .collect(),
-            partners.collect(),
+        let groups = &self.out.groups;
+        let momenta = listed(groups.iter().map(|group| &group.momentum));
+        let mut due = vec![
+            listed(groups.iter().map(|group| &group.coordinate)),
+            listed(groups.iter().map(|group| group.partner())),
         ];
-        let momenta: Vec<Ident> = self
-            .out
-            .groups
-            .iter()
-            .map(|group| group.momentum.clone())
+        let sections = signature.sections.iter();
+        let given: Vec<String> = sections
+            .map(|s| listed(s.iter().map(|v| &v.name)))
             .collect();
-        if signature.sections.len() > 2 {
-            due.extend(self.out.time.clone().map(|time| vec![time]));
+        if given.len() > 2 {
+            due.extend(self.out.time.iter().map(Ident::to_string));
         }
-        let given: Vec<Vec<Ident>> = signature
-            .sections
-            .iter()
-            .map(|section| {
-                section
-                    .iter()
-                    .map(|variable| variable.name.clone())
-                    .collect()
-            })
-            .collect();
-        let by_momenta = given.len() == due.len()
-            && given[1] == momenta
-            && given[0] == due[0]
-            && given.get(2) == due.get(2);
+        let by_momenta = given.get(1) == Some(&momenta)
+            && given.first() == due.first()
+            && given[2..] == due[2..];
         if given == due || by_momenta {
             return true;
         }
         let undeclared = match self.out.time {
-            None => signature
-                .sections
-                .get(2)
-                .and_then(|section| section.first()),
+            None => given.get(2).filter(|names| !names.is_empty()),
             Some(_) => None,
         };
-        due.extend(undeclared.map(|time| vec![time.name.clone()]));
-        let shown: Vec<String> = due
-            .iter()
-            .map(|names| {
-                names
-                    .iter()
-                    .map(Ident::to_string)
-                    .collect::<Vec<_>>()
-                    .join(", ")
-            })
-            .collect();
-        let shown = shown.join("; ");
-        let is_lagrangian = self.out.groups.iter().any(|group| group.velocity.is_some());
-        let word = if is_lagrangian { "L" } else { "H" };
-        match undeclared.map(|time| &time.name) {
+        due.extend(undeclared.cloned());
+        let shown = due.join("; ");
+        let word = if self.is_lagrangian() { "L" } else { "H" };
+        match undeclared {
             Some(time) => self.report.error(
                 signature.spans,
                 "the force depends on time, and the definition declares none",

@@ -41,6 +41,15 @@ impl Checker<'_> {
         self.bindings[symbol.0 as usize].map(Found::Declared)
     }
 
+    /// The kind of what a name means, in words.
+    pub(super) fn found_shown(&self, found: Found) -> &'static str {
+        match found {
+            Found::Loop(_) => "a loop variable",
+            Found::Argument(_) => "an argument",
+            Found::Declared(binding) => self.described(binding),
+        }
+    }
+
     /// A name that stands for a value.
     pub(super) fn name(
         &mut self,
@@ -107,9 +116,7 @@ impl Checker<'_> {
             Binding::LetFunction(index) => self.lets[index].shown.clone(),
             Binding::Function(id) => {
                 let function = &self.out.functions[id.0 as usize];
-                let arguments = function.arguments.iter();
-                let names: Vec<String> = arguments.map(ToString::to_string).collect();
-                format!("{}({})", function.name, names.join(", "))
+                format!("{}({})", function.name, names::listed(&function.arguments))
             }
             _ => String::new(),
         }
@@ -258,34 +265,21 @@ impl Checker<'_> {
 
     /// Whether a name stands in an index or a range, where only whole numbers do.
     fn is_in_index(&self, name: ExprId) -> bool {
-        let nodes = &self.ast.nodes;
-        let all = self.in_indices.get_or_init(|| {
-            let mut all = vec![false; nodes.len()];
-            let mut mark = |id: ExprId| all[id.0 as usize] = true;
-            for node in nodes {
-                match &node.kind {
-                    ExprKind::Bind { lower, upper, .. } => {
-                        mark(*lower);
-                        mark(*upper);
-                    }
-                    ExprKind::Index { index, .. } => mark(*index),
-                    _ => {}
+        let mut inner = name;
+        let later = self.ast.nodes.iter().enumerate().skip(name.0 as usize + 1);
+        // Operands stand before what is made of them.
+        for (at, node) in later {
+            match node.kind {
+                ExprKind::Bind { lower, upper, .. } if lower == inner || upper == inner => {
+                    return true;
                 }
+                ExprKind::Index { index, .. } if index == inner => return true,
+                ExprKind::Binary(_, a, b) if a == inner || b == inner => inner = ExprId(at as u32),
+                ExprKind::Unary(_, a) if a == inner => inner = ExprId(at as u32),
+                _ => {}
             }
-            // Operands stand before what is made of them.
-            for (at, node) in nodes.iter().enumerate().rev() {
-                match node.kind {
-                    ExprKind::Binary(_, a, b) if all[at] => {
-                        all[a.0 as usize] = true;
-                        all[b.0 as usize] = true;
-                    }
-                    ExprKind::Unary(_, a) if all[at] => all[a.0 as usize] = true,
-                    _ => {}
-                }
-            }
-            all
-        });
-        all[name.0 as usize]
+        }
+        false
     }
 
     /// All names that are declared: functions, or values. In the order they were declared.
@@ -303,20 +297,12 @@ impl Checker<'_> {
         if functions {
             known.extend(names::functions().map(|entry| entry.name.to_owned()));
         } else {
-            let groups = self.out.groups.iter();
-            let declared = groups.flat_map(|group| {
-                let partner = group.velocity.as_ref().unwrap_or(&group.momentum);
-                [group.coordinate.to_string(), partner.to_string()]
-            });
-            let parameters = self
-                .out
-                .parameters
-                .iter()
-                .map(|parameter| parameter.name.to_string());
-            let sizes = self.out.sizes.iter().map(|size| size.name.to_string());
-            for name in declared.chain(parameters).chain(sizes) {
-                if !known.contains(&name) {
-                    known.push(name);
+            // `q` and `p` of `H = …` are written nowhere.
+            for group in &self.out.groups {
+                for name in [&group.coordinate, group.partner()].map(Ident::to_string) {
+                    if !known.contains(&name) {
+                        known.push(name);
+                    }
                 }
             }
             known.extend(names::CONSTANTS.iter().map(|name| (*name).to_owned()));

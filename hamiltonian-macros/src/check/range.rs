@@ -5,6 +5,7 @@
 
 use super::Checker;
 use super::expr::Frame;
+use super::lookup::Found;
 use crate::ast::{ExprId, ScopeId, Symbol};
 use crate::checked::Loop;
 use hamiltonian_symbolic::index::Domain;
@@ -39,26 +40,11 @@ impl Checker<'_> {
     }
 
     fn loop_name_is_new(&mut self, raw: ExprId, scope: ScopeId, symbol: Symbol, frame: &Frame) {
-        let what = if let Some(binding) = self.bindings[symbol.0 as usize] {
-            Some(self.described(binding))
-        } else if frame
-            .arguments
-            .iter()
-            .any(|(argument, _)| *argument == symbol)
-        {
-            Some("an argument")
-        } else {
-            let mut outer = self.ast.scopes[scope.0 as usize].parent;
-            let mut found = None;
-            while let Some(id) = outer {
-                let scope = &self.ast.scopes[id.0 as usize];
-                if scope.symbol == symbol {
-                    found = Some("a loop variable around this one");
-                    break;
-                }
-                outer = scope.parent;
-            }
-            found
+        let around = self.ast.scopes[scope.0 as usize].parent;
+        let what = match self.find(symbol, around, frame) {
+            None => None,
+            Some(Found::Loop(_)) => Some("a loop variable around this one"),
+            Some(found) => Some(self.found_shown(found)),
         };
         if let Some(what) = what {
             let name = self.ast.symbols.name(symbol);

@@ -6,6 +6,7 @@
 use super::{Binding, Checker};
 use crate::ast::{Declarator, Signature, StatementKind};
 use crate::checked::{Extent, Group, GroupId, Type, Variable};
+use crate::names::listed;
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 use std::collections::HashMap;
@@ -235,14 +236,12 @@ impl Checker<'_> {
         let (coordinates, others) = (&signature.sections[0], &signature.sections[1]);
         for coordinate in coordinates.iter().skip(others.len()) {
             let missing = coordinates.iter().skip(others.len());
-            let added: Vec<String> = missing
-                .map(|coordinate| format!("{prefix}{}", coordinate.name))
-                .collect();
+            let added = listed(missing.map(|coordinate| format!("{prefix}{}", coordinate.name)));
             let help = format!(
                 "write `{word}({}; {}, {})`",
                 list(coordinates),
                 list(others),
-                added.join(", ")
+                added
             );
             let name = &coordinate.name;
             let message = format!("the coordinate `{name}` has no {partner}");
@@ -336,11 +335,8 @@ fn suggested(word: &str, prefix: &str, names: &[Declarator]) -> String {
             format!("{word}({}; {})", list(coordinates), list(others))
         }
         _ => {
-            let partners: Vec<String> = names
-                .iter()
-                .map(|variable| format!("{prefix}{}", variable.name))
-                .collect();
-            format!("{word}({}; {})", list(names), partners.join(", "))
+            let partners = listed(names.iter().map(|v| format!("{prefix}{}", v.name)));
+            format!("{word}({}; {partners})", list(names))
         }
     }
 }
@@ -387,9 +383,5 @@ impl<'a> Owners<'a> {
 }
 
 fn list<'a>(variables: impl IntoIterator<Item = &'a Declarator>) -> String {
-    let names: Vec<String> = variables
-        .into_iter()
-        .map(|variable| variable.name.to_string())
-        .collect();
-    names.join(", ")
+    listed(variables.into_iter().map(|variable| &variable.name))
 }

@@ -87,11 +87,10 @@ impl<'a> Checker<'a> {
         let unknown = symbols.iter().map(|symbol| (*symbol, None)).collect();
         let errors = self.report.errors().len();
         self.visit(value, unknown, None);
-        let names: Vec<String> = arguments.iter().map(Ident::to_string).collect();
         self.lets.push(LetFunction {
             arguments: symbols,
             body: value,
-            shown: format!("{name}({})", names.join(", ")),
+            shown: format!("{name}({})", names::listed(arguments)),
             erroneous: self.report.errors().len() > errors,
         });
         self.later[symbol.0 as usize] = false;

@@ -11,19 +11,12 @@ use hamiltonian_symbolic::loops::guarded;
 /// Makes all expressions safe to read; `None` where the momentum of an element has a loop that would
 /// start below 0.
 pub fn guard(lowered: &mut Lowered) -> Option<()> {
-    let Some(legendre) = &lowered.legendre else {
+    if lowered.legendre.is_none() {
         return Some(());
-    };
+    }
     let model = &mut lowered.model;
     let derived = &lowered.derived;
     let is_written = |node: Node| derived.is_written(node);
-    let mut is_safe = true;
-    for momentum in &legendre.momenta {
-        is_safe &= guarded(model, momentum.value, &is_written)? == momentum.value;
-    }
-    if is_safe {
-        return Some(());
-    }
     let mut roots = model.roots();
     for root in &mut roots {
         *root = guarded(model, *root, &is_written)?;

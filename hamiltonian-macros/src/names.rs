@@ -9,29 +9,18 @@ use hamiltonian_symbolic::op::Op;
 /// A function of the language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Builtin {
-    /// Of scalars; its row in the operation table says the rest.
+    /// Scalars → a scalar; its row in the operation table says the rest.
     Elementary(Op),
-    /// The Poisson bracket of two scalars.
+    /// The Poisson bracket: scalars → a scalar.
     Bracket,
-    /// Of vectors.
+    /// Vectors of equal extent → a scalar.
     Dot,
-    /// Of a vector.
+    /// A vector → a scalar.
     Norm,
-    /// Of a vector.
+    /// A vector → a scalar.
     NormSquared,
-    /// Of vectors in space.
-    Cross,
-}
-
-/// The type of the arguments of a function, and of its value.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Domain {
-    /// Scalars → a scalar
-    Scalars,
-    /// Vectors of equal extent → a scalar
-    Vectors,
     /// `[3]`, `[3]` → `[3]`
-    Space,
+    Cross,
 }
 
 /// A function with its name and arguments.
@@ -43,32 +32,27 @@ pub struct Entry {
     pub name: &'static str,
     /// Its arguments as they are written.
     pub arguments: &'static [&'static str],
-    /// Their type.
-    pub domain: Domain,
 }
 
 /// The functions that are not elementary.
 const OTHERS: [Entry; 5] = {
-    use Domain::{Scalars, Space, Vectors};
     const fn entry(
         function: Builtin,
         name: &'static str,
         arguments: &'static [&'static str],
-        domain: Domain,
     ) -> Entry {
         Entry {
             function,
             name,
             arguments,
-            domain,
         }
     }
     [
-        entry(Builtin::Dot, "dot", &["a", "b"], Vectors),
-        entry(Builtin::Norm, "norm", &["a"], Vectors),
-        entry(Builtin::NormSquared, "norm_squared", &["a"], Vectors),
-        entry(Builtin::Cross, "cross", &["a", "b"], Space),
-        entry(Builtin::Bracket, "bracket", &["a", "b"], Scalars),
+        entry(Builtin::Dot, "dot", &["a", "b"]),
+        entry(Builtin::Norm, "norm", &["a"]),
+        entry(Builtin::NormSquared, "norm_squared", &["a"]),
+        entry(Builtin::Cross, "cross", &["a", "b"]),
+        entry(Builtin::Bracket, "bracket", &["a", "b"]),
     ]
 };
 
@@ -78,7 +62,6 @@ pub fn functions() -> impl Iterator<Item = Entry> {
         function: Builtin::Elementary(*op),
         name: op.row().name,
         arguments: op.row().arguments,
-        domain: Domain::Scalars,
     });
     elementary.chain(OTHERS)
 }

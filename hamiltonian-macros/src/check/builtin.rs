@@ -8,7 +8,7 @@ use super::lookup::Found;
 use super::{Binding, Checker};
 use crate::ast::{BinaryOp, ExprId, ScopeId, Symbol};
 use crate::checked::{Extent, Kind, NodeId, Type};
-use crate::names::{self, Builtin, Domain, Entry};
+use crate::names::{self, Builtin, Entry};
 use hamiltonian_symbolic::op::Op;
 
 /// How products over a range are called elsewhere.
@@ -158,8 +158,8 @@ impl Checker<'_> {
             arguments.len(),
             &entry.signature(),
         )?;
-        match entry.domain {
-            Domain::Scalars => {
+        match entry.function {
+            Builtin::Elementary(_) | Builtin::Bracket => {
                 let values = self.scalars(entry.name, arguments, frame)?;
                 let kind = match (entry.function, values.as_slice()) {
                     (Builtin::Elementary(Op::Pow), [base, exponent]) => {
@@ -179,12 +179,12 @@ impl Checker<'_> {
                 };
                 self.push(raw, kind, Type::Scalar)
             }
-            Domain::Vectors => {
+            Builtin::Dot | Builtin::Norm | Builtin::NormSquared => {
                 let values = self.vectors(entry, arguments, frame)?;
                 self.equal_extents(raw, entry, &values)?;
                 self.push(raw, Kind::Call(entry.function, values), Type::Scalar)
             }
-            Domain::Space => {
+            Builtin::Cross => {
                 let values = self.vectors(entry, arguments, frame)?;
                 let space = Type::Vector(Extent::Literal(3));
                 for (value, argument) in values.iter().zip(arguments) {

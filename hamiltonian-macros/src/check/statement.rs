@@ -188,25 +188,21 @@ impl<'a> Checker<'a> {
             Some(Binding::Value(_) | Binding::LetFunction(_) | Binding::Function(_)) | None => None,
             variable => variable,
         });
-        if let Some(variable) = variable {
+        let fault = if let Some(variable) = variable {
             let what = self.described(variable);
-            self.report.error(
-                name.span(),
-                format!("the name `{name}` is used twice: it is {what} already"),
-                "choose another name",
-            );
+            Some(format!(
+                "the name `{name}` is used twice: it is {what} already"
+            ))
         } else if self.out.observables.iter().any(|other| other.name == *name) {
-            self.report.error(
-                name.span(),
-                format!("the name `{name}` is used twice: an observable has it already"),
-                "choose another name",
-            );
+            let fault = format!("the name `{name}` is used twice: an observable has it already");
+            Some(fault)
         } else if names::is_method(&name.to_string()) {
-            self.report.error(
-                name.span(),
-                format!("`{name}` is a method of every system already"),
-                "choose another name",
-            );
+            Some(format!("`{name}` is a method of every system already"))
+        } else {
+            None
+        };
+        if let Some(fault) = fault {
+            self.report.error(name.span(), fault, "choose another name");
         }
         let word = kind.word();
         let value = match kind {

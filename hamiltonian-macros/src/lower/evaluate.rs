@@ -89,9 +89,7 @@ pub struct Evaluator<'a> {
     pub(super) velocities: Option<Vec<Component>>,
     /// How many nodes each node is a child of.
     pub(super) uses: Vec<u32>,
-    /// Answers to demands for the whole of a node outside loops that are unrolled.
-    plain: Vec<Option<Node>>,
-    /// All other answers.
+    /// The answers to demands.
     answers: Map<(u32, Demand), Node>,
 }
 
@@ -108,7 +106,6 @@ impl<'a> Evaluator<'a> {
             derived: Derived::default(),
             velocities: None,
             uses: uses(checked),
-            plain: vec![None; checked.nodes.len()],
             answers: Map::default(),
         }
     }
@@ -221,18 +218,11 @@ impl<'a> Evaluator<'a> {
     }
 
     fn answer(&self, node: NodeId, demand: &Demand) -> Option<Node> {
-        if demand.indices.is_empty() && demand.values.is_empty() {
-            return self.plain[node.0 as usize];
-        }
         self.answers.get(&(node.0, demand.clone())).copied()
     }
 
     fn note(&mut self, node: NodeId, demand: Demand, value: Node) {
-        if demand.indices.is_empty() && demand.values.is_empty() {
-            self.plain[node.0 as usize] = Some(value);
-        } else {
-            self.answers.insert((node.0, demand), value);
-        }
+        self.answers.insert((node.0, demand), value);
     }
 
     /// The node of a demand whose children's demands are answered.

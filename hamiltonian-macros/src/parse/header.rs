@@ -1,14 +1,14 @@
 //! The header of item form: attributes, visibility, `struct Name<const N: usize> { parameters }`.
 //!
-//! Input: the cursor at the beginning of the definition. Output: [`Item`]; it is put into the tree
-//! as soon as its name is read, so that the stub knows the name whatever follows. Invariant: a bad
+//! Input: the cursor at the beginning of the definition. Output: [`Item`]; it is in the tree if its
+//! name was read, so that the stub knows the name whatever follows. Invariant: a bad
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};
 use crate::ast::{Expression, Item, Parameter, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
-use proc_macro2::{Delimiter, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
 
 /// `#[word …]`.
 pub(super) struct Attribute {
@@ -84,49 +84,46 @@ impl Parser<'_> {
         }
         self.position += 1;
         let name = self.declared("the name of the type", STRUCT)?;
-        let item = Item {
+        let mut item = Item {
             attributes: Vec::new(),
             max_ops: None,
             visibility,
-            name: name.clone(),
+            name,
             generics: Vec::new(),
             parameters: Vec::new(),
         };
+        let read = self.header(&mut item, attributes);
         self.ast.item = Some(item);
-        self.item_attributes(attributes);
+        read
+    }
+
+    /// The attributes of an item, and its sizes and parameters, which stand after its name.
+    fn header(&mut self, item: &mut Item, attributes: Vec<Attribute>) -> Result<()> {
+        for attribute in attributes {
+            if attribute.word == "max_ops" {
+                self.max_ops(item, &attribute);
+            } else {
+                item.attributes.push(attribute.tokens);
+            }
+        }
         if self.eat('<') {
-            self.generics()?;
+            self.generics(item)?;
         }
         if !self.at_open(Delimiter::Brace) {
-            let help = format!("write `struct {name} {{}}` if it has no parameters");
-            return self.expected(&format!("`{{` and the parameters of `{name}`"), help);
+            let name = &item.name;
+            return self.expected(
+                &format!("`{{` and the parameters of `{name}`"),
+                format!("write `struct {name} {{}}` if it has no parameters"),
+            );
         }
         let outer = self.enter();
-        self.parameters();
+        self.parameters(item);
         self.leave(outer);
         Ok(())
     }
 
-    fn item_attributes(&mut self, attributes: Vec<Attribute>) {
-        for attribute in attributes {
-            let taken = if attribute.word == "max_ops" {
-                self.max_ops(&attribute)
-            } else {
-                None
-            };
-            let is_max_ops = attribute.word == "max_ops";
-            if let Some(item) = &mut self.ast.item {
-                if is_max_ops {
-                    item.max_ops = taken.or(item.max_ops);
-                } else {
-                    item.attributes.push(attribute.tokens);
-                }
-            }
-        }
-    }
-
     /// `#[max_ops = 40]`, once.
-    fn max_ops(&mut self, attribute: &Attribute) -> Option<(u64, Span)> {
+    fn max_ops(&mut self, item: &mut Item, attribute: &Attribute) {
         let number = match &self.tokens[attribute.rest.0..attribute.rest.1] {
             [equals, number] if matches!(equals.kind, TokenKind::Punct('=', _)) => {
                 let value = number.text.replace('_', "").parse().ok();
@@ -134,7 +131,7 @@ impl Parser<'_> {
             }
             _ => None,
         };
-        let twice = self.ast.item.as_ref()?.max_ops.is_some();
+        let twice = item.max_ops.is_some();
         if twice || number.is_none() {
             let (message, help) = if twice {
                 ("`max_ops` is given twice", "keep one")
@@ -146,11 +143,11 @@ impl Parser<'_> {
             };
             self.report.error(attribute.spans, message, help);
         }
-        number
+        item.max_ops = number.or(item.max_ops);
     }
 
     /// `const N: usize, …>`, the cursor after `<`.
-    fn generics(&mut self) -> Result<()> {
+    fn generics(&mut self, item: &mut Item) -> Result<()> {
         const FORM: &str = "only sizes are allowed between `<` and `>`: write `<const N: usize>`";
         loop {
             if self.eat('>') {
@@ -175,9 +172,7 @@ impl Parser<'_> {
                     format!("write `const {name}: usize`"),
                 );
             }
-            if let Some(item) = &mut self.ast.item {
-                item.generics.push(name);
-            }
+            item.generics.push(name);
             if !self.eat(',') && !self.at_punct('>') {
                 return self.expected("`,` or `>`", FORM);
             }
@@ -185,15 +180,11 @@ impl Parser<'_> {
     }
 
     /// The entries between the braces, the cursor inside.
-    fn parameters(&mut self) {
+    fn parameters(&mut self, item: &mut Item) {
         while self.position < self.limit {
             let (start, limit) = (self.position, self.limit);
             match self.parameter() {
-                Ok(parameter) => {
-                    if let Some(item) = &mut self.ast.item {
-                        item.parameters.push(parameter);
-                    }
-                }
+                Ok(parameter) => item.parameters.push(parameter),
                 Err(_) => {
                     (self.position, self.limit) = (start, limit);
                     while self.position < self.limit && !self.at_punct(',') {

@@ -44,13 +44,6 @@ impl Parser<'_> {
     pub(super) fn number(&mut self, token: &Token, divided: bool) -> Option<Rational> {
         let text = token.text.as_str();
         let span = token.span;
-        // Short whole numbers, which most are, need no further look.
-        if text.len() <= 18
-            && text.as_bytes().iter().all(u8::is_ascii_digit)
-            && let Ok(number) = text.parse()
-        {
-            return Some(Rational::integer(number));
-        }
         if !text.starts_with(|c: char| c.is_ascii_digit()) {
             self.report.error(
                 span,

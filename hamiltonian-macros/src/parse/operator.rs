@@ -89,22 +89,20 @@ impl Parser<'_> {
             }
             TokenKind::Punct('<', _) => (BinaryOp::Compare(Comparison::Less), 1),
             TokenKind::Punct('>', _) => (BinaryOp::Compare(Comparison::Greater), 1),
-            TokenKind::Punct('&', true) if then(self, '&') => (BinaryOp::And, 2),
-            TokenKind::Punct('|', true) if then(self, '|') => (BinaryOp::Or, 2),
-            TokenKind::Punct(single @ ('&' | '|'), _) => {
-                self.report.error(
-                    span,
-                    format!("`{single}` is not an operator"),
-                    format!("write `{single}{single}` between conditions"),
-                );
-                (
-                    if single == '&' {
-                        BinaryOp::And
-                    } else {
-                        BinaryOp::Or
-                    },
-                    1,
-                )
+            TokenKind::Punct(character @ ('&' | '|'), joint) => {
+                let is_double = joint && then(self, character);
+                if !is_double {
+                    self.report.error(
+                        span,
+                        format!("`{character}` is not an operator"),
+                        format!("write `{character}{character}` between conditions"),
+                    );
+                }
+                let op = match character {
+                    '&' => BinaryOp::And,
+                    _ => BinaryOp::Or,
+                };
+                (op, 1 + usize::from(is_double))
             }
             TokenKind::Ident
             | TokenKind::Literal

@@ -52,44 +52,66 @@ pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> O
     let beyond = std::mem::take(&mut lowered.beyond);
     let System {
         model,
-        vectors,
         pieces,
         declared,
     } = variables::change(checked, lowered, report)?;
+    let frame = Frame {
+        checked,
+        root,
+        defaults: &defaults,
+        beyond: &beyond,
+    };
     let mut code = TokenStream::new();
     for (name, hamiltonian) in &pieces {
-        let piece = surface::Part::piece(checked, name, &defaults);
+        let part = Part {
+            piece: Some(name),
+            ..Part::default()
+        };
         let model = surface::piece_model(&model, *hamiltonian);
-        code.extend(system(checked, root, model, (piece, &[]), &beyond, report)?);
+        code.extend(system(&frame, model, part, report)?);
     }
-    let mut whole = surface::Part::whole(checked, vectors, &pieces, declared, &defaults);
-    whole.readable = readable;
-    let whole = (whole, pieces.as_slice());
-    code.extend(system(checked, root, model, whole, &beyond, report)?);
+    let part = Part {
+        piece: None,
+        pieces: &pieces,
+        declared: declared.as_ref(),
+        readable: readable.as_ref(),
+    };
+    code.extend(system(&frame, model, part, report)?);
     Some(code)
 }
 
-/// The code of one system: the definition's own, or a piece of its split.
-fn system(
-    checked: &Checked,
-    root: &TokenStream,
-    mut model: Model,
-    (part, declared): (surface::Part, &[(Ident, Node)]),
-    beyond: &Beyond,
-    report: &mut Report,
-) -> Option<TokenStream> {
+/// The input that all systems of a definition share.
+struct Frame<'a> {
+    checked: &'a Checked,
+    root: &'a TokenStream,
+    defaults: &'a surface::Defaults,
+    beyond: &'a Beyond,
+}
+
+/// The definition's own system, or a piece of its split.
+#[derive(Debug, Default)]
+struct Part<'a> {
+    /// The name of the piece.
+    piece: Option<&'a Ident>,
+    /// The pieces that were declared.
+    pieces: &'a [(Ident, Node)],
+    /// The variables it was declared in, where it is integrated in others.
+    declared: Option<&'a emit::Declared>,
+    /// Its formulas for reading, where they are others than those computed.
+    readable: Option<&'a Readable>,
+}
+
+/// The code of one system.
+fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> Option<TokenStream> {
+    let checked = frame.checked;
     let operations = operations(&model);
     if operations > CAP {
         too_large(checked, operations, report);
         return None;
     }
     let structure = structure::analyse(&mut model);
-    let mut text = docs::text(
-        &model,
-        &structure,
-        part.readable.as_ref(),
-        is_large(checked, &model),
-    );
+    let large = is_large(checked, &model);
+    let mut text = docs::text(&model, &structure, part.readable, large);
     if let Ok(split) = &structure.separable {
         // A product such as (p + q)^2/2 - q*p separates only when multiplied out.
         let split = model.dag.add(&[split.kinetic, split.potential]);
@@ -98,34 +120,24 @@ fn system(
         }
     }
     let large = is_large(checked, &model);
-    let split = splits::decide(
-        checked,
-        &mut model,
-        &structure,
-        (&part, declared),
-        large,
-        report,
-    );
+    let split = splits::decide(checked, &mut model, &structure, &part, large, report);
     text.facts.extend(split.facts);
-    let verdicts = verdicts::verdicts(&mut model, &structure, split.verdict);
-    let program = derive(checked, &mut model, &verdicts, beyond, report)?;
+    let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
+    let program = derive(checked, &mut model, &structure, frame.beyond, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
-    let definition = emit::Definition {
-        root: root.clone(),
-        form: part.form,
-        structure: verdicts,
-        functions: &checked.functions,
-        observables: part.observables,
-        vectors: part.vectors,
+    Some(emit::generate(&emit::Definition {
+        root: frame.root,
+        checked,
+        defaults: frame.defaults,
+        piece: part.piece,
         pieces: part.pieces,
-        declared: part.declared.as_ref(),
-        reaches: &checked.reaches,
+        declared: part.declared,
         model: &model,
         program: &program,
+        structure,
         text,
-    };
-    Some(emit::generate(&definition))
+    }))
 }
 
 /// The operations of H by itself, each loop body counted once.

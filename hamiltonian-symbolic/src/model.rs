@@ -166,13 +166,58 @@ pub struct Observable {
 /// coordinates.
 #[derive(Clone, Debug)]
 pub struct VectorFunction {
-    /// The name it is emitted by.
-    pub name: String,
-    /// Whether it has a part shaped like the coordinates, and one shaped like the momenta.
-    pub sides: (bool, bool),
+    /// Its use.
+    pub usage: VectorUse,
     /// What is added to which element, in every iteration of the loops of value and row; elements
     /// not named are 0.
     pub entries: Vec<VectorEntry>,
+}
+
+/// The use of a vector function.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum VectorUse {
+    /// p(q, v)
+    ConjugateMomentum,
+    /// v(q, p)
+    Velocity,
+    /// The force on the momenta.
+    Force,
+    /// The gradient of the observable of this number.
+    Gradient(usize),
+    /// The coordinates and momenta the system is integrated in, from the declared ones.
+    FromDeclared,
+    /// The declared coordinates and momenta.
+    ToDeclared,
+    /// The momenta on the shell of an extended phase space, that of time among them.
+    OnShell,
+}
+
+impl VectorUse {
+    /// Whether it has a part shaped like the coordinates, and one shaped like the momenta.
+    #[must_use]
+    pub fn sides(self) -> (bool, bool) {
+        match self {
+            VectorUse::Velocity => (true, false),
+            VectorUse::ConjugateMomentum | VectorUse::Force | VectorUse::OnShell => (false, true),
+            VectorUse::Gradient(_) | VectorUse::FromDeclared | VectorUse::ToDeclared => {
+                (true, true)
+            }
+        }
+    }
+
+    /// The name of its method; that of a gradient has the name of its observable before it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            VectorUse::ConjugateMomentum => "conjugate_momentum",
+            VectorUse::Velocity => "velocity",
+            VectorUse::Force => "force",
+            VectorUse::Gradient(_) => "gradient",
+            VectorUse::FromDeclared => "from_declared",
+            VectorUse::ToDeclared => "to_declared",
+            VectorUse::OnShell => "on_shell",
+        }
+    }
 }
 
 /// A contribution to an element of a vector function.

@@ -11,7 +11,7 @@ use crate::factor::factor;
 use crate::forces;
 use crate::hold::Arrays;
 use crate::index::{Affine, Index};
-use crate::model::{Model, Shape, VectorEntry, VectorFunction};
+use crate::model::{Model, Shape, VectorEntry};
 use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
 use crate::schedule::{Images, Request, Store, prepared, schedule};
@@ -214,7 +214,12 @@ pub fn request(
             let function = model.vectors.get(usize::from(number)).cloned();
             let missing = || internal(format!("there is no vector function {number}"));
             let function = function.ok_or_else(missing)?;
-            vector(model, function.entries, function.sides, &mut request);
+            vector(
+                model,
+                function.entries,
+                function.usage.sides(),
+                &mut request,
+            );
         }
         Purpose::VectorField if !model.force.is_empty() => {
             for entry in along(model, (false, true)) {
@@ -266,7 +271,8 @@ pub fn request(
 }
 
 /// The partial derivatives of a scalar by coordinates and momenta, element by element.
-pub(crate) fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
+#[must_use]
+pub fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
     let adjoints = diff::gradient(&mut model.dag, root, BOTH);
     let entry = |(leaf, value): (Node, Node)| {
         let place = model.dag.phase_place(leaf);
@@ -282,16 +288,6 @@ pub(crate) fn rates(model: &mut Model, h: Node) -> Vec<Store> {
     let entries = partials(model, h).into_iter();
     let dag = &mut model.dag;
     entries.map(|entry| added(scaled(dag, entry))).collect()
-}
-
-/// The gradient of a scalar expression as a vector function with both parts.
-#[must_use]
-pub fn gradient_of(model: &mut Model, name: String, root: Node) -> VectorFunction {
-    VectorFunction {
-        name,
-        sides: (true, true),
-        entries: partials(model, root),
-    }
 }
 
 /// The store that adds an entry.

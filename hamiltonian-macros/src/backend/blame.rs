@@ -9,7 +9,7 @@ use crate::checked::{Checked, NodeId};
 use crate::lower::Beyond;
 use crate::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind, Part};
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::model::{Model, VectorUse};
 use hamiltonian_symbolic::pipeline;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
@@ -72,25 +72,19 @@ pub fn number(checked: &Checked, number: Option<&Rational>, beyond: &Beyond, rep
 
 /// Where a purpose comes from, and its name.
 fn asker(checked: &Checked, model: &Model, purpose: Purpose) -> (Spans, String) {
-    let observable = match purpose {
-        Purpose::Observable(at) => checked.observables.get(usize::from(at)),
-        Purpose::Vector(at) => {
-            let name = &model.vectors[usize::from(at)].name;
-            let of = name.strip_suffix("_gradient");
-            of.and_then(|of| checked.observables.iter().find(|o| o.name == of))
-        }
+    let usage = match purpose {
+        Purpose::Vector(at) => Some(model.vectors[usize::from(at)].usage),
         _ => None,
     };
-    match (observable, purpose, checked.force.first()) {
-        (Some(observable), ..) => (
-            observable.name.span().into(),
-            format!("`{}`", observable.name),
-        ),
-        (None, Purpose::Vector(at), Some(force))
-            if model.vectors[usize::from(at)].name == "force" =>
-        {
-            (checked.node(*force).spans, "the force".to_owned())
+    let observable = match (purpose, usage) {
+        (Purpose::Observable(at), _) => usize::from(at),
+        (_, Some(VectorUse::Gradient(at))) => at,
+        (_, Some(VectorUse::Force)) => {
+            let force = checked.node(checked.force[0]);
+            return (force.spans, "the force".to_owned());
         }
-        _ => (definition(checked), "H".to_owned()),
-    }
+        _ => return (definition(checked), "H".to_owned()),
+    };
+    let name = &checked.observables[observable].name;
+    (name.span().into(), format!("`{name}`"))
 }

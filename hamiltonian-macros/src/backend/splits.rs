@@ -4,7 +4,7 @@
 //! what the docs and rustc say of them. Invariant: pieces that are kept are proven to add up to H,
 //! each with an exact flow; V and T of a separable H need no search.
 
-use super::surface::Part;
+use super::Part;
 use crate::checked::{self, Checked, Kind, Variable};
 use crate::emit::Reason;
 use crate::report::Report;
@@ -12,7 +12,6 @@ use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::split::{self, MOST, Piece, Refusal, Splitting};
 use hamiltonian_symbolic::structure::Structure;
-use proc_macro2::Ident;
 
 /// The text on a splitting.
 pub struct Found {
@@ -22,15 +21,16 @@ pub struct Found {
     pub facts: Vec<String>,
 }
 
-/// Splits the model's H; `declared` are the pieces the author wrote, with their parts of H.
+/// Splits the model's H, into the pieces that were declared where there are any.
 pub fn decide(
     checked: &Checked,
     model: &mut Model,
     structure: &Structure,
-    (part, declared): (&Part, &[(Ident, Node)]),
+    part: &Part,
     large: bool,
     report: &mut Report,
 ) -> Found {
+    let declared = part.pieces;
     let is_new = |node: &checked::Node| {
         matches!(
             node.kind,
@@ -40,11 +40,7 @@ pub fn decide(
     let is_in_these = checked.charts.is_empty() || checked.nodes.iter().any(is_new);
     let is_written_so = is_in_these && checked.time_factor.is_none();
     let mut found = if declared.is_empty() {
-        let alone = if part.is_piece {
-            Some(alone(model))
-        } else {
-            None
-        };
+        let alone = part.piece.is_some().then(|| alone(model));
         // V and T apart are no worse than a piece that moves only one of them.
         let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
         if structure.separable.is_ok() && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {

@@ -1,21 +1,17 @@
-//! The user's tokens, as emission reads them.
+//! The surface of a system: defaults, the model of a piece, and combinations that have no meaning.
 //!
-//! Input: [`Checked`]. Output: the header, the observables and the functions in the model's
-//! numbering. Invariant: tokens keep their spans.
+//! Input: [`Checked`]. Output: the defaults as they are emitted, models, errors. Invariant: all
+//! methods of a type have different names.
 
-use crate::checked::{self, Checked, Definition, SizeKind, Type};
-use crate::emit::{
-    self, Declared, Field, Form, Item, ObservableItem, ParameterItem, SizeItem, VectorItem,
-};
+use crate::checked::{Checked, Definition, Type};
+use crate::emit::{self, piece_method};
 use crate::lower::constants;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
-use hamiltonian_symbolic::print::Readable;
 use proc_macro2::Ident;
-use quote::{format_ident, quote};
 
 /// The defaults of the parameters, number by number, as expressions of the scalar `T`.
 pub type Defaults = Vec<Option<Vec<String>>>;
@@ -48,55 +44,6 @@ pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
     Some(all)
 }
 
-/// The header, or the captured names.
-pub fn form(checked: &Checked, defaults: &Defaults) -> Form {
-    let Some(item) = &checked.item else {
-        return Form::Expression(checked.captures.clone());
-    };
-    Form::Item(Item {
-        attributes: item.attributes.clone(),
-        visibility: item.visibility.clone(),
-        name: item.name.clone(),
-        whole: None,
-        sizes: checked
-            .sizes
-            .iter()
-            .map(|size| SizeItem {
-                name: size.name.clone(),
-                run_time: size.kind == SizeKind::Runtime,
-                attributes: size.attributes.clone(),
-            })
-            .collect(),
-        parameters: checked
-            .parameters
-            .iter()
-            .zip(defaults)
-            .map(|(parameter, default)| ParameterItem {
-                name: parameter.name.clone(),
-                attributes: parameter.attributes.clone(),
-                default: default.clone(),
-            })
-            .collect(),
-        fields: item
-            .fields
-            .iter()
-            .map(|field| match field {
-                checked::Field::Size(size) => Field::Size(size.0 as usize),
-                checked::Field::Parameter(parameter) => Field::Parameter(parameter.0 as usize),
-            })
-            .collect(),
-    })
-}
-
-/// Names and docs of observables.
-pub fn observables(checked: &Checked) -> Vec<ObservableItem> {
-    let observables = checked.observables.iter().map(|observable| ObservableItem {
-        name: observable.name.clone(),
-        attributes: observable.attributes.clone(),
-    });
-    observables.collect()
-}
-
 /// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written. Neither says so
 /// alone: a condition couples without a derivative.
 pub fn separates_as_written(model: &mut Model) -> bool {
@@ -108,77 +55,6 @@ pub fn separates_as_written(model: &mut Model) -> bool {
             .all(|(_, value)| !model.dag.dependence(*value).on(of))
     };
     is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
-}
-
-/// The user's tokens for one system.
-#[derive(Debug)]
-pub struct Part {
-    /// Its header.
-    pub form: Form,
-    /// Its observables.
-    pub observables: Vec<ObservableItem>,
-    /// Its vector functions.
-    pub vectors: Vec<VectorItem>,
-    /// The pieces of its split and their types.
-    pub pieces: Vec<(Ident, Ident)>,
-    /// Whether it is a piece of a split.
-    pub is_piece: bool,
-    /// The variables it was declared in, where it is integrated in others.
-    pub declared: Option<Declared>,
-    /// Its formulas for reading, where they are others than those computed.
-    pub readable: Option<Readable>,
-}
-
-impl Part {
-    /// The system of the definition.
-    pub fn whole(
-        checked: &Checked,
-        vectors: Vec<VectorItem>,
-        pieces: &[(Ident, Node)],
-        declared: Option<Declared>,
-        defaults: &Defaults,
-    ) -> Part {
-        let pieces = pieces
-            .iter()
-            .map(|(name, _)| (name.clone(), type_of(checked, name)));
-        Part {
-            form: form(checked, defaults),
-            observables: observables(checked),
-            vectors,
-            pieces: pieces.collect(),
-            is_piece: false,
-            declared,
-            readable: None,
-        }
-    }
-
-    /// A piece of its split: a type of its own with the same parameters.
-    pub fn piece(checked: &Checked, name: &Ident, defaults: &Defaults) -> Part {
-        let mut form = form(checked, defaults);
-        if let Form::Item(item) = &mut form {
-            let text = format!(" The piece `{name}` of the split of [`{}`].", item.name);
-            item.attributes = vec![quote! { #[doc = #text] }];
-            item.whole = Some(item.name.clone());
-            item.name = type_of(checked, name);
-        }
-        Part {
-            form,
-            observables: Vec::new(),
-            vectors: Vec::new(),
-            pieces: Vec::new(),
-            is_piece: true,
-            declared: None,
-            readable: None,
-        }
-    }
-}
-
-/// The type of a piece.
-fn type_of(checked: &Checked, piece: &Ident) -> Ident {
-    match &checked.item {
-        Some(item) => format_ident!("{}{}", item.name, piece, span = piece.span()),
-        None => piece.clone(),
-    }
 }
 
 /// The model of a piece.
@@ -260,8 +136,3 @@ fn refuse_same_methods(checked: &Checked, report: &mut Report) {
 
 /// The piece that carries time along where `dt = g*ds` makes time a coordinate.
 pub const CLOCK: &str = "Clock";
-
-/// The method that gives a piece.
-fn piece_method(piece: &str) -> String {
-    format!("piece_{}", piece.to_lowercase())
-}

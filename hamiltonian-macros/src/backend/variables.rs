@@ -2,30 +2,27 @@
 //! functions it offers in them.
 //!
 //! Input: the lowered definition. Output: the model in its final variables with its vector
-//! functions, what each of them is for, and the pieces of a split. Invariant: signs stay
+//! functions, and the pieces of a split. Invariant: signs stay
 //! q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order is coordinates, then time.
 
 use super::proofs;
 use super::surface::CLOCK;
 use crate::checked::{self, ChartKind, Checked, Definition};
-use crate::emit::{Declared, VectorItem, VectorUse};
+use crate::emit::Declared;
 use crate::lower::Lowered;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
-use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction};
-use hamiltonian_symbolic::pipeline::gradient_of;
+use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
+use hamiltonian_symbolic::pipeline::partials;
 use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Placement, Refusal};
 use proc_macro2::Ident;
-use quote::format_ident;
 
 /// A definition in its final variables.
 #[derive(Debug)]
 pub struct System {
     /// H, observables and vector functions.
     pub model: Model,
-    /// The use of each vector function of the model.
-    pub vectors: Vec<VectorItem>,
     /// The pieces of a split.
     pub pieces: Vec<(Ident, Node)>,
     /// The variables of the definition, where these are others.
@@ -34,14 +31,8 @@ pub struct System {
 
 /// Carries a definition into its final variables.
 pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Option<System> {
-    let mut vectors = Vec::new();
-    if matches!(checked.definition, Definition::Lagrangian(_)) {
-        vectors.push(VectorItem::of(VectorUse::ConjugateMomentum));
-        vectors.push(VectorItem::of(VectorUse::Velocity));
-    }
     let mut system = System {
         model: lowered.model,
-        vectors,
         pieces: Vec::new(),
         declared: None,
     };
@@ -59,11 +50,9 @@ pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
         return None;
     }
     if !system.model.force.is_empty() {
-        let force = system.model.force.clone();
-        let item = VectorItem::of(VectorUse::Force);
-        system.offer(item, "force", (false, true), force);
+        system.offer(VectorUse::Force, system.model.force.clone());
     }
-    system.gradients(checked);
+    system.gradients();
     let clock = checked.time_factor.map(|(_, span)| Ident::new(CLOCK, span));
     let names = checked.split.iter().map(|(name, _)| name.clone());
     let pieces = std::mem::take(&mut system.model.split);
@@ -72,35 +61,19 @@ pub fn change(checked: &Checked, lowered: Lowered, report: &mut Report) -> Optio
 }
 
 impl System {
-    fn offer(
-        &mut self,
-        item: VectorItem,
-        name: &str,
-        sides: (bool, bool),
-        entries: Vec<VectorEntry>,
-    ) {
-        self.vectors.push(item);
-        self.model.vectors.push(VectorFunction {
-            name: name.to_owned(),
-            sides,
-            entries,
-        });
+    fn offer(&mut self, usage: VectorUse, entries: Vec<VectorEntry>) {
+        self.model.vectors.push(VectorFunction { usage, entries });
     }
 
     /// The gradients of events and monitors.
-    fn gradients(&mut self, checked: &Checked) {
-        for (at, observable) in checked.observables.iter().enumerate() {
-            let components = self.model.observables[at].components.clone();
-            if let (ObservableKind::Event | ObservableKind::Monitor, [value]) =
-                (observable.kind, components.as_slice())
+    fn gradients(&mut self) {
+        for at in 0..self.model.observables.len() {
+            let observable = &self.model.observables[at];
+            if let (ObservableKind::Event | ObservableKind::Monitor, &[value]) =
+                (observable.kind, observable.components.as_slice())
             {
-                let name = format_ident!("{}_gradient", observable.name);
-                let gradient = gradient_of(&mut self.model, name.to_string(), *value);
-                self.model.vectors.push(gradient);
-                self.vectors.push(VectorItem {
-                    usage: VectorUse::Gradient,
-                    name,
-                });
+                let gradient = partials(&mut self.model, value);
+                self.offer(VectorUse::Gradient(at), gradient);
             }
         }
     }
@@ -140,19 +113,8 @@ impl System {
         self.model = transformed.model;
         proofs::split(checked, &mut self.model, report);
         report.barrier(())?;
-        let both = (true, true);
-        self.offer(
-            VectorItem::of(VectorUse::FromDeclared),
-            "from_declared",
-            both,
-            from,
-        );
-        self.offer(
-            VectorItem::of(VectorUse::ToDeclared),
-            "to_declared",
-            both,
-            to,
-        );
+        self.offer(VectorUse::FromDeclared, from);
+        self.offer(VectorUse::ToDeclared, to);
         Some(())
     }
 
@@ -173,8 +135,8 @@ impl System {
         self.model = retimed.model;
         // dt/dt = 1
         let one = self.model.dag.integer(1);
-        for (item, vector) in self.vectors.iter().zip(&mut self.model.vectors) {
-            if item.usage == VectorUse::Velocity {
+        for vector in &mut self.model.vectors {
+            if vector.usage == VectorUse::Velocity {
                 vector.entries.push(VectorEntry {
                     at: Column::first(Side::Q, group),
                     row: Index::constant(0),
@@ -188,12 +150,7 @@ impl System {
             row: Index::constant(0),
             value: start,
         });
-        self.offer(
-            VectorItem::of(VectorUse::OnShell),
-            "on_shell",
-            (false, true),
-            on_shell,
-        );
+        self.offer(VectorUse::OnShell, on_shell);
         Ok(())
     }
 }

@@ -4,54 +4,25 @@
 //! `n` is called `_n`; numbers stand where they are used; an index modulo a size is no operation
 //! of a loop body: the loop runs in segments in which nothing wraps.
 
-use super::index::{Indices, variable};
+use super::context::{Access, Context, ZERO};
+use super::index::variable;
 use super::layout::{Layout, Slice};
-use super::number::{self, Numbers};
+use super::number;
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
-use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::program::{Instruction, Loop, Program, Step, Target, Update, Value};
+use hamiltonian_symbolic::model::Shape;
+use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
-
-/// The input of the text of every body of a system.
-#[derive(Debug, Clone, Copy)]
-pub struct Context<'a> {
-    /// The mathematics.
-    pub model: &'a Model,
-    /// The instructions.
-    pub program: &'a Program,
-    /// How coordinates are stored.
-    pub layout: Layout,
-    /// The suffix of the system's name in that of the struct of coordinates of mixed shape.
-    pub suffix: &'static str,
-    /// The names of sizes inside bodies.
-    pub indices: Indices<'a>,
-    /// Which sizes are set at run time.
-    pub is_run_time: &'a [bool],
-    /// The numbers met so far.
-    pub numbers: &'a Numbers,
-    /// Whether coordinates and momenta are read where they are written: iterations see what those
-    /// before them left.
-    pub in_place: bool,
-    /// Whether loops run from their last iteration to the first; asked of bodies in place only.
-    pub reversed: bool,
-}
-
-impl Context<'_> {
-    /// The slice an array's elements are read from.
-    pub fn read(self, array: Array) -> Slice {
-        match array {
-            Array::Phase(column) if self.in_place => {
-                Slice::write(self.layout, Target::Phase(column))
-            }
-            _ => Slice::read(self.layout, array),
-        }
-    }
-}
 
 /// The name of a value.
 pub fn name(value: Value) -> String {
     format!("_{}", value.0)
+}
+
+/// The names of values in a list.
+pub fn names(values: &[Value]) -> String {
+    let names: Vec<String> = values.iter().map(|value| name(*value)).collect();
+    names.join(", ")
 }
 
 /// The name of a function written in Rust, or of a derivative of it.
@@ -66,17 +37,16 @@ pub fn external(number: u16, part: Part) -> String {
 /// A value where it is used.
 pub fn operand(context: Context, value: Value) -> String {
     match context.program.instruction(value) {
-        Instruction::Constant(number) => context.numbers.constant(number).to_string(),
+        Instruction::Constant(number) => number::constant(number),
         Instruction::Pi => number::pi(),
         _ => name(value),
     }
 }
 
-/// Writes steps. `scalar` is how a scalar parameter is read.
-pub fn write(out: &mut String, context: Context, scalar: &dyn Fn(u16) -> String, steps: &[Step]) {
+/// Writes steps.
+pub fn write(out: &mut String, context: Context, steps: &[Step]) {
     let mut writer = Writer {
         context,
-        scalar,
         out,
         indices: Vec::new(),
         slices: Vec::new(),
@@ -84,25 +54,17 @@ pub fn write(out: &mut String, context: Context, scalar: &dyn Fn(u16) -> String,
     writer.steps(steps);
 }
 
-pub(super) struct Writer<'a> {
-    pub(super) context: Context<'a>,
-    scalar: &'a dyn Fn(u16) -> String,
-    pub(super) out: &'a mut String,
+struct Writer<'a> {
+    context: Context<'a>,
+    out: &'a mut String,
     /// Wrapped indices of open loops and the text they are reached by.
     indices: Vec<(Index, String)>,
     /// Elements of open loops that are reached through a slice cut to the segment.
     slices: Vec<(Slice, Index, String)>,
 }
 
-macro_rules! line {
-    ($writer:expr, $($text:tt)*) => {{
-        // Writing to a string does not fail.
-        let _ = writeln!($writer.out, $($text)*);
-    }};
-}
-
-impl<'a> Writer<'a> {
-    pub(super) fn steps(&mut self, steps: &[Step]) {
+impl Writer<'_> {
+    fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             match step {
                 Step::Let(value) => self.compute(*value),
@@ -150,9 +112,9 @@ impl<'a> Writer<'a> {
     fn instruction(&self, instruction: &Instruction) -> String {
         let v = |value: &Value| self.operand(*value);
         match instruction {
-            Instruction::Constant(value) => self.context.numbers.constant(value).to_string(),
+            Instruction::Constant(value) => number::constant(value),
             Instruction::Pi => number::pi(),
-            Instruction::Scalar(parameter) => (self.scalar)(parameter.0),
+            Instruction::Scalar(parameter) => self.context.generics.lifted(parameter.0),
             Instruction::Time => "_t".into(),
             Instruction::Coefficient => "_c".into(),
             Instruction::Variable(domain) => real(&variable(*domain)),
@@ -162,7 +124,7 @@ impl<'a> Writer<'a> {
                 real(&format!("({})", self.context.indices.saturating(&length)))
             }
             Instruction::Load(array, row, column) => self.element(*array, row, column.as_ref()),
-            Instruction::Accumulator => "T::constant(0.0, 0.0)".into(),
+            Instruction::Accumulator => ZERO.into(),
             Instruction::Neg(a) => format!("-{}", v(a)),
             Instruction::Add(a, b) => format!("{} + {}", v(a), v(b)),
             Instruction::Sub(a, b) => format!("{} - {}", v(a), v(b)),
@@ -282,14 +244,7 @@ impl<'a> Writer<'a> {
     /// A loop: whole where no index wraps, in segments otherwise.
     fn nest(&mut self, inner: &Loop) {
         for accumulator in &inner.accumulators {
-            line!(
-                self,
-                "let mut {} = T::constant(0.0, 0.0);",
-                name(*accumulator)
-            );
-        }
-        if self.context.in_place {
-            return self.sweep(inner);
+            line!(self, "let mut {} = {ZERO};", name(*accumulator));
         }
         let found = Accesses::of(self.context, inner);
         let (known_indices, known_slices) = (self.indices.len(), self.slices.len());
@@ -297,7 +252,10 @@ impl<'a> Writer<'a> {
         let start = self.context.indices.start(&inner.start);
         let end = self.context.indices.saturating(&inner.end);
         if found.wrapped.is_empty() && found.cuts.is_empty() {
-            line!(self, "for _i{d} in {start}..{end} {{");
+            match self.context.access {
+                Access::Reversed => line!(self, "for _i{d} in ({start}..{end}).rev() {{"),
+                Access::Apart | Access::InPlace => line!(self, "for _i{d} in {start}..{end} {{"),
+            }
             self.steps(&inner.body);
             line!(self, "}}");
             return;
@@ -337,17 +295,6 @@ impl<'a> Writer<'a> {
         line!(self, "}}");
         self.indices.truncate(known_indices);
         self.slices.truncate(known_slices);
-    }
-
-    /// A loop whose iterations read and write one point, in either order.
-    fn sweep(&mut self, inner: &Loop) {
-        let d = inner.domain.0;
-        let start = self.context.indices.start(&inner.start);
-        let end = self.context.indices.saturating(&inner.end);
-        let order = if self.context.reversed { ".rev()" } else { "" };
-        line!(self, "for _i{d} in ({start}..{end}){order} {{");
-        self.steps(&inner.body);
-        line!(self, "}}");
     }
 
     /// Where the wrapped indices start in a segment, and how long it is until one of them wraps.
@@ -433,6 +380,7 @@ impl Accesses {
             && self.cuts.iter().all(along)
     }
 
+    /// Those of a loop; none where iterations read and write one point, which has no parts to cut.
     fn of(context: Context, inner: &Loop) -> Accesses {
         let mut finder = Finder {
             context,
@@ -440,32 +388,33 @@ impl Accesses {
             accesses: Accesses::default(),
             stores: Vec::new(),
         };
-        finder.walk(&inner.body, 0);
+        if context.access == Access::Apart {
+            finder.walk(&inner.body, 0);
+        }
         let mut accesses = finder.accesses;
-        for (slice, index, along) in finder.stores {
-            if along == Along::Step && !accesses.cuts.contains(&(slice, index.clone())) {
-                accesses.cuts.push((slice, index));
+        for (slice, index, steps) in finder.stores {
+            if steps {
+                accesses.cut(slice, index);
             }
         }
         accesses
     }
-}
 
-/// How an index moves with a loop variable.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Along {
-    /// By one, in the body of this very loop.
-    Step,
-    /// Otherwise.
-    Other,
+    fn cut(&mut self, slice: Slice, index: Index) {
+        let cut = (slice, index);
+        if !self.cuts.contains(&cut) {
+            self.cuts.push(cut);
+        }
+    }
 }
 
 struct Finder<'a> {
     context: Context<'a>,
     domain: Domain,
     accesses: Accesses,
-    /// Columns written, each with its index; `Other` once a second index was met.
-    stores: Vec<(Slice, Index, Along)>,
+    /// Columns written, each with its index, and whether all stores have that index and it moves by
+    /// one with the loop variable.
+    stores: Vec<(Slice, Index, bool)>,
 }
 
 impl Finder<'_> {
@@ -474,33 +423,17 @@ impl Finder<'_> {
             match step {
                 Step::Let(value) => {
                     let program = self.context.program;
-                    if let Instruction::Load(array, row, column) = program.instruction(*value) {
-                        let slice = self.context.read(*array);
-                        let along = self.index(row, inner);
-                        if let Some(column) = column {
-                            self.index(column, inner);
-                        } else if along == Along::Step
-                            && !self.accesses.cuts.contains(&(slice, row.clone()))
-                        {
-                            self.accesses.cuts.push((slice, row.clone()));
-                        }
+                    if let Instruction::Load(array, row, column) = program.instruction(*value)
+                        && self.element(row, column.as_ref(), inner)
+                    {
+                        self.accesses.cut(self.context.read(*array), row.clone());
                     }
                 }
                 Step::Store(target, row, column, _) => {
                     let slice = Slice::write(self.context.layout, *target);
-                    let along = self.index(row, inner);
-                    let along = match column {
-                        Some(column) => {
-                            self.index(column, inner);
-                            Along::Other
-                        }
-                        None => along,
-                    };
+                    let along = self.element(row, column.as_ref(), inner);
                     match self.stores.iter_mut().find(|(s, ..)| *s == slice) {
-                        Some((_, index, known)) if index != row || along == Along::Other => {
-                            *known = Along::Other;
-                        }
-                        Some(_) => {}
+                        Some((_, index, steps)) => *steps &= index == row && along,
                         None => self.stores.push((slice, row.clone(), along)),
                     }
                 }
@@ -510,31 +443,32 @@ impl Finder<'_> {
         }
     }
 
-    /// Notes an index that wraps in this loop, and says how it moves.
-    fn index(&mut self, index: &Index, inner: u64) -> Along {
+    /// Notes the indices of an element that wrap in this loop. Whether it moves by one element of its
+    /// column with the loop variable, in the body of this very loop.
+    fn element(&mut self, row: &Index, column: Option<&Index>, inner: u64) -> bool {
+        let along = self.index(row, inner);
+        if let Some(column) = column {
+            self.index(column, inner);
+        }
+        along && column.is_none()
+    }
+
+    fn index(&mut self, index: &Index, inner: u64) -> bool {
         let variables = index.variables();
         if variables & inner != 0 || variables & 1 << self.domain.0 == 0 {
-            return Along::Other;
+            return false;
         }
         let factor = index.affine.factor(self.domain);
         if let Some(modulo) = &index.modulo {
             if factor.abs() != 1 || modulo.factor(self.domain) != 0 {
-                return Along::Other;
+                return false;
             }
-            if !self
-                .accesses
-                .wrapped
-                .iter()
-                .any(|(known, _)| known == index)
-            {
-                self.accesses.wrapped.push((index.clone(), factor));
+            let wrapped = (index.clone(), factor);
+            if !self.accesses.wrapped.contains(&wrapped) {
+                self.accesses.wrapped.push(wrapped);
             }
         }
-        if factor == 1 {
-            Along::Step
-        } else {
-            Along::Other
-        }
+        factor == 1
     }
 }
 
@@ -544,9 +478,9 @@ pub fn clear(out: &mut String, context: Context, targets: &[Target]) {
         let slice = Slice::write(context.layout, *target);
         let _ = match target {
             Target::Phase(Column { group, .. }) if context.layout == Layout::Scalars => {
-                writeln!(out, "{}[{group}] = T::constant(0.0, 0.0);", slice.name())
+                writeln!(out, "{}[{group}] = {ZERO};", slice.name())
             }
-            Target::Phase(_) => writeln!(out, "{}.fill(T::constant(0.0, 0.0));", slice.name()),
+            Target::Phase(_) => writeln!(out, "{}.fill({ZERO});", slice.name()),
             // Derivatives with respect to parameters start at 0.
             Target::Parameter(_) | Target::Held(_) => Ok(()),
         };

@@ -36,12 +36,12 @@ pub const FLOW: &str = "__Field { prepared: __h::core::clone::Clone::clone(_self
 
 /// The field: a gradient, then two accumulations.
 pub fn flow(generics: &Generics, vector: &str) -> String {
-    let (declaration, arguments) = (generics.holder_declaration(), generics.holder_arguments());
-    let visibility = &generics.visibility;
+    let (declaration, visibility) = (generics.holder_declaration(), &generics.visibility);
+    let [prepared, field] = ["__Prepared", "__Field"].map(|name| generics.holder_type(name));
     format!(
         "#[doc(hidden)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
-         {visibility} struct __Field{declaration} {{ prepared: __Prepared{arguments}, c: T }}\n\
-         #[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for __Field{arguments} {{\n\
+         {visibility} struct __Field{declaration} {{ prepared: {prepared}, c: T }}\n\
+         #[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for {field} {{\n\
          #[inline(always)]\nfn add(&self, _t: T, _q: &{vector}, _p: &{vector}, _oq: &mut {vector}, _op: &mut {vector}) {{\n\
          let (mut _x, mut _y) = (*_oq, *_op);\n\
          let _ = __h::Dynamics::energy_and_gradient(&self.prepared, _t, _q, _p, &mut _x, &mut _y);\n\

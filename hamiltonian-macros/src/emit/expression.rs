@@ -4,56 +4,43 @@
 //! Invariant: the captured names are the only tokens of the user's in it, and they stand in the
 //! one expression at its end.
 
-use super::block::Context;
-use super::generics::Generics;
+use super::context::Context;
 use super::{
-    Definition, declared, dynamics, externals, item, layout, lex, markers, mixed, observables,
-    reach, vectors,
+    declared, dynamics, externals, item, lex, markers, mixed, observables, reach, vectors,
 };
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::TokenStream;
 use quote::quote;
 
 /// The tokens of a value.
-pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
-    let generics = Generics::of(definition);
-    let parts = item::Parts::of(definition, &generics);
-    let context = parts.context(definition);
-    let root = &definition.root;
-    let name = &generics.name;
-    let fields: String = generics
-        .scalars
-        .iter()
-        .enumerate()
-        .map(|(at, scalar)| format!("c{at}: {scalar}, "))
+pub fn generate(context: Context) -> TokenStream {
+    let (definition, generics) = (context.definition, context.generics);
+    let (root, captures) = (definition.root, &definition.checked.captures);
+    let name = lex(&generics.name);
+    let fields: Vec<TokenStream> = (0..captures.len())
+        .map(|at| lex(&format!("c{at}")))
         .collect();
-    let scalars = if captures.is_empty() {
-        String::new()
-    } else {
-        format!("<{}>", generics.scalars.join(", "))
-    };
-    let declaration = lex(&format!("struct {name}{scalars} {{ {fields} }}"));
+    let scalars = generics.scalars.iter().map(|scalar| lex(scalar));
+    let scalars: Vec<TokenStream> = scalars.collect();
+    let parameters = (!scalars.is_empty()).then(|| quote! { <#(#scalars),*> });
     let mut text = String::new();
-    let own = (context.layout == layout::Layout::Mixed).then_some(context);
-    for context in own.into_iter().chain(declared::mixed(definition, context)) {
-        text.push_str(&mixed::derives(context, "__h"));
-        text.push_str(&mixed::declaration(context, &generics, "__h"));
-        text.push_str(&mixed::implementations(context, &generics));
+    for context in declared::mixed(context) {
+        text.push_str(&mixed::derives(context));
+        text.push_str(&mixed::declaration(context));
+        text.push_str(&mixed::implementations(context));
     }
-    let (implementations, functions) = dynamics::implementations(definition, context, &generics);
+    let (implementations, functions) = dynamics::implementations(context);
     text.push_str(&implementations);
     text.push_str(&functions);
-    text.push_str(&markers::implementations(&definition.structure, &generics));
-    text.push_str(&item::display(definition, &generics));
+    text.push_str(&markers::implementations(context));
+    text.push_str(&item::display(context));
     let implementations = lex(&text);
-    let externals = externals::wrappers(definition);
-    let inherent = inherent(definition, context, &generics);
-    let questions = reach::compiled(definition.reaches, context, &generics);
-    let value = lex(name);
-    let names = (0..captures.len()).map(|at| lex(&format!("c{at}")));
+    let externals = externals::wrappers(context);
+    let inherent = inherent(context);
+    let questions = reach::compiled(context);
     quote! {
         {
             #[derive(#root::private::core::clone::Clone, #root::private::core::fmt::Debug)]
-            #declaration
+            struct #name #parameters { #(#fields: #scalars,)* }
             #[allow(clippy::approx_constant)]
             const _: () = {
                 use #root::private as __h;
@@ -62,33 +49,27 @@ pub fn generate(definition: &Definition, captures: &[Ident]) -> TokenStream {
                 #questions
                 #inherent
             };
-            #value { #(#names: #captures),* }
+            #name { #(#fields: #captures),* }
         }
     }
 }
 
 /// Observables as methods, and the way to coordinates of mixed shape, whose type has no name
 /// outside.
-fn inherent(definition: &Definition, context: Context, generics: &Generics) -> TokenStream {
+fn inherent(context: Context) -> TokenStream {
     let visibility = quote! { pub };
-    let mut methods = observables::methods(definition, context, generics, &visibility);
-    methods.extend(vectors::methods(definition, context, generics, &visibility));
-    let mixed = context.layout == layout::Layout::Mixed;
-    if methods.is_empty() && !mixed {
-        return TokenStream::new();
+    let mut methods = observables::methods(context, &visibility);
+    methods.extend(vectors::methods(context, &visibility));
+    for mixed in declared::mixed(context) {
+        let method = match mixed.suffix == context.suffix {
+            true => "vector",
+            false => "declared_vector",
+        };
+        methods.extend(lex(&mixed::constructor(mixed, method)));
     }
-    let header = lex(&format!(
-        "impl{} {}",
-        generics.declaration(),
-        generics.system_type()
-    ));
-    let mut vectors = String::new();
-    if mixed {
-        vectors.push_str(&mixed::constructor(context, generics, "vector"));
+    if methods.is_empty() {
+        return methods;
     }
-    if let Some(declared) = declared::mixed(definition, context) {
-        vectors.push_str(&mixed::constructor(declared, generics, "declared_vector"));
-    }
-    let vectors = lex(&vectors);
-    quote! { #header { #methods #vectors } }
+    let header = lex(&context.generics.header());
+    quote! { #header { #methods } }
 }

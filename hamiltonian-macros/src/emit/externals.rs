@@ -4,16 +4,18 @@
 //! a function generic over the scalar, so that what rustc says of it points at the path.
 
 use super::block;
+use super::context::Context;
 use super::item::located;
-use super::{Definition, lex};
+use super::lex;
 use hamiltonian_symbolic::dag::Part;
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;
 
 /// The wrappers of all functions.
-pub fn wrappers(definition: &Definition) -> TokenStream {
+pub fn wrappers(context: Context) -> TokenStream {
     let mut out = TokenStream::new();
-    for (number, function) in definition.functions.iter().enumerate() {
+    let functions = context.definition.checked.functions.iter().enumerate();
+    for (number, function) in functions {
         let (number, arity) = (number as u16, function.arguments.len() as u16);
         let mut wrap = |part: Part, path: &TokenStream| {
             let name = lex(&block::external(number, part));

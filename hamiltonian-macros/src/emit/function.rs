@@ -1,13 +1,12 @@
 //! Functions of a program as function bodies.
 //!
-//! Input: steps, what they read from, what they return. Output: the text of a body; long ones go
-//! to `parts`. Invariant: sizes, slices and what was computed earlier are bound before the first
-//! step.
+//! Input: steps with their inputs and results. Output: the text of a body; long ones go to
+//! `parts`. Invariant: sizes, slices and values computed earlier are bound before the first step.
 
-use super::block::{self, Context, operand};
-use super::generics::Generics;
+use super::block;
+use super::context::Context;
 use super::holder::Receiver;
-use super::layout::{self, Slice};
+use super::layout::Slice;
 use super::parts;
 use super::scan::scan;
 use hamiltonian_symbolic::model::Shape;
@@ -27,7 +26,7 @@ pub struct Body<'a> {
     pub steps: &'a [Step],
     /// Outputs that are set to 0 first.
     pub cleared: &'a [Target],
-    /// Values it ends with; they are in scope where `tail` stands.
+    /// Values it ends with, in scope after its last step.
     pub results: &'a [Value],
     /// Parameter arrays that are bound as slices although no step reads them.
     pub arrays: &'a [Slice],
@@ -38,8 +37,6 @@ pub struct Body<'a> {
 pub struct Bodies<'a> {
     /// Their context.
     pub context: Context<'a>,
-    /// The generics of the definition.
-    pub generics: &'a Generics,
     /// The parts of long ones: free functions.
     pub parts: String,
 }
@@ -59,12 +56,7 @@ impl Bodies<'_> {
         self.bind(out, body.receiver, slices);
         self.read(out, body.receiver, &scan.reads);
         block::clear(out, context, body.cleared);
-        self.steps(out, body.receiver, body.steps);
-    }
-
-    pub(super) fn steps(&self, out: &mut String, receiver: Receiver, steps: &[Step]) {
-        let scalar = |parameter| receiver.scalar(self.generics, parameter);
-        block::write(out, self.context, &scalar, steps);
+        block::write(out, context, body.steps);
     }
 
     /// Binds sizes and slices.
@@ -72,59 +64,37 @@ impl Bodies<'_> {
         let context = self.context;
         slices.sort_unstable();
         slices.dedup();
-        for (size, run_time) in context.is_run_time.iter().enumerate() {
-            if *run_time {
-                receiver.bind_size(out, self.generics, size);
-            }
-        }
-        layout::bind(
-            out,
-            &slices,
-            context.model,
-            context.layout,
-            context.indices,
-            context.is_run_time,
-        );
+        receiver.bind_sizes(out, context);
+        context.bind(out, &slices);
         for slice in &slices {
+            let name = slice.name();
             match slice {
                 Slice::Parameter(_) | Slice::Held(_) => {
-                    receiver.bind_array(out, self.generics, *slice);
+                    receiver.bind_array(out, context, *slice);
                 }
                 Slice::Filled(number) => {
-                    let name = slice.name();
                     let _ = writeln!(out, "let {name} = _held.{number}.as_mut_slice();");
                 }
                 Slice::Derivative(number) => {
-                    let field = self.generics.field(*number);
-                    let name = slice.name();
+                    let field = context.generics.field(*number);
                     let _ = match &context.model.parameters[usize::from(*number)].shape {
                         Shape::Scalar => writeln!(out, "let {name} = &mut _d.{field};"),
-                        shape if layout::is_dynamic(shape, context.is_run_time) => writeln!(
+                        shape if context.is_dynamic(shape) => writeln!(
                             out,
                             "let {name} = __h::SetByNew::get_mut(&mut _d.{field}).as_mut_slice();"
                         ),
                         _ => writeln!(out, "let {name} = _d.{field}.as_mut_slice();"),
                     };
                 }
-                _ => {}
+                Slice::Input(_) | Slice::Direction(_) | Slice::Output(_) => {}
             }
         }
     }
 
     /// Binds values computed earlier: by an earlier stage or, where they cost nothing, again.
     pub(super) fn read(&self, out: &mut String, receiver: Receiver, reads: &[Value]) {
-        let again = receiver.read(out, reads);
-        for value in again {
-            self.steps(out, receiver, &[Step::Let(value)]);
+        for value in receiver.read(out, reads) {
+            block::write(out, self.context, &[Step::Let(value)]);
         }
     }
-}
-
-/// The operands of a list of results.
-pub fn results(context: Context, results: &[Value]) -> String {
-    let texts: Vec<String> = results
-        .iter()
-        .map(|value| operand(context, *value))
-        .collect();
-    texts.join(", ")
 }

@@ -1,10 +1,11 @@
 //! The generic parameters of everything that is emitted.
 //!
-//! Input: the form of the definition and the model. Output: parameter lists and types as text.
-//! Invariant: names made here differ from the name of the user's type; const generics and the
-//! scalars are renamed inside bodies, so that no other name of the user's can be in their way.
+//! Input: the definition. Output: parameter lists and types as text. Invariant: names made here
+//! differ from the name of the user's type; const generics and the scalars are renamed inside
+//! bodies, so that no other name of the user's can be in their way.
 
-use super::{Definition, Form};
+use super::Definition;
+use crate::checked::SizeKind;
 
 /// The generic parameters of a definition.
 #[derive(Debug)]
@@ -19,94 +20,94 @@ pub struct Generics {
     pub constants: Vec<String>,
     /// The scalars of the parameters: one for all in item form, one a capture in expression form.
     pub scalars: Vec<String>,
+    /// All sizes as they are called in bodies.
+    pub sizes: Vec<String>,
+    /// Which sizes are set at run time.
+    pub is_run_time: Vec<bool>,
     /// The fields of the parameters.
     fields: Vec<String>,
-    /// The fields of the sizes; const generics have none, and keep their place.
-    pub sizes: Vec<String>,
-    /// Whether there is one scalar for all parameters.
-    shared: bool,
+    /// The bound of a parameter scalar: captures may be integers, which are no `Real`.
+    bound: &'static str,
 }
 
 impl Generics {
     /// The generics of a definition.
     pub fn of(definition: &Definition) -> Generics {
-        match &definition.form {
-            Form::Item(item) => {
-                let name = item.name.to_string();
-                let constants = (0..item.sizes.iter().filter(|size| !size.run_time).count())
-                    .map(|at| other_than(&name, &format!("N{at}")))
-                    .collect();
-                let scalars = if item.parameters.is_empty() {
-                    Vec::new()
-                } else {
-                    vec![other_than(&name, "P")]
-                };
-                Generics {
-                    constants,
-                    scalars,
-                    fields: item.parameters.iter().map(|p| p.name.to_string()).collect(),
-                    sizes: item.sizes.iter().map(|s| s.name.to_string()).collect(),
-                    shared: true,
-                    visibility: item.visibility.to_string(),
-                    whole: item.whole.as_ref().unwrap_or(&item.name).to_string(),
-                    name,
-                }
-            }
-            Form::Expression(captures) => Generics {
+        let checked = definition.checked;
+        let Some(item) = &checked.item else {
+            let numbered =
+                |letter| (0..checked.captures.len()).map(move |at| format!("{letter}{at}"));
+            return Generics {
                 name: "HamiltonianValue".into(),
                 whole: "HamiltonianValue".into(),
                 visibility: String::new(),
                 constants: Vec::new(),
-                scalars: (0..captures.len()).map(|at| format!("A{at}")).collect(),
-                fields: (0..captures.len()).map(|at| format!("c{at}")).collect(),
+                scalars: numbered("A").collect(),
                 sizes: Vec::new(),
-                shared: false,
-            },
+                is_run_time: Vec::new(),
+                fields: numbered("c").collect(),
+                bound: "__h::core::marker::Copy",
+            };
+        };
+        let name = definition.type_name(item).to_string();
+        let (mut sizes, mut constants) = (Vec::new(), Vec::new());
+        for (at, size) in checked.sizes.iter().enumerate() {
+            sizes.push(match size.kind {
+                SizeKind::Runtime => format!("_n{at}"),
+                SizeKind::Const => other_than(&name, &format!("N{}", constants.len())),
+            });
+            if size.kind == SizeKind::Const {
+                constants.push(sizes[at].clone());
+            }
         }
-    }
-
-    /// `const N0: usize`, …
-    pub fn constants_declared(&self) -> impl Iterator<Item = String> + '_ {
-        self.constants
+        let is_run_time = checked
+            .sizes
             .iter()
-            .map(|name| format!("const {name}: __h::core::primitive::usize"))
+            .map(|size| size.kind == SizeKind::Runtime);
+        let scalar = (!checked.parameters.is_empty()).then(|| other_than(&name, "P"));
+        Generics {
+            constants,
+            scalars: scalar.into_iter().collect(),
+            sizes,
+            is_run_time: is_run_time.collect(),
+            fields: checked
+                .parameters
+                .iter()
+                .map(|p| p.name.to_string())
+                .collect(),
+            bound: "__h::Real",
+            visibility: item.visibility.to_string(),
+            whole: item.name.to_string(),
+            name,
+        }
     }
 
-    /// The bound of a parameter scalar.
-    fn bound(&self) -> &'static str {
-        // Captures may be integers, which are no `Real`.
-        if self.shared {
-            "__h::Real"
-        } else {
-            "__h::core::marker::Copy"
-        }
+    /// `<const N0: usize, …>` with more parameters after the constants.
+    pub fn declared(&self, more: impl IntoIterator<Item = String>) -> String {
+        let constants = self.constants.iter();
+        let constants = constants.map(|name| format!("const {name}: __h::core::primitive::usize"));
+        list(constants.chain(more))
+    }
+
+    fn bounded(&self) -> impl Iterator<Item = String> + '_ {
+        let scalars = self.scalars.iter();
+        scalars.map(|name| format!("{name}: {}", self.bound))
     }
 
     /// `<const N0: usize, P: Real>`
     pub fn declaration(&self) -> String {
-        let scalars = self
-            .scalars
-            .iter()
-            .map(|name| format!("{name}: {}", self.bound()));
-        list(self.constants_declared().chain(scalars))
+        self.declared(self.bounded())
     }
 
     /// `<const N0: usize, P: Real, T: Real + Lift<P>>`
     pub fn declaration_with_scalar(&self) -> String {
-        let scalars = self
-            .scalars
-            .iter()
-            .map(|name| format!("{name}: {}", self.bound()));
-        let state = [format!("T: {}", self.state_bound())];
-        list(self.constants_declared().chain(scalars).chain(state))
+        let state = format!("T: {}", self.state_bound());
+        self.declared(self.bounded().chain([state]))
     }
 
     /// The generics of a marker that asks nothing of the parameters: `<const N0: usize, P>`
     pub fn declaration_without_bounds(&self) -> String {
-        list(
-            self.constants_declared()
-                .chain(self.scalars.iter().cloned()),
-        )
+        self.declared(self.scalars.iter().cloned())
     }
 
     /// `Real + Lift<P>`
@@ -120,41 +121,56 @@ impl Generics {
 
     /// `Name<N0, P>`
     pub fn system_type(&self) -> String {
-        self.system_type_over(&self.scalars)
+        format!("{}{}", self.name, self.arguments())
+    }
+
+    /// `<N0, P>`
+    pub fn arguments(&self) -> String {
+        self.type_over("", self.scalars.iter().cloned())
+    }
+
+    /// `impl<const N0: usize, P: Real> Name<N0, P>`
+    pub fn header(&self) -> String {
+        format!("impl{} {}", self.declaration(), self.system_type())
     }
 
     /// `Name<N0, T>`: item form over another scalar.
-    pub fn system_type_over(&self, scalars: &[String]) -> String {
-        let arguments = self.constants.iter().chain(scalars).cloned();
-        format!("{}{}", self.name, list(arguments))
+    pub fn system_type_over(&self, scalar: &str) -> String {
+        self.type_over(&self.name, self.scalars.iter().map(|_| scalar.to_owned()))
+    }
+
+    /// `<const N0: usize>` and `Name<N0, f64>`, for items of which nothing tells the scalar.
+    pub fn over_f64(&self) -> (String, String) {
+        let system = self.system_type_over("__h::core::primitive::f64");
+        (self.declared([]), system)
+    }
+
+    /// A type of some name with the constants and these scalars as its arguments.
+    fn type_over(&self, name: &str, scalars: impl IntoIterator<Item = String>) -> String {
+        let arguments = self.constants.iter().cloned().chain(scalars);
+        format!("{name}{}", list(arguments))
     }
 
     /// `<const N0: usize, T: Real>`
     pub fn holder_declaration(&self) -> String {
-        list(self.constants_declared().chain(["T: __h::Real".to_owned()]))
+        self.declared(["T: __h::Real".to_owned()])
     }
 
-    /// `<N0, T>`
-    pub fn holder_arguments(&self) -> String {
-        list(self.constants.iter().cloned().chain(["T".to_owned()]))
+    /// `Name<N0, T>` of a holder, or of the struct of coordinates.
+    pub fn holder_type(&self, name: &str) -> String {
+        self.type_over(name, ["T".to_owned()])
     }
 
     /// A field of `_self` as a value of type `T`.
     pub fn lifted(&self, parameter: u16) -> String {
-        format!(
-            "<T as __h::Lift<{}>>::lift(_self.{})",
-            self.scalar(parameter),
-            self.field(parameter)
-        )
+        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
+        format!("<T as __h::Lift<{scalar}>>::lift(_self.{field})")
     }
 
     /// An array field of `_self` over `T`.
     pub fn lifted_array(&self, parameter: u16) -> String {
-        format!(
-            "_self.{}.map(<T as __h::Lift<{}>>::lift)",
-            self.field(parameter),
-            self.scalar(parameter)
-        )
+        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
+        format!("_self.{field}.map(<T as __h::Lift<{scalar}>>::lift)")
     }
 
     /// The field of a parameter.
@@ -162,17 +178,14 @@ impl Generics {
         &self.fields[usize::from(parameter)]
     }
 
+    /// The scalar of a parameter: its own, or the last one, which all share.
     fn scalar(&self, parameter: u16) -> &str {
-        &self.scalars[if self.shared {
-            0
-        } else {
-            usize::from(parameter)
-        }]
+        &self.scalars[usize::from(parameter).min(self.scalars.len() - 1)]
     }
 }
 
 /// `<a, b>`, or nothing for an empty list.
-pub fn list(parameters: impl Iterator<Item = String>) -> String {
+fn list(parameters: impl Iterator<Item = String>) -> String {
     let parameters: Vec<String> = parameters.collect();
     if parameters.is_empty() {
         String::new()

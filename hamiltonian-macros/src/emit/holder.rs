@@ -5,9 +5,9 @@
 //! and the expressions that fill and read them. Invariant: a holder has what its functions read
 //! and nothing else, but all run-time sizes.
 
-use super::block::{Context, name};
-use super::generics::Generics;
-use super::layout::{self, Slice};
+use super::block::names;
+use super::context::Context;
+use super::layout::Slice;
 use super::parts::{self, Wanted};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
@@ -17,7 +17,7 @@ use std::fmt::Write;
 #[derive(Debug)]
 pub struct Holder {
     /// Its name.
-    pub name: &'static str,
+    pub name: String,
     values: Vec<Value>,
     masks: Vec<Value>,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
@@ -25,25 +25,29 @@ pub struct Holder {
 }
 
 impl Holder {
-    /// A holder of these values.
-    pub fn new(
-        context: Context,
-        name: &'static str,
-        values: &[Value],
-        arrays: Vec<Slice>,
-    ) -> Holder {
+    /// A holder of these values, and of the arrays among these slices.
+    pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
         let is_mask = |value: &Value| context.program.instruction(*value).is_mask();
         let (masks, values) = values.iter().copied().partition(is_mask);
+        slices.retain(|slice| matches!(slice, Slice::Parameter(_) | Slice::Held(_)));
+        slices.sort_unstable();
+        slices.dedup();
         Holder {
             name,
             values,
             masks,
-            arrays,
+            arrays: slices,
         }
     }
 
+    /// Its type over `T`.
+    pub fn ty(&self, context: Context) -> String {
+        context.generics.holder_type(&self.name)
+    }
+
     /// The declaration.
-    pub fn declare(&self, out: &mut String, context: Context, generics: &Generics) {
+    pub fn declare(&self, out: &mut String, context: Context) {
+        let generics = context.generics;
         let _ = write!(
             out,
             "#[doc(hidden)]\n#[allow(dead_code)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
@@ -59,16 +63,14 @@ impl Holder {
         if !self.masks.is_empty() {
             let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", self.masks.len());
         }
-        for (size, run_time) in context.is_run_time.iter().enumerate() {
-            if *run_time {
-                let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
-            }
+        for size in context.run_time_sizes() {
+            let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
         }
         for &array in &self.arrays {
             let shape = shape(context, array);
-            let ty = layout::storage(&shape, "T", context.indices, context.is_run_time, "__h");
+            let ty = context.storage(&shape, "T");
             // All holders of a run share what is sized at run time.
-            let _ = match layout::is_dynamic(&shape, context.is_run_time) {
+            let _ = match context.is_dynamic(&shape) {
                 true => writeln!(out, "{}: __h::Arc<{ty}>,", field(array)),
                 false => writeln!(out, "{}: {ty},", field(array)),
             };
@@ -76,28 +78,19 @@ impl Holder {
         out.push_str("}\n");
     }
 
-    /// The expression that makes one where all its values are in scope; `array` says how an array
-    /// is had.
+    /// The expression that makes one where all its values are in scope; `array` is the expression of
+    /// an array.
     pub fn fill(&self, context: Context, array: impl Fn(Slice) -> String) -> String {
-        let list = |values: &[Value]| {
-            values
-                .iter()
-                .map(|v| name(*v))
-                .collect::<Vec<_>>()
-                .join(", ")
-        };
         let values = match self.values.len() {
             0 => "__h::core::marker::PhantomData".to_owned(),
-            _ => format!("[{}]", list(&self.values)),
+            _ => format!("[{}]", names(&self.values)),
         };
         let mut out = format!("{} {{ v: {values}, ", self.name);
         if !self.masks.is_empty() {
-            let _ = write!(out, "m: [{}], ", list(&self.masks));
+            let _ = write!(out, "m: [{}], ", names(&self.masks));
         }
-        for (size, run_time) in context.is_run_time.iter().enumerate() {
-            if *run_time {
-                let _ = write!(out, "n{size}: _n{size}, ");
-            }
+        for size in context.run_time_sizes() {
+            let _ = write!(out, "n{size}: _n{size}, ");
         }
         for &own in &self.arrays {
             let _ = write!(out, "{}: {}, ", field(own), array(own));
@@ -109,18 +102,6 @@ impl Holder {
     /// All values, in the order they are filled.
     pub fn values(&self) -> impl Iterator<Item = Value> + '_ {
         self.values.iter().chain(&self.masks).copied()
-    }
-
-    /// Takes the holder's arrays apart as far as they are read; what it does not have.
-    fn read(&self, out: &mut String, reads: &[Value]) -> Vec<Value> {
-        let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
-        parts::bind(out, "_self.v", &self.values, &rest);
-        parts::bind(out, "_self.m", &self.masks, &rest);
-        for value in self.values() {
-            rest.remove(&value);
-        }
-        let is_missing = |value: &Value| rest.contains_key(value);
-        reads.iter().copied().filter(is_missing).collect()
     }
 }
 
@@ -151,55 +132,55 @@ pub enum Receiver<'a> {
 
 impl Receiver<'_> {
     /// Its type.
-    pub fn ty(self, generics: &Generics) -> String {
+    pub fn ty(self, context: Context) -> String {
         match self {
-            Receiver::System => generics.system_type(),
-            Receiver::Holder(holder) => format!("{}{}", holder.name, generics.holder_arguments()),
+            Receiver::System => context.generics.system_type(),
+            Receiver::Holder(holder) => holder.ty(context),
         }
     }
 
     /// The generics of a free function over it.
-    pub fn declaration(self, generics: &Generics) -> String {
+    pub fn declaration(self, context: Context) -> String {
         match self {
-            Receiver::System => generics.declaration_with_scalar(),
-            Receiver::Holder(_) => generics.holder_declaration(),
+            Receiver::System => context.generics.declaration_with_scalar(),
+            Receiver::Holder(_) => context.generics.holder_declaration(),
         }
     }
 
     /// Binds values computed earlier; those that it does not have.
     pub fn read(self, out: &mut String, reads: &[Value]) -> Vec<Value> {
-        match self {
-            Receiver::System => reads.to_vec(),
-            Receiver::Holder(holder) => holder.read(out, reads),
-        }
-    }
-
-    /// How a scalar parameter is read.
-    pub fn scalar(self, generics: &Generics, parameter: u16) -> String {
-        match self {
-            Receiver::System => generics.lifted(parameter),
-            Receiver::Holder(_) => {
-                unreachable!("scalars are leaves of preparation: nothing later reads them")
-            }
-        }
-    }
-
-    /// The `let` of a run-time size.
-    pub fn bind_size(self, out: &mut String, generics: &Generics, size: usize) {
-        let _ = match self {
-            Receiver::System => writeln!(out, "let _n{size} = *_self.{};", generics.sizes[size]),
-            Receiver::Holder(_) => writeln!(out, "let _n{size} = _self.n{size};"),
+        let Receiver::Holder(holder) = self else {
+            return reads.to_vec();
         };
+        let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
+        parts::bind(out, "_self.v", &holder.values, &rest);
+        parts::bind(out, "_self.m", &holder.masks, &rest);
+        for value in holder.values() {
+            rest.remove(&value);
+        }
+        let is_missing = |value: &Value| rest.contains_key(value);
+        reads.iter().copied().filter(is_missing).collect()
+    }
+
+    /// The `let`s of the run-time sizes.
+    pub fn bind_sizes(self, out: &mut String, context: Context) {
+        for size in context.run_time_sizes() {
+            let name = &context.definition.checked.sizes[size].name;
+            let _ = match self {
+                Receiver::System => writeln!(out, "let _n{size} = *_self.{name};"),
+                Receiver::Holder(_) => writeln!(out, "let _n{size} = _self.n{size};"),
+            };
+        }
     }
 
     /// The `let` of a parameter array, or of an array that preparation filled, as a slice.
-    pub fn bind_array(self, out: &mut String, generics: &Generics, array: Slice) {
+    pub fn bind_array(self, out: &mut String, context: Context, array: Slice) {
         let name = array.name();
         let _ = match (self, array) {
             (Receiver::System, Slice::Parameter(number)) => writeln!(
                 out,
                 "let _b{number} = {};\nlet {name} = _b{number}.as_slice();",
-                generics.lifted_array(number)
+                context.generics.lifted_array(number)
             ),
             _ => writeln!(out, "let {name} = _self.{}.as_slice();", field(array)),
         };

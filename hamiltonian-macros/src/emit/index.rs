@@ -58,29 +58,25 @@ impl Indices<'_> {
         (plus, minus)
     }
 
+    /// The sum of the positive terms, and that of the negated negative ones; the second may be empty.
     fn joined(&self, affine: &Affine, at: Option<(Domain, &str)>) -> (String, String) {
         let (plus, minus) = self.halves(affine, at);
-        let plus = if plus.is_empty() {
-            "0usize".to_owned()
-        } else {
-            plus.join(" + ")
+        let plus = match plus.is_empty() {
+            true => "0usize".to_owned(),
+            false => plus.join(" + "),
         };
         (plus, minus.join(" + "))
     }
 
     /// An index, or a bound that is not negative.
     pub fn plain(&self, affine: &Affine, at: Option<(Domain, &str)>) -> String {
-        let (plus, minus) = self.halves(affine, at);
-        let mut text = if plus.is_empty() {
-            "0usize".to_owned()
-        } else {
-            plus.join(" + ")
-        };
-        for term in minus {
-            text.push_str(" - ");
-            text.push_str(&term);
-        }
-        text
+        let (plus, _) = self.joined(affine, at);
+        let (_, minus) = self.halves(affine, at);
+        [plus]
+            .into_iter()
+            .chain(minus)
+            .collect::<Vec<_>>()
+            .join(" - ")
     }
 
     /// The value, or 0 where it is negative.

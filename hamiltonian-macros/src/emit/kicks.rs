@@ -1,158 +1,101 @@
-//! The vector field, and the flows of V and T, with a force or without.
+//! The vector field, and the pieces V and T, with a force or without.
 //!
-//! Input: a definition. Output: text of the holders with their evaluation, of the pieces, and of
-//! `Separable`. Invariant: a kick reads no coordinate it moves and moves momenta alone.
+//! Input: a definition. Output: text of the fields with their holders, of the pieces that kick and
+//! drift, and of `Separable`. Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
-use super::dynamics::{Emission, evaluation};
-use super::holder::Receiver;
-use super::{Kick, derived};
+use super::Kick;
+use super::derived;
+use super::dynamics::{Emission, declared};
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
 
-macro_rules! line {
-    ($emission:expr, $($text:tt)*) => {{
-        // Writing to a string does not fail.
-        let _ = writeln!($emission.out, $($text)*);
-    }};
-}
-
-/// The holder of a field, a kick or a drift, with its inputs and outputs.
-fn signature(
-    purpose: Purpose,
-) -> (
-    &'static str,
-    &'static [&'static str],
-    &'static [&'static str],
-) {
+/// The holder of a field, a kick or a drift.
+fn holder(purpose: Purpose) -> &'static str {
     match purpose {
-        Purpose::Push => ("__Push", &[], &["_oq", "_op"]),
-        Purpose::Rates => ("__Rates", &["_q", "_p"], &["_oq", "_op"]),
-        Purpose::Linear => ("__Linear", &["_q", "_p"], &["_oq", "_op"]),
-        Purpose::Kick => ("__Kick", &["_q"], &["_op"]),
-        Purpose::Drift => ("__Drift", &["_p"], &["_oq"]),
-        _ => ("__Field", &["_q", "_p"], &["_oq", "_op"]),
+        Purpose::Push => "__Push",
+        Purpose::Rates => "__Rates",
+        Purpose::Linear => "__Linear",
+        Purpose::Kick => "__Kick",
+        Purpose::Drift => "__Drift",
+        _ => "__Field",
     }
 }
 
 impl Emission<'_> {
-    /// The holder of a field, a kick or a drift with its evaluation.
-    pub(super) fn flow(&mut self, purpose: Purpose) {
-        let (name, inputs, outputs) = signature(purpose);
-        let generics = self.generics;
-        let Some((function, holder)) = self
-            .context
-            .program
-            .function(purpose)
-            .zip(self.holder(purpose, name))
-        else {
-            self.out.push_str(&derived::flow(generics, &self.vector));
+    /// A vector field: its holder with its evaluation.
+    pub(super) fn field(&mut self, purpose: Purpose) {
+        let (context, name) = (self.context, holder(purpose));
+        let Some((function, holder)) = self.held_by(purpose, name) else {
+            self.out
+                .push_str(&derived::flow(context.generics, &self.vector));
             return;
         };
-        holder.declare(&mut self.out, self.context, generics);
-        let mut arguments = vec![("_t", "T".to_owned())];
-        for name in inputs.iter().chain(outputs).copied() {
-            let mutable = if name.starts_with("_o") { "mut " } else { "" };
-            arguments.push((name, format!("&{mutable}{}", self.vector)));
-        }
-        let list: Vec<String> = arguments
-            .iter()
-            .map(|(name, ty)| format!("{name}: {ty}"))
-            .collect();
-        let (declaration, holders) = (generics.holder_declaration(), generics.holder_arguments());
-        let vector = &self.vector;
-        let piece = match purpose {
-            Purpose::Push => Some((0, "let (_oq, _op) = (&mut _x.q, &mut _x.p);")),
-            Purpose::Kick => Some((0, "let (_q, _op) = (&_x.q, &mut _x.p);")),
-            Purpose::Drift => Some((1, "let (_p, _oq) = (&_x.p, &mut _x.q);")),
-            _ => None,
-        };
-        let parts = match piece {
-            None => {
-                line!(
-                    self,
-                    "#[automatically_derived]\nimpl{declaration} __h::VectorField<{vector}> for \
-                     {name}{holders} {{\n#[inline(always)]\nfn add(&self, {}) {{",
-                    list.join(", "),
-                );
-                ""
-            }
-            Some((number, parts)) => {
-                line!(
-                    self,
-                    "#[automatically_derived]\nimpl{declaration} __h::Flow<__h::Point<{vector}>> for \
-                     {name}{holders} {{\n\
-                     const NAME: &'static __h::core::primitive::str = {:?};\ntype Work = ();\n\
-                     #[inline(always)]\n\
-                     fn apply(&self, _t: T, _x: &mut __h::Point<{vector}>, _: &mut ()) {{",
-                    self.definition.structure.halves[number],
-                );
-                parts
-            }
-        };
-        let receiver = Receiver::Holder(&holder);
-        // A damped kick reads the momenta it writes, each before it is written.
-        self.bodies.context.in_place = purpose == Purpose::Push;
-        let text = evaluation(&mut self.bodies, name, receiver, &arguments, function);
-        self.bodies.context.in_place = false;
-        line!(self, "let _self = self;\n{parts}\n{text}");
-        line!(self, "}}\n}}");
+        holder.declare(&mut self.out, context);
+        let arguments = self.arguments(&["_q", "_p", "_oq", "_op"]);
+        let text = self.evaluation(name, Some(&holder), &arguments, function);
+        line!(
+            self,
+            "#[automatically_derived]\nimpl{} __h::VectorField<{}> for {} {{\n\
+             #[inline(always)]\nfn add(&self, {}) {{\nlet _self = self;\n{text}}}\n}}",
+            context.generics.holder_declaration(),
+            self.vector,
+            holder.ty(context),
+            declared(&arguments),
+        );
     }
 
     /// The piece that kicks.
     pub(super) fn kick(&mut self) {
-        let Some(kick) = self.definition.structure.kick else {
+        let structure = &self.context.definition.structure;
+        let Some(kick) = structure.kick else {
             return;
         };
-        let purposes = kick.purposes();
-        for purpose in purposes {
-            self.flow(*purpose);
-        }
-        let (before, between, after) = match kick {
-            Kick::Plain | Kick::Damped { rest: false } => ("", "", ""),
-            Kick::Damped { rest: true } => ("__h::Both({", "}, {", "})"),
-            Kick::Coupled => ("__h::Coupled { field: {", "}, linear: {", "} }"),
-            Kick::SubStep => ("__h::SubStep({", "", "})"),
-        };
-        let holder = |purpose: &Purpose| {
-            let (name, ..) = signature(*purpose);
-            format!("{name}{}", self.generics.holder_arguments())
-        };
-        let holders: Vec<String> = purposes.iter().map(holder).collect();
-        let ty = match kick {
-            Kick::Plain | Kick::Damped { rest: false } => holders.concat(),
-            Kick::Damped { rest: true } => format!("__h::Both<{}>", holders.join(", ")),
-            Kick::Coupled => format!("__h::Coupled<{}>", holders.join(", ")),
-            Kick::SubStep => format!("__h::SubStep<{}>", holders.concat()),
-        };
-        self.begin_piece("__KickPiece", &ty);
-        line!(self, "{before}");
-        for (at, purpose) in purposes.iter().enumerate() {
-            if at > 0 {
-                line!(self, "{between}");
+        let (mut types, mut values) = (Vec::new(), Vec::new());
+        for purpose in kick.purposes() {
+            let name = holder(*purpose);
+            match purpose {
+                Purpose::Rates | Purpose::Linear => self.field(*purpose),
+                _ => self.flow(*purpose, name, &structure.halves[0], true),
             }
-            self.coefficients(*purpose, signature(*purpose).0);
+            types.push(self.context.generics.holder_type(name));
+            values.push(self.made(*purpose, name));
         }
-        line!(self, "{after}\n}}\n}}");
+        let (types, values) = (types.join(", "), values.as_slice());
+        let (ty, value) = match (kick, values) {
+            (Kick::Coupled, [field, linear]) => (
+                format!("__h::Coupled<{types}>"),
+                format!("__h::Coupled {{ field: {{ {field} }}, linear: {{ {linear} }} }}"),
+            ),
+            (_, [damped, rest]) => (
+                format!("__h::Both<{types}>"),
+                format!("__h::Both({{ {damped} }}, {{ {rest} }})"),
+            ),
+            (Kick::SubStep, _) => (
+                format!("__h::SubStep<{types}>"),
+                format!("__h::SubStep({{ {} }})", values.concat()),
+            ),
+            _ => (types, values.concat()),
+        };
+        self.maker("__KickPiece", &ty, &value);
     }
 
     /// The piece T, and the splitting into V and T.
     pub(super) fn separable(&mut self) {
-        if self.definition.structure.separable.is_err() {
+        let structure = &self.context.definition.structure;
+        if structure.separable.is_err() {
             return;
         }
-        self.flow(Purpose::Drift);
-        self.maker(Purpose::Drift, "__Drift", "__DriftPiece");
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{declaration} __h::Separable<T> for {system} {{\n\
-             type Kick = __KickPiece;\ntype Drift = __DriftPiece;\n\
-             const KICK: __KickPiece = __KickPiece;\nconst DRIFT: __DriftPiece = __DriftPiece;\n}}",
-            declaration = self.generics.declaration_with_scalar(),
-            system = self.generics.system_type(),
+        self.flow(Purpose::Drift, "__Drift", &structure.halves[1], true);
+        let drift = self.made(Purpose::Drift, "__Drift");
+        let ty = self.context.generics.holder_type("__Drift");
+        self.maker("__DriftPiece", &ty, &drift);
+        self.pair(
+            "Separable",
+            [("Kick", "__KickPiece"), ("Drift", "__DriftPiece")],
         );
         if self.context.model.pieces.is_empty() {
-            let halves = self.definition.structure.halves.clone();
-            self.split(&["__KickPiece", "__DriftPiece"], &halves);
+            let pieces = ["__KickPiece", "__DriftPiece"].map(str::to_owned);
+            self.split(&pieces, &structure.halves);
         }
     }
 }

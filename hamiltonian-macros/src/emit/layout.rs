@@ -4,11 +4,13 @@
 //! the top of a function body. Invariant: element (row, column) of a column-major array is `row`
 //! of the slice of its column; scalar coordinates share one vector, in the order of their groups.
 
-use super::index::Indices;
+use super::context::{Context, ZERO};
+use super::mixed;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::index::Affine;
-use hamiltonian_symbolic::model::{Group, Model, Shape};
+use hamiltonian_symbolic::model::{Group, Shape};
 use hamiltonian_symbolic::program::Target;
+use std::fmt::Write;
 
 /// How the coordinates of a system are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,103 +42,157 @@ pub fn layout(groups: &[Group]) -> Layout {
     }
 }
 
-/// The size of an extent, if it is set at run time.
-fn run_time(extent: &Affine, is_run_time: &[bool]) -> bool {
-    extent
-        .sizes
-        .iter()
-        .any(|(size, _)| is_run_time[usize::from(size.0)])
-}
+impl Context<'_> {
+    /// Whether an extent is set at run time.
+    fn is_set_at_run_time(self, extent: &Affine) -> bool {
+        let mut sizes = extent.sizes.iter();
+        sizes.any(|(size, _)| self.is_run_time[usize::from(size.0)])
+    }
 
-/// Whether any extent of a shape is set at run time.
-pub fn is_dynamic(shape: &Shape, is_run_time: &[bool]) -> bool {
-    match shape {
-        Shape::Scalar => false,
-        Shape::Vector(rows) => run_time(rows, is_run_time),
-        Shape::Matrix(rows, columns) => {
-            run_time(rows, is_run_time) || run_time(columns, is_run_time)
+    /// Whether any extent of a shape is set at run time.
+    pub fn is_dynamic(self, shape: &Shape) -> bool {
+        match shape {
+            Shape::Scalar => false,
+            Shape::Vector(rows) => self.is_set_at_run_time(rows),
+            Shape::Matrix(rows, columns) => {
+                self.is_set_at_run_time(rows) || self.is_set_at_run_time(columns)
+            }
         }
     }
-}
 
-/// Whether the number of columns is set at run time.
-pub fn has_dynamic_columns(shape: &Shape, is_run_time: &[bool]) -> bool {
-    matches!(shape, Shape::Matrix(_, columns) if run_time(columns, is_run_time))
-}
-
-/// Rows and columns as expressions.
-pub fn extents(shape: &Shape, indices: Indices) -> (String, String) {
-    match shape {
-        Shape::Scalar => ("1usize".into(), "1usize".into()),
-        Shape::Vector(rows) => (indices.plain(rows, None), "1usize".into()),
-        Shape::Matrix(rows, columns) => (indices.plain(rows, None), indices.plain(columns, None)),
+    /// Whether the number of columns is set at run time.
+    pub fn has_dynamic_columns(self, shape: &Shape) -> bool {
+        matches!(shape, Shape::Matrix(_, columns) if self.is_set_at_run_time(columns))
     }
-}
 
-/// The type of an array of `scalar`s; paths begin with `root`.
-pub fn storage(
-    shape: &Shape,
-    scalar: &str,
-    indices: Indices,
-    is_run_time: &[bool],
-    root: &str,
-) -> String {
-    let dimension = |extent: &Affine| {
-        if run_time(extent, is_run_time) {
-            format!("{root}::Dyn")
-        } else {
-            format!("{root}::Const<{}>", extent_text(extent, indices))
-        }
-    };
-    match shape {
-        Shape::Scalar => scalar.to_owned(),
-        Shape::Vector(_) if is_dynamic(shape, is_run_time) => format!("{root}::DVector<{scalar}>"),
-        Shape::Vector(rows) => format!("{root}::SVector<{scalar}, {}>", extent_text(rows, indices)),
-        Shape::Matrix(rows, columns) if is_dynamic(shape, is_run_time) => {
-            let (rows, columns) = (dimension(rows), dimension(columns));
-            format!(
-                "{root}::Matrix<{scalar}, {rows}, {columns}, {root}::VecStorage<{scalar}, {rows}, {columns}>>"
-            )
-        }
-        Shape::Matrix(rows, columns) => {
-            format!(
-                "{root}::SMatrix<{scalar}, {}, {}>",
-                extent_text(rows, indices),
-                extent_text(columns, indices)
-            )
+    /// Rows and columns as expressions.
+    pub fn extents(self, shape: &Shape) -> (String, String) {
+        let extent = |extent: &Affine| self.indices.plain(extent, None);
+        match shape {
+            Shape::Scalar => ("1usize".into(), "1usize".into()),
+            Shape::Vector(rows) => (extent(rows), "1usize".into()),
+            Shape::Matrix(rows, columns) => (extent(rows), extent(columns)),
         }
     }
-}
 
-/// An extent as a const generic argument: a literal or a name.
-pub fn extent_text(extent: &Affine, indices: Indices) -> String {
-    match extent.as_constant() {
-        Some(value) => value.to_string(),
-        None => indices.plain(extent, None),
-    }
-}
-
-/// The expression of an array of that shape filled with `value`.
-pub fn filled(
-    shape: &Shape,
-    value: &str,
-    indices: Indices,
-    is_run_time: &[bool],
-    root: &str,
-) -> String {
-    let dimension = |extent: &Affine| {
-        if run_time(extent, is_run_time) {
-            format!("{root}::Dyn({})", indices.plain(extent, None))
-        } else {
-            format!("{root}::Const::<{}>", extent_text(extent, indices))
+    /// The type of an array of `scalar`s.
+    pub fn storage(self, shape: &Shape, scalar: &str) -> String {
+        let text = |extent: &Affine| self.constant_extent(extent);
+        match shape {
+            Shape::Scalar => scalar.to_owned(),
+            Shape::Vector(_) if self.is_dynamic(shape) => format!("__h::DVector<{scalar}>"),
+            Shape::Vector(rows) => format!("__h::SVector<{scalar}, {}>", text(rows)),
+            Shape::Matrix(rows, columns) if self.is_dynamic(shape) => {
+                let dimension = |extent| match self.is_set_at_run_time(extent) {
+                    true => "__h::Dyn".to_owned(),
+                    false => format!("__h::Const<{}>", text(extent)),
+                };
+                let shape = format!("{scalar}, {}, {}", dimension(rows), dimension(columns));
+                format!("__h::Matrix<{shape}, __h::VecStorage<{shape}>>")
+            }
+            Shape::Matrix(rows, columns) => {
+                format!("__h::SMatrix<{scalar}, {}, {}>", text(rows), text(columns))
+            }
         }
-    };
-    let (rows, columns) = match shape {
-        Shape::Scalar => return value.to_owned(),
-        Shape::Vector(rows) => (dimension(rows), format!("{root}::Const::<1>")),
-        Shape::Matrix(rows, columns) => (dimension(rows), dimension(columns)),
-    };
-    format!("{root}::Matrix::from_element_generic({rows}, {columns}, {value})")
+    }
+
+    /// An extent as a const generic argument: a literal or a name.
+    fn constant_extent(self, extent: &Affine) -> String {
+        match extent.as_constant() {
+            Some(value) => value.to_string(),
+            None => self.indices.plain(extent, None),
+        }
+    }
+
+    /// The expression of an array of zeros of that shape.
+    pub fn zero(self, shape: &Shape) -> String {
+        let dimension = |extent: &Affine| match self.is_set_at_run_time(extent) {
+            true => format!("__h::Dyn({})", self.indices.plain(extent, None)),
+            false => format!("__h::Const::<{}>", self.constant_extent(extent)),
+        };
+        let (rows, columns) = match shape {
+            Shape::Scalar => return ZERO.to_owned(),
+            Shape::Vector(rows) => (dimension(rows), "__h::Const::<1>".to_owned()),
+            Shape::Matrix(rows, columns) => (dimension(rows), dimension(columns)),
+        };
+        format!("__h::Matrix::from_element_generic({rows}, {columns}, {ZERO})")
+    }
+
+    /// The type of coordinates and of momenta over `T`.
+    pub fn vector(self) -> String {
+        match self.layout {
+            Layout::Scalars => format!("__h::SVector<T, {}>", self.model.groups.len()),
+            Layout::Array => self.storage(&self.model.groups[0].shape.of_parameter(), "T"),
+            Layout::Mixed => mixed::ty(self),
+        }
+    }
+
+    /// The expression of the zero vector, where run-time sizes are called as in bodies.
+    pub fn zeros(self) -> String {
+        let zero = |group: &Group| self.zero(&group.shape.of_parameter());
+        let groups = &self.model.groups;
+        match self.layout {
+            Layout::Scalars => {
+                let n = groups.len();
+                format!("__h::SVector::<T, {n}>::from_element({ZERO})")
+            }
+            Layout::Array => zero(&groups[0]),
+            Layout::Mixed => {
+                let field = |group: &Group| format!("{}: {}", group.coordinate, zero(group));
+                let fields: Vec<String> = groups.iter().map(field).collect();
+                format!("{} {{ {} }}", mixed::name(self), fields.join(", "))
+            }
+        }
+    }
+
+    /// The `let`s that bind slices at the top of a body. `slices` is sorted.
+    pub fn bind(self, out: &mut String, slices: &[Slice]) {
+        let part = |slice: &Slice| part_of(*slice).map(|(_, at)| (slice.vector(), at.group));
+        for run in slices.chunk_by(|a, b| part(a) == part(b)) {
+            let Some((mutable, Column { group, .. })) = part_of(run[0]) else {
+                continue;
+            };
+            let vector = run[0].vector();
+            let (suffix, borrow) = if mutable {
+                ("_mut", "mut")
+            } else {
+                ("", "ref")
+            };
+            let Group {
+                shape, coordinate, ..
+            } = &self.model.groups[usize::from(group)];
+            // Two parts of one vector are borrowed at once only as fields.
+            let whole = match (self.layout, shape) {
+                (Layout::Mixed, Shape::Scalar) => {
+                    let reference = if mutable { "&mut " } else { "&" };
+                    format!("__h::core::slice::from_{borrow}({reference}{vector}.{coordinate})")
+                }
+                (Layout::Mixed, _) => format!("{vector}.{coordinate}.as{suffix}_slice()"),
+                _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
+            };
+            let is_cut = shape.columns() > 1 || self.is_dynamic(&shape.of_parameter());
+            let _ = match shape.rows() {
+                Some(rows) if self.layout != Layout::Scalars && is_cut => {
+                    let rows = self.indices.plain(rows, None);
+                    let name = |column| {
+                        let is_it = |slice: &&Slice| {
+                            part_of(**slice).is_some_and(|(_, at)| at.column == column)
+                        };
+                        run.iter()
+                            .find(is_it)
+                            .map_or("_".to_owned(), |slice| slice.name())
+                    };
+                    let names: Vec<String> = (0..shape.columns()).map(name).collect();
+                    let names = names.join(", ");
+                    writeln!(
+                        out,
+                        "let [{names}] = __h::columns{suffix}({whole}, {rows});"
+                    )
+                }
+                _ => writeln!(out, "let {} = {whole};", run[0].name()),
+            };
+        }
+    }
 }
 
 /// A slice that a function body reads or writes: a column of a group, a parameter array.
@@ -204,63 +260,6 @@ impl Slice {
             Slice::Output(_) => "_op",
             _ => "",
         }
-    }
-}
-
-/// The `let`s that bind the slices at the top of a body. `slices` is sorted.
-pub fn bind(
-    out: &mut String,
-    slices: &[Slice],
-    model: &Model,
-    layout: Layout,
-    indices: Indices,
-    is_run_time: &[bool],
-) {
-    let part = |slice: &Slice| part_of(*slice).map(|(_, at)| (slice.vector(), at.group));
-    for run in slices.chunk_by(|a, b| part(a) == part(b)) {
-        let Some((mutable, Column { group, .. })) = part_of(run[0]) else {
-            continue;
-        };
-        let vector = run[0].vector();
-        let suffix = if mutable { "_mut" } else { "" };
-        let field = &model.groups[usize::from(group)];
-        // Two parts of one vector are borrowed at once only as fields.
-        let whole = match (layout, &field.shape) {
-            (Layout::Mixed, Shape::Scalar) => {
-                let borrow = if mutable { "&mut " } else { "&" };
-                let from = if mutable { "from_mut" } else { "from_ref" };
-                format!(
-                    "__h::core::slice::{from}({borrow}{vector}.{})",
-                    field.coordinate
-                )
-            }
-            (Layout::Mixed, _) => format!("{vector}.{}.as{suffix}_slice()", field.coordinate),
-            _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
-        };
-        let (rows, columns) = match field.shape.rows() {
-            Some(rows) if layout != Layout::Scalars => (rows, field.shape.columns()),
-            _ => {
-                out.push_str(&format!("let {} = {whole};\n", run[0].name()));
-                continue;
-            }
-        };
-        let rows = indices.plain(rows, None);
-        if columns == 1 && !is_dynamic(&field.shape.of_parameter(), is_run_time) {
-            out.push_str(&format!("let {} = {whole};\n", run[0].name()));
-            continue;
-        }
-        let is_of =
-            |slice: &Slice, column| part_of(*slice).is_some_and(|(_, at)| at.column == column);
-        let names: Vec<String> = (0..columns)
-            .map(|column| {
-                let wanted = run.iter().find(|slice| is_of(slice, column));
-                wanted.map_or_else(|| "_".to_owned(), |slice| slice.name())
-            })
-            .collect();
-        let names = names.join(", ");
-        out.push_str(&format!(
-            "let [{names}] = __h::columns{suffix}({whole}, {rows});\n"
-        ));
     }
 }
 

@@ -4,128 +4,104 @@
 //! implemented for every system; one that does not hold asks for a bound that nothing satisfies,
 //! whose message is the reason, so that a scheme that needs it says what couples what.
 
-use super::generics::Generics;
-use super::{Reason, Structure};
+use super::Reason;
+use super::context::Context;
 use std::fmt::Write;
 
 /// A piece that cannot exist.
 const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
 
-/// `Separable`, `Nystrom` and `Split` where they do not hold, `QuadraticKinetic`, `Autonomous` and `Cyclic`.
-pub fn implementations(structure: &Structure, generics: &Generics) -> String {
+/// `Separable`, `Nystrom` and `Split` where they do not hold, `QuadraticKinetic`, `Autonomous`,
+/// `Unforced`, `Exact` and `Cyclic`.
+pub fn implementations(context: Context) -> String {
+    let (structure, generics) = (&context.definition.structure, context.generics);
     let mut out = String::new();
-    let system = generics.system_type();
-    let panic = |reason: &Reason| {
-        let message = reason.message.replace('{', "{{").replace('}', "}}");
-        format!("__h::core::panic!({message:?})")
-    };
-    let pair = |[first, second]: [(&str, &str); 2], reason: &Reason| {
-        let panic = panic(reason);
-        format!(
-            "type {0} = {NEVER};\ntype {1} = {NEVER};\n\
-             const {2}: Self::{0} = {panic};\nconst {3}: Self::{1} = {panic};\n",
-            first.0, second.0, first.1, second.1,
-        )
-    };
-    if let Err(reason) = &structure.separable {
-        let items = pair([("Kick", "KICK"), ("Drift", "DRIFT")], reason);
-        missing(
-            &mut out,
+    const NO_NAMES: &str = "const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n";
+    for (name, bound, reason, pieces, more) in [
+        (
             "Separable",
             "__HIsSeparable",
-            reason,
-            &items,
-            generics,
-        );
-    }
-    if let Err(reason) = &structure.nystrom {
-        let items = pair([("Kick", "KICK"), ("Quadratic", "QUADRATIC")], reason);
-        missing(
-            &mut out,
+            structure.separable.as_ref().err(),
+            &["Kick", "Drift"][..],
+            "",
+        ),
+        (
             "Nystrom",
             "__HIsKickedQuadratic",
-            reason,
+            structure.nystrom.as_ref().err(),
+            &["Kick", "Quadratic"],
+            "",
+        ),
+        (
+            "Split",
+            "__HIsSplit",
+            structure.split.as_ref().err(),
+            &["Pieces"],
+            NO_NAMES,
+        ),
+    ] {
+        let Some(reason) = reason else { continue };
+        let panic = format!("__h::core::panic!({:?})", escaped(&reason.message));
+        let types = pieces
+            .iter()
+            .map(|piece| format!("type {piece} = {NEVER};\n"));
+        let values = pieces.iter().map(|piece| {
+            let constant = piece.to_uppercase();
+            format!("const {constant}: Self::{piece} = {panic};\n")
+        });
+        let items: String = types.chain(values).chain([more.to_owned()]).collect();
+        let (name, declaration) = (format!("{name}<T>"), generics.declaration_with_scalar());
+        marker(
+            &mut out,
+            context,
+            &name,
+            &declaration,
+            Some((bound, reason)),
             &items,
-            generics,
         );
     }
-    if let Err(reason) = &structure.split {
-        let items = format!(
-            "type Pieces = {NEVER};\nconst PIECES: Self::Pieces = {};\n\
-             const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n",
-            panic(reason),
-        );
-        missing(&mut out, "Split", "__HIsSplit", reason, &items, generics);
-    }
-    marker(
-        &mut out,
-        "QuadraticKinetic",
-        "__KineticIsQuadratic",
-        &structure.quadratic_kinetic,
-        generics,
-    );
-    marker(
-        &mut out,
-        "Autonomous",
-        "__HIsAutonomous",
-        &structure.autonomous,
-        generics,
-    );
+    let declaration = generics.declaration_without_bounds();
     for (name, bound, verdict) in [
+        (
+            "QuadraticKinetic",
+            "__KineticIsQuadratic",
+            &structure.quadratic_kinetic,
+        ),
+        ("Autonomous", "__HIsAutonomous", &structure.autonomous),
         ("Unforced", "__Forced", &structure.unforced),
         ("Exact", "__NotExact", &structure.exact),
     ] {
-        marker(&mut out, name, bound, verdict, generics);
+        let missing = verdict.as_ref().err().map(|reason| (bound, reason));
+        marker(&mut out, context, name, &declaration, missing, "");
     }
-    let _ = write!(
-        out,
-        "#[automatically_derived]\nimpl{} __h::Cyclic for {system} {{\n\
-         const CYCLIC: &'static [&'static __h::core::primitive::str] = &{:?};\n}}\n",
-        generics.declaration_without_bounds(),
-        structure.cyclic,
+    let cyclic = format!(
+        "const CYCLIC: &'static [&'static __h::core::primitive::str] = &{:?};\n",
+        structure.cyclic
     );
+    marker(&mut out, context, "Cyclic", &declaration, None, &cyclic);
     out
 }
 
-/// A trait over the scalar that does not hold, with the items it would have.
-fn missing(
-    out: &mut String,
-    name: &str,
-    bound: &str,
-    reason: &Reason,
-    items: &str,
-    generics: &Generics,
-) {
-    reason_trait(out, bound, reason);
-    let system = generics.system_type();
-    let _ = write!(
-        out,
-        "#[automatically_derived]\n\
-         impl{} __h::{name}<T> for {system} where for<'a> &'a {system}: {bound} {{\n{items}}}\n",
-        generics.declaration_with_scalar(),
-    );
-}
-
-/// A marker without items.
+/// A trait that holds, or asks for a bound that nothing satisfies, with the reason why not.
 fn marker(
     out: &mut String,
+    context: Context,
     name: &str,
-    bound: &str,
-    verdict: &Result<(), Reason>,
-    generics: &Generics,
+    declaration: &str,
+    missing: Option<(&str, &Reason)>,
+    items: &str,
 ) {
-    let system = generics.system_type();
-    let condition = match verdict {
-        Ok(()) => String::new(),
-        Err(reason) => {
+    let system = context.generics.system_type();
+    let condition = match missing {
+        None => String::new(),
+        Some((bound, reason)) => {
             reason_trait(out, bound, reason);
             format!(" where for<'a> &'a {system}: {bound}")
         }
     };
     let _ = write!(
         out,
-        "#[automatically_derived]\nimpl{} __h::{name} for {system}{condition} {{}}\n",
-        generics.declaration_without_bounds(),
+        "#[automatically_derived]\nimpl{declaration} __h::{name} for {system}{condition} {{\n{items}}}\n",
     );
 }
 
@@ -135,14 +111,17 @@ const CARRIER: &str = "the trait that rustc names only carries this message: imp
 /// A trait nothing implements. It is asked of references of all lifetimes: that keeps rustc from
 /// deciding the bound where it is written, and from speaking of the marker instead of the reason.
 fn reason_trait(out: &mut String, name: &str, reason: &Reason) {
-    // Braces are placeholders in these texts.
-    let escape = |text: &str| text.replace('{', "{{").replace('}', "}}");
     let _ = write!(
         out,
         "#[diagnostic::on_unimplemented(message = {:?}, label = {:?}, note = {:?}, note = {CARRIER:?})]\n\
          #[doc(hidden)]\npub trait {name} {{}}\n",
-        escape(&reason.message),
-        escape(&reason.label),
-        escape(&reason.note),
+        escaped(&reason.message),
+        escaped(&reason.label),
+        escaped(&reason.note),
     );
+}
+
+/// A text in which braces would be placeholders.
+fn escaped(text: &str) -> String {
+    text.replace('{', "{{").replace('}', "}}")
 }

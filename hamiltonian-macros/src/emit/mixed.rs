@@ -3,61 +3,38 @@
 //! Input: the groups. Output: text of the struct, its constructor and its `Vector`. Invariant: a
 //! group is one part, in declaration order.
 
-use super::block::Context;
-use super::generics::Generics;
-use super::layout;
+use super::context::{Context, ZERO};
 use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
 /// The name of the struct.
-pub fn name(context: Context, generics: &Generics) -> String {
-    format!("{}{}", generics.whole, context.suffix)
+pub fn name(context: Context) -> String {
+    format!("{}{}", context.generics.whole, context.suffix)
 }
 
-/// The type over a scalar.
-pub fn ty(context: Context, generics: &Generics, scalar: &str) -> String {
-    let arguments: Vec<&str> = generics
-        .constants
-        .iter()
-        .map(String::as_str)
-        .chain([scalar])
-        .collect();
-    format!("{}<{}>", name(context, generics), arguments.join(", "))
+/// The type over `T`.
+pub fn ty(context: Context) -> String {
+    context.generics.holder_type(&name(context))
 }
 
 /// The traits the struct derives: it is `Copy` where static vectors are.
-pub fn derives(context: Context, root: &str) -> String {
-    let is_static =
-        |group: &Group| !layout::is_dynamic(&group.shape.of_parameter(), context.is_run_time);
-    let copy = if context.model.groups.iter().all(is_static) {
-        format!("{root}::core::marker::Copy, ")
-    } else {
-        String::new()
+pub fn derives(context: Context) -> String {
+    let is_static = |group: &Group| !context.is_dynamic(&group.shape.of_parameter());
+    let copy = match context.model.groups.iter().all(is_static) {
+        true => "__h::core::marker::Copy, ",
+        false => "",
     };
     format!(
-        "#[derive({copy}{root}::core::clone::Clone, {root}::core::fmt::Debug, {root}::core::cmp::PartialEq)]\n"
+        "#[derive({copy}__h::core::clone::Clone, __h::core::fmt::Debug, __h::core::cmp::PartialEq)]\n"
     )
 }
 
-/// The declaration without attributes and docs: `pub struct NameVector<T> { … }`, paths beginning
-/// with `root`.
-pub fn declaration(context: Context, generics: &Generics, root: &str) -> String {
-    let visibility = &generics.visibility;
-    let mut parameters: Vec<String> = generics
-        .constants
-        .iter()
-        .map(|name| format!("const {name}: {root}::core::primitive::usize"))
-        .collect();
-    parameters.push("T".into());
+/// The declaration without attributes and docs: `pub struct NameVector<T> { … }`
+pub fn declaration(context: Context) -> String {
+    let visibility = &context.generics.visibility;
     let mut fields = String::new();
     for group in &context.model.groups {
-        let ty = layout::storage(
-            &group.shape.of_parameter(),
-            "T",
-            context.indices,
-            context.is_run_time,
-            root,
-        );
+        let ty = context.storage(&group.shape.of_parameter(), "T");
         let doc = format!(
             " `{}` of coordinates, `{}` of momenta.",
             group.coordinate, group.momentum
@@ -69,9 +46,9 @@ pub fn declaration(context: Context, generics: &Generics, root: &str) -> String 
         );
     }
     format!(
-        "{visibility} struct {}<{}> {{\n{fields}}}",
-        name(context, generics),
-        parameters.join(", ")
+        "{visibility} struct {}{} {{\n{fields}}}",
+        name(context),
+        context.generics.declared(["T".to_owned()]),
     )
 }
 
@@ -93,13 +70,7 @@ fn arguments(context: Context) -> Arguments {
             arguments.push(format!("_{at}: T"));
             fields.push(format!("{field}: _{at}"));
         } else {
-            let storage = layout::storage(
-                &group.shape.of_parameter(),
-                "T",
-                context.indices,
-                context.is_run_time,
-                "__h",
-            );
+            let storage = context.storage(&group.shape.of_parameter(), "T");
             kinds.push(format!(
                 "K{at}, V{at}: __h::IntoVector<K{at}, Vector = {storage}>"
             ));
@@ -115,7 +86,7 @@ fn arguments(context: Context) -> Arguments {
 }
 
 /// A method that makes coordinates, for expression form, where the struct has no name outside.
-pub fn constructor(context: Context, generics: &Generics, method: &str) -> String {
+pub fn constructor(context: Context, method: &str) -> String {
     let Arguments {
         kinds,
         arguments,
@@ -123,16 +94,16 @@ pub fn constructor(context: Context, generics: &Generics, method: &str) -> Strin
     } = arguments(context);
     format!(
         "pub fn {method}<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
-        ty(context, generics, "T"),
-        name(context, generics),
+        ty(context),
+        name(context),
     )
 }
 
 /// The implementations.
-pub fn implementations(context: Context, generics: &Generics) -> String {
-    let visibility = &generics.visibility;
-    let ty = ty(context, generics, "T");
-    let declaration = generics.holder_declaration();
+pub fn implementations(context: Context) -> String {
+    let visibility = &context.generics.visibility;
+    let ty = ty(context);
+    let declaration = context.generics.holder_declaration();
     let groups = &context.model.groups;
     let Arguments {
         kinds,
@@ -158,7 +129,7 @@ pub fn implementations(context: Context, generics: &Generics) -> String {
                 parts_mut,
                 "{pattern} => __h::core::slice::from_mut(&mut self.{field}),"
             );
-            let _ = write!(zeros, "{field}: T::constant(0.0, 0.0), ");
+            let _ = write!(zeros, "{field}: {ZERO}, ");
             let _ = write!(takes, "{field}: self.{field}, ");
         } else {
             let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");

@@ -11,8 +11,16 @@
 //!   token; what the user wrote (names, attributes, paths) keeps its own tokens and spans.
 //! - The same definition gives the same tokens.
 
+/// Writes a line to the text of a writer. Writing to a string does not fail.
+macro_rules! line {
+    ($writer:expr, $($text:tt)*) => {{
+        let _ = writeln!($writer.out, $($text)*);
+    }};
+}
+
 mod block;
 mod construct;
+mod context;
 mod declared;
 mod derived;
 mod dynamics;
@@ -40,109 +48,58 @@ mod tests;
 
 pub use declared::Declared;
 pub use number::closed;
-pub use vectors::{VectorItem, VectorUse};
 
-use crate::ast::Function;
-use crate::checked::Reach;
+use crate::checked::{Checked, Item};
+use context::Context;
+use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
 
 /// All that emission reads.
 #[derive(Debug)]
 pub struct Definition<'a> {
     /// The path of the facade: `$crate`.
-    pub root: TokenStream,
+    pub root: &'a TokenStream,
+    /// The user's tokens.
+    pub checked: &'a Checked,
+    /// The defaults of the parameters, number by number: expressions of the scalar `T`.
+    pub defaults: &'a [Option<Vec<String>>],
+    /// The name of the piece of a split that is emitted; none for the whole system.
+    pub piece: Option<&'a Ident>,
+    /// The pieces that are types of their own.
+    pub pieces: &'a [(Ident, Node)],
+    /// The variables it was declared in, where it is integrated in others.
+    pub declared: Option<&'a Declared>,
     /// The mathematics.
     pub model: &'a Model,
     /// The instructions.
     pub program: &'a Program,
-    /// The user's tokens.
-    pub form: Form,
     /// The proven structure.
     pub structure: Structure,
     /// The printed text.
     pub text: Text,
-    /// Functions written in Rust, in the model's order.
-    pub functions: &'a [Function],
-    /// Monitors, invariants and events, in the model's order.
-    pub observables: Vec<ObservableItem>,
-    /// Vector functions, in the model's order.
-    pub vectors: Vec<VectorItem>,
-    /// The variables it was declared in, where it is integrated in others.
-    pub declared: Option<&'a Declared>,
-    /// The systems of a split's pieces: (name of the piece, name of its type).
-    pub pieces: Vec<(Ident, Ident)>,
-    /// The questions that only sizes decide.
-    pub reaches: &'a [Reach],
 }
 
-/// Item form or expression form.
-#[derive(Debug)]
-pub enum Form {
-    /// `pub struct Name { … }`
-    Item(Item),
-    /// A value; the names it captures are the parameters of the model.
-    Expression(Vec<Ident>),
-}
-
-/// The header of item form.
-#[derive(Debug)]
-pub struct Item {
-    /// Attributes and docs that pass through.
-    pub attributes: Vec<TokenStream>,
-    /// `pub`, `pub(crate)` or nothing.
-    pub visibility: TokenStream,
+impl Definition<'_> {
     /// The name of the type.
-    pub name: Ident,
-    /// The type whose states it takes: the whole system, where this is a piece of it.
-    pub whole: Option<Ident>,
-    /// Sizes in the model's order: const generics first.
-    pub sizes: Vec<SizeItem>,
-    /// Parameters in the model's order.
-    pub parameters: Vec<ParameterItem>,
-    /// Run-time sizes and parameters in the order of the fields.
-    pub fields: Vec<Field>,
+    fn type_name(&self, item: &Item) -> Ident {
+        match self.piece {
+            Some(piece) => piece_type(item, piece),
+            None => item.name.clone(),
+        }
+    }
 }
 
-/// A size.
-#[derive(Debug)]
-pub struct SizeItem {
-    /// The name of the const generic or field.
-    pub name: Ident,
-    /// A field set at run time; a const generic otherwise.
-    pub run_time: bool,
-    /// Docs.
-    pub attributes: Vec<TokenStream>,
+/// The name of the type of a piece.
+fn piece_type(item: &Item, piece: &Ident) -> Ident {
+    format_ident!("{}{}", item.name, piece, span = piece.span())
 }
 
-/// A parameter.
-#[derive(Debug)]
-pub struct ParameterItem {
-    /// The name of the field.
-    pub name: Ident,
-    /// Docs.
-    pub attributes: Vec<TokenStream>,
-    /// Its default, number by number: expressions of the scalar `T`.
-    pub default: Option<Vec<String>>,
-}
-
-/// A field of the struct.
-#[derive(Debug, Clone, Copy)]
-pub enum Field {
-    /// A run-time size, by its number in the model.
-    Size(usize),
-    /// A parameter, by its number in the model.
-    Parameter(usize),
-}
-
-/// A monitor, an invariant or an event.
-#[derive(Debug)]
-pub struct ObservableItem {
-    /// The name of the method.
-    pub name: Ident,
-    /// Docs.
-    pub attributes: Vec<TokenStream>,
+/// The method that gives a piece.
+pub fn piece_method(piece: &str) -> String {
+    format!("piece_{}", piece.to_lowercase())
 }
 
 /// The proven structure of H.
@@ -239,9 +196,11 @@ pub struct Text {
 
 /// The tokens of a definition.
 pub fn generate(definition: &Definition) -> TokenStream {
-    match &definition.form {
-        Form::Item(item) => item::generate(definition, item),
-        Form::Expression(captures) => expression::generate(definition, captures),
+    let generics = generics::Generics::of(definition);
+    let context = Context::of(definition, &generics);
+    match &definition.checked.item {
+        Some(item) => item::generate(context, item),
+        None => expression::generate(context),
     }
 }
 
@@ -263,6 +222,14 @@ fn allowances(names: &[&Ident]) -> TokenStream {
     if names.iter().all(snake) {
         TokenStream::new()
     } else {
-        quote::quote! { #[allow(non_snake_case)] }
+        quote! { #[allow(non_snake_case)] }
+    }
+}
+
+/// The user's attributes, or this text as documentation where there are none.
+fn documented(attributes: &[TokenStream], text: &str) -> TokenStream {
+    match attributes {
+        [] => quote! { #[doc = #text] },
+        attributes => quote! { #(#attributes)* },
     }
 }

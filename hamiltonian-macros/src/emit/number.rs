@@ -6,9 +6,6 @@
 use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::dag::{Dag, Kind, Node};
 use hamiltonian_symbolic::rational::Rational;
-use std::cell::RefCell;
-use std::collections::HashMap;
-use std::rc::Rc;
 
 /// A float as an expression of type `f64`: the shortest decimal that reads back exactly.
 pub fn float(value: f64) -> String {
@@ -20,24 +17,8 @@ pub fn float(value: f64) -> String {
     }
 }
 
-/// Numbers as expressions of the scalar type `T`, each rounded once.
-#[derive(Debug, Default)]
-pub struct Numbers(RefCell<HashMap<Rational, Rc<str>>>);
-
-impl Numbers {
-    /// The expression of a number.
-    pub fn constant(&self, value: &Rational) -> Rc<str> {
-        let mut known = self.0.borrow_mut();
-        if let Some(text) = known.get(value) {
-            return text.clone();
-        }
-        let text: Rc<str> = constant(value).into();
-        known.insert(value.clone(), text.clone());
-        text
-    }
-}
-
-fn constant(value: &Rational) -> String {
+/// A number as an expression of the scalar type `T`, rounded once.
+pub fn constant(value: &Rational) -> String {
     // Fractions of a power of two are exact in one word.
     if let Some((numerator, denominator)) = value.to_small()
         && numerator.unsigned_abs() < 1 << 53

@@ -3,10 +3,8 @@
 //! Input: a definition. Output: text of the entries and of their dispatch, tokens of the methods.
 //! Invariant: a vector-valued observable is one entry a component, in order.
 
-use super::block::Context;
-use super::dynamics::vector;
-use super::generics::Generics;
-use super::{Definition, allowances, lex};
+use super::context::Context;
+use super::{allowances, documented, lex};
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::facts::conditions;
 use hamiltonian_symbolic::model::{Model, Observable, ObservableKind};
@@ -54,22 +52,12 @@ pub fn dispatch(model: &Model) -> String {
 }
 
 /// The methods of the type.
-pub fn methods(
-    definition: &Definition,
-    context: Context,
-    generics: &Generics,
-    visibility: &TokenStream,
-) -> TokenStream {
-    let bound = lex(&generics.state_bound());
-    let state = lex(&vector(context, generics, "T", "__h"));
+pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
+    let bound = lex(&context.generics.state_bound());
+    let state = lex(&context.vector());
     let mut out = TokenStream::new();
-    for ((at, observable), item) in context
-        .model
-        .observables
-        .iter()
-        .enumerate()
-        .zip(&definition.observables)
-    {
+    let observables = context.model.observables.iter().enumerate();
+    for ((at, observable), item) in observables.zip(&context.definition.checked.observables) {
         let (name, attributes) = (&item.name, &item.attributes);
         let allow = allowances(&[name]);
         let components = observable.components.len();
@@ -84,12 +72,8 @@ pub fn methods(
             )
         };
         let (result, body) = (lex(&result), lex(&body));
-        let docs = if attributes.is_empty() {
-            let text = format!(" {:?} `{}` at a state.", observable.kind, observable.name);
-            quote! { #[doc = #text] }
-        } else {
-            quote! { #(#attributes)* }
-        };
+        let text = format!(" {:?} `{}` at a state.", observable.kind, observable.name);
+        let docs = documented(attributes, &text);
         let domain = domain(context.model, observable);
         out.extend(quote! {
             #docs

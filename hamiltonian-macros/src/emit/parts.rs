@@ -5,7 +5,7 @@
 //! [`LONGEST`] values in one function, because its time grows faster than their number; arrays are
 //! taken apart by patterns, which cost it a hundredth of what as many indices do.
 
-use super::block::{self, name};
+use super::block::{self, name, names};
 use super::function::{Bodies, Body};
 use super::scan::{Scan, scan};
 use hamiltonian_symbolic::dag::Map;
@@ -68,11 +68,7 @@ impl LiveOuts {
         values.any(|value| wanted.contains_key(value))
     }
     fn make(&self) -> String {
-        let list = |values: &[Value]| {
-            let names: Vec<String> = values.iter().map(|value| name(*value)).collect();
-            names.join(", ")
-        };
-        format!("([{}], [{}])", list(&self.numbers), list(&self.masks))
+        format!("([{}], [{}])", names(&self.numbers), names(&self.masks))
     }
     fn ty(&self) -> String {
         let (numbers, masks) = (self.numbers.len(), self.masks.len());
@@ -191,7 +187,7 @@ impl Bodies<'_> {
             block::clear(&mut text, self.context, body.cleared);
         }
         let bound = self.bind_live(&mut text, body, &scan.reads, earlier);
-        self.steps(&mut text, body.receiver, steps);
+        block::write(&mut text, self.context, steps);
         let function = format!("__{}_{at}", body.name);
         let (mut declared, mut passed) = (String::new(), String::new());
         for (name, ty) in body.arguments {
@@ -213,8 +209,8 @@ impl Bodies<'_> {
             self.parts,
             "#[inline(always)]\n#[allow(clippy::too_many_arguments, clippy::type_complexity)]\n\
              fn {function}{}(_self: &{}{declared}){result} {{\n{text}}}\n",
-            body.receiver.declaration(self.generics),
-            body.receiver.ty(self.generics),
+            body.receiver.declaration(self.context),
+            body.receiver.ty(self.context),
         );
         format!("<T as __h::Real>::out_of_line(|| {function}(_self{passed}))")
     }

@@ -3,8 +3,7 @@
 //! Input: [`Reach`]es. Output: statements that ask. Invariant: what const generics decide is asked
 //! when the code is compiled, the rest in `new`; nothing is asked where anything is evaluated.
 
-use super::block::Context;
-use super::generics::Generics;
+use super::context::Context;
 use super::item::located;
 use super::lex;
 use crate::checked::{Extent, Reach};
@@ -77,9 +76,9 @@ fn bound(extent: Extent, context: Context) -> String {
 
 /// What is asked when the code is compiled for certain sizes: a constant for each question, which
 /// rustc shows at the index if it fails.
-pub fn compiled(reaches: &[Reach], context: Context, generics: &Generics) -> TokenStream {
+pub fn compiled(context: Context) -> TokenStream {
     let mut constants = TokenStream::new();
-    for (number, reach) in questions(reaches, context) {
+    for (number, reach) in questions(context) {
         let (value, shown) = (value(reach, context), &reach.shown);
         let (bound, message) = match reach.extent {
             Some(extent) => {
@@ -107,32 +106,29 @@ pub fn compiled(reaches: &[Reach], context: Context, generics: &Generics) -> Tok
     if constants.is_empty() {
         return constants;
     }
-    let header = format!("impl{} {}", generics.declaration(), generics.system_type());
-    let header = lex(&header);
+    let header = lex(&context.generics.header());
     // Loops of three and more that may be empty are run.
     quote! { #[allow(long_running_const_eval)] #header { #constants } }
 }
 
 /// The statements that have [`compiled`] asked.
-pub fn asked(reaches: &[Reach], context: Context) -> String {
-    let numbers = questions(reaches, context);
+pub fn asked(context: Context) -> String {
+    let numbers = questions(context);
     numbers
         .map(|(number, _)| format!("let () = Self::__REACH{number};\n"))
         .collect()
 }
 
-fn questions<'a>(
-    reaches: &'a [Reach],
-    context: Context,
-) -> impl Iterator<Item = (usize, &'a Reach)> {
-    let all = reaches.iter().enumerate();
+fn questions(context: Context<'_>) -> impl Iterator<Item = (usize, &Reach)> {
+    let all = context.definition.checked.reaches.iter().enumerate();
     all.filter(move |(_, reach)| !is_run_time(reach, context))
 }
 
 /// The questions asked when a system is made.
-pub fn constructed(reaches: &[Reach], context: Context) -> String {
+pub fn constructed(context: Context) -> String {
     let mut out = String::new();
-    for reach in reaches.iter().filter(|reach| is_run_time(reach, context)) {
+    let reaches = context.definition.checked.reaches.iter();
+    for reach in reaches.filter(|reach| is_run_time(reach, context)) {
         let (value, shown) = (value(reach, context), &reach.shown);
         let check = match reach.extent {
             Some(extent) => format!("check({shown:?}, {})", bound(extent, context)),

@@ -3,7 +3,7 @@
 //! Input: steps. Output: [`Scan`]. Invariant: lists are in order of first occurrence (sorted where
 //! it says so), without repetition.
 
-use super::block::Context;
+use super::context::Context;
 use super::layout::Slice;
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 

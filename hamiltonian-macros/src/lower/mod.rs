@@ -25,6 +25,7 @@ use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ParameterDeclaration, Shape, VectorEntry, VectorFunction,
+    VectorUse,
 };
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
@@ -142,17 +143,12 @@ fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
-    for (name, components, side) in [
-        ("conjugate_momentum", &legendre.momenta, Side::P),
-        ("velocity", &legendre.velocities, Side::Q),
+    for (usage, components, side) in [
+        (VectorUse::ConjugateMomentum, &legendre.momenta, Side::P),
+        (VectorUse::Velocity, &legendre.velocities, Side::Q),
     ] {
         let entries = velocity::entries(&model.dag, components, side);
-        let sides = (side == Side::Q, side == Side::P);
-        model.vectors.push(VectorFunction {
-            name: name.to_owned(),
-            sides,
-            entries,
-        });
+        model.vectors.push(VectorFunction { usage, entries });
     }
     Ok(legendre)
 }

@@ -1,0 +1,91 @@
+//! The input of everything that is written of a system.
+//!
+//! Input: a definition with its generics. Output: [`Context`], which every other file reads.
+//! Invariant: it is small and copied; a copy with other variables or another order of loops writes
+//! other text from the same program.
+
+use super::Definition;
+use super::generics::Generics;
+use super::index::Indices;
+use super::layout::{Layout, Slice, layout};
+use hamiltonian_symbolic::dag::Array;
+use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::program::{Program, Target};
+
+/// The text of the zero of the scalar type `T`.
+pub const ZERO: &str = "T::constant(0.0, 0.0)";
+
+/// The input of the text of a system.
+#[derive(Debug, Clone, Copy)]
+pub struct Context<'a> {
+    /// The definition.
+    pub definition: &'a Definition<'a>,
+    /// Its generic parameters.
+    pub generics: &'a Generics,
+    /// The mathematics.
+    pub model: &'a Model,
+    /// The instructions.
+    pub program: &'a Program,
+    /// How coordinates are stored.
+    pub layout: Layout,
+    /// The suffix of the system's name in that of the struct of coordinates of mixed shape.
+    pub suffix: &'static str,
+    /// The names of sizes inside bodies.
+    pub indices: Indices<'a>,
+    /// Which sizes are set at run time.
+    pub is_run_time: &'a [bool],
+    /// How a body reads and writes its point.
+    pub access: Access,
+}
+
+/// How a body reads and writes its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Access {
+    /// Inputs and outputs are different vectors.
+    Apart,
+    /// Coordinates and momenta are read where they are written: iterations see what those before
+    /// them left.
+    InPlace,
+    /// The same, with loops from their last iteration to the first.
+    Reversed,
+}
+
+impl<'a> Context<'a> {
+    /// The context of a definition.
+    pub fn of(definition: &'a Definition<'a>, generics: &'a Generics) -> Context<'a> {
+        Context {
+            definition,
+            generics,
+            model: definition.model,
+            program: definition.program,
+            layout: layout(&definition.model.groups),
+            suffix: "Vector",
+            indices: Indices {
+                sizes: &generics.sizes,
+            },
+            is_run_time: &generics.is_run_time,
+            access: Access::Apart,
+        }
+    }
+
+    /// The numbers of the sizes that are set at run time.
+    pub fn run_time_sizes(self) -> impl Iterator<Item = usize> + 'a {
+        let sizes = self.is_run_time;
+        (0..sizes.len()).filter(move |size| sizes[*size])
+    }
+
+    /// Whether any size is set at run time.
+    pub fn has_run_time_sizes(self) -> bool {
+        self.is_run_time.contains(&true)
+    }
+
+    /// The slice an array's elements are read from.
+    pub fn read(self, array: Array) -> Slice {
+        match array {
+            Array::Phase(column) if self.access != Access::Apart => {
+                Slice::write(self.layout, Target::Phase(column))
+            }
+            _ => Slice::read(self.layout, array),
+        }
+    }
+}

@@ -27,6 +27,7 @@ use crate::report::Spans;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 use hamiltonian_symbolic::model::ObservableKind;
 use hamiltonian_symbolic::rational::Rational;
+use hamiltonian_symbolic::transform;
 use proc_macro2::{Ident, Span, TokenStream};
 use std::ops::Range;
 
@@ -213,30 +214,8 @@ pub struct Observable {
 pub struct Chart {
     /// The word, for errors.
     pub name: Ident,
-    /// Which change.
-    pub kind: ChartKind,
-}
-
-/// Which change of coordinates.
-#[derive(Debug, Clone)]
-pub enum ChartKind {
-    /// `polar(x, y)` or `polar(q)` with `q[2]`: the Cartesian components.
-    Polar([Component; 2]),
-    /// `spherical(x, y, z)` or `spherical(q)` with `q[3]`.
-    Spherical([Component; 3]),
-    /// `jacobi(q, m)`: positions `[n][d]` or `[n]`, masses `[n]`.
-    Jacobi(GroupId, ParameterId),
-    /// `heliocentric(q, m)`, the first body the central one.
-    Heliocentric(GroupId, ParameterId),
-}
-
-/// A scalar coordinate: a group, or one component of a vector group.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Component {
-    /// The group it is of.
-    pub group: GroupId,
-    /// The component of a vector group.
-    pub index: Option<u64>,
+    /// Which change, groups and parameters by their numbers here.
+    pub kind: transform::Chart,
 }
 
 /// One loop of a sum: `name in lower..upper`.

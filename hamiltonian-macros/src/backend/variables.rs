@@ -7,15 +7,15 @@
 
 use super::proofs;
 use super::surface::CLOCK;
-use crate::checked::{self, ChartKind, Checked, Definition};
+use crate::checked::{Checked, Definition};
 use crate::emit::Declared;
 use crate::lower::Lowered;
 use crate::report::Report;
-use hamiltonian_symbolic::dag::{Column, Node, Parameter, Side};
+use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
 use hamiltonian_symbolic::pipeline::partials;
-use hamiltonian_symbolic::transform::{self, Bodies, Chart, Component, Placement, Refusal};
+use hamiltonian_symbolic::transform::{self, Chart, Placement, Refusal};
 use proc_macro2::Ident;
 
 /// A definition in its final variables.
@@ -90,7 +90,7 @@ impl System {
             );
             return None;
         }
-        let charts: Vec<Chart> = checked.charts.iter().map(chart).collect();
+        let charts: Vec<Chart> = checked.charts.iter().map(|chart| chart.kind).collect();
         let mut transformed = match transform::apply(&self.model, &charts) {
             Ok(transformed) => transformed,
             Err(reason) => {
@@ -106,7 +106,7 @@ impl System {
         let to = transformed.inverse_placed();
         let to = map(&mut transformed, to);
         self.declared = Some(Declared {
-            model: names_of(&transformed.source),
+            groups: transformed.source.groups,
             places: transformed.places,
             time: None,
         });
@@ -125,7 +125,7 @@ impl System {
         };
         let groups = self.model.groups.len() as u16;
         let declared = self.declared.get_or_insert_with(|| Declared {
-            model: names_of(&self.model),
+            groups: self.model.groups.clone(),
             places: (0..groups).map(whole).collect(),
             time: None,
         });
@@ -181,36 +181,6 @@ fn remedy(reason: &Refusal) -> &'static str {
         Refusal::Unverified { .. } => {
             "this is a fault of the transformation: please report it with the definition"
         }
-    }
-}
-
-/// The chart in the engine's terms.
-fn chart(chart: &checked::Chart) -> Chart {
-    let component = |c: &checked::Component| Component {
-        group: c.group.0 as u16,
-        row: c.index.map(|row| row as u32),
-    };
-    let bodies = |group: &checked::GroupId, masses: &checked::ParameterId| Bodies {
-        group: group.0 as u16,
-        masses: Parameter(masses.0 as u16),
-    };
-    match &chart.kind {
-        ChartKind::Polar(plane) => Chart::Polar([component(&plane[0]), component(&plane[1])]),
-        ChartKind::Spherical(space) => Chart::Spherical([
-            component(&space[0]),
-            component(&space[1]),
-            component(&space[2]),
-        ]),
-        ChartKind::Jacobi(group, masses) => Chart::Jacobi(bodies(group, masses)),
-        ChartKind::Heliocentric(group, masses) => Chart::Heliocentric(bodies(group, masses)),
-    }
-}
-
-/// The groups of a model.
-fn names_of(model: &Model) -> Model {
-    Model {
-        groups: model.groups.clone(),
-        ..Model::default()
     }
 }
 

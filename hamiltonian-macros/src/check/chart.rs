@@ -1,16 +1,16 @@
 //! Canonical changes of coordinates.
 //!
-//! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: what a chart replaces are
+//! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: a chart replaces
 //! coordinates of the definition, each once, of the shape the chart is for.
 
 use super::Checker;
 use crate::ast::StatementKind;
-use crate::checked::{
-    Chart, ChartKind, Component, Extent, GroupId, ParameterId, Reach, Type, Variable,
-};
+use crate::checked::{self, Extent, GroupId, Reach, Type, Variable};
 use crate::names;
 use crate::report::Spans;
+use hamiltonian_symbolic::dag::Parameter;
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::transform::{Bodies, Chart, Component};
 use proc_macro2::Ident;
 
 const CHARTS: &[&str] = &["polar", "spherical", "jacobi", "heliocentric"];
@@ -36,19 +36,16 @@ impl Checker<'_> {
             return;
         }
         let kind = match word.as_str() {
-            "polar" => self.cartesian(name, arguments).map(ChartKind::Polar),
-            "spherical" => self.cartesian(name, arguments).map(ChartKind::Spherical),
-            _ => self.bodies(name, arguments).map(|(group, masses)| {
-                if word == "jacobi" {
-                    ChartKind::Jacobi(group, masses)
-                } else {
-                    self.needs_first(&arguments[0], group);
-                    ChartKind::Heliocentric(group, masses)
-                }
+            "polar" => self.cartesian(name, arguments).map(Chart::Polar),
+            "spherical" => self.cartesian(name, arguments).map(Chart::Spherical),
+            "jacobi" => self.bodies(name, arguments).map(Chart::Jacobi),
+            _ => self.bodies(name, arguments).map(|bodies| {
+                self.needs_first(&arguments[0], bodies.group);
+                Chart::Heliocentric(bodies)
             }),
         };
         if let Some(kind) = kind {
-            self.out.charts.push(Chart {
+            self.out.charts.push(checked::Chart {
                 name: name.clone(),
                 kind,
             });
@@ -56,8 +53,9 @@ impl Checker<'_> {
     }
 
     /// Notes that there is to be a body 0, to which the others are relative.
-    fn needs_first(&mut self, positions: &Ident, group: GroupId) {
-        if let Type::Vector(bodies) | Type::Matrix(bodies, _) = self.out.groups[group.0 as usize].ty
+    fn needs_first(&mut self, positions: &Ident, group: u16) {
+        if let Type::Vector(bodies) | Type::Matrix(bodies, _) =
+            self.out.groups[usize::from(group)].ty
             && let Extent::Size(_) = bodies
         {
             self.note(Reach {
@@ -177,9 +175,9 @@ impl Checker<'_> {
         if let [group] = groups[..]
             && ty(self, group) == Type::Vector(Extent::Literal(D as u64))
         {
-            return Some(std::array::from_fn(|index| Component {
-                group,
-                index: Some(index as u64),
+            return Some(std::array::from_fn(|row| Component {
+                group: group.0 as u16,
+                row: Some(row as u32),
             }));
         }
         let form = if D == 2 {
@@ -204,8 +202,8 @@ impl Checker<'_> {
             return None;
         }
         let components = |index: usize| Component {
-            group: groups[index],
-            index: None,
+            group: groups[index].0 as u16,
+            row: None,
         };
         for (index, argument) in arguments.iter().enumerate() {
             if groups[..index].contains(&groups[index]) {
@@ -238,7 +236,7 @@ impl Checker<'_> {
     }
 
     /// Positions and masses of as many bodies.
-    fn bodies(&mut self, chart: &Ident, arguments: &[Ident]) -> Option<(GroupId, ParameterId)> {
+    fn bodies(&mut self, chart: &Ident, arguments: &[Ident]) -> Option<Bodies> {
         let form =
             format!("write `coordinates {chart}(q, m)` with positions `[n][3]` and masses `[n]`");
         let [positions, masses] = arguments else {
@@ -276,6 +274,9 @@ impl Checker<'_> {
             );
             return None;
         }
-        Some((group, ParameterId(parameter as u32)))
+        Some(Bodies {
+            group: group.0 as u16,
+            masses: Parameter(parameter as u16),
+        })
     }
 }

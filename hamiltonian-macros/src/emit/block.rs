@@ -275,22 +275,22 @@ impl Writer<'_> {
             return;
         }
         if found.wrapped.is_empty() {
-            line!(self, "let (_s{d}, _e{d}) = ({start}, {end});");
-            line!(self, "if _s{d} < _e{d} {{");
-            line!(self, "let _l{d} = _e{d} - _s{d};");
+            line!(self, "let (_i{d}, _e{d}) = ({start}, {end});");
+            line!(self, "if _i{d} < _e{d} {{");
+            line!(self, "let _l{d} = _e{d} - _i{d};");
         } else {
-            line!(self, "let (mut _s{d}, _e{d}) = ({start}, {end});");
-            line!(self, "while _s{d} < _e{d} {{");
-            line!(self, "let mut _l{d} = _e{d} - _s{d};");
+            line!(self, "let (mut _i{d}, _e{d}) = ({start}, {end});");
+            line!(self, "while _i{d} < _e{d} {{");
+            line!(self, "let mut _l{d} = _e{d} - _i{d};");
         }
         self.wrap(inner.domain, &found.wrapped);
         self.cut(inner.domain, &found.cuts);
         line!(self, "for _k{d} in 0.._l{d} {{");
-        line!(self, "let _i{d} = _s{d} + _k{d};");
+        line!(self, "let _i{d} = _i{d} + _k{d};");
         self.steps(&inner.body);
         line!(self, "}}");
         if !found.wrapped.is_empty() {
-            line!(self, "_s{d} += _l{d};");
+            line!(self, "_i{d} += _l{d};");
         }
         line!(self, "}}");
         self.indices.truncate(known_indices);
@@ -300,15 +300,11 @@ impl Writer<'_> {
     /// Where the wrapped indices start in a segment, and how long it is until one of them wraps.
     fn wrap(&mut self, domain: Domain, wrapped: &[(Index, i64)]) {
         let d = domain.0;
-        let here = format!("_s{d}");
         for (at, (index, factor)) in wrapped.iter().enumerate() {
             let Some(modulo) = &index.modulo else {
                 continue;
             };
-            let start = self
-                .context
-                .indices
-                .wrapped(&index.affine, modulo, Some((domain, &here)));
+            let start = self.context.indices.wrapped(&index.affine, modulo);
             let room = if *factor > 0 {
                 format!("{} - _w{d}_{at}", self.context.indices.modulus(modulo))
             } else {
@@ -325,17 +321,13 @@ impl Writer<'_> {
     /// The slices of a segment, as long as the segment, so that no element needs a check.
     fn cut(&mut self, domain: Domain, cuts: &[(Slice, Index)]) {
         let d = domain.0;
-        let here = format!("_s{d}");
         for (at, (slice, index)) in cuts.iter().enumerate() {
             let start = match self.indices.iter().position(|(known, _)| known == index) {
                 Some(known) => {
                     let start = self.indices[known].1.split(' ').next();
                     start.expect("text has a first word").to_owned()
                 }
-                None => self
-                    .context
-                    .indices
-                    .plain(&index.affine, Some((domain, &here))),
+                None => self.context.indices.plain(&index.affine),
             };
             line!(
                 self,

@@ -9,7 +9,7 @@ use super::generics::Generics;
 use super::index::Indices;
 use super::layout::{Layout, Slice, layout};
 use hamiltonian_symbolic::dag::Array;
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::model::{Group, Model};
 use hamiltonian_symbolic::program::{Program, Target};
 
 /// The text of the zero of the scalar type `T`.
@@ -26,7 +26,9 @@ pub struct Context<'a> {
     pub model: &'a Model,
     /// The instructions.
     pub program: &'a Program,
-    /// How coordinates are stored.
+    /// The groups of coordinates that are stored: those of the model, or the declared ones.
+    pub groups: &'a [Group],
+    /// How they are stored.
     pub layout: Layout,
     /// The suffix of the system's name in that of the struct of coordinates of mixed shape.
     pub suffix: &'static str,
@@ -58,6 +60,7 @@ impl<'a> Context<'a> {
             generics,
             model: definition.model,
             program: definition.program,
+            groups: &definition.model.groups,
             layout: layout(&definition.model.groups),
             suffix: "Vector",
             indices: Indices {

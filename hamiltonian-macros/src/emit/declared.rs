@@ -10,7 +10,7 @@ use super::context::{Context, ZERO};
 use super::holder::Receiver;
 use super::layout::{Layout, layout};
 use super::lex;
-use hamiltonian_symbolic::model::{Model, Shape, VectorUse};
+use hamiltonian_symbolic::model::{Group, Shape, VectorUse};
 use hamiltonian_symbolic::transform::Placement;
 use proc_macro2::TokenStream;
 use quote::{format_ident, quote};
@@ -19,8 +19,8 @@ use std::fmt::Write;
 /// The declared variables.
 #[derive(Debug)]
 pub struct Declared {
-    /// Their groups; nothing else of this model is read.
-    pub model: Model,
+    /// Their groups.
+    pub groups: Vec<Group>,
     /// Where each stands among the system's own variables.
     pub places: Vec<Placement>,
     /// The group of the system that is the declared time, where it has another.
@@ -30,8 +30,8 @@ pub struct Declared {
 /// The context of the storage of the declared variables.
 pub fn context<'a>(declared: &'a Declared, own: Context<'a>) -> Context<'a> {
     Context {
-        model: &declared.model,
-        layout: layout(&declared.model.groups),
+        groups: &declared.groups,
+        layout: layout(&declared.groups),
         suffix: "Declared",
         ..own
     }
@@ -65,7 +65,7 @@ fn moved(declared: &Declared, own: Context, (from, to): (&str, &str), back: bool
     let mut out = String::new();
     for placement in &declared.places {
         let (group, row) = placement.old;
-        let shape = &declared.model.groups[usize::from(group)].shape;
+        let shape = &declared.groups[usize::from(group)].shape;
         // A scalar, and an array as a whole, begin at row 0.
         let old = place(theirs, group, row.unwrap_or_default());
         let new = place(own, placement.new, 0);

@@ -24,9 +24,8 @@ impl Indices<'_> {
         &self.sizes[usize::from(size.0)]
     }
 
-    /// The positive and the negated negative terms; either may be empty. Loop variable `at.0` is
-    /// called `at.1`.
-    fn halves(&self, affine: &Affine, at: Option<(Domain, &str)>) -> (Vec<String>, Vec<String>) {
+    /// The positive and the negated negative terms; either may be empty.
+    fn halves(&self, affine: &Affine) -> (Vec<String>, Vec<String>) {
         let (mut plus, mut minus) = (Vec::new(), Vec::new());
         let mut push = |factor: i64, name: String| {
             let term = match factor.unsigned_abs() {
@@ -40,11 +39,7 @@ impl Indices<'_> {
             }
         };
         for &(domain, factor) in &affine.loops {
-            let name = match at {
-                Some((d, name)) if d == domain => name.to_owned(),
-                _ => variable(domain),
-            };
-            push(factor, name);
+            push(factor, variable(domain));
         }
         for &(size, factor) in &affine.sizes {
             push(factor, self.size(size).to_owned());
@@ -59,8 +54,8 @@ impl Indices<'_> {
     }
 
     /// The sum of the positive terms, and that of the negated negative ones; the second may be empty.
-    fn joined(&self, affine: &Affine, at: Option<(Domain, &str)>) -> (String, String) {
-        let (plus, minus) = self.halves(affine, at);
+    fn joined(&self, affine: &Affine) -> (String, String) {
+        let (plus, minus) = self.halves(affine);
         let plus = match plus.is_empty() {
             true => "0usize".to_owned(),
             false => plus.join(" + "),
@@ -69,9 +64,9 @@ impl Indices<'_> {
     }
 
     /// An index, or a bound that is not negative.
-    pub fn plain(&self, affine: &Affine, at: Option<(Domain, &str)>) -> String {
-        let (plus, _) = self.joined(affine, at);
-        let (_, minus) = self.halves(affine, at);
+    pub fn plain(&self, affine: &Affine) -> String {
+        let (plus, _) = self.joined(affine);
+        let (_, minus) = self.halves(affine);
         [plus]
             .into_iter()
             .chain(minus)
@@ -81,7 +76,7 @@ impl Indices<'_> {
 
     /// The value, or 0 where it is negative.
     pub fn saturating(&self, affine: &Affine) -> String {
-        let (plus, minus) = self.joined(affine, None);
+        let (plus, minus) = self.joined(affine);
         if minus.is_empty() {
             plus
         } else {
@@ -91,7 +86,7 @@ impl Indices<'_> {
 
     /// The first value of a loop; nothing is in range where it is negative.
     pub fn start(&self, affine: &Affine) -> String {
-        let (plus, minus) = self.joined(affine, None);
+        let (plus, minus) = self.joined(affine);
         if minus.is_empty() {
             plus
         } else {
@@ -100,8 +95,8 @@ impl Indices<'_> {
     }
 
     /// `affine % modulo`, Euclidean.
-    pub fn wrapped(&self, affine: &Affine, modulo: &Affine, at: Option<(Domain, &str)>) -> String {
-        let (plus, minus) = self.joined(affine, at);
+    pub fn wrapped(&self, affine: &Affine, modulo: &Affine) -> String {
+        let (plus, minus) = self.joined(affine);
         let n = self.modulus(modulo);
         if minus.is_empty() {
             format!("({plus}) % {n}")
@@ -112,7 +107,7 @@ impl Indices<'_> {
 
     /// The modulus, ready to stand in a product.
     pub fn modulus(&self, modulo: &Affine) -> String {
-        let text = self.plain(modulo, None);
+        let text = self.plain(modulo);
         if text.contains(' ') {
             format!("({text})")
         } else {
@@ -123,8 +118,8 @@ impl Indices<'_> {
     /// An index wherever it stands.
     pub fn index(&self, index: &Index) -> String {
         match &index.modulo {
-            Some(modulo) => self.wrapped(&index.affine, modulo, None),
-            None => self.plain(&index.affine, None),
+            Some(modulo) => self.wrapped(&index.affine, modulo),
+            None => self.plain(&index.affine),
         }
     }
 }
@@ -140,18 +135,15 @@ mod tests {
         let i = Affine::variable(Domain(2));
         let n = Affine::size(Size(0));
         let below = Affine::constant(-1).plus(1, &i);
-        assert_eq!(indices.plain(&below, None), "_i2 - 1usize");
-        assert_eq!(indices.plain(&n.plus(-2, &i), None), "N0 - 2 * _i2");
+        assert_eq!(indices.plain(&below), "_i2 - 1usize");
+        assert_eq!(indices.plain(&n.plus(-2, &i)), "N0 - 2 * _i2");
         assert_eq!(
             indices.saturating(&Affine::constant(-2).plus(1, &n)),
             "(N0).saturating_sub(2usize)"
         );
+        assert_eq!(indices.wrapped(&i, &n), "(_i2) % N0");
         assert_eq!(
-            indices.wrapped(&i, &n, Some((Domain(2), "_s2"))),
-            "(_s2) % N0"
-        );
-        assert_eq!(
-            indices.wrapped(&below, &n, None),
+            indices.wrapped(&below, &n),
             "((_i2) % N0 + (N0 - (1usize) % N0)) % N0"
         );
     }

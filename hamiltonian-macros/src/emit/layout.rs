@@ -67,7 +67,7 @@ impl Context<'_> {
 
     /// Rows and columns as expressions.
     pub fn extents(self, shape: &Shape) -> (String, String) {
-        let extent = |extent: &Affine| self.indices.plain(extent, None);
+        let extent = |extent: &Affine| self.indices.plain(extent);
         match shape {
             Shape::Scalar => ("1usize".into(), "1usize".into()),
             Shape::Vector(rows) => (extent(rows), "1usize".into()),
@@ -100,14 +100,14 @@ impl Context<'_> {
     fn constant_extent(self, extent: &Affine) -> String {
         match extent.as_constant() {
             Some(value) => value.to_string(),
-            None => self.indices.plain(extent, None),
+            None => self.indices.plain(extent),
         }
     }
 
     /// The expression of an array of zeros of that shape.
     pub fn zero(self, shape: &Shape) -> String {
         let dimension = |extent: &Affine| match self.is_set_at_run_time(extent) {
-            true => format!("__h::Dyn({})", self.indices.plain(extent, None)),
+            true => format!("__h::Dyn({})", self.indices.plain(extent)),
             false => format!("__h::Const::<{}>", self.constant_extent(extent)),
         };
         let (rows, columns) = match shape {
@@ -121,8 +121,8 @@ impl Context<'_> {
     /// The type of coordinates and of momenta over `T`.
     pub fn vector(self) -> String {
         match self.layout {
-            Layout::Scalars => format!("__h::SVector<T, {}>", self.model.groups.len()),
-            Layout::Array => self.storage(&self.model.groups[0].shape.of_parameter(), "T"),
+            Layout::Scalars => format!("__h::SVector<T, {}>", self.groups.len()),
+            Layout::Array => self.storage(&self.groups[0].shape.of_parameter(), "T"),
             Layout::Mixed => mixed::ty(self),
         }
     }
@@ -130,7 +130,7 @@ impl Context<'_> {
     /// The expression of the zero vector, where run-time sizes are called as in bodies.
     pub fn zeros(self) -> String {
         let zero = |group: &Group| self.zero(&group.shape.of_parameter());
-        let groups = &self.model.groups;
+        let groups = self.groups;
         match self.layout {
             Layout::Scalars => {
                 let n = groups.len();
@@ -160,7 +160,7 @@ impl Context<'_> {
             };
             let Group {
                 shape, coordinate, ..
-            } = &self.model.groups[usize::from(group)];
+            } = &self.groups[usize::from(group)];
             // Two parts of one vector are borrowed at once only as fields.
             let whole = match (self.layout, shape) {
                 (Layout::Mixed, Shape::Scalar) => {
@@ -173,7 +173,7 @@ impl Context<'_> {
             let is_cut = shape.columns() > 1 || self.is_dynamic(&shape.of_parameter());
             let _ = match shape.rows() {
                 Some(rows) if self.layout != Layout::Scalars && is_cut => {
-                    let rows = self.indices.plain(rows, None);
+                    let rows = self.indices.plain(rows);
                     let name = |column| {
                         let is_it = |slice: &&Slice| {
                             part_of(**slice).is_some_and(|(_, at)| at.column == column)

@@ -20,7 +20,7 @@ pub fn ty(context: Context) -> String {
 /// The traits the struct derives: it is `Copy` where static vectors are.
 pub fn derives(context: Context) -> String {
     let is_static = |group: &Group| !context.is_dynamic(&group.shape.of_parameter());
-    let copy = match context.model.groups.iter().all(is_static) {
+    let copy = match context.groups.iter().all(is_static) {
         true => "__h::core::marker::Copy, ",
         false => "",
     };
@@ -33,7 +33,7 @@ pub fn derives(context: Context) -> String {
 pub fn declaration(context: Context) -> String {
     let visibility = &context.generics.visibility;
     let mut fields = String::new();
-    for group in &context.model.groups {
+    for group in context.groups {
         let ty = context.storage(&group.shape.of_parameter(), "T");
         let doc = format!(
             " `{}` of coordinates, `{}` of momenta.",
@@ -64,7 +64,7 @@ struct Arguments {
 
 fn arguments(context: Context) -> Arguments {
     let (mut kinds, mut arguments, mut fields) = (Vec::new(), Vec::new(), Vec::new());
-    for (at, group) in context.model.groups.iter().enumerate() {
+    for (at, group) in context.groups.iter().enumerate() {
         let field = &group.coordinate;
         if group.shape == Shape::Scalar {
             arguments.push(format!("_{at}: T"));
@@ -104,7 +104,7 @@ pub fn implementations(context: Context) -> String {
     let visibility = &context.generics.visibility;
     let ty = ty(context);
     let declaration = context.generics.holder_declaration();
-    let groups = &context.model.groups;
+    let groups = context.groups;
     let Arguments {
         kinds,
         arguments,

@@ -11,19 +11,21 @@ const PENDULUM: &str = "/// A system.
 
 const TODA: &str = "/// A system.
     pub struct Toda<const N: usize> {}
-    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) }
+    H(q[N]; p[N]) = sum(i in 0..N) { p[i]^2/2 + exp(q[i] - q[(i + 1) % N]) };
     invariant total_momentum = sum(i in 0..N) { p[i] }";
 
 const GRAVITY: &str = "/// A system.
     pub struct Gravity { n: usize, G = 1, m: [n] }
-    H(q[n][3]; p[n][3]) = sum(i in 0..n) { |p[i]|^2/(2*m[i]) }
-        - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/|q[i] - q[j]| }";
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }";
 
 const VALUE: &str = "H(q; p) = a*(q^2 + 1)*(p^2 + 1)/2";
 
 fn emitted(definition: &str) -> TokenStream {
     let definition = TokenStream::from_str(definition).unwrap();
-    expand(quote! { (::hamiltonian) #definition })
+    let code = expand(quote! { (::hamiltonian) #definition });
+    assert!(!code.to_string().contains("compile_error"), "{code}");
+    code
 }
 
 fn pretty(tokens: &TokenStream) -> String {

@@ -3,10 +3,10 @@
 use super::accept;
 use crate::ast::BinaryOp;
 use crate::checked::{
-    ChartKind, Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, SizeKind, Type,
-    Variable,
+    Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, SizeKind, Type, Variable,
 };
 use hamiltonian_symbolic::index::Size;
+use hamiltonian_symbolic::transform::Chart;
 
 const GRAVITY: &str = "
     /// Point masses.
@@ -226,6 +226,6 @@ fn time_factors_and_charts_are_taken_apart() {
         Kind::Binary(BinaryOp::Mul, ..)
     ));
     let checked = accept("H(q[2]; p[2]) = norm_squared(p); coordinates polar(q)");
-    assert!(matches!(&checked.charts[0].kind, ChartKind::Polar([x, y])
-        if x.index == Some(0) && y.index == Some(1)));
+    assert!(matches!(&checked.charts[0].kind, Chart::Polar([x, y])
+        if x.row == Some(0) && y.row == Some(1)));
 }

@@ -319,8 +319,10 @@ impl Rational {
     #[must_use]
     pub fn to_words(&self) -> (f64, f64) {
         let hi = self.to_f64();
-        if let Form::Small(n, 1) = self.0
+        // A short fraction of a power of two is a double.
+        if let Form::Small(n, d) = self.0
             && n.unsigned_abs() <= 1 << 53
+            && d.unsigned_abs().is_power_of_two()
         {
             return (hi, 0.0);
         }

@@ -12,4 +12,5 @@ mod walk;
 
 pub use guard::guarded;
 pub use numeric::{Point, Sample, Sampled, Signs, is_in_range, sample};
+pub(crate) use numeric::{Values, product, sum};
 pub use unroll::{unroll, unroll_nodes, unrolled};

@@ -88,14 +88,9 @@ pub fn sample(
         }
     }
     let meaning = Numbers {
-        model,
-        how,
         given: elements,
         time,
-        read: Map::default(),
-        point: Vec::new(),
-        visits: 0,
-        is_in_range: true,
+        ..Numbers::new(model, how)
     };
     let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
     Some((values?, numbers.point))
@@ -104,18 +99,47 @@ pub fn sample(
 /// Whether every index is in range at these sizes; not if a loop runs too long to tell.
 #[must_use]
 pub fn is_in_range(model: &Model, roots: &[Node], sizes: &[i64]) -> bool {
-    let meaning = Numbers {
-        model,
-        how: Sample::default(),
-        given: Map::default(),
-        time: None,
-        read: Map::default(),
-        point: Vec::new(),
-        visits: 0,
-        is_in_range: true,
-    };
+    let meaning = Numbers::new(model, Sample::default());
     let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
     values.is_some() && numbers.is_in_range
+}
+
+/// Values at one sample point of nodes without loops, each computed once. Every size is 3.
+#[derive(Debug)]
+pub(crate) struct Values {
+    how: Sample,
+    known: Vec<Option<Sampled>>,
+}
+
+impl Values {
+    pub(crate) fn new(how: Sample) -> Values {
+        let known = Vec::new();
+        Values { how, known }
+    }
+    /// The value of a node.
+    pub(crate) fn at(&mut self, model: &Model, node: Node) -> Sampled {
+        let dag = &model.dag;
+        let place = |node: Node| node.0 as usize;
+        self.known.resize(dag.len(), None);
+        if let Some(known) = self.known[place(node)] {
+            return known;
+        }
+        let unknown = dag.reached(&[node], |node, ahead| {
+            dag.for_children(node, |child| {
+                if self.known[place(child)].is_none() {
+                    ahead.add(child);
+                }
+            });
+        });
+        let sizes = vec![3; model.sizes.len()];
+        let (outside, mut numbers) = (Place::new(&sizes), Numbers::new(model, self.how));
+        for node in unknown {
+            let child = |child: Node| self.known[place(child)].unwrap_or(exact(f64::NAN));
+            let value = numbers.value(dag, node, &outside, &child);
+            self.known[place(node)] = Some(value);
+        }
+        self.known[place(node)].unwrap_or(exact(f64::NAN))
+    }
 }
 
 /// The most nodes a sample may visit.
@@ -132,7 +156,20 @@ struct Numbers<'a> {
     is_in_range: bool,
 }
 
-impl Numbers<'_> {
+impl<'a> Numbers<'a> {
+    fn new(model: &'a Model, how: Sample) -> Numbers<'a> {
+        Numbers {
+            model,
+            how,
+            given: Map::default(),
+            time: None,
+            read: Map::default(),
+            point: Vec::new(),
+            visits: 0,
+            is_in_range: true,
+        }
+    }
+
     /// A multiple of 1/64 between 1/4 and 9/4, of either sign where asked.
     fn leaf(&self, key: &impl Hash, salt: u64, signed: bool) -> f64 {
         let mut hasher = Mixer::default();
@@ -234,7 +271,8 @@ fn is_short(a: Sampled) -> bool {
     a.error == 0.0 && (64.0 * a.value).fract() == 0.0 && a.value.abs() < 1e6
 }
 
-fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
+/// a + b + …
+pub(crate) fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
     let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
     let (mut whole, mut short) = (true, true);
     for part in parts {
@@ -254,7 +292,8 @@ fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
     }
 }
 
-fn product(a: Sampled, b: Sampled) -> Sampled {
+/// a·b
+pub(crate) fn product(a: Sampled, b: Sampled) -> Sampled {
     let value = a.value * b.value;
     if is_whole(a) && is_whole(b) && value.abs() < 1e15 || is_short(a) && is_short(b) {
         return exact(value);
@@ -312,7 +351,11 @@ impl Meaning for Numbers<'_> {
                 error: crate::PI_LOW,
             },
             Kind::Scalar(parameter) => {
-                let name = self.model.parameters[usize::from(parameter.0)].name.clone();
+                let declared = self.model.parameters.get(usize::from(parameter.0));
+                // A parameter that stands for a node of the engine has no value.
+                let Some(name) = declared.map(|declared| declared.name.clone()) else {
+                    return exact(f64::NAN);
+                };
                 let size = self.leaf(&(1u8, parameter), 0, false);
                 let is_negative = self.how.signs.of(*parameter);
                 let value = self.given_parameter(if is_negative { -size } else { size });

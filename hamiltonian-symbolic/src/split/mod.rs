@@ -12,7 +12,6 @@ mod rows;
 mod solve;
 mod space;
 mod sweep;
-mod table;
 mod tape;
 mod units;
 

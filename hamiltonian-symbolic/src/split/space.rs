@@ -8,12 +8,11 @@
 
 use super::motion::Motion;
 use super::solve::Flow;
-use super::table::{Near, POINTS, Table};
 use super::tape::{Lanes, Tape};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::index::Index;
-use crate::loops::Sample;
+use crate::loops::{Sample, Sampled, Values, product, sum};
 use crate::model::Model;
 use crate::normal_form::{Effort, tidy, vanishes_within, witness};
 use crate::rational::Rational;
@@ -47,7 +46,8 @@ pub(crate) struct Space {
     sets: Vec<Set>,
     derivatives: Map<Node, Map<Node, Node>>,
     zeros: Map<Node, bool>,
-    table: Table,
+    /// Numbers of nodes, from which most questions are answered.
+    values: [Values; 2],
     sections: Map<(Node, Set), Node>,
     /// Expressions that were evaluated, as tapes with their numbers.
     tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
@@ -109,7 +109,13 @@ impl Space {
             sets: Vec::new(),
             derivatives: Map::default(),
             zeros: Map::default(),
-            table: Table::default(),
+            values: [false, true].map(|signed| {
+                Values::new(Sample {
+                    seed: u64::from(signed),
+                    signed,
+                    ..Sample::default()
+                })
+            }),
             sections: Map::default(),
             tapes: Map::default(),
             flows: Map::default(),
@@ -222,15 +228,19 @@ impl Space {
     pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
         let terms = self.bracket(a, b);
         // Numbers of the derivatives first, which are made once for all brackets.
-        let mut sums = [Near::rounded(0.0); POINTS];
+        let mut numbers = [Vec::new(), Vec::new()];
         for (sign, [x, y]) in &terms {
             let (x, y) = (self.near(*x), self.near(*y));
-            let sign = Near::rounded(sign.to_f64());
-            for (at, sum) in sums.iter_mut().enumerate() {
-                *sum = sum.plus(sign.times(x[at].times(y[at])));
+            for (at, numbers) in numbers.iter_mut().enumerate() {
+                let mut term = product(x[at], y[at]);
+                term.value *= sign.to_f64();
+                numbers.push(term);
             }
         }
-        if sums.iter().any(|sum| sum.is_nonzero()) {
+        if numbers
+            .into_iter()
+            .any(|terms| sum(terms.into_iter()).is_nonzero())
+        {
             return false;
         }
         let products = terms.into_iter();
@@ -342,43 +352,9 @@ impl Space {
         self.near(node)[0].value
     }
     /// The values at two points: all leaves positive, and of both signs.
-    fn near(&mut self, node: Node) -> [Near; POINTS] {
+    fn near(&mut self, node: Node) -> [Sampled; 2] {
         let model = &self.model;
-        let leaf = |leaf: Node| {
-            let has_value = match model.dag.kind(leaf) {
-                Kind::Scalar(parameter) => usize::from(parameter.0) < model.parameters.len(),
-                Kind::Element(array, row, column) => {
-                    // The arena has seen other models, with more groups.
-                    let is_declared = match array {
-                        Array::Phase(Column { group, .. }) => {
-                            usize::from(*group) < model.groups.len()
-                        }
-                        Array::Parameter(p) => usize::from(p.0) < model.parameters.len(),
-                        _ => false,
-                    };
-                    let is_given = |index: &Index| {
-                        index.modulo.is_none() && index.affine.as_constant().is_some()
-                    };
-                    is_declared && is_given(row) && column.as_ref().is_none_or(is_given)
-                }
-                _ => true,
-            };
-            if !has_value {
-                return [Near::rounded(f64::NAN); POINTS];
-            }
-            let sizes = vec![3; model.sizes.len()];
-            let value = |signed: bool| {
-                let sample = Sample {
-                    seed: u64::from(signed),
-                    signed,
-                    ..Sample::default()
-                };
-                let found = crate::loops::sample(model, &[leaf], &sizes, sample, &[]);
-                Near::rounded(found.map_or(f64::NAN, |(values, _)| values[0].value))
-            };
-            [value(false), value(true)]
-        };
-        self.table.at(&model.dag, node, leaf)
+        self.values.each_mut().map(|values| values.at(model, node))
     }
     /// A point, by variables' numbers, from which others are taken by changing some.
     pub(crate) fn point(&self) -> Vec<f64> {
@@ -480,7 +456,14 @@ pub(crate) fn differ(a: f64, b: f64) -> bool {
 
 /// The bits of a set.
 pub(crate) fn bits(set: Set) -> impl Iterator<Item = usize> {
-    (0..Set::BITS as usize).filter(move |bit| set >> bit & 1 == 1)
+    let mut left = set;
+    std::iter::from_fn(move || {
+        let bit = left.trailing_zeros() as usize;
+        (left != 0).then(|| {
+            left &= left - 1;
+            bit
+        })
+    })
 }
 
 /// The number that stands for a variable in sections: coordinates and momenta differ.

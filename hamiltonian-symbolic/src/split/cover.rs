@@ -64,17 +64,10 @@ impl Search<'_> {
         })
     }
     /// Tries a block and keeps it.
-    fn keep(&mut self, mask: u64) -> bool {
-        if self.blocks.iter().any(|block| block.units == mask) {
-            return true;
-        }
-        match self.block(mask) {
-            Some(block) => {
-                self.blocks.push(block);
-                true
-            }
-            None => false,
-        }
+    fn keep(&mut self, mask: u64) {
+        let is_known = self.blocks.iter().any(|block| block.units == mask);
+        let block = if is_known { None } else { self.block(mask) };
+        self.blocks.extend(block);
     }
     fn mask(&mut self, mut is: impl FnMut(&mut Space, &Unit) -> bool) -> u64 {
         let mut mask = 0;
@@ -128,9 +121,6 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         }
     }
     found.sort_by_key(Vec::len);
-    let fewest = found.first().map_or(0, Vec::len);
-    found.retain(|pieces| pieces.len() <= fewest + 2);
-    found.truncate(24);
     Ok(found)
 }
 
@@ -147,15 +137,9 @@ fn hard_blocks(search: &mut Search, hard: u64, easy: u64) {
         pool(search, (false, true)),
         pool(search, (true, true)),
     );
-    let mut offers: Vec<u64> = vec![0, v, t, mixed, v | mixed, t | mixed, easy];
+    let mut offers: Vec<u64> = vec![v, t, mixed, v | mixed, t | mixed, easy];
     let singles = (0..64).map(|at| 1 << at).filter(|mask| easy & mask != 0);
     offers.extend(singles);
-    let mut seen = Vec::new();
-    offers.retain(|mask| {
-        let is_new = !seen.contains(mask);
-        seen.push(*mask);
-        is_new
-    });
     let numbers: Vec<u64> = (0..64)
         .map(|at| 1 << at)
         .filter(|m| hard & m != 0)
@@ -184,7 +168,7 @@ fn hard_blocks(search: &mut Search, hard: u64, easy: u64) {
         search.keep(subset);
     }
     for &subset in &subsets {
-        for &offer in &offers[1..] {
+        for &offer in &offers {
             search.keep(subset | offer);
         }
     }

@@ -121,6 +121,17 @@ pub struct Refusal {
     pub is_limit: bool,
 }
 
+impl Refusal {
+    fn of(model: &Model, node: Node, is_limit: bool) -> Refusal {
+        let text = print::text(model, node);
+        Refusal {
+            node,
+            text,
+            is_limit,
+        }
+    }
+}
+
 /// The most pieces of a splitting.
 pub const MOST: usize = 8;
 
@@ -193,12 +204,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
         }
         None => (over_loops(model, h), false),
     };
-    let refused = |node| Refusal {
-        node,
-        text: print::text(model, node),
-        is_limit,
-    };
-    found.map_err(refused)
+    found.map_err(|node| Refusal::of(model, node, is_limit))
 }
 
 /// A splitting into loops of flows.
@@ -254,13 +260,14 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
     let invariants = space.model.observables.iter();
     let invariants = invariants.filter(|o| o.kind == ObservableKind::Invariant);
     let invariants: Vec<Node> = invariants.flat_map(|o| o.components.clone()).collect();
-    let choice = rank::best(space, h, candidates, &invariants).ok_or(refused.unwrap_or(h))?;
-    let rest = rest(space, &choice.pieces);
+    let best = rank::best(space, h, candidates, &invariants);
+    let (chosen, reasons) = best.ok_or(refused.unwrap_or(h))?;
+    let rest = rest(space, &chosen);
     if !space.is_zero(rest) {
         return Err(h);
     }
-    let mut pieces = Vec::with_capacity(choice.pieces.len());
-    for (at, block) in choice.pieces.into_iter().enumerate() {
+    let mut pieces = Vec::with_capacity(chosen.len());
+    for (at, block) in chosen.into_iter().enumerate() {
         let node = match at {
             0 => space.dag().add(&[block.node, constant]),
             _ => block.node,
@@ -273,11 +280,7 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
     }
     Ok(Splitting {
         pieces,
-        choice: Some(Reasons {
-            error: choice.error,
-            among: choice.among,
-            keeps_invariants: choice.keeps_invariants,
-        }),
+        choice: Some(reasons),
     })
 }
 
@@ -293,16 +296,7 @@ pub fn declared(
     for (at, (name, h)) in parts.iter().enumerate() {
         let Some(flow) = exact_flow(model, *h) else {
             let node = blamed(model, *h);
-            let text = print::text(model, node);
-            let is_limit = false;
-            return Err((
-                at,
-                Refusal {
-                    node,
-                    text,
-                    is_limit,
-                },
-            ));
+            return Err((at, Refusal::of(model, node, false)));
         };
         pieces.push(Piece {
             h: *h,
@@ -316,24 +310,19 @@ pub fn declared(
     })
 }
 
-/// The term of an expression that has no flow.
+/// The first term of an expression that has no flow; the whole where each has one.
 fn blamed(model: &mut Model, h: Node) -> Node {
-    match Space::new(model, &[h]) {
+    let term = match Space::new(model, &[h]) {
         Some(mut space) => {
-            let term = cover_term(&mut space, h);
+            let levels = units::levels(&mut space, h);
+            let mut refused = levels
+                .iter()
+                .map(|level| cover::candidates(&mut space, level).err());
+            let term = refused.find_map(|term| term);
             model.dag = space.model.dag;
             term
         }
-        None => sweep::find(model, h).err().unwrap_or(h),
-    }
-}
-
-/// The first term of a sum without a flow of its own; the whole where each has one.
-fn cover_term(space: &mut Space, h: Node) -> Node {
-    for level in units::levels(space, h) {
-        if let Err(term) = cover::candidates(space, &level) {
-            return term;
-        }
-    }
-    h
+        None => sweep::find(model, h).err(),
+    };
+    term.unwrap_or(h)
 }

@@ -4,6 +4,7 @@
 //! error is measured, by the composition A(h/2)…Z(h)…A(h/2) along short orbits from points of both
 //! signs near unit size; splittings whose pieces keep all declared invariants come before others.
 
+use super::Reasons;
 use super::cover::Block;
 use super::rows::EXPONENTIAL;
 use super::space::Space;
@@ -19,17 +20,6 @@ const TRIALS: usize = 40;
 const OPERATIONS: usize = 100_000;
 /// Errors closer than this are a tie.
 const TIE: f64 = 1.1;
-
-/// A choice.
-pub(crate) struct Choice {
-    pub(crate) pieces: Vec<Block>,
-    /// The mean of max|H − H₀| over the orbits.
-    pub(crate) error: f64,
-    /// Whether each piece keeps each declared invariant.
-    pub(crate) keeps_invariants: bool,
-    /// How many candidates with their orders there were.
-    pub(crate) among: usize,
-}
 
 /// A flow, ready for half a step and for a whole one.
 struct Piece {
@@ -105,25 +95,27 @@ impl Piece {
     }
 }
 
-/// The best candidate.
+/// The best candidate, its pieces in order, and why it is.
 pub(crate) fn best(
     space: &mut Space,
     h: Node,
     candidates: Vec<Vec<Block>>,
     invariants: &[Node],
-) -> Option<Choice> {
+) -> Option<(Vec<Block>, Reasons)> {
     let mut energy = Tape::of(space, &[h]).map(|tape| {
         let numbers = tape.prepared(0.0);
         (tape, numbers)
     });
-    let mut chosen: Option<(f64, usize, Choice)> = None;
+    let mut chosen: Option<(f64, usize, Vec<Block>, Reasons)> = None;
     let (mut trials, mut operations) = (0, 0);
     // Candidates share blocks: each is made a piece once.
     let mut made: Vec<Piece> = Vec::new();
     let mut numbers: Map<Node, Option<usize>> = Map::default();
     for pieces in candidates {
         let keeps = keeps(space, &pieces, invariants);
-        let others_keep = chosen.as_ref().map(|(.., choice)| choice.keeps_invariants);
+        let others_keep = chosen
+            .as_ref()
+            .map(|(.., reasons)| reasons.keeps_invariants);
         if others_keep == Some(true) && !keeps {
             continue;
         }
@@ -153,8 +145,8 @@ pub(crate) fn best(
             let mirrored = usize::from(outer & 0x5555_5555_5555_5555 != 0);
             // Below this it is better.
             let most = match &chosen {
-                Some((best, other, choice))
-                    if best.is_finite() && choice.keeps_invariants == keeps =>
+                Some((best, other, _, reasons))
+                    if best.is_finite() && reasons.keeps_invariants == keeps =>
                 {
                     let factor = if mirrored < *other { TIE } else { 1.0 / TIE };
                     best * factor / cost as f64
@@ -169,23 +161,23 @@ pub(crate) fn best(
                 _ => f64::NAN,
             };
             let is_better = match &chosen {
-                Some((.., choice)) => choice.keeps_invariants != keeps || error < most,
+                Some((.., reasons)) => reasons.keeps_invariants != keeps || error < most,
                 None => true,
             };
             if is_better {
-                let choice = Choice {
-                    pieces: order.iter().map(|at| pieces[*at].clone()).collect(),
+                let ordered = order.iter().map(|at| pieces[*at].clone()).collect();
+                let reasons = Reasons {
                     error,
-                    keeps_invariants: keeps,
                     among: 0,
+                    keeps_invariants: keeps,
                 };
-                chosen = Some((error * cost as f64, mirrored, choice));
+                chosen = Some((error * cost as f64, mirrored, ordered, reasons));
             }
         }
     }
-    chosen.map(|(_, _, choice)| Choice {
-        among: trials,
-        ..choice
+    chosen.map(|(_, _, pieces, reasons)| {
+        let among = trials;
+        (pieces, Reasons { among, ..reasons })
     })
 }
 

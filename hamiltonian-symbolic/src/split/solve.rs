@@ -85,7 +85,6 @@ fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
 /// The rows that take all of h.
 fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     ROWS.iter().find_map(|row| match row.solve {
-        _ if space.is_spent() => None,
         Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row)),
         Solve::Pair(_) | Solve::Exponential => None,
     })

@@ -7,6 +7,7 @@
 
 use super::motion::{Motion, Move};
 use super::space::Space;
+use super::units::{Term, terms};
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
@@ -14,14 +15,6 @@ use crate::index::{Affine, Domain, Index};
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
 use crate::rational::Rational;
-
-/// A term of H: a summand and its loops.
-#[derive(Clone, Debug)]
-struct Term {
-    chain: Vec<Domain>,
-    body: Node,
-    source: Node,
-}
 
 /// The terms over one chain of loops that name the same elements.
 struct Site {
@@ -121,89 +114,6 @@ pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
     let body = model.dag.add(&bodies);
     let pieces = solved(model, &site, body, false)?;
     pieces.into_iter().next().map(|piece| piece.flow)
-}
-
-/// H by terms: through sums, loops and factors that do not move.
-fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
-    let mut found = Vec::new();
-    let start = Term {
-        chain: Vec::new(),
-        body: h,
-        source: h,
-    };
-    let mut left = vec![start];
-    while let Some(term) = left.pop() {
-        let with = |body: Node| Term {
-            body,
-            ..term.clone()
-        };
-        match dag.kind(term.body).clone() {
-            Kind::Sum(c, parts) => {
-                let mut inner: Vec<Term> = Vec::new();
-                for (k, node) in &parts {
-                    inner.push(with(dag.scale(k, *node)));
-                }
-                if !c.is_zero() {
-                    inner.push(with(dag.constant(c)));
-                }
-                for part in &mut inner {
-                    if part.chain.is_empty() {
-                        part.source = part.body;
-                    }
-                }
-                left.extend(inner.into_iter().rev());
-            }
-            Kind::Reduce(domain, body) => {
-                let mut chain = term.chain.clone();
-                chain.push(domain);
-                left.push(Term {
-                    chain,
-                    body,
-                    source: term.source,
-                });
-            }
-            Kind::Product(k, factors) => {
-                let opens = |node: Node| matches!(dag.kind(node), Kind::Reduce(..) | Kind::Sum(..));
-                let moves = |node: Node| dag.dependence(node).on(Dependence::MOVING);
-                let mut moving = factors.iter().filter(|(node, _)| moves(*node));
-                match (moving.next(), moving.next()) {
-                    (Some(&(inner, 1)), None) if opens(inner) => {
-                        let rest = factors.iter().filter(|(node, _)| *node != inner).copied();
-                        let rest: Vec<_> = rest.collect();
-                        let factor = dag.product(&k, &rest);
-                        let inside = dag.kind(inner).clone();
-                        match inside {
-                            Kind::Reduce(domain, body) => {
-                                let body = dag.mul(&[factor, body]);
-                                let mut chain = term.chain.clone();
-                                chain.push(domain);
-                                left.push(Term {
-                                    chain,
-                                    body,
-                                    source: term.source,
-                                });
-                            }
-                            Kind::Sum(c, parts) => {
-                                let mut inner = Vec::new();
-                                for (k, node) in &parts {
-                                    let part = dag.mul(&[factor, *node]);
-                                    inner.push(with(dag.scale(k, part)));
-                                }
-                                if !c.is_zero() {
-                                    inner.push(with(dag.scale(&c, factor)));
-                                }
-                                left.extend(inner.into_iter().rev());
-                            }
-                            _ => found.push(term),
-                        }
-                    }
-                    _ => found.push(term),
-                }
-            }
-            _ => found.push(term),
-        }
-    }
-    found
 }
 
 /// The elements of phase space that an expression names, without those of its own loops.

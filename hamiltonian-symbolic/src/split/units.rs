@@ -6,7 +6,8 @@
 
 use super::solve::flow;
 use super::space::Space;
-use crate::dag::{Dependence, Kind, Node};
+use crate::dag::{Dag, Dependence, Kind, Node};
+use crate::index::Domain;
 use crate::rational::Rational;
 use crate::structure::expand;
 
@@ -109,57 +110,89 @@ fn merged(space: &mut Space, units: Units) -> Units {
     merged
 }
 
-/// The terms of H by its own sums, through factors that do not move.
+/// The terms of H by its own sums.
 fn written(space: &mut Space, h: Node) -> Units {
     let mut units = Units {
         units: Vec::new(),
         constant: Vec::new(),
     };
-    let mut left = vec![h];
-    while let Some(node) = left.pop() {
-        match parts(space, node) {
-            Some(parts) => left.extend(parts.into_iter().rev()),
-            None => append(space, &mut units, &[node], node),
-        }
+    for term in terms(space.dag(), h) {
+        append(space, &mut units, &[term.body], term.body);
     }
     units
 }
 
-/// The terms of a sum with factors that do not move.
-fn parts(space: &mut Space, node: Node) -> Option<Vec<Node>> {
-    let moving = Dependence(Dependence::Q.0 | Dependence::P.0);
-    let dag = space.dag();
-    match dag.kind(node).clone() {
-        Kind::Sum(c, terms) => {
-            let mut parts: Vec<Node> = terms.iter().map(|(k, n)| dag.scale(k, *n)).collect();
-            if !c.is_zero() {
-                parts.push(dag.constant(c));
-            }
-            Some(parts)
-        }
-        Kind::Product(k, factors) => {
-            let is_moving = |(n, _): &&(Node, i32)| dag.dependence(*n).on(moving);
-            let mut those = factors.iter().filter(is_moving);
-            let (sum, 1) = *those.next()? else {
-                return None;
-            };
-            if those.next().is_some() || !matches!(dag.kind(sum), Kind::Sum(..)) {
-                return None;
-            }
-            let rest: Vec<(Node, i32)> =
-                factors.iter().filter(|(n, _)| *n != sum).copied().collect();
-            let rest = dag.product(&k, &rest);
-            distributed(space, sum, rest)
-        }
-        _ => None,
-    }
+/// A term of H: a summand and its loops.
+#[derive(Clone, Debug)]
+pub(super) struct Term {
+    /// The loops around it, outermost first.
+    pub(super) chain: Vec<Domain>,
+    pub(super) body: Node,
+    /// The term as it was written: outside of loops the body.
+    pub(super) source: Node,
 }
 
-/// A sum times a factor, term by term.
-fn distributed(space: &mut Space, sum: Node, factor: Node) -> Option<Vec<Node>> {
-    let dag = space.dag();
+/// H by terms: through sums, loops and factors that do not move.
+pub(super) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
+    let mut found = Vec::new();
+    let mut left = vec![Term {
+        chain: Vec::new(),
+        body: h,
+        source: h,
+    }];
+    while let Some(term) = left.pop() {
+        let (factor, inner) = opened(dag, term.body);
+        let with = |body: Node| Term {
+            source: if term.chain.is_empty() {
+                body
+            } else {
+                term.source
+            },
+            chain: term.chain.clone(),
+            body,
+        };
+        match *dag.kind(inner) {
+            Kind::Sum(..) => {
+                let parts = distributed(dag, inner, factor);
+                left.extend(parts.into_iter().rev().map(with));
+            }
+            Kind::Reduce(domain, body) => {
+                let mut chain = term.chain.clone();
+                chain.push(domain);
+                left.push(Term {
+                    chain,
+                    body: dag.mul(&[factor, body]),
+                    source: term.source,
+                });
+            }
+            _ => found.push(term),
+        }
+    }
+    found
+}
+
+/// A sum or a loop with the factor beside it, in which nothing moves; other expressions as they are.
+fn opened(dag: &mut Dag, node: Node) -> (Node, Node) {
+    let moving = Dependence(Dependence::Q.0 | Dependence::P.0);
+    if let Kind::Product(k, factors) = dag.kind(node).clone() {
+        let mut those = factors
+            .iter()
+            .filter(|(n, _)| dag.dependence(*n).on(moving));
+        if let (Some(&(inner, 1)), None) = (those.next(), those.next())
+            && matches!(dag.kind(inner), Kind::Sum(..) | Kind::Reduce(..))
+        {
+            let rest = factors.iter().filter(|(n, _)| *n != inner).copied();
+            let rest: Vec<(Node, i32)> = rest.collect();
+            return (dag.product(&k, &rest), inner);
+        }
+    }
+    (dag.integer(1), node)
+}
+
+/// A sum times a factor, term by term; another expression is a sum of one term.
+pub(super) fn distributed(dag: &mut Dag, sum: Node, factor: Node) -> Vec<Node> {
     let Kind::Sum(c, terms) = dag.kind(sum).clone() else {
-        return None;
+        return vec![dag.mul(&[factor, sum])];
     };
     let mut parts: Vec<Node> = Vec::new();
     for (k, node) in terms {
@@ -169,7 +202,7 @@ fn distributed(space: &mut Space, sum: Node, factor: Node) -> Option<Vec<Node>> 
     if !c.is_zero() {
         parts.push(dag.scale(&c, factor));
     }
-    Some(parts)
+    parts
 }
 
 /// The term multiplied out by one of its factors: the one that leaves fewest parts without a flow.
@@ -186,9 +219,7 @@ fn taken_apart(space: &mut Space, node: Node) -> Option<Vec<Node>> {
         let mut rest = factors.clone();
         rest.remove(at);
         let rest = space.dag().product(&k, &rest);
-        let Some(parts) = distributed(space, *factor, rest) else {
-            continue;
-        };
+        let parts = distributed(space.dag(), *factor, rest);
         if loss(space, &parts, node) > LOSS {
             continue;
         }

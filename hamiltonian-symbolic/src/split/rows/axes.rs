@@ -5,7 +5,7 @@
 //! missing in h, as p_φ = const. The flow turns the other two components and the vertical γ about
 //! the axis; angles are followed from where they are, without branch cuts.
 
-use super::circle::TURN;
+use super::circle::SWEPT;
 use crate::dag::Node;
 use crate::formula::Names;
 use crate::rational::Rational;
@@ -98,14 +98,7 @@ fn about(
          th1 = th + atan2(sth1*cth - g6*sth, g6*cth + sth1*sth); \
          ps1 = ps + turned; C = 1; chi1 = chi0 + w; less = rest/(1 + k)",
     )?;
-    let mut ends = Vec::new();
-    for end in ["chi0", "chi1"] {
-        let chi = names.get(end)?;
-        names.set("chi", chi);
-        ends.push(names.one(space.dag(), TURN)?);
-    }
-    let angle = space.dag().sub(ends[1], ends[0]);
-    names.set("angle", angle);
+    names.read(space.dag(), SWEPT)?;
     names.read(
         space.dag(),
         "f1 = side*angle; pt1 = side_th*(N1*g5 - N2*g4)/upright; pp1 = N3",

@@ -5,7 +5,7 @@
 //! free of l and L are proven; K keeps its sign, so that the angles are followed without branch cuts.
 
 use super::Axes;
-use super::circle::TURN;
+use super::circle::SWEPT;
 use crate::dag::{Kind, Node};
 use crate::formula::Names;
 use crate::op::Op;
@@ -119,14 +119,7 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
             "C = sqrt(square); k = abs(K)/c; less = ((N/c)^2 + L^2)/(C + k); \
              chi0 = atan2(N/c, L); chi1 = chi0 + c*s",
         )?;
-        let mut ends = Vec::new();
-        for end in ["chi0", "chi1"] {
-            let chi = names.get(end)?;
-            names.set("chi", chi);
-            ends.push(names.one(space.dag(), TURN)?);
-        }
-        let angle = space.dag().sub(ends[1], ends[0]);
-        names.set("angle", angle);
+        names.read(space.dag(), SWEPT)?;
         let angle = names.one(space.dag(), "sign(K)*angle")?;
         let length = names.get("C")?;
         for bit in bits(rest) {

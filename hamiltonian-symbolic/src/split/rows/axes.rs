@@ -11,18 +11,13 @@ use crate::formula::Names;
 use crate::rational::Rational;
 use crate::split::motion::Motion;
 use crate::split::space::{Space, differ};
+use std::f64::consts::FRAC_PI_2;
 
-/// The turn about the first axis (M₂, M₃) and (γ₂, γ₃), and about the second (M₁, M₃), (γ₁, γ₃).
-const FIRST: &str = "M = M1; st = sin(w); ct = cos(w); \
-    N1 = M1; N2 = M2*ct + M3*st; N3 = M3*ct - M2*st; \
-    g4 = g1; g5 = g2*ct + g3*st; g6 = g3*ct - g2*st; \
-    k = abs(g1); rest = g2^2 + g3^2; side = sign(g1); chi0 = atan2(g2, g3); \
-    turned = atan2(g4*g2 - g5*g1, g5*g2 + g4*g1)";
-const SECOND: &str = "M = M2; st = sin(w); ct = cos(w); \
-    N2 = M2; N1 = M1*ct - M3*st; N3 = M3*ct + M1*st; \
-    g5 = g2; g4 = g1*ct - g3*st; g6 = g3*ct + g1*st; \
-    k = abs(g2); rest = g1^2 + g3^2; side = sign(g2); chi0 = atan2(0 - g1, g3); \
-    turned = 0 - atan2(g5*g1 - g4*g2, g4*g1 + g5*g2)";
+/// The sine and cosine of ψ, and of ψ − π/2: M₂ is −M₁ a quarter of a turn back.
+const SIDES: [(f64, &str); 2] = [
+    (0.0, "sps = sin(ps); cps = cos(ps)"),
+    (-FRAC_PI_2, "sps = 0 - cos(ps); cps = sin(ps)"),
+];
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
@@ -36,8 +31,8 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
             continue;
         }
         for (theta, psi) in [(*a, *b), (*b, *a)] {
-            for axis in [FIRST, SECOND] {
-                if let Some(motion) = about(space, h, s, [third, theta, psi], axis) {
+            for side in SIDES {
+                if let Some(motion) = about(space, h, s, [third, theta, psi], side) {
                     return Some(motion);
                 }
             }
@@ -51,7 +46,7 @@ fn about(
     h: Node,
     s: Node,
     [phi, theta, psi]: [usize; 3],
-    axis: &str,
+    (quarter, sides): (f64, &str),
 ) -> Option<Motion> {
     // Numbers say first that h/M² is no constant.
     let set = space.set(h);
@@ -59,12 +54,9 @@ fn about(
         let point = space.point_off(&[(set, step)]);
         let at = |pair: usize, side: usize| point[2 * pair + side];
         let (st, ct) = at(theta, 0).sin_cos();
-        let (sp, cp) = at(psi, 0).sin_cos();
+        let (sp, cp) = (at(psi, 0) + quarter).sin_cos();
         let flat = (at(phi, 1) - at(psi, 1) * ct) / st;
-        let m = match axis {
-            FIRST => flat * sp + at(theta, 1) * cp,
-            _ => flat * cp - at(theta, 1) * sp,
-        };
+        let m = flat * sp + at(theta, 1) * cp;
         space.value_at(h, &point) / (m * m)
     });
     if differ(here, there) {
@@ -72,13 +64,14 @@ fn about(
     }
     let [(f, pf), (th, pt), (ps, pp)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
     let mut names = Names::of(&[("th", th), ("ps", ps), ("pf", pf), ("pt", pt), ("pp", pp)]);
+    names.read(space.dag(), sides)?;
     names.read(
         space.dag(),
-        "sth = sin(th); cth = cos(th); sps = sin(ps); cps = cos(ps); \
-         flat = (pf - pp*cth)/sth; M1 = flat*sps + pt*cps; M2 = flat*cps - pt*sps; M3 = pp; \
+        "sth = sin(th); cth = cos(th); \
+         flat = (pf - pp*cth)/sth; M1 = flat*sps + pt*cps; M2 = flat*cps - pt*sps; \
          g1 = sth*sps; g2 = sth*cps; g3 = cth",
     )?;
-    let m = names.get(if axis == FIRST { "M1" } else { "M2" })?;
+    let m = names.get("M1")?;
     let square = space.dag().powi(m, 2);
     let ratio = space.dag().div(h, square);
     let k = space.section(ratio, set);
@@ -91,17 +84,21 @@ fn about(
         .dag()
         .product(&Rational::integer(2), &[(k, 1), (m, 1), (s, 1)]);
     names.set("w", w);
-    names.read(space.dag(), axis)?;
+    // The turn of (M₂, M₃) and (γ₂, γ₃).
     names.read(
         space.dag(),
-        "upright = hypot(g4, g5); side_th = sign(sth); sth1 = side_th*upright; \
+        "st = sin(w); ct = cos(w); N2 = M2*ct + pp*st; N3 = pp*ct - M2*st; \
+         g5 = g2*ct + g3*st; g6 = g3*ct - g2*st; \
+         k = abs(g1); rest = g2^2 + g3^2; side = sign(g1); chi0 = atan2(g2, g3); \
+         turned = atan2(g1*g2 - g5*g1, g5*g2 + g1*g1); \
+         upright = hypot(g1, g5); side_th = sign(sth); sth1 = side_th*upright; \
          th1 = th + atan2(sth1*cth - g6*sth, g6*cth + sth1*sth); \
          ps1 = ps + turned; C = 1; chi1 = chi0 + w; less = rest/(1 + k)",
     )?;
     names.read(space.dag(), SWEPT)?;
     names.read(
         space.dag(),
-        "f1 = side*angle; pt1 = side_th*(N1*g5 - N2*g4)/upright; pp1 = N3",
+        "f1 = side*angle; pt1 = side_th*(M1*g5 - N2*g1)/upright; pp1 = N3",
     )?;
     let mut motion = Motion::default();
     motion.set(th, names.get("th1")?);

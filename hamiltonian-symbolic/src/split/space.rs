@@ -48,7 +48,6 @@ pub(crate) struct Space {
     zeros: Map<Node, bool>,
     /// Numbers of nodes, from which most questions are answered.
     values: [Values; 2],
-    sections: Map<(Node, Set), Node>,
     /// Expressions that were evaluated, as tapes with their numbers.
     tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
@@ -116,7 +115,6 @@ impl Space {
                     ..Sample::default()
                 })
             }),
-            sections: Map::default(),
             tapes: Map::default(),
             flows: Map::default(),
             atoms: Map::default(),
@@ -292,21 +290,16 @@ impl Space {
         if set == 0 {
             return node;
         }
-        if let Some(&known) = self.sections.get(&(node, set)) {
-            return known;
-        }
         let values: Map<Node, Rational> = bits(set)
             .map(|bit| (self.variable(bit), place_of(bit)))
             .collect();
         let sets = &self.sets;
-        let section = self.model.dag.substitute(node, |dag, node| {
+        self.model.dag.substitute(node, |dag, node| {
             if let Some(value) = values.get(&node) {
                 return Some(dag.constant(value.clone()));
             }
             (sets[node.0 as usize] & set == 0).then_some(node)
-        });
-        self.sections.insert((node, set), section);
-        section
+        })
     }
     /// The expression written without some variables, if it is proven not to depend on them.
     pub(crate) fn free(&mut self, node: Node, set: Set) -> Option<Node> {

@@ -54,9 +54,9 @@ pub fn write(out: &mut String, context: Context, steps: &[Step]) {
     writer.steps(steps);
 }
 
-struct Writer<'a> {
-    context: Context<'a>,
-    out: &'a mut String,
+pub(super) struct Writer<'a> {
+    pub(super) context: Context<'a>,
+    pub(super) out: &'a mut String,
     /// Wrapped indices of open loops and the text they are reached by.
     indices: Vec<(Index, String)>,
     /// Elements of open loops that are reached through a slice cut to the segment.
@@ -64,7 +64,7 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    fn steps(&mut self, steps: &[Step]) {
+    pub(super) fn steps(&mut self, steps: &[Step]) {
         for step in steps {
             match step {
                 Step::Let(value) => self.compute(*value),
@@ -256,7 +256,7 @@ impl Writer<'_> {
                 Access::Reversed => line!(self, "for _i{d} in ({start}..{end}).rev() {{"),
                 Access::Apart | Access::InPlace => line!(self, "for _i{d} in {start}..{end} {{"),
             }
-            self.steps(&inner.body);
+            self.iteration(&inner.body);
             line!(self, "}}");
             return;
         }
@@ -269,7 +269,7 @@ impl Writer<'_> {
                 self.slices.push((*slice, index.clone(), text));
             }
             line!(self, "for _i{d} in 0.._l{d} {{");
-            self.steps(&inner.body);
+            self.iteration(&inner.body);
             line!(self, "}}");
             self.slices.truncate(known_slices);
             return;
@@ -287,7 +287,7 @@ impl Writer<'_> {
         self.cut(inner.domain, &found.cuts);
         line!(self, "for _k{d} in 0.._l{d} {{");
         line!(self, "let _i{d} = _i{d} + _k{d};");
-        self.steps(&inner.body);
+        self.iteration(&inner.body);
         line!(self, "}}");
         if !found.wrapped.is_empty() {
             line!(self, "_i{d} += _l{d};");

@@ -31,6 +31,7 @@ mod generics;
 mod holder;
 mod index;
 mod item;
+mod iteration;
 mod kicks;
 mod layout;
 mod markers;

@@ -1,7 +1,7 @@
 //! Checked definition → code: the back end on one screen.
 //!
 //! Input: [`Checked`] and the path by which emitted code reaches the library. Output: items or an
-//! expression, if they could be made; what is wrong with the mathematics goes into the report.
+//! expression, if they could be made; faults of the mathematics go into the report.
 //! Invariant: if anything is reported, the result is dropped for the stub.
 
 mod blame;
@@ -246,7 +246,7 @@ fn derive(
     None
 }
 
-/// Where H stands.
+/// The place of H.
 fn definition(checked: &Checked) -> Spans {
     let (Definition::Hamiltonian(root) | Definition::Lagrangian(root)) = checked.definition;
     checked.node(root).spans

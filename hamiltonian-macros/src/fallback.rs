@@ -1,5 +1,5 @@
-//! What is emitted instead of a definition that is wrong: its errors, and a stub that keeps the
-//! rest of the program from erring too.
+//! The code in the place of a wrong definition: its errors, and a stub that keeps the rest of the
+//! program from erring too.
 //!
 //! Input: the tree as far as it was read, and the errors. Output: items or an expression.
 //! Invariant: whatever is done with the stub — fields, methods, traits, generics — raises no

@@ -1,4 +1,4 @@
-//! What the definitions in a Rust file become: `cargo run -p hamiltonian-macros --example show --
+//! The code of the definitions in a Rust file: `cargo run -p hamiltonian-macros --example show --
 //! examples/toda.rs` prints the code that the macro emits for each.
 //!
 //! The stages are compiled into this program as they are into the macro, which cannot be called

@@ -3,7 +3,7 @@
 //! Input: a token stream. Output: [`Tokens`], one entry a token and two a group. Invariants: the
 //! closing entry of a group is known from its opening one; groups without delimiters (fragments
 //! of `macro_rules!`) of one token, and those that hold an attribute or a visibility, are replaced
-//! by what they hold; the others stay, and the expression parser reads them as parentheses.
+//! by their contents; the others stay, and the expression parser reads them as parentheses.
 
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree, token_stream};
 
@@ -19,7 +19,7 @@ pub struct Tokens {
 pub struct Token {
     /// Word, literal, punctuation, or one end of a group.
     pub kind: TokenKind,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The text of identifiers and literals; empty for others.
     pub text: String,

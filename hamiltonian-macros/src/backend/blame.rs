@@ -1,4 +1,4 @@
-//! Where a program that could not be derived fails.
+//! The place at which a program that could not be derived fails.
 //!
 //! Input: the functions wanted of a model, and the number that does not fit. Output: an error at
 //! each statement that needs a second derivative of a Rust function which came without one, or at
@@ -70,7 +70,7 @@ pub fn number(checked: &Checked, number: Option<&Rational>, beyond: &Beyond, rep
     );
 }
 
-/// Where a purpose comes from, and its name.
+/// The origin of a purpose, and its name.
 fn asker(checked: &Checked, model: &Model, purpose: Purpose) -> (Spans, String) {
     let usage = match purpose {
         Purpose::Vector(at) => Some(model.vectors[usize::from(at)].usage),

@@ -61,8 +61,8 @@ fn equations<const N: usize>(
     })
 }
 
-/// A table of what value and gradient cost, one row a line. What `#[max_ops]` is held against is
-/// what the rows of `energy_and_gradient` add up to.
+/// A table of the operations of value and gradient, one row a line. `#[max_ops]` limits the sum of the
+/// rows of `energy_and_gradient`.
 pub fn operations(model: &Model, program: &Program) -> Vec<String> {
     let mut rows = vec![
         "| | + − × | ÷ | √ | functions | together |".to_owned(),

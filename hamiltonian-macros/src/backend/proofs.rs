@@ -1,7 +1,7 @@
 //! Claims that are proven or refused: invariants, that events can happen, that pieces add up to H.
 //!
 //! Input: the lowered definition. Output: errors with the residual and, where one was found, a
-//! point. Invariant: `#[assume]` silences only what could not be decided, never what is false.
+//! point. Invariant: `#[assume]` silences claims that could not be decided, never false ones.
 
 use crate::checked::Checked;
 use crate::lower::Lowered;
@@ -11,8 +11,9 @@ use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use hamiltonian_symbolic::transform::check_split;
+use proc_macro2::Ident;
 
-/// Proves what the definition claims of the declared coordinates.
+/// Proves the claims of the definition on the declared coordinates.
 pub fn prove(checked: &Checked, lowered: &mut Lowered, report: &mut Report) {
     invariants(checked, lowered, report);
     events(checked, lowered, report);
@@ -42,55 +43,47 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                 }
                 _ => is_invariant(&lowered.model, *value, shell),
             };
-            match verdict {
-                Verdict::Proven => {}
+            let (message, help) = match verdict {
+                Verdict::Proven => continue,
                 Verdict::Disproven {
                     residual,
                     point,
                     value,
-                } => {
-                    report.error(
-                        name.span(),
-                        format!(
-                            "{what} is not conserved{on}: its time derivative is `{}`, which is {} at {}",
-                            shortened(&residual),
-                            readable(value),
-                            listed(&point)
-                        ),
-                        "correct it or H, or declare it as `monitor`",
-                    );
-                    break;
-                }
-                Verdict::Undecided { residual, why } if !observable.assumed => {
-                    report.error(
-                        name.span(),
-                        format!(
-                            "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`; {why}",
-                            shortened(&residual)
-                        ),
-                        format!(
-                            "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
-                        ),
-                    );
-                    break;
-                }
-                Verdict::Jumps { part, why } if !observable.assumed => {
-                    report.error(
-                        name.span(),
-                        format!(
-                            "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows; {why}",
-                            shortened(&part)
-                        ),
-                        format!(
-                            "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
-                        ),
-                    );
-                    break;
-                }
-                Verdict::Undecided { .. } | Verdict::Jumps { .. } => {}
-            }
+                } => (
+                    format!(
+                        "{what} is not conserved{on}: its time derivative is `{}`, which is {} at {}",
+                        shortened(&residual),
+                        readable(value),
+                        listed(&point)
+                    ),
+                    "correct it or H, or declare it as `monitor`".to_owned(),
+                ),
+                Verdict::Undecided { .. } | Verdict::Jumps { .. } if observable.assumed => continue,
+                Verdict::Undecided { residual, why } => (
+                    format!(
+                        "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`; {why}",
+                        shortened(&residual)
+                    ),
+                    if_known(name),
+                ),
+                Verdict::Jumps { part, why } => (
+                    format!(
+                        "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows; {why}",
+                        shortened(&part)
+                    ),
+                    if_known(name),
+                ),
+            };
+            report.error(name.span(), message, help);
+            break;
         }
     }
+}
+
+fn if_known(name: &Ident) -> String {
+    format!(
+        "if you know that it is, write `#[assume] invariant {name} = …`; else declare it as `monitor`"
+    )
 }
 
 /// A constant of all motions has no zero to be crossed.

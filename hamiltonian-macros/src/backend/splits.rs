@@ -1,7 +1,7 @@
 //! H as a sum of pieces with exact flows: declared, or found, or the term that has none.
 //!
-//! Input: a model, what is known of it, what the author declared. Output: the model's pieces, and
-//! what the docs and rustc say of them. Invariant: pieces that are kept are proven to add up to H,
+//! Input: a model with its structure and the declared pieces. Output: the model's pieces, and the text
+//! of docs and of rustc on them. Invariant: pieces that are kept are proven to add up to H,
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::Part;
@@ -21,6 +21,15 @@ pub struct Found {
     pub facts: Vec<String>,
 }
 
+impl Found {
+    fn split(facts: Vec<String>) -> Found {
+        Found {
+            verdict: Ok(()),
+            facts,
+        }
+    }
+}
+
 /// Splits the model's H, into the pieces that were declared where there are any.
 pub fn decide(
     checked: &Checked,
@@ -31,6 +40,7 @@ pub fn decide(
     report: &mut Report,
 ) -> Found {
     let declared = part.pieces;
+    let is_separable = structure.separable.is_ok();
     let is_new = |node: &checked::Node| {
         matches!(
             node.kind,
@@ -39,15 +49,12 @@ pub fn decide(
     };
     let is_in_these = checked.charts.is_empty() || checked.nodes.iter().any(is_new);
     let is_written_so = is_in_these && checked.time_factor.is_none();
-    let mut found = if declared.is_empty() {
+    let found = if declared.is_empty() {
         let alone = part.piece.is_some().then(|| alone(model));
         // V and T apart are no worse than a piece that moves only one of them.
         let is_closed = |found: &Splitting| found.pieces.iter().any(|p| !p.flow.rows().is_empty());
-        if structure.separable.is_ok() && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
-            return Found {
-                verdict: Ok(()),
-                facts: Vec::new(),
-            };
+        if is_separable && !matches!(&alone, Some(Ok(found)) if is_closed(found)) {
+            return Found::split(Vec::new());
         }
         if large {
             return refused(model, "it is too long to be searched for exact flows");
@@ -58,6 +65,7 @@ pub fn decide(
         let parts: Vec<(String, Node)> = parts.collect();
         split::declared(model, &parts)
     };
+    let mut is_carried_over = false;
     if let Err((at, refusal)) = &found
         && let Some((name, _)) = declared.get(*at)
     {
@@ -73,21 +81,14 @@ pub fn decide(
                  f(q)*p^2 with f = a + b*q + c*q^2, a/q^2 + b + c*q^2 or a*q^2 + b*q^3 + c*q^4, functions of an angular \
                  momentum, Kepler's problem",
             );
-        } else if structure.separable.is_ok() {
-            // In other variables than those it was written in, V and T still are pieces.
-            found = Ok(Splitting {
-                pieces: Vec::new(),
-                choice: None,
-            });
         }
+        is_carried_over = !is_written_so;
     }
     let is_forced = !model.force.is_empty();
-    if is_forced && structure.separable.is_ok() {
-        // The kick carries the force.
-        return Found {
-            verdict: Ok(()),
-            facts: Vec::new(),
-        };
+    // The kick carries the force. In other variables than those it was written in, V and T still are
+    // pieces.
+    if is_separable && (is_forced || is_carried_over) {
+        return Found::split(Vec::new());
     }
     match found {
         Ok(splitting) if is_forced && splitting.pieces.len() == MOST => refused(
@@ -100,10 +101,7 @@ pub fn decide(
                 facts.push("The force is a piece of its own, the innermost.".to_owned());
             }
             model.pieces = splitting.pieces;
-            Found {
-                verdict: Ok(()),
-                facts,
-            }
+            Found::split(facts)
         }
         Err((_, refusal)) => {
             let why = match refusal.is_limit {

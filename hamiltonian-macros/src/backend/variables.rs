@@ -184,7 +184,7 @@ fn remedy(reason: &Refusal) -> &'static str {
     }
 }
 
-/// The images of a change of coordinates, and what it keeps.
+/// The images of a change of coordinates, and the variables it keeps.
 fn map(transformed: &mut transform::Transformed, images: Vec<VectorEntry>) -> Vec<VectorEntry> {
     let kept: Vec<u16> = transformed.kept.iter().map(|(_, new)| *new).collect();
     let kept = |group: u16| kept.contains(&group);

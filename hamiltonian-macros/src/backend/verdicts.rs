@@ -1,6 +1,6 @@
 //! Proven structure of H, and why the rest does not hold, in the words rustc will use.
 //!
-//! Input: the structure of a model. Output: what emission turns into types. Invariant: a reason
+//! Input: the structure of a model. Output: the verdicts that emission turns into types. Invariant: a reason
 //! names the term of the user's that is in the way.
 
 use crate::emit;
@@ -85,7 +85,7 @@ pub fn verdicts(
     }
 }
 
-/// The kick V(q, t) and what is at most quadratic in the momenta beside it: two pieces of the split,
+/// The kick V(q, t) and the piece at most quadratic in the momenta beside it: two pieces of the split,
 /// or V and T; or the reason why not.
 fn nystrom(
     model: &mut Model,
@@ -121,7 +121,7 @@ fn nystrom(
     })
 }
 
-/// How V is kicked with the force, or pieces of H have it beside them, and whether that is exact.
+/// The kick of V with the force, or of the force beside pieces of H, and whether that is exact.
 fn kick(model: &mut Model, structure: &Structure) -> (Option<emit::Kick>, Result<(), Reason>) {
     if model.force.is_empty() || (structure.separable.is_err() && model.pieces.is_empty()) {
         let kick = structure.separable.is_ok().then_some(emit::Kick::Plain);

@@ -297,7 +297,7 @@ impl Writer<'_> {
         self.slices.truncate(known_slices);
     }
 
-    /// Where the wrapped indices start in a segment, and how long it is until one of them wraps.
+    /// Binds the starts of the wrapped indices in a segment, and shortens it to where one of them wraps.
     fn wrap(&mut self, domain: Domain, wrapped: &[(Index, i64)]) {
         let d = domain.0;
         for (at, (index, factor)) in wrapped.iter().enumerate() {
@@ -341,7 +341,7 @@ impl Writer<'_> {
     }
 }
 
-/// How a part of a slice is borrowed.
+/// The borrow of a part of a slice.
 fn reference(slice: &Slice) -> &'static str {
     match slice {
         Slice::Output(_) | Slice::Derivative(_) | Slice::Filled(_) => "&mut ",
@@ -354,7 +354,7 @@ fn real(text: &str) -> String {
     format!("T::constant({text} as __h::core::primitive::f64, 0.0)")
 }
 
-/// How a loop's body reaches into arrays with the loop's own variable.
+/// The elements that a loop's body reaches with the loop's own variable.
 #[derive(Default)]
 struct Accesses {
     /// Indices that wrap as the variable moves by one, with its factor 1 or −1.

@@ -15,7 +15,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use std::fmt::Write;
 
-/// Where every parameter has a default: `Default`, over f64 only, and `with_defaults` over any scalar.
+/// `Default`, over f64 only, and `with_defaults` over any scalar, if every parameter has a default.
 /// A `Default` over any scalar would leave the scalar of `Name::default()` open, and the fields of
 /// `Name { l: 2.0, ..Default::default() }` without methods such as `sqrt`.
 pub fn default(context: Context) -> String {
@@ -140,7 +140,7 @@ pub fn new(context: Context, item: &Item) -> TokenStream {
     }
     let mut allow = allowances(&names);
     if names.len() > 7 {
-        // How many parameters a system has is not a matter of style.
+        // The number of parameters of a system is not a matter of style.
         allow.extend(quote! { #[allow(clippy::too_many_arguments)] });
     }
     let visibility = &item.visibility;
@@ -195,7 +195,7 @@ pub fn new(context: Context, item: &Item) -> TokenStream {
     quote! { #header { #method } }
 }
 
-/// How the parameters with a default, which are no arguments of `new`, are set.
+/// The way to set the parameters with a default, which are no arguments of `new`.
 fn defaults_set(context: Context, item: &Item, arguments: &[&Ident]) -> Option<String> {
     let parameters = context.definition.checked.parameters.iter();
     let has_default = |p: &&Parameter| p.default.is_some();

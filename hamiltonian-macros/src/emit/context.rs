@@ -28,7 +28,7 @@ pub struct Context<'a> {
     pub program: &'a Program,
     /// The groups of coordinates that are stored: those of the model, or the declared ones.
     pub groups: &'a [Group],
-    /// How they are stored.
+    /// Their storage.
     pub layout: Layout,
     /// The suffix of the system's name in that of the struct of coordinates of mixed shape.
     pub suffix: &'static str,
@@ -36,17 +36,17 @@ pub struct Context<'a> {
     pub indices: Indices<'a>,
     /// Which sizes are set at run time.
     pub is_run_time: &'a [bool],
-    /// How a body reads and writes its point.
+    /// Access to the point of a body.
     pub access: Access,
 }
 
-/// How a body reads and writes its point.
+/// Access to the point of a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Access {
     /// Inputs and outputs are different vectors.
     Apart,
-    /// Coordinates and momenta are read where they are written: iterations see what those before
-    /// them left.
+    /// Coordinates and momenta are read where they are written: iterations see the results
+    /// of those before them.
     InPlace,
     /// The same, with loops from their last iteration to the first.
     Reversed,

@@ -21,7 +21,7 @@ use std::fmt::Write;
 pub struct Declared {
     /// Their groups.
     pub groups: Vec<Group>,
-    /// Where each stands among the system's own variables.
+    /// The place of each among the system's own variables.
     pub places: Vec<Placement>,
     /// The group of the system that is the declared time, where it has another.
     pub time: Option<u16>,

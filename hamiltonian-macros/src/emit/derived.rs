@@ -1,5 +1,5 @@
 //! Functions of large systems that are made from the gradient at run time instead of being written
-//! out: so that what rustc reads grows with H once and not nine times.
+//! out, so that the code rustc reads grows with H once and not nine times.
 //!
 //! Input: a purpose without a function of its own. Output: the text of its body. Invariant: no
 //! memory is allocated: the vectors of such systems have no size set at run time.

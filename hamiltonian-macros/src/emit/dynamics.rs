@@ -298,7 +298,7 @@ impl<'a> Emission<'a> {
         text + &holder.fill(self.context, clone)
     }
 
-    /// H, the force and the pieces as text: what a saved run is of.
+    /// H, the force and the pieces as text, by which a saved run knows its system.
     fn formula(&self) -> String {
         let model = self.context.model;
         let mut formula = self.context.definition.text.hamiltonian.clone();

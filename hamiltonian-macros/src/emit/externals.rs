@@ -1,7 +1,7 @@
 //! Functions written in Rust, as emitted bodies call them.
 //!
 //! Input: the user's paths. Output: one wrapper a path. Invariant: a path stands in one place only,
-//! a function generic over the scalar, so that what rustc says of it points at the path.
+//! a function generic over the scalar, so that messages of rustc point at the path.
 
 use super::block;
 use super::context::Context;

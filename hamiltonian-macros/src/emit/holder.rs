@@ -1,14 +1,14 @@
-//! The structs that carry prepared values into evaluations, and how a body reads from what it is
-//! a method of.
+//! The structs that carry prepared values into evaluations, and the reads of a body from the type it
+//! is a method of.
 //!
 //! Input: the values, masks and parameter arrays that functions read. Output: struct declarations
-//! and the expressions that fill and read them. Invariant: a holder has what its functions read
-//! and nothing else, but all run-time sizes.
+//! and the expressions that fill and read them. Invariant: a holder has the values its functions
+//! read and nothing else, but all run-time sizes.
 
 use super::block::names;
 use super::context::Context;
 use super::layout::Slice;
-use super::parts::{self, Wanted};
+use super::parts::{Values, Wanted};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
@@ -18,8 +18,7 @@ use std::fmt::Write;
 pub struct Holder {
     /// Its name.
     pub name: String,
-    values: Vec<Value>,
-    masks: Vec<Value>,
+    values: Values,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
     pub arrays: Vec<Slice>,
 }
@@ -27,15 +26,12 @@ pub struct Holder {
 impl Holder {
     /// A holder of these values, and of the arrays among these slices.
     pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
-        let is_mask = |value: &Value| context.program.instruction(*value).is_mask();
-        let (masks, values) = values.iter().copied().partition(is_mask);
         slices.retain(|slice| matches!(slice, Slice::Parameter(_) | Slice::Held(_)));
         slices.sort_unstable();
         slices.dedup();
         Holder {
             name,
-            values,
-            masks,
+            values: Values::of(context.program, values.iter().copied()),
             arrays: slices,
         }
     }
@@ -55,13 +51,14 @@ impl Holder {
             generics.visibility,
             self.name,
             generics.holder_declaration(),
-            match self.values.len() {
+            match self.values.numbers.len() {
                 0 => "__h::core::marker::PhantomData<T>".to_owned(),
                 length => format!("[T; {length}]"),
             }
         );
-        if !self.masks.is_empty() {
-            let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", self.masks.len());
+        let masks = &self.values.masks;
+        if !masks.is_empty() {
+            let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", masks.len());
         }
         for size in context.run_time_sizes() {
             let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
@@ -69,7 +66,7 @@ impl Holder {
         for &array in &self.arrays {
             let shape = shape(context, array);
             let ty = context.storage(&shape, "T");
-            // All holders of a run share what is sized at run time.
+            // All holders of a run share arrays that are sized at run time.
             let _ = match context.is_dynamic(&shape) {
                 true => writeln!(out, "{}: __h::Arc<{ty}>,", field(array)),
                 false => writeln!(out, "{}: {ty},", field(array)),
@@ -81,13 +78,13 @@ impl Holder {
     /// The expression that makes one where all its values are in scope; `array` is the expression of
     /// an array.
     pub fn fill(&self, context: Context, array: impl Fn(Slice) -> String) -> String {
-        let values = match self.values.len() {
+        let values = match self.values.numbers.len() {
             0 => "__h::core::marker::PhantomData".to_owned(),
-            _ => format!("[{}]", names(&self.values)),
+            _ => format!("[{}]", names(&self.values.numbers)),
         };
         let mut out = format!("{} {{ v: {values}, ", self.name);
-        if !self.masks.is_empty() {
-            let _ = write!(out, "m: [{}], ", names(&self.masks));
+        if !self.values.masks.is_empty() {
+            let _ = write!(out, "m: [{}], ", names(&self.values.masks));
         }
         for size in context.run_time_sizes() {
             let _ = write!(out, "n{size}: _n{size}, ");
@@ -101,7 +98,7 @@ impl Holder {
 
     /// All values, in the order they are filled.
     pub fn values(&self) -> impl Iterator<Item = Value> + '_ {
-        self.values.iter().chain(&self.masks).copied()
+        self.values.all()
     }
 }
 
@@ -147,17 +144,13 @@ impl Receiver<'_> {
         }
     }
 
-    /// Binds values computed earlier; those that it does not have.
+    /// Binds values computed earlier; returns those that it does not have.
     pub fn read(self, out: &mut String, reads: &[Value]) -> Vec<Value> {
         let Receiver::Holder(holder) = self else {
             return reads.to_vec();
         };
         let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
-        parts::bind(out, "_self.v", &holder.values, &rest);
-        parts::bind(out, "_self.m", &holder.masks, &rest);
-        for value in holder.values() {
-            rest.remove(&value);
-        }
+        holder.values.bind(out, ["_self.v", "_self.m"], &mut rest);
         let is_missing = |value: &Value| rest.contains_key(value);
         reads.iter().copied().filter(is_missing).collect()
     }

@@ -6,7 +6,7 @@
 
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 
-/// How sizes and loop variables are called in the function being written.
+/// The names of sizes in the function being written.
 #[derive(Debug, Clone, Copy)]
 pub struct Indices<'a> {
     /// The name of each size.

@@ -15,7 +15,7 @@ use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;
 
-/// How deep the signatures of methods stand in implementations; in their bodies nothing is wrong.
+/// The depth of the signatures of methods in implementations; in their bodies nothing is wrong.
 const SIGNATURES: usize = 1;
 
 /// The tokens of a type.
@@ -175,7 +175,7 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
 }
 
 /// Tokens that rustc is to show at the name of the type instead of at the whole definition, with
-/// what is inside of groups down to some depth.
+/// the insides of groups down to some depth.
 pub(super) fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
     let span = Span::call_site().located_at(name);
     let moved = tokens.into_iter().map(|mut token| {

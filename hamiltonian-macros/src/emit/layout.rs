@@ -1,4 +1,4 @@
-//! How coordinates and parameter arrays are stored, and how function bodies get at the numbers.
+//! Storage of coordinates and parameter arrays, and access to the numbers in function bodies.
 //!
 //! Input: the groups and shapes of a model. Output: types as text, and the bindings of slices at
 //! the top of a function body. Invariant: element (row, column) of a column-major array is `row`
@@ -12,7 +12,7 @@ use hamiltonian_symbolic::model::{Group, Shape};
 use hamiltonian_symbolic::program::Target;
 use std::fmt::Write;
 
-/// How the coordinates of a system are stored.
+/// The storage of the coordinates of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Layout {
     /// Scalars only: one static vector.

@@ -1,14 +1,13 @@
 //! From a scheduled program to tokens.
 //!
-//! Input: [`Definition`]: a model, its program, what was proven about it, and the tokens the user
-//! wrote. Output: the tokens of the type (or the value), of everything it implements, and of its
+//! Input: [`Definition`]: a model, its program, its proven structure, and the tokens of the user. Output: the tokens of the type (or the value), of everything it implements, and of its
 //! documentation. Invariants:
 //!
-//! - Emitted code names nothing of the user's but what the user wrote: paths begin with the
+//! - Emitted code names nothing of the user's but names the user wrote: paths begin with the
 //!   private module of the facade, which is called `__h` inside; locals begin with an underscore,
 //!   so that no constant of the user's can turn a binding into a pattern.
 //! - Bodies are written as text and lexed once, which costs a tenth of building them token by
-//!   token; what the user wrote (names, attributes, paths) keeps its own tokens and spans.
+//!   token; the user's names, attributes and paths keep their own tokens and spans.
 //! - The same definition gives the same tokens.
 
 /// Writes a line to the text of a writer. Writing to a string does not fail.
@@ -120,7 +119,7 @@ pub struct Structure {
     pub unforced: Result<(), Reason>,
     /// The flows of all pieces are exact.
     pub exact: Result<(), Reason>,
-    /// How V is kicked, with the force, or the force alone beside pieces of H; none where neither is.
+    /// The kick of V, with the force, or of the force alone beside pieces of H.
     pub kick: Option<Kick>,
     /// H does not depend on t
     pub autonomous: Result<(), Reason>,
@@ -128,7 +127,7 @@ pub struct Structure {
     pub cyclic: Vec<String>,
 }
 
-/// Where the kick and the piece at most quadratic in the momenta are.
+/// The places of the kick and of the piece at most quadratic in the momenta.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Nystrom {
     /// V and T.
@@ -217,7 +216,7 @@ fn lex(text: &str) -> TokenStream {
     tokens.expect("the emitted code lexes")
 }
 
-/// Attributes that allow what the user's own names may do to lints.
+/// Attributes that allow the lints which the user's own names may raise.
 fn allowances(names: &[&Ident]) -> TokenStream {
     let snake = |name: &&Ident| name.to_string().chars().all(|c| !c.is_uppercase());
     if names.iter().all(snake) {

@@ -86,7 +86,7 @@ pub fn methods(context: Context, visibility: &TokenStream) -> TokenStream {
     out
 }
 
-/// Where an invariant has values, and with that is conserved, if that is not everywhere H has.
+/// The domain of an invariant, on which it is conserved, if that is not the domain of H.
 fn domain(model: &Model, observable: &Observable) -> Option<TokenStream> {
     if observable.kind != ObservableKind::Invariant {
         return None;

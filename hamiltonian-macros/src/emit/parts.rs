@@ -48,41 +48,55 @@ fn weight(program: &Program, step: &Step) -> usize {
 /// A set of values.
 pub type Wanted = Map<Value, ()>;
 
-/// Values that a part hands on: numbers in one array, masks in another.
+/// Values that are handed on: numbers in one array, masks in another.
 #[derive(Debug)]
-struct LiveOuts {
-    numbers: Vec<Value>,
-    masks: Vec<Value>,
+pub struct Values {
+    /// The numbers.
+    pub numbers: Vec<Value>,
+    /// The masks.
+    pub masks: Vec<Value>,
 }
 
-impl LiveOuts {
-    fn of(program: &Program, values: impl Iterator<Item = Value>) -> LiveOuts {
+impl Values {
+    /// Sorts values into the two arrays.
+    pub fn of(program: &Program, values: impl Iterator<Item = Value>) -> Values {
         let (masks, numbers) = values.partition(|value| program.instruction(*value).is_mask());
-        LiveOuts { numbers, masks }
+        Values { numbers, masks }
     }
+
+    /// All values, in the order of the arrays.
+    pub fn all(&self) -> impl Iterator<Item = Value> + '_ {
+        self.numbers.iter().chain(&self.masks).copied()
+    }
+
     fn is_empty(&self) -> bool {
-        self.numbers.is_empty() && self.masks.is_empty()
+        self.all().next().is_none()
     }
-    fn has(&self, wanted: &Wanted) -> bool {
-        let mut values = self.numbers.iter().chain(&self.masks);
-        values.any(|value| wanted.contains_key(value))
-    }
+
     fn make(&self) -> String {
         format!("([{}], [{}])", names(&self.numbers), names(&self.masks))
     }
+
     fn ty(&self) -> String {
         let (numbers, masks) = (self.numbers.len(), self.masks.len());
         format!("([T; {numbers}], [<T as __h::Real>::Mask; {masks}])")
     }
-    /// Binds those of its values that are wanted.
-    fn bind(&self, out: &mut String, name: &str, wanted: &Wanted) {
-        bind(out, &format!("{name}.0"), &self.numbers, wanted);
-        bind(out, &format!("{name}.1"), &self.masks, wanted);
+
+    /// Binds its values that are wanted, which are no longer wanted then, out of the two arrays. Whether
+    /// there are any.
+    pub fn bind(&self, out: &mut String, [numbers, masks]: [&str; 2], wanted: &mut Wanted) -> bool {
+        bind(out, numbers, &self.numbers, wanted);
+        bind(out, masks, &self.masks, wanted);
+        let before = wanted.len();
+        for value in self.all() {
+            wanted.remove(&value);
+        }
+        wanted.len() < before
     }
 }
 
 /// Binds the `wanted` elements of the array of `values` that stands in `place`.
-pub fn bind(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
+fn bind(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
     let is_wanted = |value: &Value| wanted.contains_key(value);
     let (Some(first), Some(last)) = (
         values.iter().position(is_wanted),
@@ -115,17 +129,17 @@ impl Bodies<'_> {
             .map(|part| scan(&steps[part.clone()], &[]))
             .collect();
         scans.push(scan(&[], body.results));
-        // The last part that reads a value; what is returned is read after all.
+        // The last part that reads a value; results are read after all parts.
         let mut last = vec![0usize; program.instructions.len()];
         for (at, scan) in scans.iter().enumerate() {
             for value in &scan.reads {
                 last[value.0 as usize] = at;
             }
         }
-        let mut earlier: Vec<LiveOuts> = Vec::with_capacity(parts.len());
+        let mut earlier: Vec<Values> = Vec::with_capacity(parts.len());
         for (at, (part, scan)) in parts.iter().zip(&scans).enumerate() {
             let until = |value: &Value| last[value.0 as usize] > at;
-            let given = LiveOuts::of(program, scan.computes.iter().copied().filter(until));
+            let given = Values::of(program, scan.computes.iter().copied().filter(until));
             let call = self.part(body, &steps[part.clone()], scan, &earlier, &given);
             let _ = match given.is_empty() {
                 true => writeln!(out, "{call};"),
@@ -138,31 +152,25 @@ impl Bodies<'_> {
         self.bind_live(out, body, wanted, &earlier);
     }
 
-    /// Binds what was computed by earlier parts and by earlier stages. Returns the
-    /// numbers of the parts whose live-outs were bound.
+    /// Binds values that earlier parts and earlier stages computed. Returns the numbers of the parts
+    /// whose live-outs were bound.
     fn bind_live(
         &self,
         out: &mut String,
         body: Body,
         wanted: &[Value],
-        earlier: &[LiveOuts],
+        earlier: &[Values],
     ) -> Vec<usize> {
         let mut rest: Wanted = wanted.iter().map(|value| (*value, ())).collect();
         let mut bound = Vec::new();
         for (number, live) in earlier.iter().enumerate() {
-            if live.has(&rest) {
-                live.bind(out, &format!("_g{number}"), &rest);
-                for value in live.numbers.iter().chain(&live.masks) {
-                    rest.remove(value);
-                }
+            let arrays = [format!("_g{number}.0"), format!("_g{number}.1")];
+            if live.bind(out, arrays.each_ref().map(String::as_str), &mut rest) {
                 bound.push(number);
             }
         }
-        let earlier: Vec<Value> = wanted
-            .iter()
-            .copied()
-            .filter(|value| rest.contains_key(value))
-            .collect();
+        let is_missing = |value: &Value| rest.contains_key(value);
+        let earlier: Vec<Value> = wanted.iter().copied().filter(is_missing).collect();
         self.read(out, body.receiver, &earlier);
         bound
     }
@@ -173,8 +181,8 @@ impl Bodies<'_> {
         body: Body,
         steps: &[Step],
         scan: &Scan,
-        earlier: &[LiveOuts],
-        given: &LiveOuts,
+        earlier: &[Values],
+        given: &Values,
     ) -> String {
         let mut text = String::new();
         let at = earlier.len();

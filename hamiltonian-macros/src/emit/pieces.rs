@@ -179,7 +179,7 @@ impl Emission<'_> {
     }
 
     /// The side that is read, where nothing of it is written and all that is written is of the
-    /// other: a kick or a drift, whose loops need not see what they write.
+    /// other: a kick or a drift, whose loops need not see their own stores.
     fn one_way(&self, function: &Function) -> Option<Side> {
         let slices = scan(self.context, &function.evaluation, &function.results).slices;
         let touched = |side: Side| {

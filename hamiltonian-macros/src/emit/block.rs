@@ -252,11 +252,16 @@ impl Writer<'_> {
         let start = self.context.indices.start(&inner.start);
         let end = self.context.indices.saturating(&inner.end);
         if found.wrapped.is_empty() && found.cuts.is_empty() {
+            let range = match self.context.access {
+                Access::Reversed => format!("({start}..{end}).rev()"),
+                Access::Apart | Access::InPlace => format!("{start}..{end}"),
+            };
+            line!(self, "for _i{d} in {range} {{");
             match self.context.access {
-                Access::Reversed => line!(self, "for _i{d} in ({start}..{end}).rev() {{"),
-                Access::Apart | Access::InPlace => line!(self, "for _i{d} in {start}..{end} {{"),
+                Access::Apart => self.iteration(&inner.body),
+                // They follow from each other: no pack of them is made.
+                Access::InPlace | Access::Reversed => self.steps(&inner.body),
             }
-            self.iteration(&inner.body);
             line!(self, "}}");
             return;
         }

@@ -71,49 +71,19 @@ fn sweep(
                     }
                 }
             }
-            Kind::Product(k, factors) => {
-                for (child, partial) in product_partials(dag, &k, &factors, what).into_iter().rev()
-                {
-                    let value = dag.mul(&[adjoint, partial]);
-                    give(dag, child, here, value);
-                }
-            }
-            Kind::Call(op @ (Op::Min | Op::Max), x) => {
-                let first = if op == Op::Min {
-                    dag.less_equal(x[0], x[1])
-                } else {
-                    dag.less_equal(x[1], x[0])
-                };
-                let either = Branches {
-                    condition: first,
-                    yes: x[0],
-                    no: x[1],
-                };
-                for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
+            Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
+                let branches = Branches::of(dag, node);
+                for (leaf, value) in branches.adjoints(dag, adjoint, what, here, swept) {
                     give(dag, leaf, here, value);
                 }
             }
-            Kind::Call(op, arguments) => {
-                let partials = (op.row().partials)(dag, &arguments, node);
-                for (child, partial) in arguments.into_iter().zip(partials).rev() {
+            Kind::Product(..) | Kind::Call(..) | Kind::External(..) => {
+                for (child, partial) in partials(dag, node, what).into_iter().rev() {
                     let value = dag.mul(&[adjoint, partial]);
                     give(dag, child, here, value);
-                }
-            }
-            Kind::External(function, part, arguments) => {
-                for (i, child) in arguments.iter().enumerate().rev() {
-                    let partial = dag.external(function, derivative_of(part, i as u16), &arguments);
-                    let value = dag.mul(&[adjoint, partial]);
-                    give(dag, *child, here, value);
                 }
             }
             Kind::Reduce(domain, body) => give(dag, body, Some(domain), adjoint),
-            Kind::Select(condition, yes, no) => {
-                let either = Branches { condition, yes, no };
-                for (leaf, value) in either.adjoints(dag, adjoint, what, here, swept) {
-                    give(dag, leaf, here, value);
-                }
-            }
             Kind::Scalar(_) | Kind::Time | Kind::Coefficient | Kind::Element(..) => {
                 leaves.push((node, adjoint))
             }
@@ -150,6 +120,23 @@ struct Branches {
 }
 
 impl Branches {
+    /// Those of a condition, of a minimum or of a maximum.
+    fn of(dag: &mut Dag, node: Node) -> Branches {
+        let (condition, yes, no) = match *dag.kind(node) {
+            Kind::Select(condition, yes, no) => (condition, yes, no),
+            Kind::Call(op, ref x) => {
+                let (a, b) = (x[0], x[1]);
+                let condition = match op {
+                    Op::Min => dag.less_equal(a, b),
+                    _ => dag.less_equal(b, a),
+                };
+                (condition, a, b)
+            }
+            ref other => unreachable!("{other:?} has no branches"),
+        };
+        Branches { condition, yes, no }
+    }
+
     /// The derivatives of both by the leaves, times the adjoint, selected.
     fn adjoints(
         &self,
@@ -230,26 +217,37 @@ fn derivative_of(part: Part, i: u16) -> Part {
     }
 }
 
-/// ∂(k·Π f^n)/∂f for each factor that matters. Long products are trees by now (see
-/// [`crate::balance`]); of one of its pairs, a derivative is the other.
-fn product_partials(
-    dag: &mut Dag,
-    k: &Rational,
-    factors: &[(Node, i32)],
-    what: Dependence,
-) -> Vec<(Node, Node)> {
-    let mut partials = Vec::with_capacity(factors.len());
-    for (at, &(node, n)) in factors.iter().enumerate() {
-        if !dag.dependence(node).on(what) {
-            continue;
+/// The partial derivatives of a product or a function by its factors or arguments; of a product, by
+/// those that depend on `what`. Long products are trees by now (see [`crate::balance`]); of one of
+/// its pairs, a derivative is the other.
+fn partials(dag: &mut Dag, node: Node, what: Dependence) -> Vec<(Node, Node)> {
+    let mut partials = Vec::new();
+    match dag.kind(node).clone() {
+        Kind::Product(k, factors) => {
+            for (at, &(node, n)) in factors.iter().enumerate() {
+                if !dag.dependence(node).on(what) {
+                    continue;
+                }
+                let mut rest = factors.clone();
+                rest[at].1 = n - 1;
+                if n == 1 {
+                    rest.remove(at);
+                }
+                let scale = k.mul(&Rational::integer(i64::from(n)));
+                partials.push((node, dag.product(&scale, &rest)));
+            }
         }
-        let mut rest: Vec<(Node, i32)> = factors.to_vec();
-        rest[at].1 = n - 1;
-        if n == 1 {
-            rest.remove(at);
+        Kind::Call(op, arguments) => {
+            let values = (op.row().partials)(dag, &arguments, node);
+            partials.extend(arguments.into_iter().zip(values));
         }
-        let scale = k.mul(&Rational::integer(i64::from(n)));
-        partials.push((node, dag.product(&scale, &rest)));
+        Kind::External(function, part, arguments) => {
+            for (&child, i) in arguments.iter().zip(0..) {
+                let partial = dag.external(function, derivative_of(part, i), &arguments);
+                partials.push((child, partial));
+            }
+        }
+        other => unreachable!("{other:?} is differentiated by itself"),
     }
     partials
 }
@@ -283,43 +281,18 @@ pub fn forward(
                 let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, tangents[&n])).collect();
                 dag.linear(&Rational::ZERO, &terms)
             }
-            Kind::Product(k, factors) => {
-                let partials = product_partials(dag, &k, &factors, what);
-                let parts: Vec<_> = partials
+            Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
+                let Branches { condition, yes, no } = Branches::of(dag, node);
+                dag.select(condition, tangents[&yes], tangents[&no])
+            }
+            Kind::Product(..) | Kind::Call(..) | Kind::External(..) => {
+                let parts: Vec<_> = partials(dag, node, what)
                     .into_iter()
                     .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
                     .collect();
-                dag.add(&parts)
-            }
-            Kind::Call(op @ (Op::Min | Op::Max), x) => {
-                let first = if op == Op::Min {
-                    dag.less_equal(x[0], x[1])
-                } else {
-                    dag.less_equal(x[1], x[0])
-                };
-                dag.select(first, tangents[&x[0]], tangents[&x[1]])
-            }
-            Kind::Call(op, arguments) => {
-                let partials = (op.row().partials)(dag, &arguments, node);
-                let parts: Vec<_> = arguments
-                    .into_iter()
-                    .zip(partials)
-                    .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
-                    .collect();
-                dag.add(&parts)
-            }
-            Kind::External(function, part, arguments) => {
-                let mut parts = Vec::new();
-                for (i, child) in arguments.iter().enumerate() {
-                    let partial = dag.external(function, derivative_of(part, i as u16), &arguments);
-                    parts.push(dag.mul(&[partial, tangents[child]]));
-                }
                 dag.add(&parts)
             }
             Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),
-            Kind::Select(condition, yes, no) => {
-                dag.select(condition, tangents[&yes], tangents[&no])
-            }
             _ => seed(dag, node).unwrap_or(zero),
         };
         tangents.insert(node, tangent);

@@ -264,7 +264,8 @@ fn factored_sum(
     }
 }
 
-/// What is taken out of some terms of a sum.
+/// What is taken out of some terms of a sum: a power of a node, or a coefficient up to its sign.
+#[derive(Clone, PartialEq, Eq, Hash)]
 enum Common {
     Factor(Node, i32),
     Coefficient(Rational, Node),
@@ -276,7 +277,7 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
     let mut rounds = 4 + 4096 / terms.len().max(1);
     while terms.len() > 1 && rounds > 0 {
         rounds -= 1;
-        let Some((common, _)) = best(&terms, one) else {
+        let Some(common) = best(&terms, one) else {
             break;
         };
         let common = match common {
@@ -359,43 +360,34 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
     dag.collected(constant, &nodes, false)
 }
 
-/// The factor or coefficient whose extraction saves most, if any saves something.
-fn best(terms: &[Term], one: Node) -> Option<(Common, i64)> {
-    let mut savings: Map<(Node, i32), (i64, usize)> = Map::default();
-    let mut coefficients: Map<(Rational, Node), (i64, usize)> = Map::default();
-    let mut order = 0usize;
-    let mut keys = Vec::new();
+/// What saves most multiplications if it is taken out, the first of several; `None` where nothing
+/// saves any.
+fn best(terms: &[Term], one: Node) -> Option<Common> {
+    let mut places: Map<Common, usize> = Map::default();
+    let mut savings: Vec<(Common, i64)> = Vec::new();
+    let mut save = |common: Common, saved: i64| {
+        let at = *places.entry(common.clone()).or_insert(savings.len());
+        match savings.get_mut(at) {
+            Some(entry) => entry.1 += saved,
+            // What is taken out is multiplied once.
+            None => savings.push((common, saved - 1)),
+        }
+    };
     for term in terms {
         let cost = term.multiplications(one);
         for &(base, n) in &term.factors {
-            let key = (base, n.signum());
-            let saved = cost - term.without(base, n.signum()).multiplications(one);
-            let entry = savings.entry(key).or_insert_with(|| {
-                keys.push(Common::Factor(key.0, key.1));
-                order += 1;
-                (-1, order)
-            });
-            entry.0 += saved;
+            let rest = term.without(base, n.signum()).multiplications(one);
+            save(Common::Factor(base, n.signum()), cost - rest);
         }
         if term.has_coefficient(one) && !term.factors.is_empty() {
-            let key = (term.k.abs(), term.p);
-            let entry = coefficients.entry(key.clone()).or_insert_with(|| {
-                keys.push(Common::Coefficient(key.0, key.1));
-                order += 1;
-                (-1, order)
-            });
-            entry.0 += 1;
+            save(Common::Coefficient(term.k.abs(), term.p), 1);
         }
     }
     let mut winner: Option<(Common, i64)> = None;
-    for key in keys {
-        let saved = match &key {
-            Common::Factor(base, sign) => savings[&(*base, *sign)].0,
-            Common::Coefficient(k, p) => coefficients[&(k.clone(), *p)].0,
-        };
+    for (common, saved) in savings {
         if saved > 0 && winner.as_ref().is_none_or(|(_, best)| saved > *best) {
-            winner = Some((key, saved));
+            winner = Some((common, saved));
         }
     }
-    winner
+    winner.map(|(common, _)| common)
 }

@@ -4,10 +4,10 @@
 //! [`Rational::to_words`]. Invariant: in lowest terms, denominator positive, and `Small` whenever
 //! numerator and denominator fit `i64`.
 
-use num_bigint::{BigInt, Sign};
+use num_bigint::BigInt;
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, ToPrimitive};
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
 
@@ -402,50 +402,7 @@ fn gcd(mut a: u128, mut b: u128) -> u128 {
     a
 }
 
-/// The nearest `f64`, ties to even, subnormals right: scale to an integer quotient of 55 to 64
-/// bits with a sticky bit, then round at the bit where the result's precision ends.
+/// The nearest `f64`, ties to even.
 fn round(value: &BigRational) -> f64 {
-    if value.is_zero() {
-        return 0.0;
-    }
-    let negative = value.numer().sign() == Sign::Minus;
-    let (n, d) = (value.numer().magnitude(), value.denom().magnitude());
-    let shift = 64 - (n.bits() as i64 - d.bits() as i64);
-    let (n, d) = if shift >= 0 {
-        (n << shift as u64, d.clone())
-    } else {
-        (n.clone(), d << (-shift) as u64)
-    };
-    let (quotient, remainder) = n.div_rem(&d);
-    let mut bits: u128 =
-        quotient.to_u128().unwrap_or(u128::MAX) << 1 | u128::from(!remainder.is_zero());
-    // value = bits · 2^(−shift−1); the leading bit has this exponent:
-    let exponent = 127 - i64::from(bits.leading_zeros()) - shift - 1;
-    let unit = (exponent - 52).max(-1074);
-    let drop = unit + shift + 1;
-    let half = 1u128 << (drop - 1).clamp(0, 127);
-    let rest = if drop >= 128 {
-        bits
-    } else {
-        bits & ((half << 1) - 1)
-    };
-    bits = if drop >= 128 { 0 } else { bits >> drop };
-    if rest > half || (rest == half && bits & 1 == 1) {
-        bits += 1;
-    }
-    let mut result = bits as f64;
-    // Two factors, because 2^unit itself may be subnormal or the product may pass through range.
-    let half_unit = unit / 2;
-    result = result * exp2(half_unit) * exp2(unit - half_unit);
-    if negative { -result } else { result }
-}
-
-fn exp2(exponent: i64) -> f64 {
-    if exponent > 1023 {
-        return f64::INFINITY;
-    }
-    if exponent >= -1022 {
-        return f64::from_bits(((exponent + 1023) as u64) << 52);
-    }
-    0.0
+    value.to_f64().unwrap_or(f64::NAN)
 }

@@ -13,49 +13,54 @@ use crate::schedule::Placer;
 /// Powers up to this one are multiplied out.
 const RUN: u32 = 3;
 
-/// Where a sum starts: at its constant, or at a term.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Start {
-    Constant,
-    Term(usize),
-}
-
-/// A term that can be added by a fused instruction.
-fn is_product(terms: &[(Rational, Node)], at: usize, can_fuse: &impl Fn(Node) -> bool) -> bool {
-    !terms[at].0.is_unit() || can_fuse(terms[at].1)
-}
-
-fn start_of(c: &Rational, terms: &[(Rational, Node)], can_fuse: &impl Fn(Node) -> bool) -> Start {
-    if is_product(terms, 0, can_fuse) {
-        if !c.is_zero() {
-            return Start::Constant;
-        }
-        if terms.len() > 1 && !is_product(terms, 1, can_fuse) {
-            return Start::Term(1);
-        }
-    }
-    // A negative plain term in front is subtracted from the positive one after it.
-    if terms[0].0 == Rational::MINUS_ONE
-        && terms.len() > 1
-        && terms[1].0.is_one()
-        && !is_product(terms, 1, can_fuse)
-    {
-        return Start::Term(1);
-    }
-    Start::Term(0)
-}
-
-/// Whether term `at` of a sum is added by a fused instruction, so that its product is not needed
-/// by itself.
-pub(crate) fn fuses(
+/// The term a sum starts with; `None` where it starts with its constant.
+fn first_term(
     c: &Rational,
     terms: &[(Rational, Node)],
-    at: usize,
     can_fuse: &impl Fn(Node) -> bool,
-) -> bool {
-    terms[at].0.is_unit()
-        && start_of(c, terms, can_fuse) != Start::Term(at)
-        && can_fuse(terms[at].1)
+) -> Option<usize> {
+    let is_product = |(k, node): &(Rational, Node)| !k.is_unit() || can_fuse(*node);
+    let plain = terms.get(1).filter(|next| !is_product(next));
+    if is_product(&terms[0]) {
+        if !c.is_zero() {
+            return None;
+        }
+        return Some(usize::from(plain.is_some()));
+    }
+    // A negative plain term in front is subtracted from the positive one after it.
+    let is_negative = terms[0].0 == Rational::MINUS_ONE;
+    Some(usize::from(
+        is_negative && plain.is_some_and(|(k, _)| k.is_one()),
+    ))
+}
+
+/// The terms of a sum that are added by a fused instruction: their products are not needed by
+/// themselves.
+pub(crate) fn fused_terms(
+    c: &Rational,
+    terms: &[(Rational, Node)],
+    can_fuse: &impl Fn(Node) -> bool,
+) -> impl Iterator<Item = Node> {
+    let first = first_term(c, terms, can_fuse);
+    let rest = terms.iter().enumerate();
+    rest.filter(move |(at, (k, node))| Some(*at) != first && k.is_unit() && can_fuse(*node))
+        .map(|(_, (_, node))| *node)
+}
+
+/// sum ± a
+fn added(is_negative: bool, a: Value, sum: Value) -> Instruction {
+    match is_negative {
+        true => Instruction::Sub(sum, a),
+        false => Instruction::Add(sum, a),
+    }
+}
+
+/// sum ± a·b
+fn product_added(is_negative: bool, (a, b): (Value, Value), sum: Value) -> Instruction {
+    match is_negative {
+        true => Instruction::NegMulAdd(a, b, sum),
+        false => Instruction::MulAdd(a, b, sum),
+    }
 }
 
 impl Placer<'_> {
@@ -102,177 +107,102 @@ impl Placer<'_> {
     }
 
     fn sum(&mut self, steps: &mut Vec<Step>, c: &Rational, terms: &[(Rational, Node)]) -> Value {
-        let fusable: Vec<bool> = (0..terms.len())
-            .map(|at| !self.is_computed(terms[at].1))
-            .collect();
-        let can_fuse = |node: Node| {
-            terms
-                .iter()
-                .position(|(_, n)| *n == node)
-                .is_some_and(|at| fusable[at])
-        };
-        let start = start_of(c, terms, &can_fuse);
-        let mut constant_left = !c.is_zero();
-        let mut sum = match start {
-            Start::Constant => {
-                constant_left = false;
-                self.constant(steps, c.clone())
-            }
-            Start::Term(at) => {
-                let (k, node) = &terms[at];
-                match terms.get(1) {
+        let first = first_term(c, terms, &|node| !self.is_computed(node));
+        let mut rest: Vec<&(Rational, Node)> = terms.iter().collect();
+        let mut sum = match first.map(|at| rest.remove(at)) {
+            None => self.constant(steps, c.clone()),
+            Some((k, node)) => {
+                let value = self.value(*node);
+                let is_negative = *k == Rational::MINUS_ONE;
+                match rest.first() {
                     // −a + b·c is one instruction.
-                    Some((next, product))
-                        if at == 0 && *k == Rational::MINUS_ONE && next.is_one() && fusable[1] =>
+                    Some(&&(ref next, product))
+                        if first == Some(0)
+                            && is_negative
+                            && next.is_one()
+                            && !self.is_computed(product) =>
                     {
-                        let a = self.value(*node);
-                        let (x, y) = self.split_product(steps, *product);
-                        let sum = self.push(steps, Instruction::MulSub(x, y, a));
-                        return self.rest_of_sum(
-                            steps,
-                            sum,
-                            c,
-                            constant_left,
-                            terms,
-                            &fusable,
-                            &[0, 1],
-                        );
+                        rest.remove(0);
+                        let (_, (x, y)) = self.split_product(steps, product);
+                        self.push(steps, Instruction::MulSub(x, y, value))
                     }
-                    _ => {}
-                }
-                let value = if fusable[at] {
-                    self.computed_product(steps, *node)
-                } else {
-                    self.value(*node)
-                };
-                if k.is_one() {
-                    value
-                } else if *k == Rational::MINUS_ONE {
-                    self.push(steps, Instruction::Neg(value))
-                } else {
-                    let factor = self.constant(steps, k.clone());
-                    self.push(steps, Instruction::Mul(factor, value))
+                    _ if k.is_one() => value,
+                    _ if is_negative => self.push(steps, Instruction::Neg(value)),
+                    _ => {
+                        let factor = self.constant(steps, k.clone());
+                        self.push(steps, Instruction::Mul(factor, value))
+                    }
                 }
             }
         };
-        let done: &[usize] = match start {
-            Start::Constant => &[],
-            Start::Term(0) => &[0],
-            Start::Term(_) => &[1],
-        };
-        sum = self.rest_of_sum(steps, sum, c, constant_left, terms, &fusable, done);
-        sum
-    }
-
-    #[allow(clippy::too_many_arguments)]
-    fn rest_of_sum(
-        &mut self,
-        steps: &mut Vec<Step>,
-        start: Value,
-        c: &Rational,
-        constant_left: bool,
-        terms: &[(Rational, Node)],
-        fusable: &[bool],
-        done: &[usize],
-    ) -> Value {
-        let mut sum = start;
-        for (at, (k, node)) in terms.iter().enumerate() {
-            if done.contains(&at) {
-                continue;
-            }
-            let negative = k.is_negative();
-            if !k.is_unit() {
+        for (k, node) in rest {
+            let is_negative = k.is_negative();
+            let instruction = if !k.is_unit() {
                 let value = self.value(*node);
                 let factor = self.constant(steps, k.abs());
-                sum = self.push(
-                    steps,
-                    if negative {
-                        Instruction::NegMulAdd(factor, value, sum)
-                    } else {
-                        Instruction::MulAdd(factor, value, sum)
-                    },
-                );
-            } else if fusable[at] {
-                let flipped = self.is_negated_product(*node);
-                let (a, b) = self.split_product(steps, *node);
-                sum = self.push(
-                    steps,
-                    if negative != flipped {
-                        Instruction::NegMulAdd(a, b, sum)
-                    } else {
-                        Instruction::MulAdd(a, b, sum)
-                    },
-                );
+                product_added(is_negative, (factor, value), sum)
+            } else if self.is_computed(*node) {
+                added(is_negative, self.value(*node), sum)
             } else {
-                let value = self.value(*node);
-                sum = self.push(
-                    steps,
-                    if negative {
-                        Instruction::Sub(sum, value)
-                    } else {
-                        Instruction::Add(sum, value)
-                    },
-                );
-            }
+                let (is_flipped, operands) = self.split_product(steps, *node);
+                product_added(is_negative != is_flipped, operands, sum)
+            };
+            sum = self.push(steps, instruction);
         }
-        if constant_left {
+        if first.is_some() && !c.is_zero() {
             let constant = self.constant(steps, c.abs());
-            sum = self.push(
-                steps,
-                if c.is_negative() {
-                    Instruction::Sub(sum, constant)
-                } else {
-                    Instruction::Add(sum, constant)
-                },
-            );
+            sum = self.push(steps, added(c.is_negative(), constant, sum));
         }
         sum
     }
 
-    fn is_negated_product(&self, node: Node) -> bool {
-        matches!(self.dag.kind(node), Kind::Product(k, _) if k.is_negative())
-    }
-
-    fn computed_product(&mut self, steps: &mut Vec<Step>, node: Node) -> Value {
-        match self.dag.kind(node).clone() {
-            Kind::Product(k, factors) => self.product(steps, &k, &factors),
-            _ => self.value(node),
-        }
-    }
-
-    /// The two operands of a product's last multiplication (the sign is the caller's).
-    pub(crate) fn split_product(&mut self, steps: &mut Vec<Step>, node: Node) -> (Value, Value) {
+    /// Whether a product is negative, and the two operands of its last multiplication.
+    pub(crate) fn split_product(
+        &mut self,
+        steps: &mut Vec<Step>,
+        node: Node,
+    ) -> (bool, (Value, Value)) {
         let Kind::Product(k, factors) = self.dag.kind(node).clone() else {
-            let value = self.value(node);
             let one = self.constant(steps, Rational::ONE);
-            return (value, one);
+            return (false, (self.value(node), one));
         };
-        let mut list: Vec<(Value, u32)> = Vec::new();
-        if !k.is_unit() {
-            list.push((self.constant(steps, k.abs()), 1));
-        }
-        for (node, n) in self.early_first(&factors) {
-            list.push((self.value(node), n.unsigned_abs()));
-        }
-        match list.pop() {
-            Some((last, n @ 1..=RUN)) => {
-                list.push((last, n - 1));
-                (self.powers(steps, &list), last)
-            }
-            Some((last, n)) if !list.is_empty() => {
+        let mut list = self.factors(steps, &k, &factors);
+        let operands = match list.pop() {
+            Some((last, n)) if n > RUN && !list.is_empty() => {
                 let last = self.powers(steps, &[(last, n)]);
                 (self.powers(steps, &list), last)
             }
-            Some((base, n)) if n % 2 == 0 => {
+            Some((base, n)) if n > RUN && n % 2 == 0 => {
                 let half = self.powers(steps, &[(base, n / 2)]);
                 (half, half)
             }
-            Some((base, n)) => (self.powers(steps, &[(base, n - 1)]), base),
+            Some((last, n)) => {
+                list.push((last, n - 1));
+                (self.powers(steps, &list), last)
+            }
             None => {
                 let one = self.constant(steps, Rational::ONE);
                 (one, one)
             }
+        };
+        (k.is_negative(), operands)
+    }
+
+    /// |k| and the factors as powers of values, in the order of multiplication.
+    fn factors(
+        &mut self,
+        steps: &mut Vec<Step>,
+        k: &Rational,
+        factors: &[(Node, i32)],
+    ) -> Vec<(Value, u32)> {
+        let mut list = Vec::with_capacity(factors.len() + 1);
+        if !k.is_unit() {
+            list.push((self.constant(steps, k.abs()), 1));
         }
+        for (node, n) in self.early_first(factors) {
+            list.push((self.value(node), n.unsigned_abs()));
+        }
+        list
     }
 
     /// The factors of a product in the order of multiplication: what an outer block or few
@@ -300,14 +230,9 @@ impl Placer<'_> {
         k: &Rational,
         factors: &[(Node, i32)],
     ) -> Value {
-        let (mut above, mut below) = (Vec::new(), Vec::new());
-        if !k.is_unit() {
-            above.push((self.constant(steps, k.abs()), 1));
-        }
-        for (node, n) in self.early_first(factors) {
-            let side = if n > 0 { &mut above } else { &mut below };
-            side.push((self.value(node), n.unsigned_abs()));
-        }
+        let (above, below): (Vec<_>, Vec<_>) = factors.iter().partition(|(_, n)| *n > 0);
+        let above = self.factors(steps, k, &above);
+        let below = self.factors(steps, &Rational::ONE, &below);
         let value = if below.is_empty() {
             self.powers(steps, &above)
         } else {

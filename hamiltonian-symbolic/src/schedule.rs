@@ -9,6 +9,7 @@ use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::factor::count_uses;
 use crate::hold::Held;
 use crate::index::{Affine, Domain, Index};
+use crate::instruct::fused_terms;
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 
@@ -395,19 +396,12 @@ impl Placer<'_> {
     ) -> Map<Node, ()> {
         let mut fused: Map<Node, ()> = Map::default();
         let open = |node: Node| self.stage_of(node) == self.stage && self.home(node) == here;
+        let can_fuse = |node: Node| open(node) && self.can_fuse(node);
         for &node in needed {
-            if !open(node) {
-                continue;
-            }
-            if let Kind::Sum(c, terms) = self.dag.kind(node) {
-                for (at, (_, term)) in terms.iter().enumerate() {
-                    if open(*term)
-                        && self.can_fuse(*term)
-                        && crate::instruct::fuses(c, terms, at, &|n| open(n) && self.can_fuse(n))
-                    {
-                        fused.insert(*term, ());
-                    }
-                }
+            if open(node)
+                && let Kind::Sum(c, terms) = self.dag.kind(node)
+            {
+                fused.extend(fused_terms(c, terms, &can_fuse).map(|term| (term, ())));
             }
         }
         for store in stores {
@@ -490,7 +484,7 @@ impl Placer<'_> {
             Kind::Product(k, factors) if fused.contains_key(&store.value) => {
                 let negative = k.is_negative();
                 if self.can_fuse(store.value) {
-                    let (a, b) = self.split_product(steps, store.value);
+                    let (_, (a, b)) = self.split_product(steps, store.value);
                     if negative {
                         Update::SubProduct(a, b)
                     } else {

@@ -39,6 +39,26 @@ pub(crate) enum Key {
     Sum(Domain, Monomial),
 }
 
+impl Key {
+    /// The atoms it is made of.
+    fn parts(&self) -> Vec<Atom> {
+        match self {
+            Key::Leaf(_) => Vec::new(),
+            Key::Cos(x)
+            | Key::Sin(x)
+            | Key::Exp(x)
+            | Key::Root(_, x)
+            | Key::Ln(x)
+            | Key::Sign(x)
+            | Key::Divisor(x) => x.atoms(),
+            Key::Function(_, arguments) | Key::External(_, _, arguments) => {
+                arguments.iter().flat_map(Poly::atoms).collect()
+            }
+            Key::Sum(_, body) => body.0.iter().map(|(atom, _)| *atom).collect(),
+        }
+    }
+}
+
 /// Where a statement is to hold, for all parameters and sizes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Scope {
@@ -141,111 +161,75 @@ impl Algebra {
 
     /// The atom of a leaf.
     pub(crate) fn leaf(&mut self, dag: &Dag, node: Node) -> Atom {
-        let key = Key::Leaf(node);
-        if let Some(&atom) = self.known.get(&key) {
-            return atom;
-        }
-        let entry = Entry {
-            key: key.clone(),
-            relation: None,
-            redefined: None,
-            dependence: dag.dependence(node),
-            variables: dag.variables(node),
-            nonnegative: dag.is_nonnegative(node) || self.positive == Some(node),
-            positive: matches!(dag.kind(node), Kind::Pi) || self.positive == Some(node),
-        };
-        self.push(key, entry)
+        let is_set = self.positive == Some(node);
+        let signs = (
+            is_set || dag.is_nonnegative(node),
+            is_set || *dag.kind(node) == Kind::Pi,
+        );
+        let own = (dag.dependence(node), dag.variables(node));
+        self.atom(Key::Leaf(node), None, own, signs)
     }
 
     /// The atom of a function of polynomials, with its relation.
     pub(super) fn function(&mut self, key: Key, relation: Option<(u32, Poly)>) -> Atom {
-        if let Some(&atom) = self.known.get(&key) {
-            return atom;
-        }
-        let mut dependence = Dependence::default();
-        let mut variables = 0;
-        let mut read = |poly: &Poly| {
-            for atom in poly.atoms() {
-                dependence.0 |= self.entry(atom).dependence.0;
-                variables |= self.entry(atom).variables;
-            }
-        };
-        let (nonnegative, positive) = match &key {
-            Key::Leaf(_) | Key::Sum(..) => (false, false),
-            Key::Cos(x) | Key::Sin(x) | Key::Ln(x) => {
-                read(x);
-                (false, false)
-            }
-            Key::Exp(x) => {
-                read(x);
-                (true, true)
-            }
-            Key::Root(n, x) => {
-                read(x);
-                (*n == 2 || self.is_nonnegative(x), self.is_positive(x))
-            }
-            Key::Divisor(x) | Key::Sign(x) => {
-                read(x);
-                (self.is_nonnegative(x), self.is_positive(x))
-            }
+        let signs = match &key {
+            Key::Exp(_) => (true, true),
+            Key::Root(n, x) => (*n == 2 || self.is_nonnegative(x), self.is_positive(x)),
+            Key::Divisor(x) | Key::Sign(x) => (self.is_nonnegative(x), self.is_positive(x)),
             Key::Function(op, arguments) => {
-                arguments.iter().for_each(read);
                 let range = op.row().regularity.range;
                 let first = self.is_nonnegative(&arguments[0]);
                 (is_nonnegative_call(range, first), range == Range::Positive)
             }
-            Key::External(_, _, arguments) => {
-                arguments.iter().for_each(read);
-                (false, false)
-            }
+            _ => (false, false),
         };
-        let entry = Entry {
-            key: key.clone(),
+        self.atom(key, relation, Default::default(), signs)
+    }
+
+    /// The atom of a sum over a loop.
+    pub(crate) fn sum(&mut self, dag: &Dag, domain: Domain, body: Monomial) -> Atom {
+        let range = dag.range(domain);
+        let has_sizes = !(range.start.sizes.is_empty() && range.end.sizes.is_empty());
+        let own = if has_sizes {
+            Dependence::PARAMETER
+        } else {
+            Dependence::default()
+        };
+        let variables = range.start.variables() | range.end.variables();
+        // The range may be empty.
+        let signs = (self.is_nonnegative_term(&body), false);
+        self.atom(Key::Sum(domain, body), None, (own, variables), signs)
+    }
+
+    /// The atom of a key: what it depends on beside its parts, and whether it is ≥ 0 and > 0.
+    fn atom(
+        &mut self,
+        key: Key,
+        relation: Option<(u32, Poly)>,
+        (mut dependence, mut variables): (Dependence, u64),
+        (nonnegative, positive): (bool, bool),
+    ) -> Atom {
+        if let Some(&atom) = self.known.get(&key) {
+            return atom;
+        }
+        for part in key.parts() {
+            dependence.0 |= self.entry(part).dependence.0;
+            variables |= self.entry(part).variables;
+        }
+        if let Key::Sum(domain, _) = key {
+            variables &= !(1u64 << domain.0);
+        }
+        let atom = self.entries.len() as Atom;
+        self.known.insert(key.clone(), atom);
+        self.entries.push(Entry {
+            key,
             relation: relation.map(|(n, poly)| (n, Rc::new(poly))),
             redefined: None,
             dependence,
             variables,
             nonnegative,
             positive,
-        };
-        self.push(key, entry)
-    }
-
-    /// The atom of a sum over a loop.
-    pub(crate) fn sum(&mut self, dag: &Dag, domain: Domain, body: Monomial) -> Atom {
-        let key = Key::Sum(domain, body.clone());
-        if let Some(&atom) = self.known.get(&key) {
-            return atom;
-        }
-        let range = dag.range(domain);
-        let mut dependence = Dependence::default();
-        let mut variables = range.start.variables() | range.end.variables();
-        if !(range.start.sizes.is_empty() && range.end.sizes.is_empty()) {
-            dependence.0 |= Dependence::PARAMETER.0;
-        }
-        for (atom, _) in &body.0 {
-            dependence.0 |= self.entry(*atom).dependence.0;
-            variables |= self.entry(*atom).variables;
-        }
-        variables &= !(1u64 << domain.0);
-        let nonnegative = self.is_nonnegative_term(&body);
-        let entry = Entry {
-            key: key.clone(),
-            relation: None,
-            redefined: None,
-            dependence,
-            variables,
-            nonnegative,
-            // The range may be empty.
-            positive: false,
-        };
-        self.push(key, entry)
-    }
-
-    fn push(&mut self, key: Key, entry: Entry) -> Atom {
-        let atom = self.entries.len() as Atom;
-        self.entries.push(entry);
-        self.known.insert(key, atom);
+        });
         atom
     }
 
@@ -290,20 +274,24 @@ impl Algebra {
 
     /// Whether an atom stands inside another one.
     pub(crate) fn is_mentioned(&self, poly: &Poly, atom: Atom) -> bool {
-        let mut stack: Vec<Atom> = poly.atoms();
-        stack.retain(|a| *a != atom);
-        let mut seen: Vec<Atom> = Vec::new();
-        while let Some(at) = stack.pop() {
-            if at == atom {
-                return true;
+        let mut others = poly.atoms();
+        others.retain(|other| *other != atom);
+        self.needed(others).contains(&atom)
+    }
+
+    /// Atoms and all atoms they are made of, oldest first.
+    pub(super) fn needed(&self, wanted: Vec<Atom>) -> Vec<Atom> {
+        let mut needed: Vec<Atom> = Vec::new();
+        let mut stack = wanted;
+        let mut seen: Map<Atom, ()> = Map::default();
+        while let Some(atom) = stack.pop() {
+            if seen.insert(atom, ()).is_none() {
+                needed.push(atom);
+                stack.extend(self.entry(atom).key.parts());
             }
-            if seen.contains(&at) {
-                continue;
-            }
-            seen.push(at);
-            stack.extend(self.parts(at));
         }
-        false
+        needed.sort_unstable();
+        needed
     }
 
     /// Whether a polynomial has negative powers.

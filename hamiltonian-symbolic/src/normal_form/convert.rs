@@ -123,24 +123,6 @@ impl Algebra {
         })
     }
 
-    /// The atoms an atom is made of.
-    pub(crate) fn parts(&self, atom: Atom) -> Vec<Atom> {
-        match &self.entry(atom).key {
-            Key::Leaf(_) => Vec::new(),
-            Key::Cos(x)
-            | Key::Sin(x)
-            | Key::Exp(x)
-            | Key::Root(_, x)
-            | Key::Ln(x)
-            | Key::Sign(x)
-            | Key::Divisor(x) => x.atoms(),
-            Key::Function(_, arguments) | Key::External(_, _, arguments) => {
-                arguments.iter().flat_map(Poly::atoms).collect()
-            }
-            Key::Sum(_, body) => body.0.iter().map(|(atom, _)| *atom).collect(),
-        }
-    }
-
     /// A polynomial as a node.
     pub(crate) fn node(&self, dag: &mut Dag, poly: &Poly) -> Node {
         let atoms = self.nodes_of(dag, poly.atoms());
@@ -149,19 +131,8 @@ impl Algebra {
 
     /// The nodes of atoms and of all atoms they are made of, oldest first.
     fn nodes_of(&self, dag: &mut Dag, wanted: Vec<Atom>) -> Map<Atom, Node> {
-        let mut needed: Vec<Atom> = Vec::new();
-        let mut stack = wanted;
-        let mut seen: Map<Atom, ()> = Map::default();
-        while let Some(atom) = stack.pop() {
-            if seen.insert(atom, ()).is_some() {
-                continue;
-            }
-            needed.push(atom);
-            stack.extend(self.parts(atom));
-        }
-        needed.sort_unstable();
         let mut nodes: Map<Atom, Node> = Map::default();
-        for atom in needed {
+        for atom in self.needed(wanted) {
             let call = |dag: &mut Dag, op: Op, x: &Poly| {
                 let x = assemble(dag, x, &nodes);
                 dag.call(op, &[x])

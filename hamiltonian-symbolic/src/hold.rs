@@ -55,22 +55,19 @@ impl Arrays {
         roots: &mut [Node],
     ) {
         let order = dag.reachable(roots);
-        let mut reads: Map<Node, Reads> = Map::default();
-        let mut costs: Map<Node, bool> = Map::default();
+        let mut known: Map<Node, (Reads, bool)> = Map::default();
         for &node in &order {
-            let (own, is_dear) = describe(dag, parameters, node, &reads, &costs);
-            reads.insert(node, own);
-            costs.insert(node, is_dear);
+            known.insert(node, describe(dag, parameters, node, &known));
         }
-        let row = |node: Node| match &reads[&node] {
+        let row = |node: Node| match &known[&node].0 {
             Reads::Row(row, rows) => Some((row.clone(), rows.clone())),
             Reads::Scalars | Reads::More => None,
         };
-        let is_dear = |node: &Node| costs[node];
+        let is_dear = |node: &Node| known[node].1;
         let mut new: Map<Node, Node> = Map::default();
         for &node in &order {
             let image = match dag.kind(node).clone() {
-                _ if reads[&node] != Reads::More => node,
+                _ if known[&node].0 != Reads::More => node,
                 Kind::Product(k, factors) if !dag.is_sealed(node) => {
                     let mut rest: Factors = Vec::new();
                     let mut groups: Vec<(Row, Factors)> = Vec::new();
@@ -155,8 +152,7 @@ fn describe(
     dag: &Dag,
     parameters: &[ParameterDeclaration],
     node: Node,
-    reads: &Map<Node, Reads>,
-    costs: &Map<Node, bool>,
+    known: &Map<Node, (Reads, bool)>,
 ) -> (Reads, bool) {
     if dag.stage(node) > Stage::Parameters {
         return (Reads::More, false);
@@ -167,8 +163,8 @@ fn describe(
     let of_children = || {
         let (mut all, mut is_dear) = (Reads::Scalars, false);
         dag.for_children(node, |child| {
-            is_dear |= costs[&child];
-            all = match (&all, &reads[&child]) {
+            is_dear |= known[&child].1;
+            all = match (&all, &known[&child].0) {
                 (Reads::Scalars, other) | (other, Reads::Scalars) => other.clone(),
                 (one, other) if one == other => other.clone(),
                 _ => Reads::More,
@@ -186,7 +182,7 @@ fn describe(
         Kind::Sum(..) => of_children(),
         Kind::Product(_, factors) => {
             let (reads_of, is_dear) = of_children();
-            let divides = |(base, n): &(Node, i32)| *n < 0 && reads[base] != Reads::Scalars;
+            let divides = |(base, n): &(Node, i32)| *n < 0 && known[base].0 != Reads::Scalars;
             (reads_of, is_dear || factors.iter().any(divides))
         }
         Kind::Call(..) => (of_children().0, true),

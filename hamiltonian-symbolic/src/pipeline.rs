@@ -226,11 +226,7 @@ pub fn request(
                 request.stores.push(added(scaled(&mut model.dag, entry)));
             }
             let gradient = along(model, (true, false));
-            let c = model.dag.coefficient();
-            for entry in forces::slopes(model, &gradient) {
-                let value = model.dag.mul(&[c, entry.value]);
-                request.stores.push(added(VectorEntry { value, ..entry }));
-            }
+            request.stores.extend(driven(model, &gradient));
         }
         Purpose::Push | Purpose::Linear | Purpose::Kick if !model.force.is_empty() => {
             let missing = |_| internal("this force has no exact flow".to_owned());
@@ -244,11 +240,7 @@ pub fn request(
         }
         Purpose::Rates if !model.force.is_empty() => {
             let gradient = forces::beside(model);
-            let c = model.dag.coefficient();
-            for entry in forces::slopes(model, &gradient) {
-                let value = model.dag.mul(&[c, entry.value]);
-                request.stores.push(added(VectorEntry { value, ..entry }));
-            }
+            request.stores.extend(driven(model, &gradient));
         }
         Purpose::Push | Purpose::Linear | Purpose::Rates => {
             return Err(internal("there is no force".to_owned()));
@@ -268,6 +260,17 @@ pub fn request(
         }
     }
     Ok(request)
+}
+
+/// The stores that add c·(f − ∂H/∂q) with the force f, from ∂H/∂q.
+fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
+    let c = model.dag.coefficient();
+    let slopes = forces::slopes(model, gradient).into_iter();
+    let scaled = |entry: VectorEntry| {
+        let value = model.dag.mul(&[c, entry.value]);
+        added(VectorEntry { value, ..entry })
+    };
+    slopes.map(scaled).collect()
 }
 
 /// The partial derivatives of a scalar by coordinates and momenta, element by element.

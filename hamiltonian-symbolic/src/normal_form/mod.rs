@@ -213,76 +213,62 @@ pub(crate) fn witness(
     others: &[Node],
 ) -> Option<(Point, f64)> {
     let mut trials = trials(model, &[node]);
-    let seeds = match effort {
-        Effort::Glance => 2,
-        Effort::Search => 8,
+    let (seeds, ways) = match effort {
+        Effort::Glance => (2, 1),
+        Effort::Search => (8, 7),
     };
     if effort == Effort::Glance {
         trials.truncate(1);
     }
-    for sizes in &trials {
-        for seed in 0..seeds {
-            let how = Sample {
-                seed,
-                signed: seed % 2 == 1,
-                ..Sample::default()
-            };
-            let Some((values, mut point)) = sample(model, &[node], sizes, how, &[]) else {
-                break;
-            };
-            if values[0].is_nonzero() {
-                point.splice(0..0, named(model, sizes));
-                return Some((point, values[0].value));
-            }
+    let witnessed = |sizes: &[i64], how: Sample, others: &[Node]| {
+        let (values, mut point) = sample(model, &[node], sizes, how, &[])?;
+        if !values[0].is_nonzero() {
+            return None;
         }
+        let (around, _) = sample(model, &[&[node], others].concat(), sizes, how, &[])?;
+        let is_defined = around.iter().all(|other| other.value.is_finite());
+        point.splice(0..0, named(model, sizes));
+        is_defined.then_some((point, values[0].value))
+    };
+    let usual = || {
+        (0..seeds).map(|seed| Sample {
+            seed,
+            signed: seed % 2 == 1,
+            ..Sample::default()
+        })
+    };
+    let first = |sizes: &Vec<i64>| usual().find_map(|how| witnessed(sizes, how, &[]));
+    if let Some(found) = trials.iter().find_map(first) {
+        return Some(found);
     }
     let given = Dependence(Dependence::PARAMETER.0 | Dependence::TIME.0);
     if !model.dag.dependence(node).on(given) {
         return None;
     }
+    let negative = |seed: u64, signs: Signs| Sample {
+        seed,
+        signed: true,
+        signs,
+        ..Sample::default()
+    };
     let is_power = |kind: &Kind| matches!(kind, Kind::Call(Op::Pow, _));
-    let is_power = effort == Effort::Search && model.dag.has(&[node], is_power);
-    let mut all = vec![node];
-    all.extend(others);
-    let seeds = if is_power { 0..64 } else { 0..0 };
-    let signs = std::iter::once(Signs::default()).chain(Signs::negative());
-    for (seed, signs) in seeds.zip(signs.cycle()) {
-        let how = Sample {
-            seed,
-            signed: true,
-            signs,
-            halves: true,
-            ..Sample::default()
-        };
-        let (values, mut point) = sample(model, &all, &trials[0], how, &[])?;
-        if values[0].is_nonzero() && values.iter().all(|value| value.value.is_finite()) {
-            point.splice(0..0, named(model, &trials[0]));
-            return Some((point, values[0].value));
-        }
-    }
-    for sizes in &trials {
-        for signs in Signs::negative() {
+    if effort == Effort::Search && model.dag.has(&[node], is_power) {
+        let signs = std::iter::once(Signs::default()).chain(Signs::negative());
+        let found = (0..64).zip(signs.cycle()).find_map(|(seed, signs)| {
             let how = Sample {
-                seed: 1,
-                signed: true,
-                signs,
-                ..Sample::default()
+                halves: true,
+                ..negative(seed, signs)
             };
-            let Some((values, mut point)) = sample(model, &[node], sizes, how, &[]) else {
-                break;
-            };
-            if values[0].is_nonzero() {
-                let (around, _) = sample(model, &all, sizes, how, &[])?;
-                if around.iter().all(|other| other.value.is_finite()) {
-                    point.splice(0..0, named(model, sizes));
-                    return Some((point, values[0].value));
-                }
-            } else if values[0].value.is_finite() && effort == Effort::Glance {
-                return None;
-            }
+            witnessed(&trials[0], how, others)
+        });
+        if found.is_some() {
+            return found;
         }
     }
-    None
+    trials.iter().find_map(|sizes| {
+        let mut signs = Signs::negative().take(ways);
+        signs.find_map(|signs| witnessed(sizes, negative(1, signs), others))
+    })
 }
 
 /// Sizes with their names, as the beginning of a point.

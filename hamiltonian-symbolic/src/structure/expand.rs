@@ -20,6 +20,21 @@ pub struct Term {
 }
 
 impl Term {
+    /// A number.
+    fn constant(coefficient: Rational) -> Term {
+        let factors = Vec::new();
+        Term {
+            coefficient,
+            factors,
+        }
+    }
+    /// A power of a node.
+    fn power(node: Node, n: i32) -> Term {
+        Term {
+            coefficient: Rational::ONE,
+            factors: vec![(node, n)],
+        }
+    }
     /// The term as a node.
     pub fn node(&self, dag: &mut Dag) -> Node {
         dag.product(&self.coefficient, &self.factors)
@@ -34,10 +49,7 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
         let kind = dag.kind(node).clone();
         let terms = match kind {
             Kind::Constant(value) if value.is_zero() => Vec::new(),
-            Kind::Constant(value) => vec![Term {
-                coefficient: value,
-                factors: Vec::new(),
-            }],
+            Kind::Constant(value) => vec![Term::constant(value)],
             Kind::Sum(c, terms) => {
                 let mut sum = Collected::default();
                 for (k, child) in terms {
@@ -48,17 +60,11 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
                         });
                     }
                 }
-                sum.add(Term {
-                    coefficient: c,
-                    factors: Vec::new(),
-                });
+                sum.add(Term::constant(c));
                 sum.terms()
             }
             Kind::Product(k, factors) => {
-                let mut product = vec![Term {
-                    coefficient: k,
-                    factors: Vec::new(),
-                }];
+                let mut product = vec![Term::constant(k)];
                 for (child, n) in factors {
                     match expansions.get(&child) {
                         Some(terms) if n > 0 && terms.len() > 1 => {
@@ -78,15 +84,7 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
                             };
                             product = multiply(&product, &[term])?;
                         }
-                        _ => {
-                            product = multiply(
-                                &product,
-                                &[Term {
-                                    coefficient: Rational::ONE,
-                                    factors: vec![(child, n)],
-                                }],
-                            )?
-                        }
+                        _ => product = multiply(&product, &[Term::power(child, n)])?,
                     }
                 }
                 product
@@ -110,10 +108,7 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
                 }
                 sum.terms()
             }
-            _ => vec![Term {
-                coefficient: Rational::ONE,
-                factors: vec![(node, 1)],
-            }],
+            _ => vec![Term::power(node, 1)],
         };
         if terms.len() > MOST {
             return None;

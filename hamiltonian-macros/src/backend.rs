@@ -123,7 +123,8 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
     let split = splits::decide(checked, &mut model, &structure, &part, large, report);
     text.facts.extend(split.facts);
     let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
-    let program = derive(checked, &mut model, &structure, frame.beyond, report)?;
+    let wanted = wanted(checked, &model, large, &structure);
+    let program = derive(frame, &mut model, wanted, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     Some(emit::generate(&emit::Definition {
@@ -205,44 +206,35 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
 
 /// The program, without second derivatives where a Rust function came without them.
 fn derive(
-    checked: &Checked,
+    frame: &Frame,
     model: &mut Model,
-    verdicts: &emit::Structure,
-    beyond: &Beyond,
+    mut wanted: Vec<Purpose>,
     report: &mut Report,
 ) -> Option<Program> {
-    let mut wanted = wanted(checked, model, is_large(checked, model), verdicts);
-    let refusal = match pipeline::derive(model, &wanted) {
+    let checked = frame.checked;
+    let derived = match pipeline::derive(model, &wanted) {
         Err(Refusal::NoSecondDerivative { .. }) => {
             wanted.retain(|purpose| *purpose != Purpose::HessianVector);
             pipeline::derive(model, &wanted)
         }
         result => result,
     };
-    let (message, help) = match refusal {
+    match derived {
         Ok(program) => return Some(program),
-        Err(Refusal::TooLarge { operations }) => {
-            too_large(checked, operations, report);
-            return None;
-        }
-        Err(Refusal::TooManyLoops) => (
+        Err(Refusal::TooLarge { operations }) => too_large(checked, operations, report),
+        Err(Refusal::TooManyLoops) => report.error(
+            definition(checked),
             format!("derivatives of this system need more than {LOOPS} loops"),
-            SHARE_LOOPS.to_owned(),
+            SHARE_LOOPS,
         ),
-        Err(Refusal::Internal { fault }) => {
-            report.internal(definition(checked), &fault);
-            return None;
-        }
+        Err(Refusal::Internal { fault }) => report.internal(definition(checked), &fault),
         Err(Refusal::OutOfRange { number }) => {
-            blame::number(checked, number.as_ref(), beyond, report);
-            return None;
+            blame::number(checked, number.as_ref(), frame.beyond, report);
         }
         Err(Refusal::NoSecondDerivative { .. }) => {
             blame::second_derivatives(checked, model, &wanted, report);
-            return None;
         }
-    };
-    report.error(definition(checked), message, help);
+    }
     None
 }
 

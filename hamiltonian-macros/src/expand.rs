@@ -79,7 +79,7 @@ fn conditional(definition: &TokenStream) -> Option<(Vec<TokenStream>, TokenStrea
         && hash.as_char() == '#'
     {
         let attribute: TokenStream = trees.by_ref().take(2).collect();
-        if is_condition(&attribute) {
+        if is_called(&attribute, "cfg") {
             conditions.push(attribute);
         } else {
             rest.push(attribute);
@@ -94,13 +94,13 @@ fn conditional(definition: &TokenStream) -> Option<(Vec<TokenStream>, TokenStrea
     (is_item && !conditions.is_empty()).then(|| (conditions, rest.into_iter().collect()))
 }
 
-/// `#[cfg(…)]`, whose inside may come from another macro.
-fn is_condition(attribute: &TokenStream) -> bool {
+/// Whether an attribute, whose inside may come from another macro, has this name.
+pub fn is_called(attribute: &TokenStream, name: &str) -> bool {
     let mut inside = attribute.clone().into_iter().nth(1);
     while let Some(TokenTree::Group(group)) = inside {
         inside = group.stream().into_iter().next();
     }
-    matches!(inside, Some(TokenTree::Ident(word)) if word == "cfg")
+    matches!(inside, Some(TokenTree::Ident(word)) if word == name)
 }
 
 /// Separates the path of the library, `($crate)`, from the definition.

@@ -8,6 +8,7 @@
 //! fields, one of whose const arguments is the last `compile_error!`.
 
 use crate::ast::{Ast, Item, ParameterKind};
+use crate::expand::is_called;
 use crate::names;
 use crate::report::Report;
 use proc_macro2::{Ident, TokenStream};
@@ -39,27 +40,25 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
         attributes,
         ..
     } = item;
-    let docs = attributes.iter().filter(|attribute| is_doc(attribute));
+    let docs = attributes
+        .iter()
+        .filter(|attribute| is_called(attribute, "doc"));
     let hidden = format_ident!("__{name}", span = name.span());
-    // A bad header may repeat a name, or name something by a keyword; the stub must not.
-    let sizes = distinct(item.generics.iter().filter(|name| is_name(name)));
-    let mut seen: Vec<&Ident> = Vec::new();
-    let mut scalar = false;
-    let mut fields = Vec::new();
-    for parameter in &item.parameters {
-        if seen.contains(&&parameter.name) || !is_name(&parameter.name) {
-            continue;
-        }
-        seen.push(&parameter.name);
+    let sizes = distinct(&item.generics, |name| name);
+    let parameters = distinct(&item.parameters, |parameter| &parameter.name);
+    let is_number = |kind: &ParameterKind| !matches!(kind, ParameterKind::Size);
+    let scalar = parameters
+        .iter()
+        .any(|parameter| is_number(&parameter.kind));
+    let fields = parameters.iter().map(|parameter| {
         let field = &parameter.name;
         let ty = match parameter.kind {
             ParameterKind::Size => quote!(usize),
             ParameterKind::Scalar(_) => quote!(__P),
             ParameterKind::Array(..) => quote!([__P; __ERROR]),
         };
-        scalar |= !matches!(parameter.kind, ParameterKind::Size);
-        fields.push(quote!(#visibility #field: #ty));
-    }
+        quote!(#visibility #field: #ty)
+    });
     let parameter = scalar.then(|| quote!(__P,));
     let with_default = scalar.then(|| quote!(__P = f64,));
     quote! {
@@ -78,23 +77,13 @@ fn is_name(name: &Ident) -> bool {
     !names::is_rust_keyword(&name.to_string())
 }
 
-fn distinct<'a>(names: impl Iterator<Item = &'a Ident>) -> Vec<&'a Ident> {
-    let mut seen: Vec<&Ident> = Vec::new();
-    for name in names {
-        if !seen.contains(&name) {
-            seen.push(name);
+/// The items that a stub may have: a bad header may repeat a name, or name something by a keyword.
+fn distinct<T>(items: &[T], name: impl Fn(&T) -> &Ident) -> Vec<&T> {
+    let mut seen: Vec<&T> = Vec::new();
+    for item in items {
+        if is_name(name(item)) && !seen.iter().any(|other| name(other) == name(item)) {
+            seen.push(item);
         }
     }
     seen
-}
-
-fn is_doc(attribute: &TokenStream) -> bool {
-    let inner = attribute.clone().into_iter().nth(1);
-    match inner {
-        Some(proc_macro2::TokenTree::Group(group)) => match group.stream().into_iter().next() {
-            Some(proc_macro2::TokenTree::Ident(word)) => word == "doc",
-            _ => false,
-        },
-        _ => false,
-    }
 }

@@ -2,7 +2,7 @@
 //! over all, or leaves them out.
 //!
 //! Input: momenta and masses of element k in 0..rows. Output: the same in a form that shows whose
-//! velocities they depend on, and the elements where a mass is 0. Invariant: what is rewritten has
+//! velocities they depend on, and the elements where a mass is 0. Invariant: a rewritten expression has
 //! the same value for every k in 0..rows and all sizes; an element is said to have no mass only if
 //! that is proven for it at some sizes.
 
@@ -16,7 +16,7 @@ use crate::rational::Rational;
 /// Numbers up to this one are told from others where sizes are tried.
 const LARGEST: i64 = 64;
 
-/// Where `index = k`, the elements of these arrays at that index are their elements k.
+/// Under a condition `index = k`, elements of these arrays at `index` are written as their elements k.
 pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array]) -> Node {
     let own = Index::plain(Affine::variable(k));
     dag.substitute(root, |dag, node| {
@@ -152,7 +152,7 @@ pub(super) fn zero_at(model: &Model, entry: Node, k: Domain) -> Option<Affine> {
     None
 }
 
-/// Whether the expression for one k is that for another but for the names of what it reads.
+/// Whether the expression for one k is that for another but for the names of the elements it reads.
 fn is_the_same_for_all(dag: &Dag, root: Node, k: Domain) -> bool {
     let bit = 1u64 << k.0;
     if dag.variables(root) & bit == 0 {

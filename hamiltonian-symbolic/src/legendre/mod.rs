@@ -36,7 +36,7 @@ pub struct Component {
     pub value: Node,
 }
 
-/// What a Lagrangian becomes.
+/// The Hamiltonian of a Lagrangian, with the maps between velocities and momenta.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Legendre {
     /// H(q, p, t): momentum elements are momenta.

@@ -34,7 +34,7 @@ pub fn field(dag: &mut Dag, leaves: &[(Node, Node)], array: Array, rows: &Affine
     (!dag.has_too_many_loops()).then_some(sum)
 }
 
-/// The sum of what all iterations of `chain` add to element k.
+/// The sum of the contributions of all iterations of `chain` to element k.
 fn gather(
     dag: &mut Dag,
     row: &Index,

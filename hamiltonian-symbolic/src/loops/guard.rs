@@ -10,7 +10,7 @@ use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
 /// The expression with safe indices; `None` where a loop under a condition may start below 0, for
-/// which there is no such remedy. What is safe already is left as it is: indices that somebody wrote
+/// which there is no such remedy. Safe indices are left as they are: indices that an author wrote
 /// are in range whatever the conditions around them.
 pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) -> Option<Node> {
     let nodes = model.dag.reachable(&[root]);
@@ -59,7 +59,7 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
     Some(new[&root])
 }
 
-/// How many rows and columns an array has; nothing of what has no such index.
+/// The rows and columns of an array; `None` for an index that it does not have.
 fn extents(model: &Model, array: Array) -> (Option<Affine>, Option<Affine>) {
     match model.shape(array) {
         Shape::Scalar => (None, None),

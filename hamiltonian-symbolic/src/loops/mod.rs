@@ -1,7 +1,7 @@
 //! Loops taken apart: a walk over an expression with its loops run at given sizes, numbers at
 //! sample points, and the same system unrolled.
 //!
-//! Input: a model and sizes. Output: values or another model. Invariant: what is found at sizes
+//! Input: a model and sizes. Output: values or another model. Invariant: values at sizes
 //! chosen here may refute a statement about all sizes, never prove one.
 
 pub mod field;

@@ -16,7 +16,7 @@ use std::hash::{Hash, Hasher};
 pub struct Sampled {
     /// The value; NaN outside the expression's domain or on the edge of a condition.
     pub value: f64,
-    /// How far it may be from the exact one.
+    /// The bound of its distance from the exact value.
     pub error: f64,
 }
 
@@ -28,7 +28,7 @@ impl Sampled {
     }
 }
 
-/// How a sample point is chosen.
+/// The choice of a sample point.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Sample {
     /// Different seeds give different points.

@@ -1,6 +1,6 @@
 //! A walk over an expression that runs its loops.
 //!
-//! Input: an arena, roots, sizes, and what nodes mean ([`Meaning`]). Output: the meaning of the
+//! Input: an arena, roots, sizes, and the [`Meaning`] of nodes. Output: the meaning of the
 //! roots. Invariant: a node is visited once for each iteration of the innermost loop it depends
 //! on, children first; the walk recurses only into nested loops.
 
@@ -22,11 +22,11 @@ pub(crate) trait Meaning {
     ) -> Self::Value;
     /// The meaning of a sum over a loop, given its iterations'.
     fn total(&mut self, parts: Vec<Self::Value>) -> Self::Value;
-    /// Whether to stop: what has not been visited gets no meaning.
+    /// Whether to stop: nodes that were not visited get no meaning.
     fn is_done(&self) -> bool;
 }
 
-/// Where a walk stands: the values of sizes and loop variables.
+/// The place of a walk: the values of sizes and loop variables.
 #[derive(Clone, Debug)]
 pub(crate) struct Place {
     sizes: Vec<i64>,
@@ -57,7 +57,7 @@ impl Place {
     pub(crate) fn size(&self, size: Size) -> i64 {
         self.sizes[usize::from(size.0)]
     }
-    /// How often a loop runs from here.
+    /// The number of iterations of a loop from here.
     pub(crate) fn count(&self, dag: &Dag, domain: Domain) -> i64 {
         let range = dag.range(domain);
         (self.affine(&range.end) - self.affine(&range.start)).max(0)
@@ -72,7 +72,7 @@ struct Walk<'a, M: Meaning> {
     blocks: Map<Node, Rc<[Node]>>,
 }
 
-/// The meanings of the roots, and the meaning itself with what it gathered; `None` where the walk
+/// The meanings of the roots, and the meaning itself with its findings; `None` where the walk
 /// was stopped.
 pub(crate) fn walk<M: Meaning>(
     dag: &Dag,

@@ -66,7 +66,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
     let (mut is_large, mut length) = (is_large, 0);
     if !is_large {
         for (leaf, value) in diff::gradient(&mut model.dag, h, what) {
-            // What differentiation multiplies one after another is one product to a reader.
+            // Factors that differentiation multiplies one after another are one product to a reader.
             let value = model.dag.rebuilt(value);
             leaves.push((leaf, value));
             length = written_length(model, value).saturating_add(length);
@@ -169,7 +169,7 @@ impl Row {
     }
 }
 
-/// What is on the left side of an equation, and the sign of the derivative on the right.
+/// The left side of an equation, and the sign of the derivative on the right.
 #[derive(Clone, Debug)]
 struct Derivative {
     at: Column,
@@ -197,7 +197,7 @@ impl Derivative {
                     for (k, term) in terms {
                         let k = k.neg();
                         match dag.kind(term).clone() {
-                            // Nor is a condition negated, but what it selects.
+                            // Nor is a condition negated, but its branches are.
                             Kind::Select(condition, yes, no) => {
                                 let (yes, no) = (dag.scale(&k, yes), dag.scale(&k, no));
                                 negated.push((Rational::ONE, dag.select(condition, yes, no)));

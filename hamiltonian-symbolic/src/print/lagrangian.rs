@@ -2,7 +2,7 @@
 //!
 //! Input: the model after the Legendre transform, and how it was made. Output: [`Readable`].
 //! Invariants: the formulas are equal to those computed, but for reading: common denominators,
-//! determinants and what elimination leaves by a name of their own; where the mass matrix depends
+//! determinants and the rows that elimination leaves have names of their own; where the mass matrix depends
 //! on coordinates, dp/dt is ∂L/∂q in the velocities, as one would write it. Nothing here is
 //! computed with.
 
@@ -15,7 +15,7 @@ use crate::legendre::{Legendre, Mass};
 use crate::model::{Model, ParameterDeclaration, Shape};
 use crate::rational::Rational;
 
-/// How the equations of motion are written.
+/// The form of the equations of motion.
 #[derive(Debug)]
 enum Motion {
     /// q̇ and ṗ of each coordinate, where ∂H/∂q would read worse than ∂L/∂q.
@@ -31,7 +31,7 @@ enum Motion {
 pub struct Readable {
     /// The model with its abbreviations as further parameters.
     model: Model,
-    /// Names of parts of H, each with what it stands for, in the order they are needed.
+    /// Names of parts of H, each with its expression, in the order they are needed.
     names: Vec<(Node, Node)>,
     /// H.
     hamiltonian: Node,
@@ -113,7 +113,7 @@ impl Readable {
         formula
     }
 
-    /// What the names in H stand for, one a line.
+    /// The names in H with their expressions, one a line.
     fn abbreviations(&self, notation: Notation) -> Vec<String> {
         let write = |node| super::write(&self.model, node, notation);
         let lines = self.names.iter();
@@ -122,7 +122,7 @@ impl Readable {
             .collect()
     }
 
-    /// Hamilton's equations one a line, then what the names in them stand for. `None` where they
+    /// Hamilton's equations one a line, then the expressions of the names in them. `None` where they
     /// read no better than from the H that is computed.
     #[must_use]
     pub fn equations(&self, notation: Notation) -> Option<Vec<String>> {
@@ -237,7 +237,7 @@ impl Readable {
         quotient(dag, &Rational::new(1, 2), energy, determinant)
     }
 
-    /// Three and more: row by row, what elimination leaves by names.
+    /// Three and more coordinates: the rows that elimination leaves have names.
     fn eliminated(
         &mut self,
         mass: &Mass,
@@ -270,7 +270,7 @@ impl Readable {
                     (matrix[j][k], matrix[k][j]) = (entry, entry);
                 }
             }
-            // What is left of the next row is used often: it gets its names now.
+            // The rest of the next row is used often: its entries get names now.
             if let Some((&j, after)) = order.get(at + 1).map(|j| (j, &order[at + 2..])) {
                 for &k in after {
                     let name = format!(
@@ -353,7 +353,7 @@ impl Readable {
         self.model.dag.parameter(parameter)
     }
 
-    /// What distinguishes the names that belong to an element.
+    /// The suffix of names that belong to an element.
     fn suffix(&self, element: Node) -> String {
         let Some((column, row)) = self.model.dag.phase_place(element) else {
             return String::new();

@@ -1,7 +1,7 @@
 //! LaTeX.
 //!
 //! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
-//! Greek letters become the letters, what follows `_` or trailing digits become subscripts.
+//! Greek letters become the letters; trailing digits and words after `_` become subscripts.
 
 use super::layout::{Level, Piece, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
@@ -99,7 +99,7 @@ fn parts(value: &Rational) -> (String, String) {
     }
 }
 
-/// How tightly a call holds together.
+/// The level of a call.
 pub(super) fn call_level(op: Op) -> Level {
     if matches!(op, Op::Pow | Op::Exp) {
         Level::Power

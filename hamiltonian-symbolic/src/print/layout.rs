@@ -1,4 +1,4 @@
-//! What both notations have in common: the order of pieces, parentheses, signs, the parts of a
+//! The layout of both notations: the order of pieces, parentheses, signs, the parts of a
 //! product, the loops around a place.
 //!
 //! Input: a node. Output: pieces, written one after another from an explicit stack, so that depth
@@ -12,10 +12,10 @@ use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, Shape};
 use crate::rational::Rational;
 
-/// What is left of an expression past this many bytes is written as an ellipsis.
+/// The rest of an expression past this many bytes is written as an ellipsis.
 const LONGEST: usize = 16_384;
 
-/// How tightly an expression holds together, loosest first.
+/// The precedence of an expression, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Level {
     /// `if`, `||`
@@ -36,7 +36,7 @@ pub(super) enum Level {
     Atom,
 }
 
-/// What the writer has on its stack.
+/// An entry of the writer's stack.
 #[derive(Clone, Debug)]
 pub(super) enum Piece {
     /// As it stands.
@@ -235,7 +235,7 @@ impl<'a> Writer<'a> {
         pieces
     }
 
-    /// How tightly a node holds together as it is written.
+    /// The precedence of a node as it is written.
     pub(super) fn level(&self, node: Node) -> Level {
         match self.dag().kind(node) {
             Kind::Constant(value) if value.is_negative() => Level::Unary,

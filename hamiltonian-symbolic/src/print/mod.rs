@@ -1,8 +1,7 @@
 //! Expressions as people read them: text in the language's own notation, and LaTeX.
 //!
-//! Input: a model and a node of its arena. Output: text. Invariant: [`text`] of an expression the
-//! language can say is what the language reads back as the same expression (up to the order of
-//! evaluation); sums and products keep the order they were written in.
+//! Input: a model and a node of its arena. Output: text. Invariant: the language reads [`text`] of an
+//! expression that it can say back as the same expression (up to the order of evaluation); sums and products keep the order they were written in.
 
 mod equations;
 mod lagrangian;
@@ -30,13 +29,13 @@ pub enum Notation {
     Latex,
 }
 
-/// A node in the language's own notation. Past some 16 000 characters what is left is written `…`.
+/// A node in the language's own notation. Past some 16 000 characters the rest is written `…`.
 #[must_use]
 pub fn text(model: &Model, node: Node) -> String {
     write(model, node, Notation::Text)
 }
 
-/// A node in LaTeX, without the dollar signs. Past some 16 000 characters what is left is written
+/// A node in LaTeX, without the dollar signs. Past some 16 000 characters the rest is written
 /// `\dots`.
 #[must_use]
 pub fn latex(model: &Model, node: Node) -> String {

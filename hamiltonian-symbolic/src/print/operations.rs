@@ -1,6 +1,6 @@
 //! Counts of operations with the loops they stand in.
 //!
-//! Input: a model and a function of its program. Output: one [`Count`] for what is done once, one
+//! Input: a model and a function of its program. Output: one [`Count`] for operations that are done once, one
 //! for each loop in which anything is done. Invariant: added up they are the operations of the
 //! function, each loop body counted once.
 

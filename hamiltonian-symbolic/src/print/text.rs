@@ -13,7 +13,7 @@ pub(super) fn number(value: &Rational) -> String {
     value.to_text()
 }
 
-/// How tightly a call holds together.
+/// The level of a call.
 pub(super) fn call_level(op: Op) -> Level {
     if op == Op::Pow {
         Level::Power

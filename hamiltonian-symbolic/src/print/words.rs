@@ -1,13 +1,13 @@
 //! The words of both notations.
 //!
-//! Input: a notation. Output: [`Words`]. Invariant: what both notations write in the same order
-//! differs in these words alone.
+//! Input: a notation. Output: [`Words`]. Invariant: expressions that both notations write in the
+//! same order differ in these words alone.
 
 use super::Notation;
 use super::layout::Level;
 use crate::dag::Relation;
 
-/// What a notation writes between the parts of an expression.
+/// The words between the parts of an expression.
 #[derive(Debug)]
 pub(super) struct Words {
     pub(super) pi: &'static str,
@@ -21,10 +21,10 @@ pub(super) struct Words {
     pub(super) not: &'static str,
     pub(super) and: &'static str,
     pub(super) or: &'static str,
-    /// How tightly the body of a sum over a loop must hold together, and what ends it.
+    /// The least precedence of the body of a sum over a loop, and the word that ends it.
     pub(super) body: Level,
     pub(super) end: &'static str,
-    /// What is left out.
+    /// The sign of an omission.
     pub(super) ellipsis: &'static str,
     pub(super) modulo: &'static str,
     /// Between a number and the name of a loop or a size.

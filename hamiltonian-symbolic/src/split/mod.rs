@@ -94,17 +94,17 @@ pub struct Piece {
 pub struct Splitting {
     /// The pieces.
     pub pieces: Vec<Piece>,
-    /// How it was chosen; `None` for one by hand.
+    /// The reasons of the choice; `None` for one by hand.
     pub choice: Option<Reasons>,
 }
 
-/// How a splitting was chosen.
+/// The reasons for a splitting.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Reasons {
     /// max|H − H₀| of the composition of second order with step 1/10, the mean of four short orbits
     /// from points near unit size; NaN where none could be followed.
     pub error: f64,
-    /// How many splittings and orders were compared.
+    /// The number of splittings and orders that were compared.
     pub among: usize,
     /// Whether every piece keeps every declared invariant (of which there is at least one).
     pub keeps_invariants: bool,

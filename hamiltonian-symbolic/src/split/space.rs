@@ -56,11 +56,11 @@ pub(crate) struct Space {
     pub(super) atoms: Map<(Node, Node), Option<(Motion, &'static str)>>,
     /// Whether a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
-    /// How many questions may still be asked.
+    /// The number of questions that are left.
     tests: usize,
-    /// How many products the normal form may still take.
+    /// The number of products that are left to the normal form.
     products: usize,
-    /// Where the arena ends that is the search's.
+    /// The largest size of the arena in this search.
     last: usize,
 }
 

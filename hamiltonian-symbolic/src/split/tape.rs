@@ -25,9 +25,9 @@ enum Step {
 /// Nodes as operations.
 pub(super) struct Tape {
     steps: Vec<Step>,
-    /// How many of them depend on no variable.
+    /// The number of those that depend on no variable.
     fixed: usize,
-    /// Where the values of the roots are.
+    /// The places of the roots' values.
     pub(super) results: Vec<usize>,
 }
 
@@ -86,7 +86,7 @@ impl Tape {
         })
     }
 
-    /// How many operations a run takes.
+    /// The number of operations of a run.
     pub(super) fn len(&self) -> usize {
         self.steps.len() - self.fixed
     }

@@ -168,7 +168,7 @@ impl Bodies {
                 let relative = dag.select(is_first, zero, own);
                 dag.add(&[first, relative])
             }
-            // The sum over the others stands beside the choice, not in it: what it is does not
+            // The sum over the others stands beside the choice, not in it: its value does not
             // depend on the row.
             Side::P => {
                 let one = dag.integer(1);

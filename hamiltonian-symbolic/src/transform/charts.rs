@@ -18,8 +18,8 @@ pub struct Component {
     pub row: Option<u32>,
 }
 
-/// The number of what is to stand in the place of a group of bodies, less the number of the group: what
-/// is carried may read it before the change. A model has at most so many groups.
+/// The number of the group that is to replace a group of bodies, less the number of that group: nodes that
+/// are carried may read it before the change. A model has at most so many groups.
 pub const REPLACING: u16 = 1 << 15;
 
 /// Positions `[N]` or `[N][d]` and masses `[N]`; d is literal, and N for Jacobi coordinates.
@@ -122,7 +122,7 @@ pub(super) struct Formulas {
     to_new: &'static str,
     /// Sine and cosine of each angle, by name.
     angles: &'static [(&'static str, &'static str)],
-    /// Names of what is > 0.
+    /// Names of expressions that are > 0.
     positive: &'static [&'static str],
 }
 

@@ -31,7 +31,7 @@ pub struct Transformed {
     pub inverse: Vec<VectorEntry>,
     /// Groups that no chart replaces: their numbers in `source` and in `model`.
     pub kept: Vec<(u16, u16)>,
-    /// Where the old variables stand when a state of the new shape holds them: each element of
+    /// The places of the old variables in a state of the new shape: each element of
     /// phase space once. [`Transformed::forward_placed`] reads them there.
     pub places: Vec<Placement>,
     bodies: Vec<Bodies>,
@@ -135,7 +135,7 @@ pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
 }
 
 impl Transformed {
-    /// Where an element of the old variables stands among the new ones.
+    /// The place of an element of the old variables among the new ones.
     fn place(&self, at: Column, row: &Index) -> (Column, Index) {
         let number = row.affine.as_constant().map(|row| row as u32);
         for place in &self.places {

@@ -100,7 +100,7 @@ impl Layout {
                 }
             }
         }
-        // Old names go, so they may come back: what is left must not meet what is new.
+        // Old names go, so they may come back: names that are kept must differ from new ones.
         let mut left = model.clone();
         left.groups = kept
             .iter()
@@ -242,7 +242,7 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
         }
         Replaced::Bodies(bodies) => {
             let shape = &model.groups[usize::from(bodies.group)].shape;
-            // Where their number is not literal there are no blocks: `bodies` maps them in loops.
+            // Bodies of any number have no blocks: `bodies` maps them in loops.
             let Some((rows, columns)) = shape.literal() else {
                 return Vec::new();
             };
@@ -256,7 +256,7 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
     }
 }
 
-/// Where the old variables of a chart stand among its new ones.
+/// The places of a chart's old variables among its new ones.
 pub(super) fn placements(model: &Model, chart: &Chart, first: u16) -> Vec<Placement> {
     match chart.replaced() {
         Replaced::Scalars(_, components) => {

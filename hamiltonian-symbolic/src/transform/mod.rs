@@ -3,8 +3,8 @@
 //!
 //! Input: a [`Model`](crate::model::Model) with its H. Output: a model of the same dynamics in other variables, with
 //! the maps between them as nodes. Invariant: signs stay q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order of the
-//! stages is coordinates, then time, and what is declared beside H (observables, pieces, forces,
-//! the factor of time) is written in the variables of the definition and carried through both.
+//! stages is coordinates, then time, and declarations beside H (observables, pieces, forces,
+//! the factor of time) are written in the variables of the definition and carried through both.
 
 mod bodies;
 pub mod charts;
@@ -33,14 +33,14 @@ pub enum Refusal {
     NameTaken {
         /// The name that is there twice.
         name: String,
-        /// What would introduce it: `polar`.
+        /// The chart that would introduce it: `polar`.
         by: &'static str,
     },
     /// A coordinate is not of the shape the chart is for.
     Shape {
         /// The coordinate.
         coordinate: String,
-        /// What is asked for.
+        /// The shape that is asked for.
         wanted: &'static str,
     },
     /// A coordinate of the chart is replaced in part only, or twice.

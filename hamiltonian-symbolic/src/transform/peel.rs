@@ -23,7 +23,7 @@ pub(super) struct Below {
 }
 
 impl Below {
-    /// What the number of rows of bodies says.
+    /// The sizes that count bodies are positive.
     pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
         let rows = bodies.iter().filter_map(|b| {
             let rows = model.groups[usize::from(b.old)].shape.rows()?;
@@ -52,7 +52,7 @@ impl Below {
     }
 }
 
-/// What is done with a loop.
+/// The next change of a loop.
 enum Step {
     /// Unrolled.
     Unroll(i64, i64),
@@ -129,7 +129,7 @@ fn read(dag: &Dag, node: Node) -> Option<(u16, &Index)> {
         .map(|(column, row)| (column.group, row))
 }
 
-/// The next loop to peel, the outermost first: what is inside may then be peeled too.
+/// The next loop to peel, the outermost first: loops inside it may be peeled after it.
 fn candidate(
     dag: &Dag,
     roots: &[Node],

@@ -23,12 +23,12 @@ const ANGLES: usize = 3;
 
 type Factors = Vec<(Node, i32)>;
 
-/// What the charts know.
+/// Identities that hold on the charts.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rules {
     /// Sines and cosines of one angle each.
     pub(super) angles: Vec<(Node, Node)>,
-    /// What is > 0 on the chart.
+    /// Nodes that are > 0 on the chart.
     pub(super) positive: Vec<Node>,
     /// m, M, M′ with m = M − M′, all > 0.
     pub(super) masses: Vec<(Node, Node, Node)>,
@@ -168,7 +168,7 @@ impl Reducer<'_> {
         }
     }
 
-    /// How many terms a node has when multiplied out, without collecting.
+    /// The number of terms of a node when it is multiplied out, without collecting.
     fn width(&mut self, dag: &Dag, root: Node) -> u64 {
         let nodes = dag.reached(&[root], |node, ahead| match dag.kind(node) {
             Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..)

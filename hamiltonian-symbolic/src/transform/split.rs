@@ -1,6 +1,6 @@
-//! What is declared beside H and must fit it: the pieces of a split, the components of a force.
+//! The check of a declared split: its pieces add up to H.
 //!
-//! Input: a model with its H, and nodes. Output: nothing, or what does not fit. Invariant: a split
+//! Input: a model with its H, and nodes. Output: nothing, or the difference. Invariant: a split
 //! that passes adds up to H, proven by the normal form; where that does not decide, the difference
 //! is reported as it is, never passed on trust.
 
@@ -23,7 +23,7 @@ pub struct Difference {
     /// A point where it is not 0, and its value there; `None` where no point was found, so that
     /// the question is undecided.
     pub point: Option<(Point, f64)>,
-    /// Where there is no point, the rule or the limit that stopped the proof: a clause.
+    /// The rule or the limit that stopped the proof, as a clause; empty beside a point.
     pub why: String,
 }
 
@@ -37,7 +37,7 @@ pub fn check_split(model: &mut Model, pieces: &[Node]) -> Result<(), Box<Differe
     let mut terms = vec![(Rational::ONE, h)];
     terms.extend(pieces.iter().map(|piece| (Rational::MINUS_ONE, *piece)));
     let difference = model.dag.linear(&Rational::ZERO, &terms);
-    // Multiplied out first, so that the point names only what the difference depends on.
+    // Multiplied out first, so that the point names only variables of the difference.
     let node = multiplied_out(&mut model.dag, difference);
     let parts: Vec<Node> = terms.iter().map(|(_, part)| *part).collect();
     let point = match normal_form::is_zero_where(model, node, &parts) {

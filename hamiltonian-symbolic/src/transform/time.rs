@@ -192,7 +192,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
     let mut bracket: Vec<(Rational, Node)> = Vec::new();
     let mut stack = vec![(Rational::ONE, h)];
     while let Some((k, node)) = stack.pop() {
-        // What nothing cancels in keeps its grouping.
+        // A node without cancellation keeps its grouping.
         if !meets(dag, node, &factors) {
             bracket.push((k, node));
             continue;

@@ -1,7 +1,7 @@
 //! Whether a system in new coordinates is the system it was.
 //!
 //! Input: a [`Transformed`]. Output: nothing, or the point where they differ. Invariant: the points
-//! are the same on every machine; agreement at points is no proof, and what is looked for is a slip
+//! are the same on every machine; agreement at points is no proof. The check looks for a slip
 //! of the engine, which any point shows.
 
 use super::Refusal;
@@ -12,7 +12,7 @@ use crate::index::Affine;
 use crate::loops::{self, Sample, Signs};
 use crate::model::{Model, VectorEntry};
 
-/// How many points [`check`] compares at certain sizes,
+/// The number of points that [`check`] compares at certain sizes,
 const POINTS: usize = 3;
 /// of how many it tries for that.
 const TRIES: u64 = 9;
@@ -29,7 +29,7 @@ const CLOSE: f64 = 1e-8;
 ///
 /// # Errors
 /// [`Refusal::Unverified`] with the first point where they differ; [`Refusal::Uncompared`] where
-/// there is none to compare at: what was not looked at is not called checked.
+/// there is no point to compare at.
 pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     let old = &transformed.source;
     let old_roots = old.functions();
@@ -72,7 +72,7 @@ fn choices(count: usize) -> impl Iterator<Item = Vec<i64>> {
         .chain(in_line.chain(all).filter(|sizes| !sizes.is_empty()))
 }
 
-/// How many points were compared at these sizes.
+/// The number of points that were compared at these sizes.
 fn check_at(
     transformed: &Transformed,
     old_roots: &[Node],
@@ -104,12 +104,12 @@ fn check_at(
         };
         let mut random = seed;
         let mut given: Vec<(Node, f64)> = Vec::new();
-        // Where H has no value at the first points it may have one further out or in.
+        // If H has no value at the first points it may have one further out or in.
         let further = seed.saturating_sub(POINTS as u64) as i32;
         let scale = 4f64.powi(if further % 2 == 0 { further } else { -further });
         for &(side, slot) in &new_slots {
             let node = slot.node(&mut new.dag, side);
-            // Between 1/4 and 9/4: inside every chart as it is; what need not be positive is of
+            // Between 1/4 and 9/4: inside every chart as it is. Other variables are of
             // either sign. A sine that must be positive is that of the second coordinate.
             let size = 0.25 + 2.0 * fraction(&mut random);
             let flip = fraction(&mut random) < 0.5;

@@ -9,7 +9,7 @@ use crate::split::motion::Motion;
 use crate::split::solve::flow;
 use crate::split::space::Space;
 
-/// How far χ + atan2((C − k)·sinχ·cosχ, k·cos²χ + C·sin²χ) grows from χ₀ to χ₁: a continuous branch of
+/// The growth of χ + atan2((C − k)·sinχ·cosχ, k·cos²χ + C·sin²χ) from χ₀ to χ₁: a continuous branch of
 /// atan2(C·sinχ, k·cosχ), with the difference C − k given by itself.
 pub(super) const SWEPT: &str = "\
     angle0 = chi0 + atan2(less*sin(chi0)*cos(chi0), k*cos(chi0)^2 + C*sin(chi0)^2); \

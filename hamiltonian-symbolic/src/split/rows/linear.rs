@@ -84,7 +84,7 @@ pub(super) fn solve(space: &mut Space, axes: Axes, k: Node, s: Node) -> Option<M
             if space.sign(big) == Some(1) {
                 names.read(space.dag(), "x1 = x + 2*turn/a")?;
             } else {
-                // Where x goes round, the angle is counted from that of an even turn.
+                // If x goes round, the angle is counted from that of an even turn.
                 names.read(
                     space.dag(),
                     "w = pick(D < 0, sqrt(0 - D)*s*sign(f)/2, 0); sw = sin(w); cw = cos(w); \

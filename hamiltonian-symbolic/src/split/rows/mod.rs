@@ -62,7 +62,7 @@ impl Axes {
     }
 }
 
-/// Where x and y go.
+/// The images of x and y.
 #[derive(Clone, Debug)]
 pub(crate) struct Moved {
     pub(crate) x: Node,
@@ -71,7 +71,7 @@ pub(crate) struct Moved {
     pub(crate) domain: Vec<Node>,
 }
 
-/// How a row finds the flow of its pattern.
+/// The solver of a row.
 #[derive(Clone, Copy)]
 pub(crate) enum Solve {
     /// Of K(x, y) of one pair and parameters.
@@ -88,9 +88,9 @@ pub struct Row {
     pub name: &'static str,
     /// The Hamiltonian.
     pub pattern: &'static str,
-    /// Where the flow exists.
+    /// The domain of the flow.
     pub domain: &'static str,
-    /// Where the flow is from.
+    /// The source of the flow.
     pub source: &'static str,
     pub(crate) solve: Solve,
 }

@@ -11,6 +11,6 @@ pub mod unroll;
 mod walk;
 
 pub use guard::guarded;
-pub use numeric::{Point, Sample, Sampled, Signs, is_in_range, sample};
+pub use numeric::{Point, Sample, Sampled, Signs, sample};
 pub(crate) use numeric::{Values, product, sum};
 pub use unroll::{unroll, unroll_nodes, unrolled};

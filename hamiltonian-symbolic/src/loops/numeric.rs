@@ -6,7 +6,7 @@
 
 use super::walk::{Meaning, Place, walk};
 use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
-use crate::model::{Model, Shape};
+use crate::model::Model;
 use crate::op::Op;
 use crate::rational::Rational;
 use std::hash::{Hash, Hasher};
@@ -96,14 +96,6 @@ pub fn sample(
     Some((values?, numbers.point))
 }
 
-/// Whether every index is in range at these sizes; not if a loop runs too long to tell.
-#[must_use]
-pub fn is_in_range(model: &Model, roots: &[Node], sizes: &[i64]) -> bool {
-    let meaning = Numbers::new(model, Sample::default());
-    let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
-    values.is_some() && numbers.is_in_range
-}
-
 /// Values at one sample point of nodes without loops, each computed once. Every size is 3.
 #[derive(Debug)]
 pub(crate) struct Values {
@@ -153,7 +145,6 @@ struct Numbers<'a> {
     read: Map<(Array, i64, i64), ()>,
     point: Point,
     visits: usize,
-    is_in_range: bool,
 }
 
 impl<'a> Numbers<'a> {
@@ -166,7 +157,6 @@ impl<'a> Numbers<'a> {
             read: Map::default(),
             point: Vec::new(),
             visits: 0,
-            is_in_range: true,
         }
     }
 
@@ -235,16 +225,6 @@ impl<'a> Numbers<'a> {
         }
         value
     }
-}
-
-/// Whether an array has that element.
-fn is_within(model: &Model, array: Array, (row, column): (i64, i64), place: &Place) -> bool {
-    let (rows, columns) = match model.shape(array) {
-        Shape::Scalar => (1, 1),
-        Shape::Vector(rows) => (place.affine(&rows), 1),
-        Shape::Matrix(rows, columns) => (place.affine(&rows), place.affine(&columns)),
-    };
-    (0..rows).contains(&row) && (0..columns).contains(&column)
 }
 
 const UNIT: f64 = f64::EPSILON / 2.0;
@@ -378,7 +358,6 @@ impl Meaning for Numbers<'_> {
                     place.index(row),
                     column.as_ref().map_or(0, |c| place.index(c)),
                 );
-                self.is_in_range &= is_within(self.model, *array, (row, column), place);
                 exact(self.element(*array, row, column))
             }
             Kind::Sum(c, terms) => {

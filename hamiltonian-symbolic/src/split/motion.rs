@@ -77,6 +77,17 @@ impl Motion {
         self.moves.iter().fold(0, |set, m| set | space.set(m.leaf))
     }
 
+    /// The same motion in other variables.
+    pub(crate) fn map(mut self, mut image: impl FnMut(Node) -> Node) -> Motion {
+        for m in &mut self.moves {
+            (m.leaf, m.value) = (image(m.leaf), image(m.value));
+        }
+        for condition in &mut self.domain {
+            *condition = image(*condition);
+        }
+        self
+    }
+
     /// This motion, then another.
     pub(crate) fn then(mut self, space: &mut Space, other: &Motion) -> Motion {
         let images = self.images(space.dag());

@@ -5,7 +5,6 @@
 //! terms of one site are exact in any order, terms that join sites are swept one way down and the
 //! other way up.
 
-use super::motion::{Motion, Move};
 use super::space::Space;
 use super::units::{Term, terms};
 use super::{ExactFlow, Piece};
@@ -245,19 +244,8 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
         let h = around(&mut model.dag, &site.chain, part);
         let flow = match flow {
             ExactFlow::Closed(motion, rows) => {
-                let mut moves = Vec::with_capacity(motion.moves.len());
-                for m in motion.moves {
-                    moves.push(Move {
-                        leaf: back.get(&m.leaf).copied().unwrap_or(m.leaf),
-                        value: over(&mut model.dag, m.value, &back),
-                        added: m.added,
-                    });
-                }
-                let mut domain: Vec<Node> = condition.into_iter().collect();
-                for holds in motion.domain {
-                    domain.push(over(&mut model.dag, holds, &back));
-                }
-                let motion = Motion { moves, domain };
+                let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
+                motion.domain.splice(0..0, condition);
                 match site.chain.last() {
                     Some(innermost) => ExactFlow::Loop {
                         motion,

@@ -34,7 +34,7 @@ pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     let old = &transformed.source;
     let old_roots = old.functions();
     let fitting = choices(old.sizes.len())
-        .filter(|sizes| sizes.is_empty() || loops::is_in_range(old, &old_roots, sizes))
+        .filter(|sizes| sizes.is_empty() || loops::unroll_nodes(old, sizes, &old_roots).is_ok())
         .take(CHOICES);
     let mut compared = None;
     for sizes in fitting {

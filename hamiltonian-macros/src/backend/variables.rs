@@ -159,16 +159,13 @@ impl System {
 fn remedy(reason: &Refusal) -> &'static str {
     match reason {
         Refusal::NameTaken { .. } => "rename the parameter or coordinate of that name",
-        Refusal::Shape { .. } => {
-            "declare the coordinates as scalars, or the bodies as `q[4][3]` with masses `m: [4]`"
-        }
         Refusal::Number { .. } => {
             "declare them as `q[4][3]` with masses `m: [4]`; `heliocentric` takes any number"
         }
         Refusal::Wrapped { .. } => {
             "write the term that closes the ring by itself, or declare a literal number of bodies"
         }
-        Refusal::NotWhole { .. } => "replace each coordinate, or vector, once and as a whole",
+        Refusal::Twice { .. } => "replace each coordinate once",
         Refusal::Loops { .. } => "give the loop literal bounds, so that it can be unrolled",
         Refusal::TooManyLoops => "let several sums share a loop",
         Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",

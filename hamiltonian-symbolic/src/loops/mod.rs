@@ -12,5 +12,5 @@ mod walk;
 
 pub use guard::guarded;
 pub use numeric::{Point, Sample, Sampled, Signs, sample};
-pub(crate) use numeric::{Values, product, sum};
+pub(crate) use numeric::{Values, next_random, product, sum};
 pub use unroll::{unroll, unroll_nodes, unrolled};

@@ -134,6 +134,15 @@ impl Values {
     }
 }
 
+/// The next number of a pseudo-random sequence (SplitMix64: Steele, Lea & Flood 2014).
+pub(crate) fn next_random(state: &mut u64) -> u64 {
+    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mut bits = *state;
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    bits ^ (bits >> 31)
+}
+
 /// The most nodes a sample may visit.
 const LONGEST: usize = 1 << 20;
 
@@ -166,11 +175,7 @@ impl<'a> Numbers<'a> {
         key.hash(&mut hasher);
         self.how.seed.hash(&mut hasher);
         salt.hash(&mut hasher);
-        // The finaliser of SplitMix64.
-        let mut bits = hasher.finish().wrapping_add(0x9E37_79B9_7F4A_7C15);
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        bits ^= bits >> 31;
+        let bits = next_random(&mut hasher.finish());
         let size = (16 + bits % 128) as f64 / 64.0;
         if signed && bits >> 32 & 1 == 1 {
             -size

@@ -1,6 +1,6 @@
 //! Which groups charts replace, and which ones stand in their places.
 //!
-//! Input: a model and charts. Output: [`Layout`], or why the charts do not fit. Invariant: the new
+//! Input: a model and charts, each of coordinates of the shape it is for. Output: [`Layout`], or why the charts do not fit. Invariant: the new
 //! groups of a chart stand where its first old group stood; names are told apart.
 
 use super::Refusal;
@@ -73,15 +73,24 @@ impl Layout {
     pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Layout, Refusal> {
         let mut replaced: Vec<u16> = Vec::new();
         for chart in charts {
-            let own = replaced_groups(model, chart)?;
-            for group in &own {
-                if replaced.contains(group) {
-                    return Err(Refusal::NotWhole {
-                        coordinate: coordinate(model, *group),
+            if let Chart::Jacobi(bodies) = chart
+                && model.groups[usize::from(bodies.group)]
+                    .shape
+                    .literal()
+                    .is_none()
+            {
+                return Err(Refusal::Number {
+                    coordinate: coordinate(model, bodies.group),
+                });
+            }
+            for group in members(chart) {
+                if replaced.contains(&group) {
+                    return Err(Refusal::Twice {
+                        coordinate: coordinate(model, group),
                     });
                 }
+                replaced.push(group);
             }
-            replaced.extend(own);
         }
         let mut groups: Vec<Group> = Vec::new();
         let mut kept = Vec::new();
@@ -138,10 +147,7 @@ impl Layout {
 }
 
 pub(super) fn coordinate(model: &Model, group: u16) -> String {
-    model
-        .groups
-        .get(usize::from(group))
-        .map_or_else(|| format!("coordinate {group}"), |g| g.coordinate.clone())
+    model.groups[usize::from(group)].coordinate.clone()
 }
 
 /// The groups a chart names, each once.
@@ -154,56 +160,6 @@ fn members(chart: &Chart) -> Vec<u16> {
     groups.sort_unstable();
     groups.dedup();
     groups
-}
-
-/// The groups a chart replaces, which it must replace as a whole.
-fn replaced_groups(model: &Model, chart: &Chart) -> Result<Vec<u16>, Refusal> {
-    let groups = members(chart);
-    for &group in &groups {
-        let refused = |wanted| Refusal::Shape {
-            coordinate: coordinate(model, group),
-            wanted,
-        };
-        let Some(shape) = model.groups.get(usize::from(group)).map(|g| &g.shape) else {
-            return Err(refused("declared"));
-        };
-        let components = match chart.replaced() {
-            Replaced::Scalars(_, components) => components,
-            Replaced::Bodies(bodies) => {
-                let Some(rows) = shape.rows() else {
-                    return Err(refused("an array of bodies"));
-                };
-                let masses = model.parameters.get(usize::from(bodies.masses.0));
-                if rows.as_constant().is_some_and(|rows| rows < 1)
-                    || masses.map(|m| &m.shape) != Some(&Shape::Vector(rows.clone()))
-                {
-                    return Err(refused("an array of as many bodies as there are masses"));
-                }
-                if rows.as_constant().is_none() && matches!(chart, Chart::Jacobi(_)) {
-                    return Err(Refusal::Number {
-                        coordinate: coordinate(model, group),
-                    });
-                }
-                continue;
-            }
-        };
-        let count = match shape.literal() {
-            Some((rows, 1)) => rows,
-            _ => return Err(refused("a number or a vector of literal length")),
-        };
-        let mut rows: Vec<i64> = components
-            .iter()
-            .filter(|c| c.group == group)
-            .map(|c| i64::from(c.row.unwrap_or(0)))
-            .collect();
-        rows.sort_unstable();
-        if !rows.iter().copied().eq(0..count) {
-            return Err(Refusal::NotWhole {
-                coordinate: coordinate(model, group),
-            });
-        }
-    }
-    Ok(groups)
 }
 
 fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {

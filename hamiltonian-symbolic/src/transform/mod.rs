@@ -36,15 +36,8 @@ pub enum Refusal {
         /// The chart that would introduce it: `polar`.
         by: &'static str,
     },
-    /// A coordinate is not of the shape the chart is for.
-    Shape {
-        /// The coordinate.
-        coordinate: String,
-        /// The shape that is asked for.
-        wanted: &'static str,
-    },
-    /// A coordinate of the chart is replaced in part only, or twice.
-    NotWhole {
+    /// A coordinate is replaced by two charts.
+    Twice {
         /// The coordinate.
         coordinate: String,
     },
@@ -99,10 +92,7 @@ impl fmt::Display for Refusal {
             Refusal::NameTaken { name, by } => {
                 write!(f, "`{by}` introduces `{name}`, which is declared already")
             }
-            Refusal::Shape { coordinate, wanted } => write!(f, "`{coordinate}` is not {wanted}"),
-            Refusal::NotWhole { coordinate } => {
-                write!(f, "`{coordinate}` is not replaced as a whole, and once")
-            }
+            Refusal::Twice { coordinate } => write!(f, "`{coordinate}` is replaced twice"),
             Refusal::Number { coordinate } => {
                 write!(f, "the number of bodies `{coordinate}` is not a literal")
             }

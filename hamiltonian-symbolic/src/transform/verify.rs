@@ -9,7 +9,7 @@ use super::coordinates::Transformed;
 use super::layout::Slot;
 use crate::dag::{Node, Side};
 use crate::index::Affine;
-use crate::loops::{self, Sample, Signs};
+use crate::loops::{self, Sample, Signs, next_random};
 use crate::model::{Model, VectorEntry};
 
 /// The number of points that [`check`] compares at certain sizes,
@@ -221,12 +221,7 @@ fn slots(model: &Model, sizes: &[i64]) -> Vec<(Side, Slot)> {
     all
 }
 
-/// The next number of a sequence in 0..1 (SplitMix64: Steele, Lea & Flood 2014).
+/// The next number of a sequence in 0..1.
 fn fraction(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let mut bits = *state;
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    bits ^= bits >> 31;
-    (bits >> 11) as f64 / (1u64 << 53) as f64
+    (next_random(state) >> 11) as f64 / (1u64 << 53) as f64
 }

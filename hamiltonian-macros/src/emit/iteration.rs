@@ -5,7 +5,8 @@
 //! call.
 
 use super::block::{Writer, name, names};
-use super::scan::Marks;
+use super::parts::Wanted;
+use super::scan::scan;
 use hamiltonian_symbolic::program::{Instruction, Step, Value};
 use std::fmt::Write;
 
@@ -29,42 +30,20 @@ impl Writer<'_> {
         let (mut given, mut computed, mut rest) = (Vec::new(), Vec::new(), Vec::new());
         for step in steps {
             match step {
-                Step::Let(value) if program.instruction(*value).is_number() => {}
                 Step::Let(value) if is_given(value) => given.push(step.clone()),
-                Step::Let(value) => computed.push((*value, step.clone())),
+                Step::Let(_) => computed.push(step.clone()),
                 Step::Store(..) | Step::Accumulate(..) => rest.push(step.clone()),
                 Step::Loop(_) => return self.steps(steps),
             }
         }
-        let mut known = Marks::new(program);
-        let (mut arguments, mut results) = (Vec::new(), Vec::new());
-        for (value, _) in &computed {
-            program.instruction(*value).for_operands(|operand| {
-                if !program.instruction(operand).is_number() && known.insert(operand) {
-                    arguments.push(operand);
-                }
-            });
-            known.insert(*value);
-        }
-        let mut inside = Marks::new(program);
-        for (value, _) in &computed {
-            inside.insert(*value);
-        }
-        let mut result = |operand| {
-            if inside.remove(operand) {
-                results.push(operand);
-            }
-        };
-        for step in &rest {
-            match step {
-                Step::Accumulate(_, value) => result(*value),
-                Step::Store(_, _, _, update) => update.for_operands(&mut result),
-                Step::Let(_) | Step::Loop(_) => {}
-            }
-        }
-        let (Some((first, _)), false) = (computed.first(), results.is_empty()) else {
+        let scan = |steps: &[Step]| scan(self.context, steps, &[]);
+        let (arithmetic, mut results) = (scan(&computed), scan(&rest).reads);
+        let inside: Wanted = arithmetic.computes.iter().map(|v| (*v, ())).collect();
+        results.retain(|value| inside.contains_key(value));
+        let (Some(first), false) = (arithmetic.computes.first(), results.is_empty()) else {
             return self.steps(steps);
         };
+        let arguments = arithmetic.reads;
         self.steps(&given);
         let ty = |value: &Value| match program.instruction(*value).is_mask() {
             true => "<T as __h::Real>::Mask",
@@ -81,7 +60,6 @@ impl Writer<'_> {
             declared.join(", "),
             "T, ".repeat(results.len())
         );
-        let computed: Vec<Step> = computed.into_iter().map(|(_, step)| step).collect();
         self.steps(&computed);
         line!(self, "({},)\n}}", names(&results));
         line!(

@@ -19,31 +19,12 @@ pub struct Scan {
     pub slices: Vec<Slice>,
 }
 
-/// A set of values: a bit for each value of a program.
-#[derive(Debug)]
-pub struct Marks(Vec<bool>);
-
-impl Marks {
-    /// No value of a program.
-    pub fn new(program: &Program) -> Marks {
-        Marks(vec![false; program.instructions.len()])
-    }
-    /// Adds a value; whether it was new.
-    pub fn insert(&mut self, value: Value) -> bool {
-        !core::mem::replace(&mut self.0[value.0 as usize], true)
-    }
-    /// Removes a value; whether it was there.
-    pub fn remove(&mut self, value: Value) -> bool {
-        core::mem::take(&mut self.0[value.0 as usize])
-    }
-}
-
 /// The reads and writes of a block with these results.
 pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
     let mut walker = Walker {
         program: context.program,
         context,
-        known: Marks::new(context.program),
+        known: vec![false; context.program.instructions.len()],
         scan: Scan::default(),
     };
     walker.walk(steps, true);
@@ -58,13 +39,20 @@ pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
 struct Walker<'a> {
     program: &'a Program,
     context: Context<'a>,
-    known: Marks,
+    /// Whether a value was met, for each value of the program.
+    known: Vec<bool>,
     scan: Scan,
 }
 
 impl Walker<'_> {
+    /// Whether a value is met for the first time; numbers stand where they are used.
+    fn is_new(&mut self, value: Value) -> bool {
+        let known = &mut self.known[value.0 as usize];
+        !self.program.instruction(value).is_number() && !std::mem::replace(known, true)
+    }
+
     fn read(&mut self, value: Value) {
-        if !self.program.instruction(value).is_number() && self.known.insert(value) {
+        if self.is_new(value) {
             self.scan.reads.push(value);
         }
     }
@@ -100,7 +88,7 @@ impl Walker<'_> {
     }
 
     fn compute(&mut self, value: Value, outer: bool) {
-        if !self.program.instruction(value).is_number() && self.known.insert(value) && outer {
+        if self.is_new(value) && outer {
             self.scan.computes.push(value);
         }
     }

@@ -1,7 +1,7 @@
 //! Expressions of numbers alone.
 //!
 //! Input: nodes without variables. Output: the value of a function where it is known exactly, the
-//! nearest `f64`, and whether there is one. Invariant: what is exact is exact in every scalar.
+//! nearest `f64`, and whether there is one. Invariant: an exact value is exact in every scalar.
 
 use crate::dag::{Dag, Kind, Map, Node, Stage};
 use crate::op::Op;

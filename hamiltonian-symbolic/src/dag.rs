@@ -46,7 +46,7 @@ pub enum Part {
     Second(u16, u16),
 }
 
-/// What a node is.
+/// The kind of a node.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Kind {
     /// An exact number.
@@ -266,7 +266,7 @@ impl Dag {
     pub fn new() -> Dag {
         Dag::default()
     }
-    /// How many nodes there are.
+    /// The number of nodes.
     #[must_use]
     pub fn len(&self) -> usize {
         self.kinds.len()
@@ -276,12 +276,12 @@ impl Dag {
     pub fn is_empty(&self) -> bool {
         self.kinds.is_empty()
     }
-    /// What a node is.
+    /// The kind of a node.
     #[must_use]
     pub fn kind(&self, node: Node) -> &Kind {
         &self.kinds[node.0 as usize]
     }
-    /// What a node depends on.
+    /// The dependences of a node.
     #[must_use]
     pub fn dependence(&self, node: Node) -> Dependence {
         self.facts[node.0 as usize].dependence
@@ -309,7 +309,7 @@ impl Dag {
     pub fn is_nonnegative(&self, node: Node) -> bool {
         self.facts[node.0 as usize].nonnegative
     }
-    /// The longest way down to a leaf, in operations: what is low is known early.
+    /// The longest way down to a leaf, in operations. A low node can be computed early.
     #[must_use]
     pub fn height(&self, node: Node) -> u32 {
         self.facts[node.0 as usize].height
@@ -342,7 +342,7 @@ impl Dag {
         }
         best.map(|(_, domain)| domain)
     }
-    /// How many loops there are from the outermost to `domain`.
+    /// The number of loops from the outermost to `domain`.
     #[must_use]
     pub fn depth(&self, domain: Option<Domain>) -> usize {
         let mut depth = 0;
@@ -370,7 +370,7 @@ impl Dag {
     pub fn range(&self, domain: Domain) -> &Range {
         &self.ranges[domain.0 as usize]
     }
-    /// How many loops are known.
+    /// The number of loops.
     #[must_use]
     pub fn loop_count(&self) -> usize {
         self.ranges.len()

@@ -19,7 +19,7 @@ pub fn gradient(dag: &mut Dag, root: Node, what: Dependence) -> Vec<(Node, Node)
 
 /// Adjoints by leaf.
 type Adjoints = Vec<(Node, Node)>;
-/// What is known of branches: a branch may be shared by many, in many ways.
+/// Adjoints of branches by branch and loop: many conditions may share a branch.
 type Swept = Map<(Node, Option<Domain>), Adjoints>;
 
 /// Adjoints in the context of a loop: contributions are summed over the loops inside `context`

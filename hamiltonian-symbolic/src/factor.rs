@@ -8,7 +8,7 @@ use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
 use crate::rational::Rational;
 
-/// How often each node is used, by parents or as a root.
+/// The number of uses of each node, by parents or as a root.
 pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Numbers {
     let mut uses = Numbers::new(dag);
     let mut count = |node| uses.set(node, uses.get(node).unwrap_or(0) + 1);
@@ -264,7 +264,7 @@ fn factored_sum(
     }
 }
 
-/// What is taken out of some terms of a sum: a power of a node, or a coefficient up to its sign.
+/// A common part of some terms of a sum: a power of a node, or a coefficient up to its sign.
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Common {
     Factor(Node, i32),
@@ -273,7 +273,7 @@ enum Common {
 
 /// Greedily takes out what saves the most multiplications, until nothing saves any.
 fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) -> Node {
-    // Long sums are searched a few times only; what they share is found early.
+    // Long sums are searched a few times only; their common parts are found early.
     let mut rounds = 4 + 4096 / terms.len().max(1);
     while terms.len() > 1 && rounds > 0 {
         rounds -= 1;
@@ -360,8 +360,8 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
     dag.collected(constant, &nodes, false)
 }
 
-/// What saves most multiplications if it is taken out, the first of several; `None` where nothing
-/// saves any.
+/// The common part that saves most multiplications if it is taken out, the first of several; `None`
+/// where none saves any.
 fn best(terms: &[Term], one: Node) -> Option<Common> {
     let mut places: Map<Common, usize> = Map::default();
     let mut savings: Vec<(Common, i64)> = Vec::new();
@@ -369,7 +369,7 @@ fn best(terms: &[Term], one: Node) -> Option<Common> {
         let at = *places.entry(common.clone()).or_insert(savings.len());
         match savings.get_mut(at) {
             Some(entry) => entry.1 += saved,
-            // What is taken out is multiplied once.
+            // The common part is multiplied once.
             None => savings.push((common, saved - 1)),
         }
     };

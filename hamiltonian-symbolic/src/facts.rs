@@ -1,6 +1,6 @@
-//! Where expressions are regular: one pass over the arena that proofs read.
+//! Regularity of expressions: one pass over the arena that proofs read.
 //!
-//! Input: roots. Output: for each node below them what is known of it as a function of what moves
+//! Input: roots. Output: for each node below them its regularity as a function of what moves
 //! (coordinates, momenta, time), for all parameters and sizes. Functions say their part in the
 //! operation table; signs are facts of the arena itself ([`Dag::is_nonnegative`]).
 //!
@@ -16,7 +16,7 @@ use crate::model::Model;
 use crate::op::{At, Break, Domain as Values, Far, Op, Range};
 use crate::print;
 
-/// What is known of a node.
+/// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regular {
     /// Analytic, with a value at every point.
@@ -35,7 +35,7 @@ pub struct Regular {
 }
 
 impl Regular {
-    /// What does not move.
+    /// An expression that does not move.
     const STILL: Regular = Regular {
         is_analytic: true,
         is_continuous: true,
@@ -59,7 +59,7 @@ impl Regular {
         is_nonzero: false,
     };
 
-    /// What holds of both holds of all that is one or the other.
+    /// The properties that both have.
     #[must_use]
     pub fn and(self, other: Regular) -> Regular {
         Regular {
@@ -72,7 +72,7 @@ impl Regular {
         }
     }
 
-    /// What follows from other flags.
+    /// The flags with those that follow from them.
     fn closed(mut self) -> Regular {
         self.is_continuous |= self.is_analytic;
         self.is_meromorphic |= self.is_analytic;
@@ -96,7 +96,7 @@ impl Regular {
 /// A set that may be met: where a node, or two, are as [`At`] says.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Locus {
-    /// What is said of the nodes.
+    /// The condition on the nodes.
     pub at: At,
     /// The argument.
     pub x: Node,
@@ -109,11 +109,11 @@ pub struct Locus {
 /// Conditions whose branches agree where they switch.
 pub type Meeting = Map<Node, ()>;
 
-/// What is known of the nodes below some roots.
+/// The regularity of the nodes below some roots.
 #[derive(Debug)]
 pub struct Facts {
     of: Map<Node, Regular>,
-    /// Where something has a pole or jumps, in order of first use.
+    /// The sets where something has a pole or jumps, in order of first use.
     pub loci: Vec<Locus>,
 }
 
@@ -136,7 +136,7 @@ impl Facts {
         facts
     }
 
-    /// What is known of a node.
+    /// The regularity of a node.
     #[must_use]
     pub fn get(&self, node: Node) -> Regular {
         self.of.get(&node).copied().unwrap_or(Regular::UNKNOWN)
@@ -214,8 +214,8 @@ impl Facts {
         };
         let each = || terms.iter().map(|(_, term)| self.get(*term));
         let all = each().fold(Regular::STILL, Regular::and);
-        // What is finite and what is a quotient add up; of other infinities there may be one, or
-        // any number of the same sign.
+        // Finite terms and quotients add up; of other infinities there may be one, or any number of
+        // the same sign.
         let infinite: Vec<usize> = (0..terms.len())
             .filter(|at| !self.get(terms[*at].1).is_continuous)
             .collect();
@@ -459,7 +459,7 @@ fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
         .any(|a| others.iter().any(|b| may_be_same(*a, *b)))
 }
 
-/// What moves in a node.
+/// The coordinates, momenta and time in a node.
 fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
     let leaf = |node: Node| match dag.kind(node) {
         Kind::Time => Some(None),

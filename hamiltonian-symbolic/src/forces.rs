@@ -32,7 +32,7 @@ pub enum Kick {
     },
 }
 
-/// Where two entries add to the same element in the same iteration.
+/// Whether two entries add to the same element in the same iteration.
 fn same_place(a: &VectorEntry, b: &VectorEntry) -> bool {
     (a.at.on(Side::P), &a.row) == (b.at.on(Side::P), &b.row)
 }

@@ -14,7 +14,7 @@ use crate::rational::Rational;
 /// `domain` is at k.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Held {
-    /// How many elements there are.
+    /// The number of elements.
     pub rows: Affine,
     /// The loop over all of them.
     pub domain: Domain,
@@ -28,7 +28,7 @@ type Factors = Vec<(Node, i32)>;
 /// An index, and how many rows the arrays have that it is of.
 type Row = (Index, Affine);
 
-/// What an expression depends on.
+/// The dependences of an expression.
 #[derive(Clone, PartialEq)]
 enum Reads {
     /// Scalars among the parameters.
@@ -147,7 +147,7 @@ impl Arrays {
     }
 }
 
-/// What a node depends on, and whether it takes a division or a function to compute it from a row.
+/// The dependences of a node, and whether it takes a division or a function to compute it from a row.
 fn describe(
     dag: &Dag,
     parameters: &[ParameterDeclaration],

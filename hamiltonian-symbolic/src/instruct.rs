@@ -205,8 +205,8 @@ impl Placer<'_> {
         list
     }
 
-    /// The factors of a product in the order of multiplication: what an outer block or few
-    /// operations make known comes first, so that the product waits for its last factor only.
+    /// The factors of a product in the order of multiplication: a value that an outer block or
+    /// few operations make known comes first, so that the product waits for its last factor only.
     fn early_first(&self, factors: &[(Node, i32)]) -> Vec<(Node, i32)> {
         let mut ordered = factors.to_vec();
         ordered.sort_by_key(|(node, _)| {

@@ -1,6 +1,6 @@
 //! A Hamiltonian as mathematics: the arena with the names and shapes of what its leaves mean.
 //!
-//! Input: what the front end checked. Output: [`Model`], from which `pipeline` makes a program and
+//! Input: the checked definition. Output: [`Model`], from which `pipeline` makes a program and
 //! `print` makes text. Invariant: numbers of groups, parameters, sizes and external functions used
 //! in the arena index the lists here.
 
@@ -48,7 +48,7 @@ impl<C> Shape<C> {
 }
 
 impl Shape<u16> {
-    /// How many columns there are; 1 of a scalar and of a vector.
+    /// The number of columns; 1 of a scalar and of a vector.
     #[must_use]
     pub fn columns(&self) -> u16 {
         match self {
@@ -128,7 +128,7 @@ pub struct External {
     pub second: bool,
 }
 
-/// What a named function of (t, q, p) was declared as.
+/// The declaration of a named function of (t, q, p).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum ObservableKind {
     /// `monitor`
@@ -156,7 +156,7 @@ impl ObservableKind {
 pub struct Observable {
     /// The name it is recorded by.
     pub name: String,
-    /// How it was declared.
+    /// Its declaration.
     pub kind: ObservableKind,
     /// Its components; one for a scalar.
     pub components: Vec<Node>,
@@ -168,7 +168,7 @@ pub struct Observable {
 pub struct VectorFunction {
     /// Its use.
     pub usage: VectorUse,
-    /// What is added to which element, in every iteration of the loops of value and row; elements
+    /// The contributions to its elements, in every iteration of the loops of value and row. Elements
     /// not named are 0.
     pub entries: Vec<VectorEntry>,
 }
@@ -267,7 +267,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// How many coordinates and momenta there are together, if all sizes are literal.
+    /// The number of coordinates and momenta together, if all sizes are literal.
     #[must_use]
     pub fn components(&self) -> Option<usize> {
         let count = |group: &Group| {
@@ -301,7 +301,7 @@ impl Model {
         };
         groups.flat_map(of_group).collect()
     }
-    /// The group of a column; what stands in the place of a group is of its shape.
+    /// The group of a column; a group that replaces another has its shape.
     fn group_of(&self, group: u16) -> &Group {
         &self.groups[usize::from(group % REPLACING)]
     }

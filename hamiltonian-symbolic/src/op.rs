@@ -9,7 +9,7 @@ use crate::dag::{Dag, Node};
 use crate::rational::Rational;
 use hamiltonian_lanes::Real;
 
-/// What a function does with the sign of its argument.
+/// The parity of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Parity {
     /// f(−x) = f(x)
@@ -54,7 +54,7 @@ pub enum At {
     Cut,
 }
 
-/// Where a function is not analytic though it has a value there.
+/// The set at which a function is not analytic though it has a value there.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Break {
     /// Nowhere.
@@ -65,7 +65,7 @@ pub enum Break {
     Jump(At),
 }
 
-/// What a function tends to as its argument grows beyond all bounds.
+/// The limit of a function as its argument grows beyond all bounds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Far {
     /// |f| → ∞ for both signs of the argument (for the one it is defined for).
@@ -78,7 +78,7 @@ pub enum Far {
     Nothing,
 }
 
-/// Where a function has a value, poles aside.
+/// The domain of a function, poles aside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Domain {
     /// Everywhere.
@@ -91,18 +91,18 @@ pub enum Domain {
     Power,
 }
 
-/// Where a function is regular, for real arguments.
+/// The regularity of a function of real arguments.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regularity {
-    /// Where it has a value.
+    /// Its domain.
     pub domain: Domain,
     /// The sign of its values.
     pub range: Range,
-    /// Where it is not analytic.
+    /// The set at which it is not analytic.
     pub breaks: Break,
-    /// Where |f| → ∞ at a finite argument.
+    /// The finite arguments at which |f| → ∞.
     pub pole: Option<At>,
-    /// What it tends to.
+    /// Its limit at infinity.
     pub far: Far,
     /// Whether it is one analytic function of all complex numbers, poles aside.
     pub is_entire: bool,
@@ -118,13 +118,13 @@ pub struct Row {
     pub name: &'static str,
     /// Its arguments as they are written: `atan2(y, x)`.
     pub arguments: &'static [&'static str],
-    /// What it does with a sign.
+    /// Its parity.
     pub parity: Parity,
     /// Its exact value at 0 where that is an integer.
     pub at_zero: Option<i64>,
     /// Its name in LaTeX.
     pub latex: &'static str,
-    /// Where it is regular.
+    /// Its regularity.
     pub regularity: Regularity,
     /// Its partial derivatives.
     pub partials: Partials,

@@ -50,7 +50,7 @@ struct Unit {
 struct Made {
     by: usize,
     readers: Vec<usize>,
-    /// How many of the readers are not done.
+    /// The number of readers that are not done.
     waiting: usize,
 }
 

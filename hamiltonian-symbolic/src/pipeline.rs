@@ -28,7 +28,7 @@ const BOTH: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0);
 pub enum Refusal {
     /// A function needs more than [`CAP`] operations.
     TooLarge {
-        /// How many.
+        /// The number of operations.
         operations: usize,
     },
     /// A number that no `f64` is near: the number, or nothing where it is no fraction.
@@ -40,7 +40,7 @@ pub enum Refusal {
     TooManyLoops,
     /// A fault of the engine.
     Internal {
-        /// What is wrong with the program.
+        /// The fault of the program.
         fault: String,
     },
     /// A second derivative of a Rust function that came without one, by name.
@@ -85,7 +85,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     Ok(program)
 }
 
-/// What is prepared, with shared parts, where that is less work.
+/// The prepared expressions with shared parts, where that is less work.
 fn shared_preparation(dag: &mut Dag, requests: &[Request]) -> Images {
     let wanted = prepared(dag, requests);
     let mut images = wanted.clone();
@@ -101,7 +101,7 @@ fn internal(fault: String) -> Refusal {
     Refusal::Internal { fault }
 }
 
-/// How many updates of outputs there are.
+/// The number of updates of outputs.
 fn stores(steps: &[Step]) -> usize {
     let count = |step: &Step| match step {
         Step::Store(..) => 1,
@@ -153,7 +153,7 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// What a purpose asks of the model's H. Most ask for parts of its `gradient`, which is derived for
+/// The request of a purpose. Most ask for parts of its `gradient`, which is derived for
 /// the first of them and kept for the others.
 pub fn request(
     model: &mut Model,

@@ -19,11 +19,11 @@ use crate::rational::Rational;
 pub struct Value(pub u32);
 
 impl Value {
-    /// No value: what stands where one is missing, which validation finds.
+    /// No value: it stands where a value is missing, and validation finds it.
     pub(crate) const NONE: Value = Value(u32::MAX);
 }
 
-/// How a value is computed.
+/// The computation of a value.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Instruction {
     /// An exact number, rounded once to the scalar type.
@@ -135,7 +135,7 @@ impl Instruction {
     }
 }
 
-/// What a function writes.
+/// An output of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Target {
     /// A column of the output vector that belongs to coordinates ([`Side::Q`]: ∂H/∂q, or the
@@ -147,7 +147,7 @@ pub enum Target {
     Held(u16),
 }
 
-/// How an element is updated.
+/// The update of an element.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub enum Update {
     /// `= v`
@@ -198,11 +198,11 @@ pub struct Loop {
     pub end: Affine,
     /// The accumulators set to 0 before it.
     pub accumulators: Vec<Value>,
-    /// What one iteration does.
+    /// The steps of one iteration.
     pub body: Vec<Step>,
 }
 
-/// What a function computes.
+/// The purpose of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Purpose {
     /// H, returned.
@@ -253,7 +253,7 @@ impl Purpose {
 /// One function of a program.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Function {
-    /// What it computes.
+    /// Its purpose.
     pub purpose: Purpose,
     /// Work done once per step coefficient.
     pub coefficient: Vec<Step>,

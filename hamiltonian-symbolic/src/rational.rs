@@ -274,7 +274,7 @@ impl Rational {
             Form::Big(value) => value.is_integer(),
         }
     }
-    /// How many bits the longer of numerator and denominator has, rounded up to 64.
+    /// The number of bits of the longer of numerator and denominator, rounded up to 64.
     #[must_use]
     pub fn bits(&self) -> u64 {
         match &self.0 {

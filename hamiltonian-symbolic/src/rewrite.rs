@@ -1,7 +1,7 @@
 //! Expressions made again over other children: substitution, renaming of loops.
 //!
-//! Input: nodes, and what takes the place of some of them. Output: nodes through the constructors
-//! of `simplify`, so in canonical form. Invariant: what does not change keeps its node.
+//! Input: nodes, and replacements for some of them. Output: nodes through the constructors
+//! of `simplify`, so in canonical form. Invariant: an expression that does not change keeps its node.
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::index::{Affine, Domain, Index, members};
@@ -95,7 +95,7 @@ impl Dag {
         let mut moved: Map<Domain, Domain> = Map::default();
         let mut new: Map<Node, Node> = Map::default();
         // The variable itself and those of the loops inside it. A sum over the same loop binds
-        // the variable anew: what stands in it is not free and stays.
+        // the variable anew: the variable in it is not free and stays.
         let inside = self.inside(variable);
         for node in self.reachable(&[root]) {
             if self.variables(node) & inside == 0 {

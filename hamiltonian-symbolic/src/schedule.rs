@@ -1,8 +1,8 @@
 //! Placing every node in the block where it is computed: its binding time, its loop, its order.
 //!
-//! Input: requests (what to return, what to store) over nodes as `share` left them. Output:
+//! Input: requests (expressions to return and to store) over nodes as `share` left them. Output:
 //! [`Program`]. Invariant: a node stands in the outermost loop it can be computed in; all work of
-//! one level over one loop shares one nest; what needs a finished sum stands in a later nest over
+//! one level over one loop shares one nest; a node that needs a finished sum stands in a later nest over
 //! the same loop, where the body is computed again.
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
@@ -31,14 +31,14 @@ pub struct Store {
     pub add: bool,
 }
 
-/// What a function is to compute.
+/// The work of a function.
 #[derive(Clone, Debug)]
 pub struct Request {
     /// Its purpose.
     pub purpose: Purpose,
-    /// What it returns.
+    /// The expressions it returns.
     pub results: Vec<Node>,
-    /// What it stores.
+    /// The elements it stores.
     pub stores: Vec<Store>,
     /// Outputs to be set to 0 first.
     pub cleared: Vec<Target>,
@@ -222,12 +222,12 @@ fn value_of(known: &Numbers, node: Node) -> Value {
 pub(crate) struct Placer<'a> {
     pub(crate) dag: &'a Dag,
     program: &'a mut Program,
-    /// How often each node is used in this stage's expressions.
+    /// The number of uses of each node in this stage's expressions.
     uses: &'a Numbers,
     stage: Stage,
     /// The values of what is computed, by earlier stages and in the open blocks.
     known: Numbers,
-    /// What is computed in each of the open blocks, outermost first.
+    /// The nodes computed in each of the open blocks, outermost first.
     scopes: Vec<Vec<Node>>,
     open: Vec<Option<Domain>>,
     /// The loop in which all that moves is computed.

@@ -537,7 +537,7 @@ struct Places {
 }
 
 impl Places {
-    /// How many are looked through.
+    /// The most nodes that are looked through.
     const FEW: usize = 12;
 
     /// A node's place, if it is in the list already; else it is the list's next.

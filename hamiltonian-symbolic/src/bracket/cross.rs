@@ -1,15 +1,16 @@
 //! Whether what is constant on both sides of a pole or a jump is so across it.
 //!
 //! Input: a model, an expression whose derivative along the flow of H vanishes wherever both are
-//! smooth. Output: the part of either that stands in the way, and why. What passes:
+//! smooth. Output: the part of either that stands in the way, and why. These pass:
 //!
-//! - what is continuous, into the line closed by one infinity: its limits on a trajectory are those
-//!   of the constants on both sides, and where H tends to infinity no trajectory comes;
-//! - what is a quotient of analytic functions, or otherwise of one value in complex numbers, with an
-//!   H of the same kind: it is continued around the place through complex times;
-//! - of the rest, place by place (x = x₀ ± u, u > 0, resolves what is |u|): what is the same function
-//!   on both sides, or comes to the same value; and what it, or H, keeps orbits away from, as it
-//!   tends to infinity on one side at least.
+//! - an expression that is continuous, into the line closed by one infinity: its limits on a
+//!   trajectory are those of the constants on both sides, and where H tends to infinity no trajectory
+//!   comes;
+//! - a quotient of analytic functions, or another expression of one value in complex numbers, with
+//!   an H of the same kind: it is continued around the place through complex times;
+//! - place by place (x = x₀ ± u, u > 0, resolves |u|), an expression that is the same function on
+//!   both sides or comes to the same value, and a place that orbits do not reach, as the expression
+//!   or H tends to infinity on one side at least.
 //!
 //! Invariant: no rule here looks at points.
 
@@ -27,11 +28,11 @@ use crate::rational::Rational;
 /// The most places that are looked at one by one.
 const MOST_PLACES: usize = 64;
 
-/// What is in the way of a proof.
+/// An obstacle to a proof.
 pub(super) struct Obstacle {
     /// The part that may jump, as text.
     pub(super) part: String,
-    /// What no rule, or which limit, decides.
+    /// The rule that is missing, or the limit that was met.
     pub(super) why: String,
 }
 
@@ -106,7 +107,7 @@ impl Claim {
         }
         let whole = model.clone();
         for place in places {
-            // What one place takes is not kept for the next.
+            // Nodes made for one place are not kept for the next.
             model.clone_from(&whole);
             self.crosses(model, &place)
                 .map_err(|why| format!("{why} where `{}` is 0", print::text(model, place.zero)))?;
@@ -152,7 +153,7 @@ fn reads(dag: &Dag, root: Node, node: Node) -> bool {
     dag.reachable(&[root]).binary_search(&node).is_ok()
 }
 
-/// What the two sides of an expression have in common at a place, or at all places.
+/// Properties of the two sides of an expression at a place, or at all places.
 #[derive(Clone, Copy)]
 struct Ends {
     /// They come to the same finite value.
@@ -236,7 +237,7 @@ fn meets(dag: &mut Dag, condition: Node, yes: Node, no: Node) -> bool {
             return false;
         }
         let difference = dag.sub(yes, no);
-        // What a sum binds is not the leaf, though it may be called like it.
+        // A variable that a sum binds is not the leaf, though it may have its name.
         let difference = dag.nested(difference, dag.home(leaf));
         let difference = replaced(dag, difference, leaf, value);
         normal_form::vanishes(dag, difference, Scope::Everywhere)
@@ -251,7 +252,7 @@ fn replaced(dag: &mut Dag, root: Node, node: Node, by: Node) -> Node {
 #[derive(Clone, Copy)]
 struct Place {
     zero: Node,
-    /// What is replaced near the place: a leaf of which the expression is a multiple plus a rest, or
+    /// The node replaced near the place: a leaf of which the expression is a multiple plus a rest, or
     /// the expression itself.
     what: Node,
     /// ∂zero/∂what
@@ -334,7 +335,7 @@ impl Place {
         replaced(dag, root, self.what, image)
     }
 
-    /// What the two sides of an expression do, each in its normal form over u > 0.
+    /// The properties of the two sides of an expression, each in its normal form over u > 0.
     fn ends(&self, dag: &mut Dag, root: Node, u: Node) -> Result<Ends, Undecided> {
         let minus = dag.neg(u);
         let above = self.near(dag, root, u);

@@ -124,7 +124,7 @@ fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
                 if dag.is_zero(row[column]) {
                     continue;
                 }
-                // How many columns of the minor stand before this one.
+                // The number of columns of the minor before this one.
                 let before = (set & ((1 << column) - 1)).count_ones();
                 let sign = if before % 2 == 0 {
                     Rational::ONE

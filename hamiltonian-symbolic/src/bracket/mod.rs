@@ -24,7 +24,7 @@ use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand;
 
-/// What is known of a claimed invariant.
+/// The verdict on a claimed invariant.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Verdict {
     /// It is conserved.
@@ -47,7 +47,7 @@ pub enum Verdict {
     },
     /// It is conserved as long as nothing jumps.
     Jumps {
-        /// What may jump, in the statement or in H, as text.
+        /// The part of the statement or of H that may jump, as text.
         part: String,
         /// Where, and what does not decide it: a clause.
         why: String,

@@ -130,7 +130,7 @@ pub(super) fn witness(
             if !values.iter().all(|value| value.value.is_finite()) {
                 continue;
             }
-            // How much the residual changes over the distance the root may be off.
+            // The change of the residual over the distance the root may be off.
             let off = 1e-9 * (1.0 + root.abs());
             let (above, below) = (at(&[residual], root + off)?, at(&[residual], root - off)?);
             let change = (above.0[0].value - below.0[0].value).abs();

@@ -1,7 +1,7 @@
 //! Bounds of indices and of values.
 //!
-//! Input: affine forms over the loops of the arena, signs of factors. Output: what holds in every
-//! iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
+//! Input: affine forms over the loops of the arena, signs of factors. Output: statements that hold
+//! in every iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
 
 use super::Dag;
 use crate::index::{Affine, Domain, End, Index};

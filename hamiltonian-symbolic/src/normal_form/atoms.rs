@@ -1,4 +1,4 @@
-//! The atoms of an algebra: what polynomials are made of.
+//! The atoms of an algebra, which its polynomials are made of.
 //!
 //! Input: leaves and functions of polynomials. Output: [`Atom`] numbers. Invariant: an atom's
 //! arguments are made of atoms with smaller numbers; an atom either is algebraically independent
@@ -59,7 +59,7 @@ impl Key {
     }
 }
 
-/// Where a statement is to hold, for all parameters and sizes.
+/// The points at which a statement is to hold, for all parameters and sizes.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Scope {
     /// At every point.
@@ -68,7 +68,7 @@ pub(crate) enum Scope {
     Densely,
 }
 
-/// An atom with what is known of it.
+/// An atom with its facts.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
     /// The expression it stands for.
@@ -109,14 +109,14 @@ pub(crate) struct Algebra {
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
     pub(super) any_redefined: bool,
-    /// Whether a condition stands before a fraction: what is not defined there may then be.
+    /// Whether a condition stands before a fraction, which may then have no value where it is 0.
     pub(super) any_guarded: bool,
     /// Whether something is read that need not have a value for the statement to have one, or, in
     /// statements about all points, that tells single points apart.
     pub(super) has_conditions: bool,
     /// A leaf that is > 0.
     positive: Option<Node>,
-    /// Where statements are to hold.
+    /// The points at which statements are to hold.
     pub(super) scope: Scope,
     /// The rest of the budget.
     pub(crate) budget: Budget,
@@ -201,7 +201,7 @@ impl Algebra {
         self.atom(Key::Sum(domain, body), None, (own, variables), signs)
     }
 
-    /// The atom of a key: what it depends on beside its parts, and whether it is ≥ 0 and > 0.
+    /// The atom of a key, with its dependences beside those of its parts, and whether it is ≥ 0 and > 0.
     fn atom(
         &mut self,
         key: Key,

@@ -9,7 +9,7 @@ use crate::dag::Part;
 use crate::op::{Op, Parity};
 use crate::rational::Rational;
 
-/// How many arguments of functions are compared with each other.
+/// The most arguments of functions that are compared with each other.
 const MOST_ARGUMENTS: usize = 64;
 
 impl Algebra {
@@ -486,8 +486,8 @@ impl Algebra {
     }
 }
 
-/// The prime factors of a positive rational with their exponents; what is left past 1000 counts
-/// as prime. `None` for very large numbers.
+/// The prime factors of a positive rational with their exponents; the rest past 1000 counts as
+/// prime. `None` for very large numbers.
 fn factored(value: &Rational) -> Option<Vec<(i64, i32)>> {
     let (n, d) = value.to_small()?;
     let mut factors: Vec<(i64, i32)> = Vec::new();

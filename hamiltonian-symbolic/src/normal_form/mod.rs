@@ -1,8 +1,9 @@
 //! The normal form: expressions as polynomials over algebraically independent atoms, and the
 //! question whether an expression is identically zero.
 //!
-//! Input: nodes. Output: [`Proof`]. Invariant: deterministic, and never past a budget; what is
-//! said to be zero is zero wherever it is defined, what is said not to be is not at the point given.
+//! Input: nodes. Output: [`Proof`]. Invariant: deterministic, and never past a budget; an
+//! expression said to be zero is zero wherever it is defined; one said not to be is not at the point
+//! given.
 //!
 //! Atoms are variables, parameters and functions of normal forms. Relations that are known:
 //! sin² + cos² = 1 and sums and multiples of angles, hyperbolic functions and powers as
@@ -193,7 +194,7 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     trials
 }
 
-/// How hard to look for a point.
+/// The effort of a search for a point.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum Effort {
     /// Two points at the first of the sizes tried, and one where parameters are negative.

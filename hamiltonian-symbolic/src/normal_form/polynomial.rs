@@ -20,7 +20,7 @@ pub(crate) struct Undecided;
 pub(crate) struct Budget {
     /// The most terms a polynomial may have.
     pub(crate) terms: usize,
-    /// How many products of terms are left.
+    /// The products of terms that are left.
     pub(crate) products: usize,
 }
 

@@ -9,8 +9,8 @@ use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Sum, Undecided};
 use crate::rational::Rational;
 
-/// How often all atoms are gone through: each pass but the first only meets what redefined atoms
-/// brought back.
+/// The most passes over all atoms. Each but the first meets only atoms that redefined ones brought
+/// back.
 const PASSES: usize = 8;
 
 impl Algebra {

@@ -15,7 +15,7 @@ use crate::rational::Rational;
 /// The most re-indexings of one sum that are looked at.
 const MOST: usize = 64;
 
-/// A sum: its loops, outermost first, and what is added.
+/// A sum: its loops, outermost first, and its body.
 #[derive(Clone, PartialEq, Debug)]
 struct Nest {
     loops: Vec<Domain>,
@@ -207,7 +207,7 @@ fn from_zero(dag: &mut Dag, nest: Nest) -> Nest {
     if loops == nest.loops {
         return nest;
     }
-    // From the innermost out: what is put in names new loops only.
+    // From the innermost out: the new indices name new loops only.
     let mut body = nest.body;
     for (domain, by) in shifted.iter().rev() {
         if *by != Affine::variable(*domain) {

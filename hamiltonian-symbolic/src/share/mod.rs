@@ -17,8 +17,8 @@ use sums::{
     TermPair, TermPairs, Terms, gathered, known_multiple, known_start, raw_sum, share_terms,
 };
 
-/// Rewrites the expressions the roots stand for as stage `now` computes them: what is known before it
-/// stays as it is.
+/// Rewrites the expressions the roots stand for as stage `now` computes them. Values known before it
+/// stay as they are.
 pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
     let order: Vec<Node> = dag.reachable(roots);
     let uses = count_uses(dag, roots, &order);
@@ -44,7 +44,7 @@ pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
     }
 }
 
-/// What products and sums are to be made of.
+/// The parts that products and sums are to be made of.
 #[derive(Default)]
 struct Plan {
     /// Products as lists.
@@ -63,7 +63,7 @@ impl Plan {
     fn of(dag: &mut Dag, pool: &mut FactorPool, order: &[Node], uses: &Numbers) -> Plan {
         let mut plan = Plan::default();
         let mut roots: Map<Node, (Node, i32)> = Map::default();
-        // What others than its parents use as it stands.
+        // Nodes that others than their parents use as they stand.
         let mut whole: Map<Node, ()> = Map::default();
         let order: Vec<Node> = order
             .iter()
@@ -221,7 +221,7 @@ impl Build<'_> {
             .iter()
             .partition(|(node, _)| is_known(dag, *node, self.pool.now));
         if prepared.iter().map(|(_, n)| n.abs()).sum::<i32>() > 1 {
-            // What remains of a power of a coefficient is a coefficient.
+            // The rest of a power of a coefficient is a coefficient.
             let coefficient = dag.product(&Rational::ONE, &prepared);
             factors = [vec![(coefficient, 1)], others].concat();
         }

@@ -2,7 +2,7 @@
 //!
 //! Input: products of the arena. Output: [`Factors`] over [`Item`]s, where shared powers, pairs,
 //! quotients and reciprocals are items of their own. Invariant: every list stands for the product
-//! it was made from; what is made names earlier items only.
+//! it was made from; a made item names earlier items only.
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::factor::is_known;
@@ -21,7 +21,7 @@ pub(super) enum Item {
     Made(u32),
 }
 
-/// What is made here.
+/// An item that is made here.
 #[derive(Clone, PartialEq, Eq, Hash, Debug)]
 pub(super) enum Made {
     /// The product of two items.
@@ -74,7 +74,7 @@ impl Factors {
 
 /// Everything made, each with the depth of the loop it is computed in.
 pub(super) struct FactorPool {
-    /// The stage in which products are computed: what is known before it is a coefficient.
+    /// The stage in which products are computed. Values known before it are coefficients.
     pub(super) now: Stage,
     pub(super) made: Vec<Made>,
     depths: Vec<usize>,
@@ -183,7 +183,7 @@ pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Fact
     share_pairs(dag, pool, lists);
 }
 
-/// Where each divisor stands, and with which power, in order of first appearance.
+/// The places of each divisor and its powers there, in order of first appearance.
 fn divisors(lists: &[Factors]) -> Vec<(Item, Vec<(usize, i32)>)> {
     let mut all: Vec<(Item, Vec<(usize, i32)>)> = Vec::new();
     let mut place: Map<Item, usize> = Map::default();
@@ -267,7 +267,7 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
             }
         }
     }
-    // How many divisors of each list would remain.
+    // The number of divisors of a list that would remain.
     let remaining = |list: &Factors, inverted: &Map<Item, bool>| {
         let kept = list.divisors().filter(|(item, _)| !inverted[item]);
         kept.count()
@@ -348,7 +348,7 @@ impl Couple {
             _ => Couple(a.min(b), a.max(b), false),
         }
     }
-    /// How often the couple stands in a product, negative below the line.
+    /// The number of times the couple stands in a product, negative below the line.
     fn times(self, list: &Factors) -> i32 {
         let Couple(a, b, divided) = self;
         let (m, n) = (list.power(a), list.power(b));
@@ -371,7 +371,7 @@ impl Couple {
     }
 }
 
-/// How often each couple occurs, and those whose number changed.
+/// The number of times each couple occurs, and the couples whose number changed.
 #[derive(Default)]
 struct Counts {
     counts: Map<Couple, i64>,

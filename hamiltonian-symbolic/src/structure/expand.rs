@@ -118,8 +118,8 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
     expansions.get(&root).map(|terms| terms.as_ref().clone())
 }
 
-/// The nodes of a root that are multiplied out, children first: what stands inside functions and
-/// below fraction lines does not.
+/// The nodes of a root that are multiplied out, children first: arguments of functions and
+/// divisors are not.
 fn spine(dag: &Dag, root: Node) -> Vec<Node> {
     dag.reached(&[root], |node, ahead| match dag.kind(node) {
         Kind::Sum(_, terms) => ahead.extend(terms.iter().map(|(_, n)| n)),

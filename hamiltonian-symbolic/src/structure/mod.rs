@@ -1,4 +1,4 @@
-//! What a Hamiltonian's form promises: separable or not, quadratic in its momenta, autonomous,
+//! The structure of a Hamiltonian: separable or not, quadratic in its momenta, autonomous,
 //! cyclic coordinates.
 //!
 //! Input: a model with its H. Output: [`Structure`], each negative answer with the part of H that

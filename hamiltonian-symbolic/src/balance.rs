@@ -19,15 +19,12 @@ pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
     }
     let mut new: Map<Node, Node> = Map::default();
     for node in order {
-        let mut changed = false;
-        dag.for_children(node, |child| changed |= new[&child] != child);
         let image = match dag.kind(node).clone() {
             Kind::Product(k, factors) if factors.len() > SHORT => {
                 let factors: Vec<_> = factors.iter().map(|(f, n)| (new[f], *n)).collect();
                 balanced(dag, &k, factors)
             }
-            _ if changed => dag.rebuild(node, &|child| new[&child]),
-            _ => node,
+            _ => dag.rebuild(node, &|child| new[&child]),
         };
         new.insert(node, image);
     }

@@ -102,12 +102,7 @@ impl Arrays {
                             new.insert(child, self.element(dag, child, &row, rows));
                         }
                     }
-                    let mut is_same = true;
-                    dag.for_children(node, |child| is_same &= new[&child] == child);
-                    match is_same {
-                        true => node,
-                        false => dag.rebuild(node, &|child| new[&child]),
-                    }
+                    dag.rebuild(node, &|child| new[&child])
                 }
             };
             new.insert(node, image);

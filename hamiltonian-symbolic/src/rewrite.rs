@@ -7,8 +7,17 @@ use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::index::{Affine, Domain, Index, members};
 
 impl Dag {
-    /// The same node over other children.
+    /// The same node over other children; the node itself where none is another.
     pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
+        let mut is_changed = false;
+        self.for_children(node, |child| is_changed |= new(child) != child);
+        match is_changed {
+            true => self.made_again(node, new),
+            false => node,
+        }
+    }
+
+    fn made_again(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
         match self.kind(node) {
             Kind::Product(_, factors) if self.is_sealed(node) => {
                 let (a, b) = (new(factors[0].0), new(factors[1].0));
@@ -61,18 +70,7 @@ impl Dag {
         for node in nodes {
             let image = match leaf(self, node) {
                 Some(image) => image,
-                None => {
-                    let changed = {
-                        let mut changed = false;
-                        self.for_children(node, |child| changed |= of(&new, child) != child);
-                        changed
-                    };
-                    if changed {
-                        self.rebuild(node, &|child| of(&new, child))
-                    } else {
-                        node
-                    }
-                }
+                None => self.rebuild(node, &|child| of(&new, child)),
             };
             new.set(node, image.0);
         }
@@ -83,7 +81,7 @@ impl Dag {
     pub(crate) fn rebuilt(&mut self, root: Node) -> Node {
         let mut new: Map<Node, Node> = Map::default();
         for node in self.reachable(&[root]) {
-            let image = self.rebuild(node, &|child| new[&child]);
+            let image = self.made_again(node, &|child| new[&child]);
             new.insert(node, image);
         }
         new[&root]
@@ -172,14 +170,7 @@ impl Dag {
             let image = match own {
                 // As it is: the constructor would move the loop out again.
                 Some((own, body)) => self.intern(Kind::Reduce(own, new[&(body, Some(own))])),
-                None => {
-                    let mut changed = false;
-                    self.for_children(node, |child| changed |= new[&(child, here)] != child);
-                    match changed {
-                        true => self.rebuild(node, &|child| new[&(child, here)]),
-                        false => node,
-                    }
-                }
+                None => self.rebuild(node, &|child| new[&(child, here)]),
             };
             new.insert((node, here), image);
         }

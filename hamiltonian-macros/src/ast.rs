@@ -12,7 +12,7 @@
 //!
 //! The meaning of the language where its description leaves a choice:
 //!
-//! - A `let` uses only what stands above it; `H` may be used below its definition, and anywhere in
+//! - A `let` uses only names defined above it; `H` may be used below its definition, and anywhere in
 //!   invariants, monitors, events, forces and pieces, which may also precede it.
 //! - Arguments of a `let` function hide outer names and have the shape of what the call gives them,
 //!   so that `let d(i) = q[i + 1] - q[i]` works; a loop variable hides nothing.
@@ -97,7 +97,7 @@ pub enum Size {
 }
 
 impl Size {
-    /// Where it stands.
+    /// The place of the number or the name.
     pub fn span(&self) -> Span {
         match self {
             Size::Literal(_, span) => *span,
@@ -259,7 +259,7 @@ pub enum ExprKind {
     Error,
     /// A number.
     Number(Rational),
-    /// A name and the innermost loop variable in whose scope it stands.
+    /// A name and the innermost loop variable around it.
     Name(Symbol, Option<ScopeId>),
     /// `-a`, `!a`
     Unary(UnaryOp, ExprId),
@@ -379,7 +379,7 @@ impl BinaryOp {
 /// One loop variable of a sum.
 #[derive(Debug)]
 pub struct Scope {
-    /// The loop variable in whose scope this one stands.
+    /// The innermost loop variable around this one.
     pub parent: Option<ScopeId>,
     /// The loop variable.
     pub name: Ident,
@@ -424,7 +424,7 @@ impl Symbols {
         &self.names[symbol.0 as usize]
     }
 
-    /// How many there are; symbols are smaller than that.
+    /// The number of symbols; each is smaller than it.
     pub fn len(&self) -> usize {
         self.names.len()
     }

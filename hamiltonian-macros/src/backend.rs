@@ -238,7 +238,7 @@ fn derive(
     None
 }
 
-/// The place of H.
+/// The right side of H or L.
 fn definition(checked: &Checked) -> Spans {
     let (Definition::Hamiltonian(root) | Definition::Lagrangian(root)) = checked.definition;
     checked.node(root).spans

@@ -1,9 +1,9 @@
 //! Statements as written → names resolved, shapes checked.
 //!
 //! Input: an [`Ast`] without parse errors. Output: [`Checked`], which means something only if
-//! nothing was reported. Invariants: a mistake is reported once, at the narrowest token; what
-//! depends on a mistake is silent (an erroneous value is `None` and says nothing further); every
-//! pass over expressions is a forward loop.
+//! nothing was reported. Invariants: a mistake is reported once, at the narrowest token; a
+//! value that depends on a mistake is `None` and silent; every pass over expressions is a forward
+//! loop.
 
 mod affine;
 mod builtin;
@@ -79,7 +79,7 @@ struct LetFunction<'a> {
     erroneous: bool,
 }
 
-/// Where H and L stand, and which statement is being read.
+/// The place of the statement that is being read, relative to the definition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     /// A `let` above the definition.
@@ -100,9 +100,9 @@ struct Checker<'a> {
     later: Vec<bool>,
     /// Symbols of loop variables, by symbol.
     loop_symbols: Vec<bool>,
-    /// Symbols whose being unknown was reported, by symbol.
+    /// Whether a symbol was reported as unknown, by symbol.
     unknown: Vec<bool>,
-    /// Sizes whose being unknown was reported.
+    /// Sizes that were reported as unknown.
     unknown_sizes: Vec<String>,
     /// The statement that is being read defines this.
     defining: Option<Symbol>,
@@ -114,7 +114,7 @@ struct Checker<'a> {
     affines: Vec<Option<Affine>>,
     /// By scope: the loop it stands for at present.
     scope_loops: Vec<Option<Domain>>,
-    /// Loops in whose body the cursor is, outermost first.
+    /// The loops around the node that is being read, outermost first.
     active: Vec<Domain>,
     /// By raw node: an error was reported for it.
     reported: Vec<bool>,

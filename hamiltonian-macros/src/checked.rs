@@ -1,5 +1,5 @@
-//! The definition resolved: every name is what it stands for, every node has a type, every index
-//! is affine. This is what lowering reads.
+//! The definition as lowering reads it: names are resolved, every node has a type, every index is
+//! affine.
 //!
 //! Input: none (built by `check`). Output: [`Checked`]. Invariants lowering may rely on:
 //!
@@ -8,12 +8,12 @@
 //!   root; they cost nothing once lowered into a DAG.
 //! - There are no scopes, `let`s or functions left: a `let` value *is* its node, a `let` function
 //!   was instantiated with the nodes of its arguments at every call. Loop variables are leaves.
-//!   What remains of the `let`s are their names, in [`Checked::lets`].
+//!   Only the names of the `let`s remain, in [`Checked::lets`].
 //! - Every node is well typed: the comments of [`Kind`] state operand and result types. [`Type`]
 //!   extents are equal exactly if they are the same size.
-//! - Every [`Affine`] mentions only sizes and loops in whose scope it stands. A loop's bounds
-//!   mention only loops outside it; a [`Kind::Sum`] lists its loops outermost first. A range whose
-//!   upper bound is not above its lower is empty, its sum zero.
+//! - Every [`Affine`] mentions only sizes and the loops around it. A loop's bounds
+//!   mention only loops outside it; a [`Kind::Sum`] lists its loops outermost first. A range with an
+//!   upper bound not above its lower one is empty, its sum zero.
 //! - Loops are not shared between sums, so a loop variable stands for one loop only.
 //! - A [`Domain`] is an index into [`Checked::loops`], a [`Size`] one into [`Checked::sizes`].
 //! - An index is in range whatever the sizes are, where the loops around it run at all, or there is
@@ -118,13 +118,13 @@ pub enum Field {
 pub struct SizeDeclaration {
     /// The name of the const generic or field.
     pub name: Ident,
-    /// Where it comes from.
+    /// A const generic or a field.
     pub kind: SizeKind,
     /// Docs of a run-time size, each with its `#`.
     pub attributes: Vec<TokenStream>,
 }
 
-/// Where a size comes from.
+/// The two sorts of sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SizeKind {
     /// `struct S<const N: usize>`
@@ -232,11 +232,11 @@ pub struct Loop {
 /// An index of which the sizes decide whether it is in range, or the first value of such a range.
 #[derive(Debug, Clone)]
 pub struct Reach {
-    /// As it is written: `q[i + 1]`, `i in n - 3..n`,
+    /// The index or the range as it is written: `q[i + 1]`, `i in n - 3..n`.
     pub shown: String,
-    /// and where.
+    /// Its place.
     pub span: Span,
-    /// The loops whose iterations it depends on, outermost first, each with its `[lower, upper]`.
+    /// The loops it depends on, outermost first, each with its `[lower, upper]`.
     pub loops: Vec<(Domain, [Affine; 2])>,
     /// The form that must be ≥ 0 in all of them.
     pub form: Affine,

@@ -2,8 +2,8 @@
 //! program from erring too.
 //!
 //! Input: the tree as far as it was read, and the errors. Output: items or an expression.
-//! Invariant: whatever is done with the stub — fields, methods, traits, generics — raises no
-//! further error. That needs a type rustc knows to be erroneous: in expression form the last
+//! Invariant: no use of the stub — fields, methods, traits, generics — raises a further
+//! error. That needs a type rustc knows to be erroneous: in expression form the last
 //! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
 //! fields, one of whose const arguments is the last `compile_error!`.
 

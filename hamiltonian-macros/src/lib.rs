@@ -4,7 +4,7 @@
 //! the library under whatever name it was imported.
 //!
 //! tokens → `ast` (`parse`) → `checked` (`check`) → code (`backend`); `expand` drives, `report`
-//! collects what is wrong, `fallback` stands in for what was.
+//! collects the errors, `fallback` stands in for a wrong definition.
 
 #[allow(dead_code)]
 mod ast;

@@ -1,8 +1,8 @@
 //! The words of the language: functions, constants, statement words.
 //!
-//! Input: a name. Output: what the language means by it, or the known name nearest to it.
-//! Invariant: every word stands here once, but for elementary functions, which
-//! stand in the engine's operation table; parser, checker and messages read these tables.
+//! Input: a name. Output: its meaning, or the known name nearest to it. Invariant: every word stands
+//! here once, but for elementary functions, which stand in the engine's operation table; parser,
+//! checker and messages read these tables.
 
 use hamiltonian_symbolic::op::Op;
 

@@ -1,6 +1,6 @@
 //! Tokens → statements and expressions as written.
 //!
-//! Input: [`Tokens`]. Output: [`Ast`]; what was read before an error is kept for the stub.
+//! Input: [`Tokens`]. Output: [`Ast`]; everything read before an error is kept for the stub.
 //! Invariants: at most one error for one mistake; after an error that leaves a statement unreadable
 //! the next statement is read all the same; recursion is bounded by [`MAX_DEPTH`], and everything
 //! that can nest (groups, prefix operators, powers) counts.
@@ -18,7 +18,7 @@ use crate::report::{Report, Spans};
 use crate::tokens::{Token, TokenKind, Tokens};
 use proc_macro2::{Delimiter, Ident, Span};
 
-/// How deep expressions may nest.
+/// The greatest depth of expressions.
 pub const MAX_DEPTH: u32 = 128;
 
 /// A statement that cannot be read further; the error has been reported.
@@ -48,7 +48,7 @@ pub fn parse(tokens: &Tokens, report: &mut Report) -> Ast {
     parser.ast
 }
 
-/// The cursor with what has been read so far.
+/// The cursor, and the tree read so far.
 struct Parser<'a> {
     tokens: &'a [Token],
     /// The next token.
@@ -57,7 +57,7 @@ struct Parser<'a> {
     limit: usize,
     /// The same of the group the statements stand in.
     statement_limit: usize,
-    /// Where a missing `;` was reported.
+    /// The token before which a missing `;` was reported.
     separator_missing: Option<usize>,
     depth: u32,
     /// The innermost loop variable in scope.

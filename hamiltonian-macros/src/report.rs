@@ -1,4 +1,4 @@
-//! Diagnostics: what is wrong, where, and what to write instead.
+//! Diagnostics: faults with their places and remedies.
 //!
 //! Input: errors of one stage, in the order they are met. Output: `compile_error!` tokens, each
 //! placed on the tokens it speaks of. Invariant: a report never loses an error, and never says the
@@ -87,7 +87,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// Adds an error: what is wrong and what to write instead.
+    /// Adds an error: the fault and the remedy.
     pub fn error(
         &mut self,
         spans: impl Into<Spans>,
@@ -101,7 +101,7 @@ impl Report {
         });
     }
 
-    /// Adds a fault of ours, with what to report.
+    /// Adds a fault of ours, to be reported.
     pub fn internal(&mut self, spans: impl Into<Spans>, fault: &str) {
         self.error(
             spans,

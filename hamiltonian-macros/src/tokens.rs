@@ -61,7 +61,7 @@ impl Token {
     }
 }
 
-/// A group whose contents are being laid out.
+/// A group that is being laid out.
 struct Level {
     rest: token_stream::IntoIter,
     /// Its opening entry; `None` if it is replaced by its contents.

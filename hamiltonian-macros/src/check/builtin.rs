@@ -11,7 +11,7 @@ use crate::checked::{Extent, Kind, NodeId, Type};
 use crate::names::{self, Builtin, Entry};
 use hamiltonian_symbolic::op::Op;
 
-/// How products over a range are called elsewhere.
+/// Names of products over a range in other languages.
 const PRODUCTS: &[&str] = &["prod", "product", "Π"];
 
 impl Checker<'_> {

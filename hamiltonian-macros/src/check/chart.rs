@@ -1,7 +1,7 @@
 //! Canonical changes of coordinates.
 //!
 //! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: a chart replaces
-//! coordinates of the definition, each once, of the shape the chart is for.
+//! coordinates of the definition, each once, of the shape it is for.
 
 use super::Checker;
 use crate::ast::StatementKind;
@@ -68,7 +68,8 @@ impl Checker<'_> {
         }
     }
 
-    /// What a name that a chart introduces is in the declared variables, with the chart's word.
+    /// The formula, in the declared variables, of a name that a chart introduces, with the chart's
+    /// word.
     pub(super) fn meaning_in_chart(&self, name: &str) -> Option<(String, String)> {
         let charts = self.ast.statements.iter().filter_map(|s| match &s.kind {
             StatementKind::Coordinates { chart, arguments } => Some((chart, arguments)),

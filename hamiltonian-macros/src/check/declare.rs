@@ -1,7 +1,7 @@
 //! Declarations of the header: sizes and parameters, and that there is one definition.
 //!
 //! Input: the header and the definition statement. Output: sizes, parameters, groups, time, and
-//! what their names stand for. Invariant: every name is declared once.
+//! the bindings of their names. Invariant: every name is declared once.
 
 use super::{Binding, Checker};
 use crate::ast::{Expression, ParameterKind, Size, StatementKind};
@@ -11,8 +11,8 @@ use crate::checked::{
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
 
-/// The most numbers of an array whose size is a literal: such arrays live on the stack, a scheme holds
-/// tens of them, and a thread may have no more than 2 MB.
+/// The most numbers of an array of literal size. Such arrays live on the stack, a scheme holds tens of
+/// them, and a thread may have no more than 2 MB.
 const LARGEST: u64 = 1 << 12;
 
 impl Checker<'_> {
@@ -108,7 +108,7 @@ impl Checker<'_> {
         self.one_definition()
     }
 
-    /// The numbers of a default, if that is what it is.
+    /// The numbers of a default, if it is made of numbers.
     fn default_value(
         &mut self,
         name: &Ident,

@@ -1,4 +1,4 @@
-//! Expressions: what every node stands for and what its shape is.
+//! Expressions: the meaning and the shape of every node.
 //!
 //! Input: the nodes of one expression, in post-order. Output: nodes of [`Checked`]. Invariants:
 //! one forward loop; a node whose operands are erroneous is silently erroneous; a call of a `let`
@@ -13,14 +13,14 @@ use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
 
-/// How many nodes the calls of `let` functions may make in all.
+/// The most nodes that calls of `let` functions make in all.
 const MAX_INSTANTIATED: usize = 1 << 19;
 
 /// The values of the nodes of one expression.
 pub(super) struct Frame {
     first: u32,
     values: Vec<Option<NodeId>>,
-    /// Of the `let` function whose body this is.
+    /// The arguments of the `let` function that has this body.
     pub(super) arguments: Vec<(Symbol, Option<NodeId>)>,
 }
 
@@ -278,7 +278,7 @@ impl Checker<'_> {
         self.push_affine(raw, Kind::Binary(op, a, b), ty, affine)
     }
 
-    /// Two operands whose shapes an operator does not join.
+    /// Refuses two operands that have shapes which the operator does not join.
     fn shapes_differ(
         &mut self,
         raw: ExprId,

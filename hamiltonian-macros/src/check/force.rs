@@ -1,7 +1,7 @@
 //! Forces: `force(q; p) = …`, and `force(q[i]; p[i]) = …` for the row of an array.
 //!
-//! Input: the statement. Output: one value a group of momenta. Invariant: a value has the shape of what
-//! it acts on.
+//! Input: the statement. Output: one value a group of momenta. Invariant: a value has the shape of the
+//! momenta it acts on.
 
 use super::Checker;
 use crate::ast::{ExprKind, Expression, Signature, Size, Statement};

@@ -1,7 +1,7 @@
-//! Names in expressions: what each stands for.
+//! Meanings of names in expressions.
 //!
 //! Input: a name and where it stands. Output: its node, or one error for each unknown name.
-//! Invariant: inner names win (loop variables, then arguments, then what statements declare).
+//! Invariant: inner names win (loop variables, then arguments, then declarations).
 
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
@@ -41,7 +41,7 @@ impl Checker<'_> {
         self.bindings[symbol.0 as usize].map(Found::Declared)
     }
 
-    /// The kind of what a name means, in words.
+    /// The kind of a meaning, in words.
     pub(super) fn found_shown(&self, found: Found) -> &'static str {
         match found {
             Found::Loop(_) => "a loop variable",
@@ -267,7 +267,7 @@ impl Checker<'_> {
     fn is_in_index(&self, name: ExprId) -> bool {
         let mut inner = name;
         let later = self.ast.nodes.iter().enumerate().skip(name.0 as usize + 1);
-        // Operands stand before what is made of them.
+        // A node stands after its operands.
         for (at, node) in later {
             match node.kind {
                 ExprKind::Bind { lower, upper, .. } if lower == inner || upper == inner => {

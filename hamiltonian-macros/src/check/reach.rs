@@ -1,4 +1,4 @@
-//! Where indices lead: in range, out of range, or in range for some sizes only.
+//! Bounds of indices: in range, out of range, or in range for some sizes only.
 //!
 //! Input: indices and ranges as affine forms. Output: an error, or a [`Reach`] where only the sizes
 //! decide, which the emitted code asks once they are known. Invariants: an index is called out of
@@ -186,8 +186,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A range whose end lies before its start whatever the sizes are is a mistake; `0..0` is empty
-    /// and nothing else.
+    /// Refuses a range that ends before its start whatever the sizes are. `0..0` is only empty.
     fn runs_forwards(
         &mut self,
         raw: ExprId,

@@ -1,6 +1,7 @@
 //! The signature: coordinates, momenta (velocities), and time.
 //!
-//! Input: the definition statement. Output: groups and time, and what their names stand for.
+//! Input: the definition statement. Output: groups and time, and the bindings of
+//! their names.
 //! Invariant: each coordinate has a partner of its shape.
 
 use super::{Binding, Checker};

@@ -1,4 +1,4 @@
-//! Statements: what each defines, and what it may be made of.
+//! Statements: definitions, observables, forces and pieces.
 //!
 //! Input: the statements, after the declarations. Output: definition, observables, forces, pieces,
 //! charts. Invariant: `let`s and the definition are read in source order, before everything that
@@ -182,7 +182,7 @@ impl<'a> Checker<'a> {
         value: &Expression,
         shell: Option<&Expression>,
     ) {
-        // A `let` may have the name of what is only declared to be seen.
+        // A `let` may have the name of an observable, which no expression reads.
         let symbol = self.symbol(name);
         let variable = symbol.and_then(|symbol| match self.bindings[symbol.0 as usize] {
             Some(Binding::Value(_) | Binding::LetFunction(_) | Binding::Function(_)) | None => None,

@@ -1,5 +1,5 @@
-//! What is asked of an expression: the scalar it is, or one component of it, for given values of
-//! the loop variables that are unrolled.
+//! Demands on an expression: its value as a scalar, or one component of it, for given values of the
+//! loop variables that are unrolled.
 //!
 //! Input: a demand on a node. Output: the demands it makes on its children. Invariant: `evaluate`
 //! asks for children in this same order.
@@ -13,7 +13,7 @@ use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, members};
 use std::iter;
 
-/// The longest vector whose sums over components are unrolled.
+/// The length of the longest vector that has its sums over components unrolled.
 const LONGEST: i64 = 16;
 
 /// A demand on a node.
@@ -74,7 +74,7 @@ pub enum NotUnrolled {
     TooLong,
 }
 
-/// How the components of a vector are run through.
+/// The way to run through the components of a vector.
 #[derive(Debug)]
 pub enum Run {
     /// One by one.
@@ -127,7 +127,7 @@ impl Evaluator<'_> {
         domains.last().expect("a loop is in its own path").1
     }
 
-    /// How the components of the vectors `operands` of `node` are run through; the sum over them
+    /// The way to run through the components of the vectors `operands` of `node`. The sum over them
     /// stands inside the loops of `node` and of `demand`.
     pub fn run(
         &self,

@@ -64,7 +64,7 @@ fn rational(dag: &Dag, node: Node) -> Option<&Rational> {
     }
 }
 
-/// How a known number compares with a bound; equal only if it is so exactly.
+/// The order of a known number and a bound; equal only if it is so exactly.
 fn compared(dag: &Dag, node: Node, bound: i64) -> Option<Ordering> {
     if let Some(value) = rational(dag, node) {
         let difference = value.sub(&Rational::integer(bound));

@@ -1,4 +1,4 @@
-//! The ends of arrays in what a Lagrangian became.
+//! The ends of arrays in the Hamiltonian of a Lagrangian.
 //!
 //! Input: the lowered definition, after everything that solves indices (brackets, proofs). Output:
 //! the same, safe to read. Momenta of a Lagrangian such as Σ vᵢ qᵢ₋₁ read a neighbour under a

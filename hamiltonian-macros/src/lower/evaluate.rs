@@ -1,8 +1,7 @@
 //! Answers demands: components of checked expressions as nodes of the arena.
 //!
 //! Input: roots with demands. Output: their nodes. Invariant: two passes over the expressions, one
-//! from parents to children that gathers what is asked, one back that answers; each demand is
-//! answered once.
+//! from parents to children that gathers demands, one back that answers them; each is answered once.
 
 use super::demand::{Demand, Run};
 use super::domain;
@@ -24,7 +23,7 @@ use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
 use hamiltonian_symbolic::transform::REPLACING;
 
-/// Message and remedy for a bracket whose indices are too involved.
+/// Message and remedy for a bracket with indices that cannot be solved.
 const UNSOLVED: (&str, &str) = (
     "this bracket cannot be formed: its sums meet at indices that cannot be solved for each other",
     "write the result of the bracket as an expression",
@@ -39,19 +38,19 @@ pub struct Derived {
 }
 
 impl Derived {
-    /// Nodes made since the arena had so many were derived.
+    /// Notes that the nodes made since the arena had `before` of them were derived.
     pub fn since(&mut self, before: usize, model: &Model) {
         self.made.push(before..model.dag.len());
     }
 
-    /// Somebody wrote it, whatever made it first.
+    /// Notes a node that somebody wrote, whatever made it first.
     fn wrote(&mut self, node: Node) {
         if !self.is_written(node) {
             self.written.insert(node, ());
         }
     }
 
-    /// Somebody wrote a sum over a loop; what does not depend on the loop is a factor of it.
+    /// Notes a sum over a loop that somebody wrote. Parts that do not depend on the loop are factors.
     fn wrote_sum(&mut self, dag: &Dag, sum: Node, domain: Domain) {
         let start = &dag.range(domain).start;
         let mut wrote = |node: Node| match dag.kind(node) {
@@ -87,7 +86,7 @@ pub struct Evaluator<'a> {
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
-    /// How many nodes each node is a child of.
+    /// The number of parents of each node.
     pub(super) uses: Vec<u32>,
     /// The answers to demands.
     answers: Map<(u32, Demand), Node>,
@@ -193,8 +192,8 @@ impl<'a> Evaluator<'a> {
         Some(values)
     }
 
-    /// What brackets left under conditions, safe to read. Not before all of them are formed: the
-    /// bracket of a bracket solves plain indices.
+    /// The value with elements that brackets left under conditions made safe to read. All brackets
+    /// are formed before: the bracket of a bracket solves plain indices.
     fn guarded(&mut self, model: &mut Model, root: NodeId, value: Node) -> Option<Node> {
         if !self.has_brackets {
             return Some(value);
@@ -225,7 +224,7 @@ impl<'a> Evaluator<'a> {
         self.answers.insert((node.0, demand), value);
     }
 
-    /// The node of a demand whose children's demands are answered.
+    /// The answer to a demand, from the answers to the demands on the children.
     fn combine(
         &mut self,
         model: &mut Model,
@@ -375,7 +374,7 @@ impl<'a> Evaluator<'a> {
         let bracket = bracket(model, a, b);
         self.derived.since(before, model);
         bracket.unwrap_or_else(|| {
-            // What takes too many loops is reported when all is lowered.
+            // Too many loops are reported when all is lowered.
             if !model.dag.has_too_many_loops() {
                 self.refuse(spans, UNSOLVED.0, UNSOLVED.1);
             }

@@ -23,7 +23,7 @@ pub struct Loops {
     by_number: Vec<bool>,
     /// The loop around each loop that stays, as far as it matters.
     parents: Vec<Option<Domain>>,
-    /// How deep each loop stands.
+    /// The depth of each loop.
     depths: Vec<u32>,
     /// Loops that are unrolled.
     unrolled: Set,

@@ -4,8 +4,8 @@
 //! components by number; nothing recurses, whatever the depth of the source; the order of the
 //! source is the order of sums and products.
 //!
-//! A vector is never built: what is asked of it is its components. `demand` passes these wishes
-//! from the roots down to the leaves, `evaluate` answers them from the leaves up.
+//! A vector is never built; parents demand components of it. `demand` passes these demands from the
+//! roots down to the leaves, `evaluate` answers them from the leaves up.
 
 mod demand;
 mod domain;
@@ -48,15 +48,15 @@ pub struct Lowered {
     pub shells: Vec<Option<Node>>,
     /// The components of the observables before velocities became functions of momenta.
     pub in_velocities: Vec<Node>,
-    /// How H was made of a Lagrangian.
+    /// The Legendre transform that made H of a Lagrangian.
     pub legendre: Option<Legendre>,
-    /// The expressions that no `f64` is near, or whose coefficient is such, innermost first.
+    /// The expressions that no `f64` is near, or that have such a coefficient, innermost first.
     pub beyond: Beyond,
     /// Which expressions are written nowhere.
     derived: Derived,
 }
 
-/// The mathematics of a definition, if it could be made; what is wrong goes into the report.
+/// The mathematics of a definition, if it could be made; faults go into the report.
 pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let Some(mut model) = declarations(checked) else {
         report.internal(

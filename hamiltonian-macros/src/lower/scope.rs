@@ -1,7 +1,6 @@
 //! Checked sizes and shapes in the engine's terms.
 //!
-//! Input: what check resolved. Output: affine forms, shapes. Invariant: size `n` of
-//! the one is size `n` of the other.
+//! Input: types of check. Output: shapes of the model. Invariant: sizes have the same numbers in both.
 
 use crate::checked::{Extent, Type};
 use hamiltonian_symbolic::model::Shape;
@@ -15,7 +14,7 @@ pub fn shape(ty: Type) -> Shape {
     }
 }
 
-/// The shape of a group of coordinates, whose columns are literal; `None` where they are not, which
+/// The shape of a group of coordinates. Its columns are literal; `None` where they are not, which
 /// check refuses.
 pub fn group_shape(ty: Type) -> Option<Shape<u16>> {
     Some(match ty {

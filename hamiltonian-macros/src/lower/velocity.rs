@@ -1,7 +1,7 @@
 //! Velocities: variables of a Lagrangian, and functions of (q, p, t) everywhere else.
 //!
-//! Input: expressions of velocities. Output: expressions in which they
-//! are elements in the place of momenta (for the Legendre transform), or what it made of them.
+//! Input: expressions of velocities. Output: expressions with momenta in their place, for the
+//! Legendre transform, or with the functions of (q, p, t) that it made of them.
 
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};

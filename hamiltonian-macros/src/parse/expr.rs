@@ -3,8 +3,8 @@
 //! Input: the cursor at an expression. Output: its root; its nodes are appended in post-order.
 //! Invariants: only groups recurse, and they count towards [`super::MAX_DEPTH`] as prefix operators
 //! and powers do; chains of left-associative operators of any length cost neither stack nor depth.
-//! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read as
-//! what was meant, so that the errors after it are found too.
+//! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read in that
+//! meaning, so that the errors after it are found too.
 
 use super::operator::{Pending, begins_operand, left_binding};
 use super::{Parser, Result};
@@ -330,7 +330,7 @@ impl Parser<'_> {
         self.push(ExprKind::Error, spans, start)
     }
 
-    /// Indices, and what Rust writes after a value but mathematics does not.
+    /// Indices, and the fields and methods of Rust, which are refused.
     fn postfixes(&mut self, mut base: ExprId) -> Result<ExprId> {
         while let Some(token) = self.peek() {
             match token.kind {

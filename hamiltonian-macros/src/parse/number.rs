@@ -1,7 +1,7 @@
 //! Numbers: plain decimals, exactly.
 //!
-//! Input: a literal token. Output: a node with the exact number. Invariant: what is not a plain decimal number
-//! that f64 can hold is reported and reads as [`ExprKind::Error`].
+//! Input: a literal token. Output: a node with the exact number. Invariant: anything
+//! but a plain decimal number that f64 can hold is reported and reads as [`ExprKind::Error`].
 
 use super::Parser;
 use crate::ast::{ExprId, ExprKind};

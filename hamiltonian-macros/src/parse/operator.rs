@@ -1,8 +1,8 @@
-//! Operators between operands: which one stands at the cursor, and how tightly it binds.
+//! Operators between operands, and their binding.
 //!
 //! Input: the cursor after an operand. Output: the operator, or none where the expression ends.
-//! Invariant: what is no operator of the language but means one (`**`, nothing at all) is reported
-//! and read as what was meant.
+//! Invariant: a sign that means an operator without being one (`**`, nothing at all) is reported and
+//! read as that operator.
 //!
 //! Binding, from loose to tight: `||`, `&&`, comparisons (not associative), `+ -`, `* / %`, prefix
 //! `- !`, `^` (right-associative, takes a prefix operator on its right), calls and indices.
@@ -22,7 +22,7 @@ pub(super) enum Pending {
 }
 
 impl Pending {
-    /// How tightly it holds the operand on its right.
+    /// The binding of the operand on its right.
     pub(super) fn right_binding(&self) -> u8 {
         match self {
             Pending::Unary(..) => 11,
@@ -42,7 +42,7 @@ pub(super) fn begins_operand(kind: TokenKind) -> bool {
     )
 }
 
-/// How tightly an operator holds the operand on its left.
+/// The binding of the operand on the left of an operator.
 pub(super) fn left_binding(op: BinaryOp) -> u8 {
     match op {
         BinaryOp::Or => 1,

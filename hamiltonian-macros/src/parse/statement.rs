@@ -183,7 +183,7 @@ impl Parser<'_> {
     }
 
     fn unknown_statement<T>(&mut self, token: &Token) -> Result<T> {
-        // What is missing before it was reported, and says what to write.
+        // The missing `;` before it was reported, with the remedy.
         if !self.is_plain(token) || self.separator_missing == Some(self.position - 1) {
             return Err(Abort);
         }

@@ -48,17 +48,24 @@ pub struct Ast {
     pub symbols: Symbols,
 }
 
-/// `#[…] pub struct Name<const N: usize> { … }`.
-#[derive(Debug)]
-pub struct Item {
-    /// Attributes and docs that pass through, each with its `#`.
+/// `#[…] pub struct Name`.
+#[derive(Debug, Clone)]
+pub struct Header {
+    /// Attributes and docs that pass through to the struct, each with its `#`.
     pub attributes: Vec<TokenStream>,
     /// `#[max_ops = 40]`, with the span of the number.
     pub max_ops: Option<(u64, Span)>,
-    /// `pub`, `pub(crate)` or nothing.
+    /// `pub`, `pub(crate)` or nothing; for the fields too.
     pub visibility: TokenStream,
     /// The name of the type.
     pub name: Ident,
+}
+
+/// `#[…] pub struct Name<const N: usize> { … }`.
+#[derive(Debug)]
+pub struct Item {
+    /// Before the sizes and parameters.
+    pub header: Header,
     /// `const N: usize`.
     pub generics: Vec<Ident>,
     /// The entries between the braces.

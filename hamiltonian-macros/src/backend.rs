@@ -13,7 +13,7 @@ mod variables;
 mod verdicts;
 
 use crate::check::SHARE_LOOPS;
-use crate::checked::{Checked, Definition, SizeKind};
+use crate::checked::{Checked, Definition};
 use crate::emit;
 use crate::lower::{Beyond, ends, lower};
 use crate::report::{Report, Spans};
@@ -197,10 +197,7 @@ fn wanted(
 
 /// Whether H is so long that emitting every function would cost rustc more than it gives.
 fn is_large(checked: &Checked, model: &Model) -> bool {
-    let is_static = checked
-        .sizes
-        .iter()
-        .all(|size| size.kind == SizeKind::Const);
+    let is_static = checked.sizes.iter().all(|size| !size.run_time);
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 

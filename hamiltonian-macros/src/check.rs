@@ -268,7 +268,7 @@ impl<'a> Checker<'a> {
             (Some(known), _) => format!("the nearest size is `{known}`"),
             (None, Some(item)) => format!(
                 "declare it: `struct {}<const {text}: usize>`, or `{text}: usize` among the parameters",
-                item.name
+                item.header.name
             ),
             (None, None) => {
                 "write a number; named sizes need the item form, `struct Name<const N: usize>`"

@@ -21,7 +21,7 @@
 //!   provably out of range.
 //! - There is exactly one definition, at least one group, and some momentum occurs in it.
 
-use crate::ast::{BinaryOp, Function, UnaryOp};
+use crate::ast::{BinaryOp, Function, Header, UnaryOp};
 use crate::names::Builtin;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
@@ -35,7 +35,9 @@ use std::ops::Range;
 #[derive(Debug, Default)]
 pub struct Checked {
     /// The header of item form; `None` in expression form.
-    pub item: Option<Item>,
+    pub item: Option<Header>,
+    /// Run-time sizes and parameters in the order they were declared: the fields of the struct.
+    pub fields: Vec<Field>,
     /// Sizes that are not literals: const generics first, then run-time sizes.
     pub sizes: Vec<SizeDeclaration>,
     /// Scalar and array parameters.
@@ -89,21 +91,6 @@ impl Default for Definition {
     }
 }
 
-/// The header of item form.
-#[derive(Debug)]
-pub struct Item {
-    /// Attributes and docs that pass through to the struct, each with its `#`.
-    pub attributes: Vec<TokenStream>,
-    /// `#[max_ops = 40]`, with the span of the number.
-    pub max_ops: Option<(u64, Span)>,
-    /// `pub`, `pub(crate)` or nothing; for the fields too.
-    pub visibility: TokenStream,
-    /// The name of the type.
-    pub name: Ident,
-    /// Run-time sizes and parameters in the order they were declared: the fields of the struct.
-    pub fields: Vec<Field>,
-}
-
 /// One entry between the braces of the struct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Field {
@@ -114,23 +101,14 @@ pub enum Field {
 }
 
 /// A size that is not a literal.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct SizeDeclaration {
     /// The name of the const generic or field.
     pub name: Ident,
-    /// A const generic or a field.
-    pub kind: SizeKind,
+    /// A field that is set at run time; a const generic otherwise.
+    pub run_time: bool,
     /// Docs of a run-time size, each with its `#`.
     pub attributes: Vec<TokenStream>,
-}
-
-/// The two sorts of sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SizeKind {
-    /// `struct S<const N: usize>`
-    Const,
-    /// `n: usize`
-    Runtime,
 }
 
 /// A scalar or array parameter.

@@ -6,7 +6,7 @@
 use crate::ast::Ast;
 use crate::checked::Checked;
 use crate::report::Report;
-use crate::tokens::Tokens;
+use crate::tokens::{Tokens, is_attribute};
 use crate::{backend, check, fallback, parse, unused};
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::quote;
@@ -79,7 +79,7 @@ fn conditional(definition: &TokenStream) -> Option<(Vec<TokenStream>, TokenStrea
         && hash.as_char() == '#'
     {
         let attribute: TokenStream = trees.by_ref().take(2).collect();
-        if is_called(&attribute, "cfg") {
+        if is_attribute(&attribute, "cfg") {
             conditions.push(attribute);
         } else {
             rest.push(attribute);
@@ -92,15 +92,6 @@ fn conditional(definition: &TokenStream) -> Option<(Vec<TokenStream>, TokenStrea
     };
     rest.push(trees.collect());
     (is_item && !conditions.is_empty()).then(|| (conditions, rest.into_iter().collect()))
-}
-
-/// Whether an attribute, whose inside may come from another macro, has this name.
-pub fn is_called(attribute: &TokenStream, name: &str) -> bool {
-    let mut inside = attribute.clone().into_iter().nth(1);
-    while let Some(TokenTree::Group(group)) = inside {
-        inside = group.stream().into_iter().next();
-    }
-    matches!(inside, Some(TokenTree::Ident(word)) if word == name)
 }
 
 /// Separates the path of the library, `($crate)`, from the definition.

@@ -7,10 +7,10 @@
 //! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
 //! fields, one of whose const arguments is the last `compile_error!`.
 
-use crate::ast::{Ast, Item, ParameterKind};
-use crate::expand::is_called;
+use crate::ast::{Ast, Header, Item, ParameterKind};
 use crate::names;
 use crate::report::Report;
+use crate::tokens::is_attribute;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 
@@ -22,7 +22,7 @@ pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
         .map(|error| error.to_compile_error())
         .collect();
     match &ast.item {
-        Some(item) if is_name(&item.name) => {
+        Some(item) if is_name(&item.header.name) => {
             let last = errors.pop();
             let item = item_stub(item, last.expect("a stub stands for something wrong"));
             quote!(#(#errors)* #item)
@@ -34,15 +34,15 @@ pub fn stub(ast: &Ast, report: &Report) -> TokenStream {
 }
 
 fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
-    let Item {
+    let Header {
         visibility,
         name,
         attributes,
         ..
-    } = item;
+    } = &item.header;
     let docs = attributes
         .iter()
-        .filter(|attribute| is_called(attribute, "doc"));
+        .filter(|attribute| is_attribute(attribute, "doc"));
     let hidden = format_ident!("__{name}", span = name.span());
     let sizes = distinct(&item.generics, |name| name);
     let parameters = distinct(&item.parameters, |parameter| &parameter.name);

@@ -91,7 +91,7 @@ impl<'a> Parser<'a> {
                 return;
             }
             if self.position == self.limit {
-                let name = self.ast.item.as_ref().map(|item| item.name.clone());
+                let name = self.ast.item.as_ref().map(|item| item.header.name.clone());
                 if let Some(name) = name {
                     self.report.error(
                         name.span(),

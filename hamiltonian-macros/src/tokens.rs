@@ -134,6 +134,14 @@ impl Tokens {
     }
 }
 
+/// Whether the first word of an attribute, `#[word …]`, is this one. The inside may come from another
+/// macro.
+pub fn is_attribute(attribute: &TokenStream, word: &str) -> bool {
+    let tokens = Tokens::flatten(attribute.clone()).list;
+    let mut words = tokens.iter().filter(|token| token.kind == TokenKind::Ident);
+    words.next().is_some_and(|first| first.text == word)
+}
+
 fn is_transparent(stream: TokenStream) -> bool {
     let mut trees = stream.into_iter();
     match trees.next() {

@@ -6,7 +6,7 @@
 //! before the type or the parameter, and an underscore before the name, silence it as in Rust.
 
 use crate::ast::{Ast, StatementKind};
-use crate::tokens::{TokenKind, Tokens};
+use crate::tokens::{TokenKind, Tokens, is_attribute};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::HashMap;
@@ -40,7 +40,7 @@ pub fn warnings(ast: &Ast, definition: TokenStream) -> TokenStream {
     if arguments.is_empty() {
         return arguments;
     }
-    let allowed = allowances(&item.attributes);
+    let allowed = allowances(&item.header.attributes);
     quote! {
         const _: () = {
             // No constant is in scope here, so an argument may have the name of one.
@@ -55,9 +55,6 @@ pub fn warnings(ast: &Ast, definition: TokenStream) -> TokenStream {
 
 /// Those of the attributes that are `#[allow(…)]`.
 fn allowances(attributes: &[TokenStream]) -> impl Iterator<Item = &TokenStream> {
-    let is_allowance = |attribute: &&TokenStream| {
-        let tokens = Tokens::flatten((*attribute).clone()).list;
-        tokens.get(2).is_some_and(|word| word.text == "allow")
-    };
-    attributes.iter().filter(is_allowance)
+    let attributes = attributes.iter();
+    attributes.filter(|attribute| is_attribute(attribute, "allow"))
 }

@@ -5,9 +5,7 @@
 
 use super::{Binding, Checker};
 use crate::ast::{Expression, ParameterKind, Size, StatementKind};
-use crate::checked::{
-    Extent, Field, Item, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, SizeKind, Type,
-};
+use crate::checked::{Extent, Field, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, Type};
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
 
@@ -37,9 +35,9 @@ impl Checker<'_> {
     pub(super) fn header(&mut self) -> bool {
         let ast = self.ast;
         if let Some(item) = &ast.item {
-            if item.name == "T" {
+            if item.header.name == "T" {
                 self.report.error(
-                    item.name.span(),
+                    item.header.name.span(),
                     "a type cannot be called `T`",
                     "choose another name: `T` is the scalar that a state is made of",
                 );
@@ -51,23 +49,20 @@ impl Checker<'_> {
                 }
             }
             for name in &item.generics {
-                self.size(name, SizeKind::Const, Vec::new());
+                self.size(name, false, Vec::new());
             }
             for parameter in &item.parameters {
                 if matches!(parameter.kind, ParameterKind::Size) {
-                    self.size(
-                        &parameter.name,
-                        SizeKind::Runtime,
-                        parameter.attributes.clone(),
-                    );
+                    self.size(&parameter.name, true, parameter.attributes.clone());
                 }
             }
-            let mut fields = Vec::new();
             let mut next_size = item.generics.len();
             for parameter in &item.parameters {
                 let ty = match &parameter.kind {
                     ParameterKind::Size => {
-                        fields.push(Field::Size(index::Size(next_size as u16)));
+                        self.out
+                            .fields
+                            .push(Field::Size(index::Size(next_size as u16)));
                         next_size += 1;
                         continue;
                     }
@@ -89,7 +84,7 @@ impl Checker<'_> {
                     Binding::Erroneous
                 };
                 self.declare(&parameter.name, known);
-                fields.push(Field::Parameter(id));
+                self.out.fields.push(Field::Parameter(id));
                 self.out.parameters.push(Parameter {
                     attributes: parameter.attributes.clone(),
                     name: parameter.name.clone(),
@@ -97,13 +92,7 @@ impl Checker<'_> {
                     default,
                 });
             }
-            self.out.item = Some(Item {
-                attributes: item.attributes.clone(),
-                max_ops: item.max_ops,
-                visibility: item.visibility.clone(),
-                name: item.name.clone(),
-                fields,
-            });
+            self.out.item = Some(item.header.clone());
         }
         self.one_definition()
     }
@@ -166,12 +155,12 @@ impl Checker<'_> {
         }
     }
 
-    fn size(&mut self, name: &Ident, kind: SizeKind, attributes: Vec<proc_macro2::TokenStream>) {
+    fn size(&mut self, name: &Ident, run_time: bool, attributes: Vec<proc_macro2::TokenStream>) {
         let id = index::Size(self.out.sizes.len() as u16);
         self.declare(name, Binding::Size(id));
         self.out.sizes.push(SizeDeclaration {
             name: name.clone(),
-            kind,
+            run_time,
             attributes,
         });
     }
@@ -230,8 +219,8 @@ impl Checker<'_> {
         }
         let (span, what) = match &self.ast.item {
             Some(item) => (
-                item.name.span(),
-                format!("`{}` has no Hamiltonian", item.name),
+                item.header.name.span(),
+                format!("`{}` has no Hamiltonian", item.header.name),
             ),
             None => match self.ast.statements.first() {
                 Some(statement) => (statement.keyword, "the Hamiltonian is missing".into()),

@@ -238,7 +238,10 @@ impl Checker<'_> {
         }
         match &self.ast.item {
             Some(item) if self.is_in_index(raw) => {
-                let declared = format!("`{name}: usize` among the parameters of `{}`", item.name);
+                let declared = format!(
+                    "`{name}: usize` among the parameters of `{}`",
+                    item.header.name
+                );
                 match self.ast.nodes[raw.0 as usize].kind {
                     ExprKind::Name(_, Some(scope)) => {
                         let inner = &self.ast.scopes[scope.0 as usize].name;
@@ -256,7 +259,7 @@ impl Checker<'_> {
                 };
                 format!(
                     "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`{number}",
-                    item.name
+                    item.header.name
                 )
             }
             None => format!("declare it: `let {name} = …;`"),

@@ -263,7 +263,7 @@ impl<'a> Checker<'a> {
             {
                 let made = format!(
                     "`{}{name}` names the vectors of such a definition",
-                    item.name
+                    item.header.name
                 );
                 self.report
                     .error(name.span(), made, "give the piece another name");

@@ -9,7 +9,8 @@ use super::dynamics::as_slice;
 use super::item::located;
 use super::number::over;
 use super::{allowances, documented, lex, reach};
-use crate::checked::{Field, Item, Parameter};
+use crate::ast::Header;
+use crate::checked::{Field, Parameter};
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -70,7 +71,7 @@ pub fn set_by_new(value: &str) -> String {
 
 /// `new`: sizes, then the parameters without a default, in the order of the fields; the rest gets its
 /// default. Where no argument tells the scalar of the parameters it is f64, as in `Default`.
-pub fn new(context: Context, item: &Item) -> TokenStream {
+pub fn new(context: Context, item: &Header) -> TokenStream {
     let (definition, generics) = (context.definition, context.generics);
     let scalar = generics.scalars.first().map_or("P", String::as_str);
     let is_told = definition.defaults.contains(&None);
@@ -196,7 +197,7 @@ pub fn new(context: Context, item: &Item) -> TokenStream {
 }
 
 /// The way to set the parameters with a default, which are no arguments of `new`.
-fn defaults_set(context: Context, item: &Item, arguments: &[&Ident]) -> Option<String> {
+fn defaults_set(context: Context, item: &Header, arguments: &[&Ident]) -> Option<String> {
     let parameters = context.definition.checked.parameters.iter();
     let has_default = |p: &&Parameter| p.default.is_some();
     let names: Vec<String> = parameters
@@ -218,10 +219,10 @@ fn defaults_set(context: Context, item: &Item, arguments: &[&Ident]) -> Option<S
 }
 
 /// The fields that only `new` sets.
-pub fn getters(context: Context, item: &Item) -> TokenStream {
+pub fn getters(context: Context, item: &Header) -> TokenStream {
     let (visibility, checked) = (&item.visibility, context.definition.checked);
     let mut out = TokenStream::new();
-    for field in &item.fields {
+    for field in &checked.fields {
         let (name, attributes, text, result, value) = match *field {
             Field::Size(size) => {
                 let size = &checked.sizes[usize::from(size.0)];

@@ -5,7 +5,6 @@
 //! bodies, so that no other name of the user's can be in their way.
 
 use super::Definition;
-use crate::checked::SizeKind;
 
 /// The generic parameters of a definition.
 #[derive(Debug)]
@@ -52,18 +51,15 @@ impl Generics {
         let name = definition.type_name(item).to_string();
         let (mut sizes, mut constants) = (Vec::new(), Vec::new());
         for (at, size) in checked.sizes.iter().enumerate() {
-            sizes.push(match size.kind {
-                SizeKind::Runtime => format!("_n{at}"),
-                SizeKind::Const => other_than(&name, &format!("N{}", constants.len())),
+            sizes.push(match size.run_time {
+                true => format!("_n{at}"),
+                false => other_than(&name, &format!("N{}", constants.len())),
             });
-            if size.kind == SizeKind::Const {
+            if !size.run_time {
                 constants.push(sizes[at].clone());
             }
         }
-        let is_run_time = checked
-            .sizes
-            .iter()
-            .map(|size| size.kind == SizeKind::Runtime);
+        let is_run_time = checked.sizes.iter().map(|size| size.run_time);
         let scalar = (!checked.parameters.is_empty()).then(|| other_than(&name, "P"));
         Generics {
             constants,

@@ -10,7 +10,8 @@ use super::{
     allowances, construct, declared, documented, dynamics, externals, lex, markers, mixed,
     observables, piece_method, piece_type, reach, vectors,
 };
-use crate::checked::{Field, Item, SizeDeclaration, SizeKind};
+use crate::ast::Header;
+use crate::checked::{Field, SizeDeclaration};
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;
@@ -19,7 +20,7 @@ use std::fmt::Write;
 const SIGNATURES: usize = 1;
 
 /// The tokens of a type.
-pub fn generate(context: Context, item: &Item) -> TokenStream {
+pub fn generate(context: Context, item: &Header) -> TokenStream {
     let root = context.definition.root;
     let name = context.definition.type_name(item);
     let declaration = declaration(context, item, &name);
@@ -50,10 +51,10 @@ pub fn generate(context: Context, item: &Item) -> TokenStream {
 }
 
 /// The struct, and that of its coordinates where it has one.
-fn declaration(context: Context, item: &Item, name: &Ident) -> TokenStream {
+fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let (definition, visibility) = (context.definition, &item.visibility);
     let (checked, root) = (definition.checked, definition.root);
-    let is_const = |size: &&SizeDeclaration| size.kind == SizeKind::Const;
+    let is_const = |size: &&SizeDeclaration| !size.run_time;
     let constants = checked.sizes.iter().filter(is_const).map(|size| &size.name);
     let constants: Vec<&Ident> = constants.collect();
     // The scalar of the parameters as readers see it: `P`, unless a const generic has the name.
@@ -78,7 +79,7 @@ fn declaration(context: Context, item: &Item, name: &Ident) -> TokenStream {
     let indices = Indices { sizes: &sizes };
     let renamed = Context { indices, ..context };
     let scalar = scalar.as_deref().unwrap_or_default();
-    let fields = item
+    let fields = checked
         .fields
         .iter()
         .map(|field| struct_field(renamed, item, scalar, *field));
@@ -133,7 +134,7 @@ fn declaration(context: Context, item: &Item, name: &Ident) -> TokenStream {
     }
 }
 
-fn struct_field(context: Context, item: &Item, scalar: &str, field: Field) -> TokenStream {
+fn struct_field(context: Context, item: &Header, scalar: &str, field: Field) -> TokenStream {
     let definition = context.definition;
     let root = definition.root;
     match field {
@@ -192,7 +193,7 @@ pub(super) fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStr
 }
 
 /// H, its facts, Hamilton's equations and their operations, as docs.
-fn docs(context: Context, item: &Item, name: &Ident) -> TokenStream {
+fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let text = &context.definition.text;
     let mut doc = String::new();
     if item.attributes.is_empty() && context.definition.piece.is_none() {
@@ -251,7 +252,7 @@ pub fn display(context: Context) -> String {
 }
 
 /// Constants, the getters of private fields, observables, derivatives by parameters.
-fn inherent(context: Context, item: &Item) -> TokenStream {
+fn inherent(context: Context, item: &Header) -> TokenStream {
     let (text, generics) = (&context.definition.text, context.generics);
     let header = lex(&generics.header());
     let visibility = &item.visibility;
@@ -295,14 +296,14 @@ fn inherent(context: Context, item: &Item) -> TokenStream {
 }
 
 /// The pieces of a split as systems with the same parameters.
-fn pieces(context: Context, item: &Item) -> TokenStream {
+fn pieces(context: Context, item: &Header) -> TokenStream {
     let (definition, visibility) = (context.definition, &item.visibility);
     let checked = definition.checked;
     let field = |field: &Field| match *field {
         Field::Size(size) => &checked.sizes[usize::from(size.0)].name,
         Field::Parameter(number) => &checked.parameters[number.0 as usize].name,
     };
-    let fields: Vec<&Ident> = item.fields.iter().map(field).collect();
+    let fields: Vec<&Ident> = checked.fields.iter().map(field).collect();
     let arguments = context.generics.arguments();
     let mut out = TokenStream::new();
     for (name, _) in definition.pieces {

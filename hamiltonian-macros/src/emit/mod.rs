@@ -49,7 +49,8 @@ mod tests;
 pub use declared::Declared;
 pub use number::closed;
 
-use crate::checked::{Checked, Item};
+use crate::ast::Header;
+use crate::checked::Checked;
 use context::Context;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
@@ -84,7 +85,7 @@ pub struct Definition<'a> {
 
 impl Definition<'_> {
     /// The name of the type.
-    fn type_name(&self, item: &Item) -> Ident {
+    fn type_name(&self, item: &Header) -> Ident {
         match self.piece {
             Some(piece) => piece_type(item, piece),
             None => item.name.clone(),
@@ -93,7 +94,7 @@ impl Definition<'_> {
 }
 
 /// The name of the type of a piece.
-fn piece_type(item: &Item, piece: &Ident) -> Ident {
+fn piece_type(item: &Header, piece: &Ident) -> Ident {
     format_ident!("{}{}", item.name, piece, span = piece.span())
 }
 

@@ -5,7 +5,7 @@
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};
-use crate::ast::{Expression, Item, Parameter, ParameterKind, Size};
+use crate::ast::{Expression, Header, Item, Parameter, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
@@ -85,10 +85,12 @@ impl Parser<'_> {
         self.position += 1;
         let name = self.declared("the name of the type", STRUCT)?;
         let mut item = Item {
-            attributes: Vec::new(),
-            max_ops: None,
-            visibility,
-            name,
+            header: Header {
+                attributes: Vec::new(),
+                max_ops: None,
+                visibility,
+                name,
+            },
             generics: Vec::new(),
             parameters: Vec::new(),
         };
@@ -103,14 +105,14 @@ impl Parser<'_> {
             if attribute.word == "max_ops" {
                 self.max_ops(item, &attribute);
             } else {
-                item.attributes.push(attribute.tokens);
+                item.header.attributes.push(attribute.tokens);
             }
         }
         if self.eat('<') {
             self.generics(item)?;
         }
         if !self.at_open(Delimiter::Brace) {
-            let name = &item.name;
+            let name = &item.header.name;
             return self.expected(
                 &format!("`{{` and the parameters of `{name}`"),
                 format!("write `struct {name} {{}}` if it has no parameters"),
@@ -131,7 +133,7 @@ impl Parser<'_> {
             }
             _ => None,
         };
-        let twice = item.max_ops.is_some();
+        let twice = item.header.max_ops.is_some();
         if twice || number.is_none() {
             let (message, help) = if twice {
                 ("`max_ops` is given twice", "keep one")
@@ -143,7 +145,7 @@ impl Parser<'_> {
             };
             self.report.error(attribute.spans, message, help);
         }
-        item.max_ops = number.or(item.max_ops);
+        item.header.max_ops = number.or(item.header.max_ops);
     }
 
     /// `const N: usize, …>`, the cursor after `<`.

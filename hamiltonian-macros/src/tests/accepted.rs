@@ -3,7 +3,7 @@
 use super::accept;
 use crate::ast::BinaryOp;
 use crate::checked::{
-    Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, SizeKind, Type, Variable,
+    Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, Type, Variable,
 };
 use hamiltonian_symbolic::index::Size;
 use hamiltonian_symbolic::transform::Chart;
@@ -126,14 +126,14 @@ fn gravity_is_resolved() {
     let item = checked.item.as_ref().expect("it is an item");
     assert_eq!(item.name, "Gravity");
     assert_eq!(
-        item.fields,
+        checked.fields,
         [
             Field::Size(Size(0)),
             Field::Parameter(ParameterId(0)),
             Field::Parameter(ParameterId(1))
         ]
     );
-    assert_eq!(checked.sizes[0].kind, SizeKind::Runtime);
+    assert!(checked.sizes[0].run_time);
     let n = Extent::Size(Size(0));
     assert_eq!(checked.parameters[1].ty, Type::Vector(n));
     assert_eq!(checked.groups[0].ty, Type::Matrix(n, Extent::Literal(3)));

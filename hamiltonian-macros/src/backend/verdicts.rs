@@ -1,4 +1,4 @@
-//! Proven structure of H, and why the rest does not hold, in the words rustc will use.
+//! Proven structure of H, and the reasons against the rest, in the words rustc will use.
 //!
 //! Input: the structure of a model. Output: the verdicts that emission turns into types. Invariant: a reason
 //! names the term of the user's that is in the way.

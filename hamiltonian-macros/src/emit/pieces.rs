@@ -2,7 +2,7 @@
 //! that makes it, and `Split`.
 //!
 //! Input: a model with pieces. Output: text of the implementations. Invariant: a flow reads and
-//! writes one point; where it leaves its domain, all it moves becomes NaN, which the program says.
+//! writes one point; outside of its domain all it moves becomes NaN, by the program.
 
 use super::Nystrom;
 use super::context::Access;

@@ -1,6 +1,6 @@
 //! Questions to the sizes: whether indices stay in range.
 //!
-//! Input: [`Reach`]es. Output: statements that ask. Invariant: what const generics decide is asked
+//! Input: [`Reach`]es. Output: statements that ask. Invariant: questions to const generics are asked
 //! when the code is compiled, the rest in `new`; nothing is asked where anything is evaluated.
 
 use super::context::Context;
@@ -74,7 +74,7 @@ fn bound(extent: Extent, context: Context) -> String {
     }
 }
 
-/// What is asked when the code is compiled for certain sizes: a constant for each question, which
+/// The questions asked when the code is compiled for certain sizes: a constant for each, which
 /// rustc shows at the index if it fails.
 pub fn compiled(context: Context) -> TokenStream {
     let mut constants = TokenStream::new();

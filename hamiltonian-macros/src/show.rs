@@ -3,7 +3,8 @@
 //!
 //! The stages are compiled into this program as they are into the macro, which cannot be called
 //! from outside of rustc. With `--number k` only the k-th definition is expanded, for the budgets of
-//! instructions ([`expanded`]); the number of systems is printed, and "searched" where exact flows of its pieces were sought. With `--time` the time that each takes is printed.
+//! instructions ([`expanded`]). The number of systems is printed then, and "searched" where exact
+//! flows of its pieces were sought. With `--time` the time that each takes is printed.
 
 extern crate proc_macro;
 

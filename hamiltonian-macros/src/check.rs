@@ -24,7 +24,7 @@ use crate::checked::{
 use crate::names::listed;
 use crate::report::Report;
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
-use hamiltonian_symbolic::transform::REPLACING;
+use hamiltonian_symbolic::model::REPLACING;
 use proc_macro2::{Ident, Span};
 
 /// Resolves and checks a definition.

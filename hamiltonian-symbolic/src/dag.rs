@@ -7,6 +7,7 @@
 
 mod array;
 pub(crate) mod bounds;
+pub mod op;
 mod table;
 
 pub use array::{Array, Column, Side};
@@ -14,8 +15,8 @@ pub(crate) use table::Numbers;
 pub use table::{Map, Mixer};
 
 use crate::index::{Affine, Domain, Index, LOOPS, Size};
-use crate::op::Op;
 use crate::rational::Rational;
+use op::Op;
 
 /// An expression.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]

@@ -12,7 +12,6 @@ use crate::dag::{Dag, Dependence, Node, Side};
 use crate::diff;
 use crate::model::{Model, VectorEntry};
 use crate::op::Op;
-use crate::pipeline::partials;
 use crate::structure::degrees;
 
 /// The exact flow of ṗ = f − ∂H/∂q at frozen q.
@@ -169,7 +168,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
         return Vec::new();
     }
     let h = model.h();
-    let mut gradient = partials(model, h);
+    let mut gradient = model.partials(h);
     gradient.retain(|entry| entry.at.side == Side::Q);
     gradient
 }

@@ -9,17 +9,16 @@ pub mod dag;
 pub mod diff;
 pub mod factor;
 pub mod facts;
+pub mod flow;
 pub mod forces;
 mod formula;
 pub mod hold;
 pub mod index;
-mod instruct;
 pub mod legendre;
 mod listing;
 pub mod loops;
 pub mod model;
 pub mod normal_form;
-pub mod op;
 mod order;
 pub mod pipeline;
 pub mod print;
@@ -33,6 +32,8 @@ pub mod split;
 pub mod structure;
 pub mod transform;
 mod validate;
+
+pub use dag::op;
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

@@ -4,10 +4,10 @@
 //! `print` makes text. Invariant: numbers of groups, parameters, sizes and external functions used
 //! in the arena index the lists here.
 
-use crate::dag::{Array, Column, Dag, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Node, Side};
+use crate::diff;
+use crate::flow::Piece;
 use crate::index::{Affine, Index};
-use crate::split::Piece;
-use crate::transform::REPLACING;
 use std::fmt::Display;
 
 /// The shape of a parameter, or, with columns of a literal number `C`, of a group of coordinates.
@@ -150,6 +150,10 @@ impl ObservableKind {
         }
     }
 }
+
+/// The number of the group that is to replace a group of bodies, less the number of that group: nodes that
+/// are carried may read it before the change. A model has at most so many groups.
+pub const REPLACING: u16 = 1 << 15;
 
 /// A named function of (t, q, p): one node a component.
 #[derive(Clone, Debug)]
@@ -372,6 +376,19 @@ impl Model {
         for (place, root) in places.zip(roots) {
             *place = *root;
         }
+    }
+    /// The partial derivatives of a scalar by coordinates and momenta, element by element.
+    #[must_use]
+    pub fn partials(&mut self, root: Node) -> Vec<VectorEntry> {
+        let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+        let adjoints = diff::gradient(&mut self.dag, root, both);
+        let entry = |(leaf, value): (Node, Node)| {
+            let place = self.dag.phase_place(leaf);
+            let (at, row) = place.expect("leaves of phase space are elements of it");
+            let row = row.clone();
+            VectorEntry { at, row, value }
+        };
+        adjoints.into_iter().map(entry).collect()
     }
     /// The name of time: the declared one, or `t`.
     #[must_use]

@@ -8,10 +8,12 @@ use crate::count::work;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
+use crate::flow::{ExactFlow, Motion, Piece};
 use crate::forces;
 use crate::hold::Arrays;
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape, VectorEntry};
+use crate::op::Op;
 use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
 use crate::schedule::{Images, Request, Store, prepared, schedule};
@@ -19,9 +21,6 @@ use crate::share::share;
 
 /// The most operations a function may need after simplification.
 pub const CAP: usize = 1 << 15;
-
-/// Coordinates and momenta.
-const BOTH: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0);
 
 /// Why there is no program.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -169,7 +168,7 @@ pub fn request(
         pinned: None,
     };
     let mut along = |model: &mut Model, sides: (bool, bool)| {
-        let entries = gradient.get_or_insert_with(|| partials(model, h));
+        let entries = gradient.get_or_insert_with(|| model.partials(h));
         let is_wanted = |entry: &&VectorEntry| match entry.at.side {
             Side::Q => sides.0,
             Side::P => sides.1,
@@ -202,7 +201,7 @@ pub fn request(
         Purpose::ParameterGradient => parameter_derivatives(model, h, &mut request),
         Purpose::HessianVector => {
             let along = diff::along_direction(&mut model.dag, h);
-            let entries = partials(model, along);
+            let entries = model.partials(along);
             vector(model, entries, (true, true), &mut request);
         }
         Purpose::Observable(number) => {
@@ -255,7 +254,7 @@ pub fn request(
             let piece = model.pieces.get(usize::from(number)).cloned();
             let missing = || internal(format!("there is no piece {number}"));
             let piece = piece.ok_or_else(missing)?;
-            request.stores = piece.stores(model);
+            request.stores = flow(model, &piece);
             request.pinned = piece.flow.innermost();
         }
     }
@@ -273,22 +272,47 @@ fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
     slopes.map(scaled).collect()
 }
 
-/// The partial derivatives of a scalar by coordinates and momenta, element by element.
-#[must_use]
-pub fn partials(model: &mut Model, root: Node) -> Vec<VectorEntry> {
-    let adjoints = diff::gradient(&mut model.dag, root, BOTH);
-    let entry = |(leaf, value): (Node, Node)| {
-        let place = model.dag.phase_place(leaf);
-        let (at, row) = place.expect("leaves of phase space are elements of it");
-        let row = row.clone();
-        VectorEntry { at, row, value }
-    };
-    adjoints.into_iter().map(entry).collect()
+/// The stores that make the flow of a piece.
+fn flow(model: &mut Model, piece: &Piece) -> Vec<Store> {
+    match &piece.flow {
+        ExactFlow::Linear | ExactFlow::Exponential => rates(model, piece.h),
+        ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
+            updates(&mut model.dag, motion)
+        }
+    }
+}
+
+/// The updates of a program: one a variable, all values from the point before.
+fn updates(dag: &mut Dag, motion: &Motion) -> Vec<Store> {
+    let guard = motion
+        .domain
+        .split_first()
+        .map(|(first, rest)| rest.iter().fold(*first, |all, next| dag.and(all, *next)));
+    let minus = dag.integer(-1);
+    let nan = dag.call(Op::Sqrt, &[minus]);
+    let mut stores = Vec::with_capacity(motion.moves.len());
+    for m in &motion.moves {
+        let Some((column, row)) = dag.phase_place(m.leaf) else {
+            continue;
+        };
+        let (target, row) = (Target::Phase(column), row.clone());
+        stores.push(Store {
+            target,
+            row,
+            column: None,
+            value: match guard {
+                Some(guard) => dag.select(guard, m.value, nan),
+                None => m.value,
+            },
+            add: m.added,
+        });
+    }
+    stores
 }
 
 /// The stores that add c·J∇h of an expression.
-pub(crate) fn rates(model: &mut Model, h: Node) -> Vec<Store> {
-    let entries = partials(model, h).into_iter();
+fn rates(model: &mut Model, h: Node) -> Vec<Store> {
+    let entries = model.partials(h).into_iter();
     let dag = &mut model.dag;
     entries.map(|entry| added(scaled(dag, entry))).collect()
 }

@@ -5,13 +5,15 @@
 //! one level over one loop shares one nest; a node that needs a finished sum stands in a later nest over
 //! the same loop, where the body is computed again.
 
+mod instruct;
+
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::factor::count_uses;
 use crate::hold::Held;
 use crate::index::{Affine, Domain, Index};
-use crate::instruct::fused_terms;
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
+use instruct::fused_terms;
 
 /// Coordinates and momenta.
 const SPACE: Dependence = Dependence(Dependence::Q.0 | Dependence::P.0);

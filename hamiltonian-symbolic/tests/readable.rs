@@ -3,10 +3,11 @@
 use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::{Dependence, Node, Side};
 use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::legendre::transform;
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
-use hamiltonian_symbolic::print::{Notation, Readable};
+use hamiltonian_symbolic::print::Notation;
 
 /// The model with its H, and the formulas, of a signature with velocities in the place of momenta.
 fn read(signature: &str, sizes: &str, parameters: &str, l: &str) -> (Model, Readable) {

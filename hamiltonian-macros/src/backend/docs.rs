@@ -5,8 +5,9 @@
 
 use crate::emit::Text;
 use hamiltonian_symbolic::count::Operations;
+use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::print::{self, Count, Notation, Readable};
+use hamiltonian_symbolic::print::{self, Count, Notation};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::Structure;
 

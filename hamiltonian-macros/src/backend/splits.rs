@@ -9,8 +9,9 @@ use crate::checked::{self, Checked, Kind, Variable};
 use crate::emit::Reason;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Node;
+use hamiltonian_symbolic::flow::Piece;
 use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::split::{self, MOST, Piece, Refusal, Splitting};
+use hamiltonian_symbolic::split::{self, MOST, Refusal, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.

@@ -14,7 +14,6 @@ use crate::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
-use hamiltonian_symbolic::pipeline::partials;
 use hamiltonian_symbolic::transform::{self, Chart, Placement, Refusal};
 use proc_macro2::Ident;
 
@@ -72,7 +71,7 @@ impl System {
             if let (ObservableKind::Event | ObservableKind::Monitor, &[value]) =
                 (observable.kind, observable.components.as_slice())
             {
-                let gradient = partials(&mut self.model, value);
+                let gradient = self.model.partials(value);
                 self.offer(VectorUse::Gradient(at), gradient);
             }
         }

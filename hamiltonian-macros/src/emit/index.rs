@@ -24,18 +24,20 @@ impl Indices<'_> {
         &self.sizes[usize::from(size.0)]
     }
 
-    /// The positive and the negated negative terms; either may be empty.
-    fn halves(&self, affine: &Affine) -> (Vec<String>, Vec<String>) {
-        let (mut plus, mut minus) = (Vec::new(), Vec::new());
+    /// The sum of the positive terms, and the negated negative ones.
+    fn halves(&self, affine: &Affine) -> (String, Vec<String>) {
+        let (mut plus, mut minus) = (String::new(), Vec::new());
         let mut push = |factor: i64, name: String| {
             let term = match factor.unsigned_abs() {
                 1 => name,
                 k => format!("{k} * {name}"),
             };
             if factor < 0 {
-                minus.push(term)
+                minus.push(term);
+            } else if plus.is_empty() {
+                plus = term;
             } else {
-                plus.push(term)
+                plus = format!("{plus} + {term}");
             }
         };
         for &(domain, factor) in &affine.loops {
@@ -50,28 +52,22 @@ impl Indices<'_> {
                 format!("{}usize", affine.constant.unsigned_abs()),
             );
         }
+        if plus.is_empty() {
+            plus = "0usize".to_owned();
+        }
         (plus, minus)
     }
 
     /// The sum of the positive terms, and that of the negated negative ones; the second may be empty.
     fn joined(&self, affine: &Affine) -> (String, String) {
         let (plus, minus) = self.halves(affine);
-        let plus = match plus.is_empty() {
-            true => "0usize".to_owned(),
-            false => plus.join(" + "),
-        };
         (plus, minus.join(" + "))
     }
 
     /// An index, or a bound that is not negative.
     pub fn plain(&self, affine: &Affine) -> String {
-        let (plus, _) = self.joined(affine);
-        let (_, minus) = self.halves(affine);
-        [plus]
-            .into_iter()
-            .chain(minus)
-            .collect::<Vec<_>>()
-            .join(" - ")
+        let (plus, minus) = self.halves(affine);
+        minus.iter().fold(plus, |text, term| text + " - " + term)
     }
 
     /// The value, or 0 where it is negative.

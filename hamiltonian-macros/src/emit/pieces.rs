@@ -11,8 +11,8 @@ use super::holder::Holder;
 use super::layout::Slice;
 use super::scan::scan;
 use hamiltonian_symbolic::dag::Side;
+use hamiltonian_symbolic::flow::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
-use hamiltonian_symbolic::split::ExactFlow;
 use std::fmt::Write;
 
 impl Emission<'_> {

@@ -17,11 +17,11 @@ use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, 
 use hamiltonian_symbolic::index::{Domain, Index};
 use hamiltonian_symbolic::legendre::Component;
 use hamiltonian_symbolic::loops::guarded;
+use hamiltonian_symbolic::model::REPLACING;
 use hamiltonian_symbolic::model::{Model, Shape};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::rational::Rational;
-use hamiltonian_symbolic::transform::REPLACING;
 
 /// Message and remedy for a bracket with indices that cannot be solved.
 const UNSOLVED: (&str, &str) = (

@@ -11,6 +11,9 @@
 
 mod elements;
 mod form;
+mod readable;
+
+pub use readable::Readable;
 
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;

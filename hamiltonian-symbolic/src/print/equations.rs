@@ -128,7 +128,7 @@ fn written_length(model: &Model, value: Node) -> usize {
 }
 
 /// The equation of a scalar coordinate or momentum with a right side that is known.
-pub(super) fn scalar_equation(
+pub(crate) fn scalar_equation(
     model: &Model,
     side: Side,
     group: usize,

@@ -4,7 +4,6 @@
 //! expression that it can say back as the same expression (up to the order of evaluation); sums and products keep the order they were written in.
 
 mod equations;
-mod lagrangian;
 mod latex;
 mod layout;
 mod names;
@@ -12,8 +11,9 @@ mod operations;
 mod text;
 mod words;
 
+pub(crate) use equations::scalar_equation;
 pub use equations::{Equations, hamilton_equations};
-pub use lagrangian::Readable;
+pub(crate) use names::is_taken;
 pub use operations::{Count, operations};
 
 use crate::dag::Node;

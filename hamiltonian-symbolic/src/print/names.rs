@@ -67,6 +67,6 @@ impl<'a> Scope<'a> {
 }
 
 /// Whether the model or the language uses a name.
-pub(super) fn is_taken(model: &Model, name: &str) -> bool {
+pub(crate) fn is_taken(model: &Model, name: &str) -> bool {
     model.declares(name) || name == "pi" || Op::named(name).is_some()
 }

@@ -15,79 +15,15 @@ mod sweep;
 mod tape;
 mod units;
 
-pub use motion::{Motion, Move};
 pub use rows::{ROWS, Row};
 pub use space::NODES;
 
 use crate::dag::{Dependence, Node};
-use crate::index::Domain;
+use crate::flow::{EXPONENTIAL, ExactFlow, Piece};
 use crate::model::{Model, ObservableKind};
-use crate::pipeline;
 use crate::print;
-use crate::schedule::Store;
 use crate::transform::check_split;
 use space::Space;
-
-/// A flow in closed form.
-#[derive(Clone, PartialEq, Debug)]
-pub enum ExactFlow {
-    /// No conjugate pair meets: everything moves at a constant rate, c·J∇h.
-    Linear,
-    /// A quadratic form of a whole point of few components: c·J∇h is linear, and its matrix is
-    /// exponentiated when a run is prepared.
-    Exponential,
-    /// The motion in the time of the step coefficient, and the names of the rows it is made of.
-    Closed(Motion, Vec<&'static str>),
-    /// The same in every iteration of a loop, one after the other.
-    Loop {
-        /// The motion of one iteration.
-        motion: Motion,
-        /// The names of the rows.
-        rows: Vec<&'static str>,
-        /// The innermost loop.
-        innermost: Domain,
-        /// Whether iterations commute, so that their order does not matter.
-        merges: bool,
-    },
-}
-
-impl ExactFlow {
-    /// The names of the rows it is made of; none where it is linear in time.
-    #[must_use]
-    pub fn rows(&self) -> &[&'static str] {
-        match self {
-            ExactFlow::Linear => &[],
-            ExactFlow::Exponential => &[rows::EXPONENTIAL],
-            ExactFlow::Closed(_, rows) | ExactFlow::Loop { rows, .. } => rows,
-        }
-    }
-    /// Whether the flow for one time after that for another is the flow for both.
-    #[must_use]
-    pub fn merges(&self) -> bool {
-        match self {
-            ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => true,
-            ExactFlow::Loop { merges, .. } => *merges,
-        }
-    }
-    /// The loop whose every iteration reads and writes.
-    pub(crate) fn innermost(&self) -> Option<Domain> {
-        match self {
-            ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => None,
-            ExactFlow::Loop { innermost, .. } => Some(*innermost),
-        }
-    }
-}
-
-/// A part of H with its flow.
-#[derive(Clone, PartialEq, Debug)]
-pub struct Piece {
-    /// The part of H.
-    pub h: Node,
-    /// The part in the author's notation.
-    pub name: String,
-    /// Its flow.
-    pub flow: ExactFlow,
-}
 
 /// H as a sum of pieces, outermost first.
 #[derive(Clone, PartialEq, Debug)]
@@ -135,18 +71,6 @@ impl Refusal {
 /// The most pieces of a splitting.
 pub const MOST: usize = 8;
 
-impl Piece {
-    /// The stores of a program that make the flow.
-    pub(crate) fn stores(&self, model: &mut Model) -> Vec<Store> {
-        match &self.flow {
-            ExactFlow::Linear | ExactFlow::Exponential => pipeline::rates(model, self.h),
-            ExactFlow::Closed(motion, _) | ExactFlow::Loop { motion, .. } => {
-                motion.stores(&mut model.dag)
-            }
-        }
-    }
-}
-
 /// The exact flow of one expression; its nodes are in the model's arena.
 pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
     let Some(mut space) = Space::new(model, &[h]) else {
@@ -183,7 +107,7 @@ impl From<solve::Flow> for ExactFlow {
     fn from(flow: solve::Flow) -> ExactFlow {
         match flow.rows.as_slice() {
             [] => ExactFlow::Linear,
-            [rows::EXPONENTIAL] => ExactFlow::Exponential,
+            [EXPONENTIAL] => ExactFlow::Exponential,
             _ => ExactFlow::Closed(flow.motion, flow.rows),
         }
     }

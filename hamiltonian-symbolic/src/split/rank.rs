@@ -6,10 +6,10 @@
 
 use super::Reasons;
 use super::cover::Block;
-use super::rows::EXPONENTIAL;
 use super::space::Space;
 use super::tape::{LANES, Lanes, Tape};
 use crate::dag::{Map, Node};
+use crate::flow::EXPONENTIAL;
 
 /// The step, and how many there are.
 const STEP: f64 = 0.1;

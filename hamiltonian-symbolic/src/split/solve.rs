@@ -4,10 +4,10 @@
 //! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
 //! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
 
-use super::motion::Motion;
-use super::rows::{Axes, EXPONENTIAL, Moved, ROWS, Row, Solve, is_constant_form};
+use super::rows::{Axes, Moved, ROWS, Row, Solve, is_constant_form};
 use super::space::{Set, Space, bits, differ};
 use crate::dag::{Kind, Map, Node};
+use crate::flow::{EXPONENTIAL, Motion};
 use crate::rational::Rational;
 
 /// An exact flow with the rows it is made of.

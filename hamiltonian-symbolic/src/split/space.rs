@@ -6,11 +6,11 @@
 //! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
 //! normal form), every answer is no.
 
-use super::motion::Motion;
 use super::solve::Flow;
 use super::tape::{Lanes, Tape};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
+use crate::flow::Motion;
 use crate::index::Index;
 use crate::loops::{Sample, Sampled, Values, product, sum};
 use crate::model::Model;

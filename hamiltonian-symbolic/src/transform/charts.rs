@@ -18,10 +18,6 @@ pub struct Component {
     pub row: Option<u32>,
 }
 
-/// The number of the group that is to replace a group of bodies, less the number of that group: nodes that
-/// are carried may read it before the change. A model has at most so many groups.
-pub const REPLACING: u16 = 1 << 15;
-
 /// Positions `[N]` or `[N][d]` and masses `[N]`; d is literal, and N for Jacobi coordinates.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Bodies {

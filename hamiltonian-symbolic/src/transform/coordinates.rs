@@ -7,7 +7,7 @@
 
 use super::Refusal;
 use super::bodies::Bodies;
-use super::charts::{self, Chart, Masses, REPLACING, Replaced, Variables};
+use super::charts::{self, Chart, Masses, Replaced, Variables};
 use super::layout::{Layout, Slot, coordinate, placements};
 use super::peel::{Below, peel};
 use super::reduce::{self, Rules};
@@ -16,7 +16,7 @@ use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
 use crate::loops;
-use crate::model::{Model, VectorEntry};
+use crate::model::{Model, REPLACING, VectorEntry};
 
 /// A system in new coordinates, with the maps.
 #[derive(Clone, Debug)]

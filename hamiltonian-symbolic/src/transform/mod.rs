@@ -16,7 +16,7 @@ pub mod split;
 pub mod time;
 mod verify;
 
-pub use charts::{Bodies, Chart, Component, REPLACING};
+pub use charts::{Bodies, Chart, Component};
 pub use coordinates::{Placement, Transformed, apply};
 pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};

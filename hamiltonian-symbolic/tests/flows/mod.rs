@@ -5,10 +5,11 @@ use crate::eval::{Point, run};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::flow::ExactFlow;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::schedule::{Images, Request, schedule};
-use hamiltonian_symbolic::split::{ExactFlow, exact_flow};
+use hamiltonian_symbolic::split::exact_flow;
 
 /// A piece, and the row that takes it.
 pub struct Case {

@@ -7,9 +7,9 @@
 
 use super::circle::SWEPT;
 use crate::dag::Node;
+use crate::flow::Motion;
 use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::motion::Motion;
 use crate::split::space::{Space, differ};
 use std::f64::consts::FRAC_PI_2;
 

@@ -5,7 +5,7 @@
 
 use super::flight::central;
 use crate::dag::Node;
-use crate::split::motion::Motion;
+use crate::flow::Motion;
 use crate::split::solve::flow;
 use crate::split::space::Space;
 

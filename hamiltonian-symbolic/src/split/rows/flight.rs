@@ -3,9 +3,9 @@
 //! Input: h and s. Output: [`Motion`]. Invariant: Λ is free of r and p and has a flow of its own.
 
 use crate::dag::Node;
+use crate::flow::Motion;
 use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::motion::Motion;
 use crate::split::solve::flow;
 use crate::split::space::{Space, differ};
 use crate::split::units::distributed;

@@ -6,9 +6,9 @@
 //! anomaly past ten costs half a digit, and shorter steps do not.
 
 use crate::dag::Node;
+use crate::flow::Motion;
 use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::motion::Motion;
 use crate::split::space::{Space, differ};
 
 /// |q×p|/|q||p| of an orbit that is a line through the centre to the rounding of a double.

@@ -19,9 +19,9 @@ mod square;
 
 pub(super) use quadratic::{is_constant_form, is_quadratic};
 
-use super::motion::Motion;
 use super::space::Space;
 use crate::dag::Node;
+use crate::flow::{EXPONENTIAL, Motion};
 use crate::rational::Rational;
 
 /// One pair as a row sees it: a position x and its momentum y, which are (q, p) or (p, −q).
@@ -183,9 +183,6 @@ pub static ROWS: &[Row] = &[
         solve: Solve::Whole(axes::solve),
     },
 ];
-
-/// The name of the row whose matrix is exponentiated when a run is prepared.
-pub(crate) const EXPONENTIAL: &str = "matrix exponential";
 
 /// x^{n/d}
 fn power(space: &mut Space, x: Node, n: i32, d: i32) -> Node {

@@ -4,9 +4,9 @@
 //! e^{sM} = 1 + sM + c₂M² + c₃M³ is closed for every sign of λ.
 
 use crate::dag::{Dependence, Node};
+use crate::flow::Motion;
 use crate::rational::Rational;
 use crate::split::growth::Growth;
-use crate::split::motion::Motion;
 use crate::split::space::{Set, Space, differ};
 
 /// The most pairs of one form.

@@ -4,8 +4,8 @@
 //! proven, so that the momenta stand in h through L alone.
 
 use crate::dag::Node;
+use crate::flow::Motion;
 use crate::formula::Names;
-use crate::split::motion::Motion;
 use crate::split::space::{Space, bits, differ};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {

@@ -6,8 +6,8 @@
 
 use super::Axes;
 use crate::dag::Node;
+use crate::flow::Motion;
 use crate::rational::Rational;
-use crate::split::motion::Motion;
 use crate::split::space::Space;
 
 /// The highest degree of A.

@@ -7,10 +7,10 @@
 use super::Axes;
 use super::circle::SWEPT;
 use crate::dag::{Kind, Node};
+use crate::flow::Motion;
 use crate::formula::Names;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::split::motion::Motion;
 use crate::split::space::{Space, bits, differ};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {

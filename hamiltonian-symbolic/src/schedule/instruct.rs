@@ -4,11 +4,11 @@
 //! Invariant: the operands of a sum are added in their order, but that a product in front may
 //! change places with the plain term after it (which rounds the same, fused).
 
+use super::Placer;
 use crate::dag::{Kind, Node};
 use crate::factor::is_prepared;
 use crate::program::{Instruction, Step, Value};
 use crate::rational::Rational;
-use crate::schedule::Placer;
 
 /// Powers up to this one are multiplied out.
 const RUN: u32 = 3;

@@ -5,7 +5,7 @@
 //! arithmetic, a method of `Real`); parser, differentiation, printing, proofs and emission all read
 //! this table, and a row without one of its columns does not compile.
 
-use crate::dag::{Dag, Node};
+use super::{Dag, Node};
 use crate::rational::Rational;
 use hamiltonian_lanes::Real;
 

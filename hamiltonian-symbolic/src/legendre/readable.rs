@@ -6,13 +6,13 @@
 //! on coordinates, dp/dt is ∂L/∂q in the velocities, as one would write it. Nothing here is
 //! computed with.
 
-use super::equations::{Equations, hamilton_equations, scalar_equation};
-use super::names::is_taken;
-use super::{Notation, latex, text};
+use super::{Legendre, Mass};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
-use crate::legendre::{Legendre, Mass};
 use crate::model::{Model, ParameterDeclaration, Shape};
+use crate::print::{
+    self, Equations, Notation, hamilton_equations, is_taken, latex, scalar_equation, text,
+};
 use crate::rational::Rational;
 
 /// The form of the equations of motion.
@@ -115,7 +115,7 @@ impl Readable {
 
     /// The names in H with their expressions, one a line.
     fn abbreviations(&self, notation: Notation) -> Vec<String> {
-        let write = |node| super::write(&self.model, node, notation);
+        let write = |node| print::write(&self.model, node, notation);
         let lines = self.names.iter();
         lines
             .map(|(name, value)| format!("{} = {}", write(*name), write(*value)))
@@ -151,7 +151,7 @@ impl Readable {
             let own = Array::Velocity(Column::first(Side::Q, group as u16));
             let is_own = |node: &&Node| matches!(self.model.dag.kind(**node), Kind::Element(array, ..) if *array == own);
             if let Some(velocity) = used.iter().find(is_own) {
-                let name = super::write(&self.model, *velocity, notation);
+                let name = print::write(&self.model, *velocity, notation);
                 let (left, _) = scalar_equation(&self.model, Side::Q, group, notation, *velocity);
                 lines.push(match notation {
                     Notation::Text => format!("where {name} = {left}"),

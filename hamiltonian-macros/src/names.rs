@@ -176,6 +176,11 @@ pub fn is_statement_word(name: &str) -> bool {
     STATEMENTS.contains(&name)
 }
 
+/// Whether a word is a keyword of Rust and none of the language.
+pub fn is_foreign(word: &str) -> bool {
+    is_rust_keyword(word) && !is_statement_word(word) && !matches!(word, "if" | "else" | "in")
+}
+
 /// Whether Rust keeps a word to itself.
 pub fn is_rust_keyword(name: &str) -> bool {
     RUST_KEYWORDS.contains(&name)

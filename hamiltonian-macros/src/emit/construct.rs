@@ -5,10 +5,8 @@
 //! the parameters spelt out.
 
 use super::context::Context;
-use super::dynamics::as_slice;
-use super::item::located;
 use super::number::over;
-use super::{allowances, documented, lex, reach};
+use super::{allowances, documented, lex, located, reach};
 use crate::ast::Header;
 use crate::checked::{Field, Parameter};
 use hamiltonian_symbolic::model::Shape;
@@ -258,4 +256,13 @@ pub fn getters(context: Context, item: &Header) -> TokenStream {
         });
     }
     out
+}
+
+/// The rank of a parameter, its rows and its numbers, of the array `name`.
+pub fn as_slice(shape: &Shape, name: &str) -> String {
+    match shape {
+        Shape::Scalar => format!("0, 1, &{name}"),
+        Shape::Vector(_) => format!("1, {name}.nrows(), {name}.as_slice()"),
+        Shape::Matrix(..) => format!("2, {name}.nrows(), {name}.as_slice()"),
+    }
 }

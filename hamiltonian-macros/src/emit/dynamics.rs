@@ -6,7 +6,7 @@
 //! missing is a compile error where it is first used.
 
 use super::block::operand;
-use super::construct::set_by_new;
+use super::construct::{as_slice, set_by_new};
 use super::context::Context;
 use super::function::{Bodies, Body};
 use super::holder::{Holder, Receiver, field, shape};
@@ -430,15 +430,6 @@ pub(super) fn declared(arguments: &[(&'static str, String)]) -> String {
 fn results(context: Context, results: &[Value]) -> String {
     let texts = results.iter().map(|value| operand(context, *value));
     texts.collect::<Vec<_>>().join(", ")
-}
-
-/// The rank of a parameter, its rows and its numbers, of the array `name`.
-pub fn as_slice(shape: &Shape, name: &str) -> String {
-    match shape {
-        Shape::Scalar => format!("0, 1, &{name}"),
-        Shape::Vector(_) => format!("1, {name}.nrows(), {name}.as_slice()"),
-        Shape::Matrix(..) => format!("2, {name}.nrows(), {name}.as_slice()"),
-    }
 }
 
 /// The entries of `System::GROUPS`.

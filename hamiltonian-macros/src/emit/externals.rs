@@ -5,8 +5,7 @@
 
 use super::block;
 use super::context::Context;
-use super::item::located;
-use super::lex;
+use super::{lex, located};
 use hamiltonian_symbolic::dag::Part;
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;

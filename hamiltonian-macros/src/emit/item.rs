@@ -7,12 +7,12 @@
 use super::context::Context;
 use super::index::Indices;
 use super::{
-    allowances, construct, declared, documented, dynamics, externals, lex, markers, mixed,
+    allowances, construct, declared, documented, dynamics, externals, lex, located, markers, mixed,
     observables, piece_method, piece_type, reach, vectors,
 };
 use crate::ast::Header;
 use crate::checked::{Field, SizeDeclaration};
-use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
+use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;
 
@@ -173,23 +173,6 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
         }
     }
     out
-}
-
-/// Tokens that rustc is to show at the name of the type instead of at the whole definition, with
-/// the insides of groups down to some depth.
-pub(super) fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
-    let span = Span::call_site().located_at(name);
-    let moved = tokens.into_iter().map(|mut token| {
-        if let TokenTree::Group(group) = &token
-            && depth > 0
-        {
-            let inner = located(group.stream(), name, depth - 1);
-            token = Group::new(group.delimiter(), inner).into();
-        }
-        token.set_span(span);
-        token
-    });
-    moved.collect()
 }
 
 /// H, its facts, Hamilton's equations and their operations, as docs.

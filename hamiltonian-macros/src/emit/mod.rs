@@ -55,7 +55,7 @@ use context::Context;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
-use proc_macro2::{Ident, TokenStream};
+use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 
 /// All that emission reads.
@@ -91,6 +91,23 @@ impl Definition<'_> {
             None => item.name.clone(),
         }
     }
+}
+
+/// Tokens that rustc is to show at the name of the type instead of at the whole definition, with
+/// the insides of groups down to some depth.
+fn located(tokens: TokenStream, name: Span, depth: usize) -> TokenStream {
+    let span = Span::call_site().located_at(name);
+    let moved = tokens.into_iter().map(|mut token| {
+        if let TokenTree::Group(group) = &token
+            && depth > 0
+        {
+            let inner = located(group.stream(), name, depth - 1);
+            token = Group::new(group.delimiter(), inner).into();
+        }
+        token.set_span(span);
+        token
+    });
+    moved.collect()
 }
 
 /// The name of the type of a piece.

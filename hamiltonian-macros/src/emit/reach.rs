@@ -4,8 +4,7 @@
 //! when the code is compiled, the rest in `new`; nothing is asked where anything is evaluated.
 
 use super::context::Context;
-use super::item::located;
-use super::lex;
+use super::{lex, located};
 use crate::checked::{Extent, Reach};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use proc_macro2::TokenStream;

@@ -17,13 +17,6 @@ use proc_macro2::{Delimiter, Span};
 /// The token after a function.
 const CALL: TokenKind = TokenKind::Open(Delimiter::Parenthesis);
 
-/// Whether a word is a keyword of Rust and none of the language.
-pub(super) fn is_foreign(word: &str) -> bool {
-    names::is_rust_keyword(word)
-        && !names::is_statement_word(word)
-        && !matches!(word, "if" | "else" | "in")
-}
-
 impl Parser<'_> {
     /// An expression up to the first token that cannot continue it.
     pub(super) fn expression(&mut self) -> Result<ExprId> {
@@ -229,7 +222,7 @@ impl Parser<'_> {
             );
         }
         let receiver = matches!(self.kind_at(1), Some(TokenKind::Punct('.' | ':', _)));
-        let is_keyword = is_foreign(name) && !receiver;
+        let is_keyword = names::is_foreign(name) && !receiver;
         let plain = !is_keyword && self.is_plain(token);
         if is_keyword {
             self.keyword(token, "and not a value")?;

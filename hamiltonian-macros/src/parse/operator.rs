@@ -7,7 +7,6 @@
 //! Binding, from loose to tight: `||`, `&&`, comparisons (not associative), `+ -`, `* / %`, prefix
 //! `- !`, `^` (right-associative, takes a prefix operator on its right), calls and indices.
 
-use super::expr::is_foreign;
 use super::{Parser, Result};
 use crate::ast::{BinaryOp, Comparison, ExprId, UnaryOp};
 use crate::names;
@@ -107,7 +106,7 @@ impl Parser<'_> {
             TokenKind::Ident
             | TokenKind::Literal
             | TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
-                if token.kind == TokenKind::Ident && is_foreign(&token.text) {
+                if token.kind == TokenKind::Ident && names::is_foreign(&token.text) {
                     self.keyword(token, "and means nothing here")?;
                 }
                 return Ok(self.missing_operator(token));

@@ -4,7 +4,6 @@
 //! functions of the new ones. Invariant: row 0 is an entry of its own, rows 1 … n−1 are one in a
 //! loop.
 
-use super::peel::Below;
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Model, VectorEntry};
@@ -219,5 +218,42 @@ impl Bodies {
                 ..moved
             }),
         }
+    }
+}
+
+/// Least values of indices.
+#[derive(Debug, Default)]
+pub(super) struct Below {
+    /// Sizes that are ≥ 1, by number.
+    positive: Vec<u16>,
+}
+
+impl Below {
+    /// The sizes that count bodies are positive.
+    pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
+        let rows = bodies.iter().filter_map(|b| {
+            let rows = model.groups[usize::from(b.old)].shape.rows()?;
+            match (rows.constant, rows.loops.as_slice(), rows.sizes.as_slice()) {
+                (0, [], [(size, 1)]) => Some(size.0),
+                _ => None,
+            }
+        });
+        Below {
+            positive: rows.collect(),
+        }
+    }
+
+    /// A number that the index is never below; `None` if it is not known.
+    pub(super) fn of(&self, dag: &Dag, affine: &Affine) -> Option<i64> {
+        let mut least = affine.constant;
+        for &(size, factor) in &affine.sizes {
+            let own = i64::from(self.positive.contains(&size.0));
+            least += (factor > 0).then_some(factor * own)?;
+        }
+        for &(domain, factor) in &affine.loops {
+            let own = self.of(dag, &dag.range(domain).start)?;
+            least += (factor > 0).then_some(factor * own)?;
+        }
+        Some(least)
     }
 }

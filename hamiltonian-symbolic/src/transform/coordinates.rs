@@ -6,10 +6,10 @@
 //! groups of a chart stand where its first old group stood.
 
 use super::Refusal;
-use super::bodies::Bodies;
+use super::bodies::{Below, Bodies};
 use super::charts::{self, Chart, Masses, Replaced, Variables};
-use super::layout::{Layout, Slot, coordinate, placements};
-use super::peel::{Below, peel};
+use super::layout::{Layout, Placement, Slot, coordinate, placements};
+use super::peel::peel;
 use super::reduce::{self, Rules};
 use super::verify::check;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
@@ -36,15 +36,6 @@ pub struct Transformed {
     pub places: Vec<Placement>,
     bodies: Vec<Bodies>,
     rules: Rules,
-}
-
-/// A group, or one row of it, among the old variables, and where it stands among the new ones.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Placement {
-    /// The group of the source, and the row of a vector that becomes scalars.
-    pub old: (u16, Option<u32>),
-    /// The group of the model, which has as many elements.
-    pub new: u16,
 }
 
 /// The system in the coordinates of the charts, which replace different coordinates.

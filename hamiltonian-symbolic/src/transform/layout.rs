@@ -5,10 +5,18 @@
 
 use super::Refusal;
 use super::charts::{Chart, Component, Replaced, Variables};
-use super::coordinates::Placement;
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::Index;
 use crate::model::{Group, Model, Shape};
+
+/// A group, or one row of it, among the old variables, and where it stands among the new ones.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Placement {
+    /// The group of the source, and the row of a vector that becomes scalars.
+    pub old: (u16, Option<u32>),
+    /// The group of the model, which has as many elements.
+    pub new: u16,
+}
 
 /// A scalar place of phase space.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

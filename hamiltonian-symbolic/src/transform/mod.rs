@@ -17,7 +17,8 @@ pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
-pub use coordinates::{Placement, Transformed, apply};
+pub use coordinates::{Transformed, apply};
+pub use layout::Placement;
 pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};
 pub use verify::check;

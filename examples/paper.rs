@@ -5,7 +5,7 @@
 //! exact flows of the pieces that H is split into at compile time: explicit and symplectic, which is
 //! what the paper was after) and `results.csv`, and prints the table.
 //!
-//! What the paper does not say is assumed here, and printed: g, the length of the runs, the zero
+//! The paper leaves open what is assumed and printed here: g, the length of the runs, the zero
 //! of the potential, and that "uncertainty" means the deviation of the run's mean H from H₀.
 
 use checks::Checks;

@@ -478,7 +478,7 @@ pub struct Monitors<T = f64> {
 pub struct Monitor<T> {
     /// The declared name, with the component in brackets for vectors.
     pub name: &'static str,
-    /// How it was declared.
+    /// Its declaration.
     pub kind: ObservableKind,
     /// The extremes seen.
     pub drift: Deviation<T>,

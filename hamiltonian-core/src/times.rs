@@ -130,7 +130,7 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
     {
         self.end = None;
         let shown = self.show(view, &before);
-        // Where it ended the run, times of the same step may follow.
+        // If it ended the run, times of the same step may follow.
         before.clone_from(self.end.as_ref().unwrap_or(view.state));
         self.before = Some(before);
         shown.unwrap_or_else(|error| {

@@ -27,7 +27,7 @@ fn thirty_two_digits_are_correctly_rounded() {
         let [hi, lo] = [hi, lo].map(|w| f64::from_bits(u64::from_str_radix(w, 16).unwrap()));
         let number = DoubleDouble::new(hi, lo);
         assert_eq!(format!("{number:e}"), digits);
-        // What is displayed is the same number to 32 digits.
+        // The displayed number is the same to 32 digits.
         let again = read(&number.to_string()).unwrap();
         assert!(
             ((again - number) / number).magnitude() < 5.1e-32,

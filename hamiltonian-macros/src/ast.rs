@@ -152,7 +152,7 @@ pub enum StatementKind {
     },
     /// `invariant name = value [on H = shell]`; `monitor name = value`; `event name = value`
     Observable {
-        /// Which of the three.
+        /// One of the three.
         kind: ObservableKind,
         /// `#[assume]` stands before it.
         assumed: bool,

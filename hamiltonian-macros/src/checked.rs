@@ -175,7 +175,7 @@ pub enum Definition {
 pub struct Observable {
     /// Docs, each with its `#`.
     pub attributes: Vec<TokenStream>,
-    /// Which of the three.
+    /// One of the three.
     pub kind: ObservableKind,
     /// The author's word that it is an invariant.
     pub assumed: bool,
@@ -192,7 +192,7 @@ pub struct Observable {
 pub struct Chart {
     /// The word, for errors.
     pub name: Ident,
-    /// Which change, groups and parameters by their numbers here.
+    /// The change, with groups and parameters by their numbers here.
     pub kind: transform::Chart,
 }
 
@@ -311,7 +311,7 @@ pub enum Kind {
     Index {
         /// The indexed value.
         base: NodeId,
-        /// Which component or row.
+        /// The component or row.
         index: Index,
     },
     /// S, … → V of literal extent

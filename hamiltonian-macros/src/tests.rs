@@ -63,7 +63,7 @@ fn refuse(source: &str) -> (Option<Stage>, Vec<Diagnostic>) {
     (None, Vec::new())
 }
 
-/// Where marked pieces of a source stand once the marks are taken out.
+/// The places of marked pieces of a source once the marks are taken out.
 fn unmarked(source: &str) -> (String, Vec<(LineColumn, LineColumn)>) {
     let (mut plain, mut open, mut marks) = (String::new(), Vec::new(), Vec::new());
     let (mut line, mut column) = (1, 0);

@@ -37,7 +37,7 @@ pub enum Relation {
     Equal,
 }
 
-/// Which derivative of an external function.
+/// The value of an external function, or a derivative.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Part {
     /// The function itself.

@@ -98,7 +98,7 @@ impl Affine {
     /// `self + factor·other`.
     ///
     /// # Panics
-    /// Where a coefficient overflows, which the macro reports as its own fault.
+    /// If a coefficient overflows, which the macro reports as its own fault.
     #[must_use]
     pub fn plus(&self, factor: i64, other: &Affine) -> Affine {
         self.checked_plus(factor, other)

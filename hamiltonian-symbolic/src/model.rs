@@ -340,7 +340,7 @@ impl Model {
     /// H.
     ///
     /// # Panics
-    /// Where there is none: a model without H has no dynamics.
+    /// If there is none: a model without H has no dynamics.
     #[must_use]
     pub fn h(&self) -> Node {
         self.hamiltonian.expect("a model of dynamics has an H")

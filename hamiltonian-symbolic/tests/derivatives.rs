@@ -1,7 +1,7 @@
 //! Values and derivatives of random expressions: the scheduled program over `f64` against dual
 //! numbers over double-doubles that know nothing of the engine.
 //!
-//! Where only one of the two is finite there is a reason: the program may drop what is multiplied by
+//! If only one of the two is finite there is a reason: the program may drop what is multiplied by
 //! 0 or divided by itself (a licence); the oracle lets an exact 0 absorb an infinite slope, so that
 //! a factor 0 in front of √0 hides its derivative (absorbed). Both happen on edges alone, but for
 //! licences that drop what left its domain.

@@ -12,7 +12,7 @@ use hamiltonian_symbolic::program::{Function, Instruction, Program, Step, Target
 /// A function written in Rust: the part asked for, at its arguments.
 pub type ExternalFunction<T> = fn(Part, &[T]) -> T;
 
-/// Where a program is evaluated.
+/// A point at which a program is evaluated.
 #[derive(Clone, Debug)]
 pub struct Point<T> {
     /// Time.
@@ -53,7 +53,7 @@ impl<T: Real> Default for Point<T> {
     }
 }
 
-/// What a function returned and stored.
+/// The results of a function, returned and stored.
 #[derive(Clone, Debug)]
 pub struct Outcome<T> {
     /// The values returned.
@@ -65,7 +65,7 @@ pub struct Outcome<T> {
 /// Runs a function of a program at a point, all stages.
 ///
 /// # Panics
-/// Where the point has no array, size or function that the program reads, or an index leaves it.
+/// If the point has no array, size or function that the program reads, or an index leaves it.
 #[must_use]
 pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) -> Outcome<T> {
     run_in_order(program, function, point, false)

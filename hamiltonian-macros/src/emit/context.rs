@@ -34,7 +34,7 @@ pub struct Context<'a> {
     pub suffix: &'static str,
     /// The names of sizes inside bodies.
     pub indices: Indices<'a>,
-    /// Which sizes are set at run time.
+    /// Whether each size is set at run time.
     pub is_run_time: &'a [bool],
     /// Access to the point of a body.
     pub access: Access,

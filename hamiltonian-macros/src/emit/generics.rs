@@ -21,7 +21,7 @@ pub struct Generics {
     pub scalars: Vec<String>,
     /// All sizes as they are called in bodies.
     pub sizes: Vec<String>,
-    /// Which sizes are set at run time.
+    /// Whether each size is set at run time.
     pub is_run_time: Vec<bool>,
     /// The fields of the parameters.
     fields: Vec<String>,

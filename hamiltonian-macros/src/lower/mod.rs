@@ -52,7 +52,7 @@ pub struct Lowered {
     pub legendre: Option<Legendre>,
     /// The expressions that no `f64` is near, or that have such a coefficient, innermost first.
     pub beyond: Beyond,
-    /// Which expressions are written nowhere.
+    /// The expressions that are written nowhere.
     derived: Derived,
 }
 

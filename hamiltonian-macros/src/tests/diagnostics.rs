@@ -57,7 +57,7 @@ fn marked(source: &str, errors: &[Diagnostic]) -> String {
             marks.extend([(start, '⟦'), (end, '⟧')]);
         }
     }
-    // What ends somewhere ends before anything begins there.
+    // Pieces that end somewhere end before others begin there.
     marks.sort_by_key(|&(place, mark)| (place.line, place.column, mark == '⟦'));
     let mut marks = marks.into_iter().peekable();
     let (mut text, mut here) = (String::new(), LineColumn { line: 1, column: 0 });

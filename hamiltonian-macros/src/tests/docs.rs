@@ -228,7 +228,7 @@ fn equations_in_another_time_are_in_that_time() {
     assert!(equations.contains("dx/ds = "), "{equations}");
     assert!(equations.contains("dt/ds = hypot(x, y)\n"), "{equations}");
     assert!(!equations.contains("/dt"), "{equations}");
-    // Where s is a coordinate, the new time has another name.
+    // If s is a coordinate, the new time has another name.
     let lagrangian = docs("pub struct Bead {} L(s; v) = v^2/2 - s^2/2; dt = (1 + s^2)*ds");
     let equations = section(&lagrangian, "Equations of motion");
     assert!(equations.contains("ds/ds_2 = "), "{equations}");

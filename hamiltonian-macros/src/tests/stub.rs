@@ -1,4 +1,4 @@
-//! What is emitted instead of a wrong definition, and how definitions reach the front end.
+//! The code in the place of a wrong definition, and the way of definitions to the front end.
 
 use super::unmarked;
 use crate::expand::{self, expand};

@@ -5,7 +5,7 @@
 
 use super::Parameter;
 
-/// Which vector of phase space an element belongs to.
+/// The vector of phase space that an element belongs to.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub enum Side {
     /// Coordinates.

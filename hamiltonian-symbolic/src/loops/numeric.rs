@@ -39,14 +39,14 @@ pub struct Sample {
     pub p: u64,
     /// Whether coordinates and momenta may be negative.
     pub signed: bool,
-    /// Which parameters may be negative, and whether the time may.
+    /// The parameters that may be negative, and whether the time may.
     pub signs: Signs,
     /// Whether parameters are multiples of 1/2: powers of negative numbers have values where
     /// exponents are whole.
     pub halves: bool,
 }
 
-/// Which parameters are negative: those whose number modulo 3 is a bit of the set; of arrays, some
+/// The parameters that are negative: those whose number modulo 3 is a bit of the set; of arrays, some
 /// elements. The time may be where any is.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub struct Signs(u8);

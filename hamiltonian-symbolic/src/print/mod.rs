@@ -20,7 +20,7 @@ use crate::dag::Node;
 use crate::index::{Affine, Domain};
 use crate::model::Model;
 
-/// Which notation to write.
+/// A notation to write.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Notation {
     /// The language's own: `p^2/(2*m) + k*x^2/2`.

@@ -21,7 +21,7 @@ const SUBSETS: usize = 5;
 pub(crate) struct Block {
     /// Their sum.
     pub(crate) node: Node,
-    /// Which units.
+    /// The units.
     units: u64,
     pub(crate) flow: Flow,
 }

@@ -28,7 +28,7 @@ pub(super) fn form(model: &mut Model, kinetic: Node) -> Result<(), String> {
     }
 }
 
-/// Which of two parts of H is a kick V(q, t) beside the other, A(q, p), at most quadratic in the
+/// The part of two of H that is a kick V(q, t) beside the other, A(q, p), at most quadratic in the
 /// momenta: the numbers of V and of A. Tables of Nyström type have their order there, because
 /// {V, {V, {V, A}}} = 0.
 ///

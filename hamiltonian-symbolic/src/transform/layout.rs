@@ -1,4 +1,4 @@
-//! Which groups charts replace, and which ones stand in their places.
+//! The groups that charts replace, and those in their places.
 //!
 //! Input: a model and charts, each of coordinates of the shape it is for. Output: [`Layout`], or why the charts do not fit. Invariant: the new
 //! groups of a chart stand where its first old group stood; names are told apart.

@@ -281,7 +281,7 @@ impl Reducer<'_> {
     }
 }
 
-/// Which of the two goes for each angle: bit i set means sin² of angle i.
+/// The one of the two that goes for each angle: bit i set means sin² of angle i.
 fn direction(way: u32, ways: u32) -> u32 {
     // With many angles the two ways are all cosines and all sines.
     if ways == 2 && way == 1 { u32::MAX } else { way }

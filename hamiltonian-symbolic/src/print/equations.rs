@@ -275,7 +275,7 @@ impl Equation {
         if matches!(group.shape, Shape::Matrix(..)) {
             indices.push(at.column.to_string());
         }
-        let writer = Writer::new(model, notation, &[]);
+        let writer = Writer::new(model, notation.style(), &[]);
         let element = |name: &str| writer.indexed(name, &indices);
         let time = writer.named(model.evolution.as_deref().unwrap_or(model.time_name()));
         let left = match notation {

@@ -3,11 +3,38 @@
 //! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
 //! Greek letters become the letters; trailing digits and words after `_` become subscripts.
 
-use super::layout::{Level, Piece, Writer, fraction};
+use super::layout::{Level, Piece, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
+
+pub(super) const LATEX: Style = Style {
+    pi: "\\pi",
+    open: "\\left(",
+    close: "\\right)",
+    relations: [" < ", " \\le ", " = "],
+    opposites: [" \\ge ", " > ", " \\ne "],
+    not: "\\lnot ",
+    and: " \\land ",
+    or: " \\lor ",
+    ellipsis: "\\dots",
+    modulo: "\\bmod",
+    times: " ",
+    loop_level: Level::Sum,
+    body_level: Level::Product,
+    loop_end: "",
+    last: -1,
+    loop_head,
+    number,
+    is_fraction,
+    indexed,
+    call: |writer, op, x| call(writer, op, x, None),
+    call_level,
+    external,
+    select,
+    product,
+};
 
 const GREEK: &[&str] = &[
     "alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa",
@@ -18,7 +45,7 @@ const GREEK: &[&str] = &[
 
 /// A declared name with indices: `theta` is θ, `p_x` and `q1` have subscripts, longer words are
 /// upright.
-pub(super) fn indexed(name: &str, indices: &[String]) -> String {
+fn indexed(name: &str, indices: &[String]) -> String {
     let mut parts = name.split('_').filter(|part| !part.is_empty());
     let Some(head) = parts.next() else {
         return format!("\\mathrm{{{}}}", name.replace('_', "\\_"));
@@ -60,7 +87,7 @@ fn letter(word: &str) -> String {
 }
 
 /// Whether a number is written as a fraction.
-pub(super) fn is_fraction(value: &Rational) -> bool {
+fn is_fraction(value: &Rational) -> bool {
     match value.to_small() {
         Some((_, 1)) => false,
         Some((_, d)) if d <= 9 => true,
@@ -69,7 +96,7 @@ pub(super) fn is_fraction(value: &Rational) -> bool {
 }
 
 /// A number.
-pub(super) fn number(value: &Rational) -> String {
+fn number(value: &Rational) -> String {
     if is_fraction(value) {
         let sign = if value.is_negative() { "-" } else { "" };
         let (n, d) = parts(&value.abs());
@@ -99,8 +126,7 @@ fn parts(value: &Rational) -> (String, String) {
     }
 }
 
-/// The level of a call.
-pub(super) fn call_level(op: Op) -> Level {
+fn call_level(op: Op) -> Level {
     if matches!(op, Op::Pow | Op::Exp) {
         Level::Power
     } else {
@@ -116,12 +142,12 @@ fn takes_power(op: Op) -> bool {
 }
 
 /// `\sum_{i=0}^{N-1} `
-pub(super) fn loop_head(name: &str, start: &str, last: &str) -> String {
+fn loop_head(name: &str, start: &str, last: &str) -> String {
     format!("\\sum_{{{name}={start}}}^{{{last}}} ")
 }
 
 /// Cases, a condition behind each value.
-pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
+fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
     vec![
         Piece::Static("\\begin{cases} "),
         Piece::Node(yes, Level::Loose),
@@ -134,7 +160,7 @@ pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
 }
 
 /// A function, to a power that stands after its name.
-pub(super) fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
+fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
     let within = |open, close| {
         let argument = Piece::Node(x[0], Level::Loose);
         vec![Piece::Static(open), argument, Piece::Static(close)]
@@ -171,7 +197,7 @@ fn is_name(dag: &Dag, node: Node) -> bool {
 }
 
 /// A function in Rust, or a derivative of it.
-pub(super) fn external(of: &External, part: Part) -> String {
+fn external(of: &External, part: Part) -> String {
     let name = indexed(&of.name, &[]);
     let argument = |at: u16| indexed(&of.arguments[usize::from(at)], &[]);
     let partial = |above: &str, below: String| format!("\\frac{{{above} {name}}}{{{below}}}");
@@ -192,7 +218,7 @@ pub(super) fn external(of: &External, part: Part) -> String {
 
 /// `k·Π` with k ≥ 0: one fraction, unless a sum stands above the line beside numbers only below
 /// it.
-pub(super) fn product(writer: &Writer<'_>, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
     let dag = writer.dag();
     let (above, below) = fraction(factors);
     let (n, d) =
@@ -228,7 +254,7 @@ pub(super) fn product(writer: &Writer<'_>, k: &Rational, factors: &[(Node, i32)]
 fn line(
     writer: &Writer<'_>,
     number: &str,
-    factors: &[(Node, i32)],
+    factors: &[Power],
     enclosed: bool,
     pieces: &mut Vec<Piece>,
 ) {
@@ -238,7 +264,7 @@ fn line(
         pieces.push(Piece::Owned(number.to_owned()));
         any = true;
     }
-    let is_loop = |(node, n): &(Node, i32)| *n == 1 && matches!(dag.kind(*node), Kind::Reduce(..));
+    let is_loop = |(node, n): &Power| *n == 1 && matches!(dag.kind(*node), Kind::Reduce(..));
     let (loops, others): (Vec<_>, Vec<_>) = factors.iter().partition(|factor| is_loop(factor));
     let count = others.len() + loops.len();
     for (at, (node, n)) in others.into_iter().chain(loops).enumerate() {

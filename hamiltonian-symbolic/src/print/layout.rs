@@ -6,10 +6,10 @@
 //! needs them.
 
 use super::names::Scope;
-use super::{Notation, latex, text};
-use crate::dag::{Array, Dag, Kind, Node, Parameter};
+use crate::dag::{Array, Dag, Kind, Node, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index};
-use crate::model::{Model, Shape};
+use crate::model::{External, Model, Shape};
+use crate::op::Op;
 use crate::rational::Rational;
 
 /// The rest of an expression past this many bytes is written as an ellipsis.
@@ -46,7 +46,7 @@ pub(super) enum Piece {
     /// A node, in parentheses if it holds together less tightly.
     Node(Node, Level),
     /// A product: `k·Π`, without its sign.
-    Product(Rational, Vec<(Node, i32)>),
+    Product(Rational, Vec<Power>),
     /// The terms of a sum from this one on, negated if the flag says so.
     Terms(Node, usize, bool),
     /// The head of a sum over a loop; the loop is entered.
@@ -55,11 +55,63 @@ pub(super) enum Piece {
     Close,
 }
 
+/// What one notation writes in its own way: words, and the parts that stand in another order.
+#[derive(Debug)]
+pub(super) struct Style {
+    pub(super) pi: &'static str,
+    /// Parentheses, of arguments too.
+    pub(super) open: &'static str,
+    pub(super) close: &'static str,
+    /// a < b, a ≤ b, a = b
+    pub(super) relations: [&'static str; 3],
+    /// a ≥ b, a > b, a ≠ b
+    pub(super) opposites: [&'static str; 3],
+    pub(super) not: &'static str,
+    pub(super) and: &'static str,
+    pub(super) or: &'static str,
+    /// The sign of an omission.
+    pub(super) ellipsis: &'static str,
+    pub(super) modulo: &'static str,
+    /// Between a number and the name of a loop or a size.
+    pub(super) times: &'static str,
+    /// The precedence of a sum over a loop, the least one of its body, and the word that ends it.
+    pub(super) loop_level: Level,
+    pub(super) body_level: Level,
+    pub(super) loop_end: &'static str,
+    /// The upper bound that is written, less the end of the range: 0, or −1 where it is the last index.
+    pub(super) last: i64,
+    /// The head of a sum over a loop: its variable and bounds.
+    pub(super) loop_head: fn(&str, &str, &str) -> String,
+    pub(super) number: fn(&Rational) -> String,
+    /// Whether a number ≥ 0 is written as a fraction.
+    pub(super) is_fraction: fn(&Rational) -> bool,
+    /// A declared name with indices.
+    pub(super) indexed: fn(&str, &[String]) -> String,
+    /// A function of the language, and its precedence.
+    pub(super) call: fn(&Writer<'_>, Op, &[Node]) -> Vec<Piece>,
+    pub(super) call_level: fn(Op) -> Level,
+    /// The name of a function in Rust, or of a derivative of it.
+    pub(super) external: fn(&External, Part) -> String,
+    /// A condition, and the two values.
+    pub(super) select: fn(Node, Node, Node) -> Vec<Piece>,
+    /// `k·Π` with k ≥ 0.
+    pub(super) product: fn(&Writer<'_>, &Rational, &[Power]) -> Vec<Piece>,
+}
+
+impl Style {
+    fn relation(&self, relation: Relation) -> &'static str {
+        self.relations[relation as usize]
+    }
+    fn opposite(&self, relation: Relation) -> &'static str {
+        self.opposites[relation as usize]
+    }
+}
+
 /// Writes one expression.
 #[derive(Debug)]
 pub(super) struct Writer<'a> {
-    pub(super) model: &'a Model,
-    pub(super) notation: Notation,
+    model: &'a Model,
+    style: &'static Style,
     scope: Scope<'a>,
     out: String,
     stack: Vec<Piece>,
@@ -68,12 +120,12 @@ pub(super) struct Writer<'a> {
 impl<'a> Writer<'a> {
     pub(super) fn new(
         model: &'a Model,
-        notation: Notation,
+        style: &'static Style,
         bound: &[(Domain, &str)],
     ) -> Writer<'a> {
         Writer {
             model,
-            notation,
+            style,
             scope: Scope::new(model, bound),
             out: String::new(),
             stack: Vec::new(),
@@ -91,34 +143,20 @@ impl<'a> Writer<'a> {
             match piece {
                 Piece::Static(text) => self.out.push_str(text),
                 Piece::Owned(text) => self.out.push_str(&text),
-                Piece::Node(..) if self.is_long() => {
-                    self.out.push_str(self.notation.words().ellipsis)
-                }
+                Piece::Node(..) if self.is_long() => self.out.push_str(self.style.ellipsis),
                 Piece::Node(node, level) => self.node(node, level),
                 Piece::Product(k, factors) => {
-                    let pieces = match self.notation {
-                        Notation::Text => text::product(self.dag(), &k, &factors),
-                        Notation::Latex => latex::product(&self, &k, &factors),
-                    };
+                    let pieces = (self.style.product)(&self, &k, &factors);
                     self.push(pieces);
                 }
                 Piece::Terms(node, at, negated) => self.terms(node, at, negated),
                 Piece::Open(domain) => {
                     // The bounds stand outside the loop they bound.
                     let range = self.dag().range(domain);
-                    let (start, end) = (self.affine(&range.start), range.end.clone());
-                    let head = match self.notation {
-                        Notation::Text => {
-                            let end = self.affine(&end);
-                            self.scope.enter(domain);
-                            text::loop_head(&self.scope.name(domain), &start, &end)
-                        }
-                        Notation::Latex => {
-                            let last = self.affine(&end.plus(-1, &Affine::constant(1)));
-                            self.scope.enter(domain);
-                            latex::loop_head(&self.scope.name(domain), &start, &last)
-                        }
-                    };
+                    let end = range.end.plus(self.style.last, &Affine::constant(1));
+                    let (start, end) = (self.affine(&range.start), self.affine(&end));
+                    self.scope.enter(domain);
+                    let head = (self.style.loop_head)(&self.scope.name(domain), &start, &end);
                     self.out.push_str(&head);
                 }
                 Piece::Close => self.scope.leave(),
@@ -139,9 +177,8 @@ impl<'a> Writer<'a> {
     fn node(&mut self, node: Node, level: Level) {
         let mut pieces = self.pieces(node);
         if self.level(node) < level {
-            let words = self.notation.words();
-            pieces.insert(0, Piece::Static(words.open));
-            pieces.push(Piece::Static(words.close));
+            pieces.insert(0, Piece::Static(self.style.open));
+            pieces.push(Piece::Static(self.style.close));
         }
         self.push(pieces);
     }
@@ -149,14 +186,14 @@ impl<'a> Writer<'a> {
     /// A node without parentheses around it.
     fn pieces(&self, node: Node) -> Vec<Piece> {
         let dag = self.dag();
-        let words = self.notation.words();
+        let style = self.style;
         let pair = |a: Node, word: &'static str, b: Node, level: Level| {
             let (a, b) = (Piece::Node(a, level), Piece::Node(b, level));
             vec![a, Piece::Static(word), b]
         };
         match dag.kind(node) {
-            Kind::Constant(value) => self.number(value),
-            Kind::Pi => vec![Piece::Static(words.pi)],
+            Kind::Constant(value) => vec![self.number(value)],
+            Kind::Pi => vec![Piece::Static(style.pi)],
             Kind::Scalar(parameter) => vec![self.name(&self.parameter(*parameter))],
             Kind::Time => vec![self.name(self.model.time_name())],
             Kind::Coefficient => vec![Piece::Static("h")],
@@ -179,23 +216,16 @@ impl<'a> Writer<'a> {
                 pieces.push(Piece::Product(k.abs(), factors.clone()));
                 pieces
             }
-            Kind::Call(op, arguments) => match self.notation {
-                Notation::Text => text::call(self, *op, arguments),
-                Notation::Latex => latex::call(self, *op, arguments, None),
-            },
+            Kind::Call(op, arguments) => (style.call)(self, *op, arguments),
             Kind::External(function, part, arguments) => {
                 let of = &self.model.externals[usize::from(*function)];
-                let name = match self.notation {
-                    Notation::Text => text::external(of, *part),
-                    Notation::Latex => latex::external(of, *part),
-                };
-                self.listed(name, arguments)
+                self.listed((style.external)(of, *part), arguments)
             }
             Kind::Reduce(domain, body) => vec![
                 Piece::Open(*domain),
-                Piece::Node(*body, words.body),
+                Piece::Node(*body, style.body_level),
                 Piece::Close,
-                Piece::Static(words.end),
+                Piece::Static(style.loop_end),
             ],
             Kind::Count(domain) => {
                 let range = dag.range(*domain);
@@ -203,58 +233,47 @@ impl<'a> Writer<'a> {
                     return vec![Piece::Owned(self.affine(&range.end))];
                 }
                 let open = vec![Piece::Open(*domain), Piece::Close, Piece::Static("1")];
-                open.into_iter().chain([Piece::Static(words.end)]).collect()
+                open.into_iter()
+                    .chain([Piece::Static(style.loop_end)])
+                    .collect()
             }
-            Kind::Compare(relation, a, b) => pair(*a, words.relation(*relation), *b, Level::Sum),
+            Kind::Compare(relation, a, b) => pair(*a, style.relation(*relation), *b, Level::Sum),
             Kind::Not(inner) => match dag.kind(*inner) {
                 Kind::Compare(relation, a, b) => {
-                    pair(*a, words.opposite(*relation), *b, Level::Sum)
+                    pair(*a, style.opposite(*relation), *b, Level::Sum)
                 }
-                _ => vec![Piece::Static(words.not), Piece::Node(*inner, Level::Atom)],
+                _ => vec![Piece::Static(style.not), Piece::Node(*inner, Level::Atom)],
             },
-            Kind::And(a, b) => pair(*a, words.and, *b, Level::And),
-            Kind::Or(a, b) => pair(*a, words.or, *b, Level::Loose),
-            Kind::Select(c, yes, no) => match self.notation {
-                Notation::Text => text::select(*c, *yes, *no),
-                Notation::Latex => latex::select(*c, *yes, *no),
-            },
+            Kind::And(a, b) => pair(*a, style.and, *b, Level::And),
+            Kind::Or(a, b) => pair(*a, style.or, *b, Level::Loose),
+            Kind::Select(c, yes, no) => (style.select)(*c, *yes, *no),
         }
     }
 
     /// A function with its arguments.
     pub(super) fn listed(&self, name: String, arguments: &[Node]) -> Vec<Piece> {
-        let words = self.notation.words();
-        let mut pieces = vec![Piece::Owned(name), Piece::Static(words.open)];
+        let mut pieces = vec![Piece::Owned(name), Piece::Static(self.style.open)];
         for (at, argument) in arguments.iter().enumerate() {
             if at > 0 {
                 pieces.push(Piece::Static(", "));
             }
             pieces.push(Piece::Node(*argument, Level::Loose));
         }
-        pieces.push(Piece::Static(words.close));
+        pieces.push(Piece::Static(self.style.close));
         pieces
     }
 
     /// The precedence of a node as it is written.
-    pub(super) fn level(&self, node: Node) -> Level {
+    fn level(&self, node: Node) -> Level {
         match self.dag().kind(node) {
             Kind::Constant(value) if value.is_negative() => Level::Unary,
-            Kind::Constant(value) => match self.notation {
-                Notation::Text if value.to_text().contains('/') => Level::Product,
-                Notation::Latex if latex::is_fraction(value) => Level::Product,
-                _ => Level::Atom,
-            },
+            Kind::Constant(value) if (self.style.is_fraction)(value) => Level::Product,
+            Kind::Constant(_) => Level::Atom,
             Kind::Sum(..) => Level::Sum,
             Kind::Product(..) if negated_sum(self.dag(), node).is_some() => Level::Sum,
             Kind::Product(..) => Level::Product,
-            Kind::Call(op, _) => match self.notation {
-                Notation::Text => text::call_level(*op),
-                Notation::Latex => latex::call_level(*op),
-            },
-            Kind::Reduce(..) => match self.notation {
-                Notation::Text => Level::Unary,
-                Notation::Latex => Level::Sum,
-            },
+            Kind::Call(op, _) => (self.style.call_level)(*op),
+            Kind::Reduce(..) => self.style.loop_level,
             Kind::Count(domain) => {
                 let range = self.dag().range(*domain);
                 if range.start == Affine::constant(0) {
@@ -295,7 +314,7 @@ impl<'a> Writer<'a> {
         }
         if at > 0 && self.is_long() {
             self.out.push_str(" + ");
-            self.out.push_str(self.notation.words().ellipsis);
+            self.out.push_str(self.style.ellipsis);
             return;
         }
         let term = if first {
@@ -307,7 +326,7 @@ impl<'a> Writer<'a> {
             None => (constant.is_negative(), self.number(&constant.abs())),
             Some(term) => {
                 let (k, child) = &terms[term];
-                (k.is_negative(), vec![self.scaled(&k.abs(), *child)])
+                (k.is_negative(), self.scaled(&k.abs(), *child))
             }
         };
         match (at, negative != negated) {
@@ -316,20 +335,15 @@ impl<'a> Writer<'a> {
             (_, false) => self.out.push_str(" + "),
             (_, true) => self.out.push_str(" - "),
         }
-        let mut pieces = piece;
-        pieces.push(Piece::Terms(node, at + 1, negated));
-        self.push(pieces);
+        self.push(vec![piece, Piece::Terms(node, at + 1, negated)]);
     }
 
-    fn number(&self, value: &Rational) -> Vec<Piece> {
-        match self.notation {
-            Notation::Text => vec![Piece::Owned(value.to_text())],
-            Notation::Latex => vec![Piece::Owned(latex::number(value))],
-        }
+    fn number(&self, value: &Rational) -> Piece {
+        Piece::Owned((self.style.number)(value))
     }
 
     /// `k·node` as one product, k ≥ 0.
-    pub(super) fn scaled(&self, k: &Rational, node: Node) -> Piece {
+    fn scaled(&self, k: &Rational, node: Node) -> Piece {
         match self.dag().kind(node) {
             Kind::Product(c, factors) => Piece::Product(k.mul(c), factors.clone()),
             _ if k.is_one() => Piece::Node(node, Level::Product),
@@ -369,13 +383,7 @@ impl<'a> Writer<'a> {
 
     /// A declared name with indices: `q[2][0]`.
     pub(super) fn indexed(&self, name: &str, indices: &[String]) -> String {
-        match self.notation {
-            Notation::Text => {
-                let append = |text, index| format!("{text}[{index}]");
-                indices.iter().fold(name.to_owned(), append)
-            }
-            Notation::Latex => latex::indexed(name, indices),
-        }
+        (self.style.indexed)(name, indices)
     }
 
     /// A declared name as a piece.
@@ -404,7 +412,7 @@ impl<'a> Writer<'a> {
                 format!("({})", self.affine(modulo))
             },
         );
-        format!("{inner} {} {modulo}", self.notation.words().modulo)
+        format!("{inner} {} {modulo}", self.style.modulo)
     }
 
     fn affine_level(&self, affine: &Affine) -> Level {
@@ -451,7 +459,7 @@ impl<'a> Writer<'a> {
             match size {
                 _ if name.is_empty() => text.push_str(&size.to_string()),
                 1 => text.push_str(name),
-                _ => text.push_str(&format!("{size}{}{name}", self.notation.words().times)),
+                _ => text.push_str(&format!("{size}{}{name}", self.style.times)),
             }
         }
         text
@@ -474,7 +482,7 @@ fn constant_stands_first(constant: &Rational, terms: &[(Rational, Node)], negate
 }
 
 /// The sum that a node is the negative of: `-(1 - x)` is written `x - 1`.
-pub(super) fn negated_sum(dag: &Dag, node: Node) -> Option<Node> {
+fn negated_sum(dag: &Dag, node: Node) -> Option<Node> {
     match dag.kind(node) {
         Kind::Product(k, factors) if *k == Rational::MINUS_ONE => match factors.as_slice() {
             [(sum, 1)] if matches!(dag.kind(*sum), Kind::Sum(..)) => Some(*sum),
@@ -484,11 +492,11 @@ pub(super) fn negated_sum(dag: &Dag, node: Node) -> Option<Node> {
     }
 }
 
-/// Nodes with their powers.
-pub(super) type Factors = Vec<(Node, i32)>;
+/// A node with its power.
+pub(super) type Power = (Node, i32);
 
 /// The factors above and below the line.
-pub(super) fn fraction(factors: &[(Node, i32)]) -> (Factors, Factors) {
+pub(super) fn fraction(factors: &[Power]) -> (Vec<Power>, Vec<Power>) {
     let above = factors.iter().filter(|(_, n)| *n > 0).copied().collect();
     let below = factors
         .iter()

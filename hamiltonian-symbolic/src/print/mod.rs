@@ -9,7 +9,6 @@ mod layout;
 mod names;
 mod operations;
 mod text;
-mod words;
 
 pub(crate) use equations::scalar_equation;
 pub use equations::{Equations, hamilton_equations};
@@ -27,6 +26,15 @@ pub enum Notation {
     Text,
     /// LaTeX, without the dollar signs.
     Latex,
+}
+
+impl Notation {
+    fn style(self) -> &'static layout::Style {
+        match self {
+            Notation::Text => &text::TEXT,
+            Notation::Latex => &latex::LATEX,
+        }
+    }
 }
 
 /// A node in the language's own notation. Past some 16 000 characters the rest is written `…`.
@@ -51,7 +59,7 @@ pub fn write(model: &Model, node: Node, notation: Notation) -> String {
 /// An extent in the language's own notation: `3`, `N`.
 #[must_use]
 pub fn extent(model: &Model, extent: &Affine) -> String {
-    layout::Writer::new(model, Notation::Text, &[]).affine(extent)
+    layout::Writer::new(model, &text::TEXT, &[]).affine(extent)
 }
 
 /// A node that stands inside loops whose variables have names already.
@@ -62,5 +70,5 @@ pub(crate) fn write_within(
     notation: Notation,
     bound: &[(Domain, &str)],
 ) -> String {
-    layout::Writer::new(model, notation, bound).write(node)
+    layout::Writer::new(model, notation.style(), bound).write(node)
 }

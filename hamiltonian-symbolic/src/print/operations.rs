@@ -4,8 +4,8 @@
 //! for each loop in which anything is done. Invariant: added up they are the operations of the
 //! function, each loop body counted once.
 
-use super::Notation;
 use super::layout::Writer;
+use super::text::TEXT;
 use crate::count::Operations;
 use crate::index::Domain;
 use crate::model::Model;
@@ -23,7 +23,7 @@ pub struct Count {
 /// The operations of a function, place by place.
 #[must_use]
 pub fn operations(model: &Model, program: &Program, function: &Function) -> Vec<Count> {
-    let writer = Writer::new(model, Notation::Text, &[]);
+    let writer = Writer::new(model, &TEXT, &[]);
     let head = |domain: &Domain| {
         let range = model.dag.range(*domain);
         let (start, end) = (writer.affine(&range.start), writer.affine(&range.end));

@@ -2,19 +2,50 @@
 //!
 //! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
 
-use super::layout::{Level, Piece, Writer, fraction};
+use super::layout::{Level, Piece, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
 use crate::rational::Rational;
 
-/// A number.
-pub(super) fn number(value: &Rational) -> String {
-    value.to_text()
+pub(super) const TEXT: Style = Style {
+    pi: "pi",
+    open: "(",
+    close: ")",
+    relations: [" < ", " <= ", " == "],
+    opposites: [" >= ", " > ", " != "],
+    not: "!",
+    and: " && ",
+    or: " || ",
+    ellipsis: "…",
+    modulo: "%",
+    times: "*",
+    loop_level: Level::Unary,
+    body_level: Level::Loose,
+    loop_end: " }",
+    last: 0,
+    loop_head,
+    number: Rational::to_text,
+    is_fraction,
+    indexed,
+    call,
+    call_level,
+    external,
+    select,
+    product,
+};
+
+fn is_fraction(value: &Rational) -> bool {
+    value.to_text().contains('/')
 }
 
-/// The level of a call.
-pub(super) fn call_level(op: Op) -> Level {
+/// `q[2][0]`
+fn indexed(name: &str, indices: &[String]) -> String {
+    let append = |text, index| format!("{text}[{index}]");
+    indices.iter().fold(name.to_owned(), append)
+}
+
+fn call_level(op: Op) -> Level {
     if op == Op::Pow {
         Level::Power
     } else {
@@ -23,12 +54,12 @@ pub(super) fn call_level(op: Op) -> Level {
 }
 
 /// `sum(i in 0..N) { `
-pub(super) fn loop_head(name: &str, start: &str, end: &str) -> String {
+fn loop_head(name: &str, start: &str, end: &str) -> String {
     format!("sum({name} in {start}..{end}) {{ ")
 }
 
 /// `if c { yes } else { no }`
-pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
+fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
     vec![
         Piece::Static("if "),
         Piece::Node(c, Level::Loose),
@@ -41,7 +72,7 @@ pub(super) fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
 }
 
 /// A function of the language.
-pub(super) fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Piece> {
+fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Piece> {
     match op {
         Op::Pow => vec![
             Piece::Node(x[0], Level::Atom),
@@ -54,7 +85,7 @@ pub(super) fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Piece> {
 
 /// A function in Rust, or a derivative of it, which the language has no way to say: `f'(x)` of one
 /// argument, `(∂f/∂y)(x, y)` of several.
-pub(super) fn external(of: &External, part: Part) -> String {
+fn external(of: &External, part: Part) -> String {
     let name = &of.name;
     let argument = |at: u16| &of.arguments[usize::from(at)];
     match (part, of.arguments.len()) {
@@ -70,15 +101,16 @@ pub(super) fn external(of: &External, part: Part) -> String {
 /// The right of `^` takes a sign and further powers.
 fn exponent(dag: &Dag, node: Node) -> Piece {
     match dag.kind(node) {
-        Kind::Constant(value) if !value.to_text().contains('/') => Piece::Owned(number(value)),
+        Kind::Constant(value) if !is_fraction(value) => Piece::Owned(value.to_text()),
         _ => Piece::Node(node, Level::Power),
     }
 }
 
 /// `k·Π` with k ≥ 0: `0.5*q^2*p^2`, `p^2/2`, `p^2/(2*m*l^2)`.
-pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<Piece> {
+fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
+    let dag = writer.dag();
     let (above, below) = fraction(factors);
-    let text = number(k);
+    let text = k.to_text();
     let is_decimal = !text.contains('/');
     let (numerator, denominator) = match k.to_small() {
         Some((n, 1)) => (n.to_string(), String::new()),
@@ -122,7 +154,7 @@ pub(super) fn product(dag: &Dag, k: &Rational, factors: &[(Node, i32)]) -> Vec<P
     pieces
 }
 
-fn factors_of(dag: &Dag, factors: &[(Node, i32)], pieces: &mut Vec<Piece>) {
+fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Piece>) {
     for &(node, n) in factors {
         if !pieces.is_empty() {
             pieces.push(Piece::Static("*"));

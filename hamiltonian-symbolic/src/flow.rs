@@ -3,7 +3,7 @@
 //! Input: made by `split`. Output: [`Piece`], [`ExactFlow`], [`Motion`]. Invariant: values are functions
 //! of the point before the motion; outside the conditions everything that moves becomes NaN.
 
-use crate::dag::{Dag, Node};
+use crate::dag::{Dag, Map, Node};
 use crate::index::Domain;
 
 /// A part of H with its flow.
@@ -63,6 +63,40 @@ impl ExactFlow {
         match self {
             ExactFlow::Linear | ExactFlow::Exponential | ExactFlow::Closed(..) => None,
             ExactFlow::Loop { innermost, .. } => Some(*innermost),
+        }
+    }
+}
+
+/// A motion with the names of the rows it is made of; none for a motion linear in time.
+#[derive(Clone, Default)]
+pub(crate) struct Flow {
+    pub(crate) motion: Motion,
+    pub(crate) rows: Vec<&'static str>,
+}
+
+impl Flow {
+    /// The motion of one row.
+    pub(crate) fn of(motion: Motion, row: &'static str) -> Flow {
+        let rows = vec![row];
+        Flow { motion, rows }
+    }
+    /// The same with further rows.
+    pub(crate) fn noted(mut self, rows: &[&'static str]) -> Flow {
+        for row in rows {
+            if !self.rows.contains(row) {
+                self.rows.push(row);
+            }
+        }
+        self
+    }
+}
+
+impl From<Flow> for ExactFlow {
+    fn from(flow: Flow) -> ExactFlow {
+        match flow.rows.as_slice() {
+            [] => ExactFlow::Linear,
+            [EXPONENTIAL] => ExactFlow::Exponential,
+            _ => ExactFlow::Closed(flow.motion, flow.rows),
         }
     }
 }
@@ -131,6 +165,32 @@ impl Motion {
             false => (m.leaf, m.value),
         };
         self.moves.iter().map(image).collect()
+    }
+
+    /// This motion, then another.
+    pub(crate) fn then(mut self, dag: &mut Dag, other: &Motion) -> Motion {
+        let images: Map<Node, Node> = self.images(dag).into_iter().collect();
+        let at = |dag: &mut Dag, node| dag.substitute(node, |_, node| images.get(&node).copied());
+        for next in &other.moves {
+            let value = at(dag, next.value);
+            match self.moves.iter_mut().find(|m| m.leaf == next.leaf) {
+                Some(known) if next.added => {
+                    known.value = dag.add(&[known.value, value]);
+                }
+                Some(known) => {
+                    known.value = value;
+                    known.added = false;
+                }
+                None => self.moves.push(Move { value, ..*next }),
+            }
+        }
+        for &condition in &other.domain {
+            let condition = at(dag, condition);
+            if !self.domain.contains(&condition) {
+                self.domain.push(condition);
+            }
+        }
+        self
     }
 
     /// The same motion in other variables.

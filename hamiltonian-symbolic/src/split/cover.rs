@@ -4,10 +4,11 @@
 //! candidate are disjoint and hold every unit; each has a flow; at most [`BLOCKS`] are tried.
 
 use super::rows::is_quadratic;
-use super::solve::{Flow, exponential, flow};
+use super::solve::{exponential, flow};
 use super::space::{Set, Space};
 use super::units::{Unit, Units};
 use crate::dag::{Map, Node};
+use crate::flow::Flow;
 
 /// The most blocks of which a flow is sought.
 const BLOCKS: usize = 64;

@@ -6,7 +6,6 @@
 
 mod cover;
 mod growth;
-mod motion;
 mod rank;
 mod rows;
 mod solve;
@@ -19,7 +18,7 @@ pub use rows::{ROWS, Row};
 pub use space::NODES;
 
 use crate::dag::{Dependence, Node};
-use crate::flow::{EXPONENTIAL, ExactFlow, Piece};
+use crate::flow::{ExactFlow, Flow, Piece};
 use crate::model::{Model, ObservableKind};
 use crate::print;
 use crate::transform::check_split;
@@ -91,7 +90,7 @@ fn looped(model: &mut Model, h: Node) -> Option<ExactFlow> {
 }
 
 /// The flow of an expression as it stands, or multiplied out.
-fn any_flow(space: &mut Space, h: Node) -> Option<solve::Flow> {
+fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
     let c = space.dag().coefficient();
     let closed = solve::flow(space, h, c).or_else(|| {
         units::levels(space, h).into_iter().find_map(|level| {
@@ -101,16 +100,6 @@ fn any_flow(space: &mut Space, h: Node) -> Option<solve::Flow> {
         })
     });
     closed.or_else(|| solve::exponential(space, h))
-}
-
-impl From<solve::Flow> for ExactFlow {
-    fn from(flow: solve::Flow) -> ExactFlow {
-        match flow.rows.as_slice() {
-            [] => ExactFlow::Linear,
-            [EXPONENTIAL] => ExactFlow::Exponential,
-            _ => ExactFlow::Closed(flow.motion, flow.rows),
-        }
-    }
 }
 
 /// The best splitting of the model's H that the rows give.

@@ -102,7 +102,7 @@ pub(crate) fn best(
     candidates: Vec<Vec<Block>>,
     invariants: &[Node],
 ) -> Option<(Vec<Block>, Reasons)> {
-    let mut energy = Tape::of(space, &[h]).map(|tape| {
+    let mut energy = space.tape(&[h]).map(|tape| {
         let numbers = tape.prepared(0.0);
         (tape, numbers)
     });
@@ -233,7 +233,7 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
         .iter()
         .map(|(leaf, _)| space.set(*leaf).trailing_zeros() as usize);
     let moved = moved.collect();
-    let tape = Tape::of(space, &roots)?;
+    let tape = space.tape(&roots)?;
     Some(Piece {
         half: tape.prepared(STEP / 2.0),
         whole: tape.prepared(STEP),

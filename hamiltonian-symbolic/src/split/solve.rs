@@ -4,36 +4,11 @@
 //! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
 //! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
 
-use super::rows::{Axes, Moved, ROWS, Row, Solve, is_constant_form};
+use super::rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 use super::space::{Set, Space, bits, differ};
 use crate::dag::{Kind, Map, Node};
-use crate::flow::{EXPONENTIAL, Motion};
+use crate::flow::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
-
-/// An exact flow with the rows it is made of.
-#[derive(Clone)]
-pub(crate) struct Flow {
-    pub(crate) motion: Motion,
-    /// The rows' names; none for a motion linear in time.
-    pub(crate) rows: Vec<&'static str>,
-}
-
-impl Flow {
-    fn of(motion: Motion, row: &Row) -> Flow {
-        Flow {
-            motion,
-            rows: vec![row.name],
-        }
-    }
-    fn noted(mut self, rows: &[&'static str]) -> Flow {
-        for row in rows {
-            if !self.rows.contains(row) {
-                self.rows.push(row);
-            }
-        }
-        self
-    }
-}
 
 /// The flow of h for the time s; `None` where no row takes it.
 pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
@@ -85,7 +60,7 @@ fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
 /// The rows that take all of h.
 fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     ROWS.iter().find_map(|row| match row.solve {
-        Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row)),
+        Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
         Solve::Pair(_) | Solve::Exponential => None,
     })
 }
@@ -102,7 +77,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         .or_else(|| commuting(space, u, time))?;
     // The factor beside u is a constant of the motion only where u's flow leaves it alone.
     let beside = beside(space, h, u);
-    if inner.motion.moved(space) & beside != 0 {
+    if space.moved(&inner.motion) & beside != 0 {
         return None;
     }
     let mut motion = Motion::default();
@@ -119,12 +94,11 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         space.push(&mut motion, bit, value);
     }
     let rows = inner.rows.clone();
-    let kicked = motion.moved(space);
     // A kick beside must not change the variables of u.
-    if kicked & space.set(u) != 0 {
+    if space.moved(&motion) & space.set(u) != 0 {
         return None;
     }
-    let motion = inner.motion.then(space, &motion);
+    let motion = inner.motion.then(space.dag(), &motion);
     Some(Flow { motion, rows })
 }
 
@@ -183,29 +157,24 @@ fn waist(space: &mut Space, h: Node, set: Set) -> Option<Node> {
 fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let active = space.active(h);
     let own: Set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
-    let mut motion = Motion::default();
-    let mut rows = Vec::new();
+    let mut flow = Flow::default();
     for pair in active {
-        let (found, row) = atom(space, h, pair, s)?;
-        rows.push(row);
-        motion.moves.extend(found.moves);
-        motion.domain.extend(found.domain);
+        let found = atom(space, h, pair, s)?;
+        flow.motion.moves.extend(found.motion.moves);
+        flow.motion.domain.extend(found.motion.domain);
+        flow = flow.noted(&found.rows);
     }
     for bit in bits(space.set(h) & !own) {
         let variable = space.variable(bit);
         let slope = space.d(h, variable);
         let value = space.dag().mul(&[s, slope]);
-        space.push(&mut motion, bit, value);
+        space.push(&mut flow.motion, bit, value);
     }
-    let flow = Flow {
-        motion,
-        rows: Vec::new(),
-    };
-    Some(flow.noted(&rows))
+    Some(flow)
 }
 
 /// The motion of one pair under h, all other variables held.
-fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<(Motion, &'static str)> {
+fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
     let own: Set = 3 << (2 * pair);
     let u = waist(space, h, own).unwrap_or(h);
     let outer = space.by_node(h, u);
@@ -220,25 +189,20 @@ fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<(Motion, &'s
 }
 
 /// The first row that takes K of one pair.
-fn row_of(
-    space: &mut Space,
-    k: Node,
-    (q, p): (Node, Node),
-    time: Node,
-) -> Option<(Motion, &'static str)> {
+fn row_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Option<Flow> {
     for row in ROWS {
         match row.solve {
             Solve::Pair(solve) => {
                 for axes in Axes::both(q, p) {
                     if let Some(moved) = solve(space, axes, k, time) {
-                        return Some((of_pair(space, axes, &moved), row.name));
+                        return Some(Flow::of(of_pair(space, axes, &moved), row.name));
                     }
                 }
             }
             Solve::Exponential => {}
             Solve::Whole(solve) => {
                 if let Some(motion) = solve(space, k, time) {
-                    return Some((motion, row.name));
+                    return Some(Flow::of(motion, row.name));
                 }
             }
         }
@@ -333,14 +297,11 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     if parts.len() > PARTS {
         return None;
     }
-    let mut all = Flow {
-        motion: Motion::default(),
-        rows: Vec::new(),
-    };
+    let mut all = Flow::default();
     for part in parts {
         let next = flow(space, part, s)?;
         all = all.noted(&next.rows);
-        all.motion = all.motion.then(space, &next.motion);
+        all.motion = all.motion.then(space.dag(), &next.motion);
     }
     Some(all)
 }

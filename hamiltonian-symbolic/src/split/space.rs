@@ -6,11 +6,10 @@
 //! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
 //! normal form), every answer is no.
 
-use super::solve::Flow;
 use super::tape::{Lanes, Tape};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
-use crate::flow::Motion;
+use crate::flow::{Flow, Motion};
 use crate::index::Index;
 use crate::loops::{Sample, Sampled, Values, product, sum};
 use crate::model::Model;
@@ -52,8 +51,8 @@ pub(crate) struct Space {
     tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
-    /// The same of one pair alone, with the row's name.
-    pub(super) atoms: Map<(Node, Node), Option<(Motion, &'static str)>>,
+    /// The same of one pair alone.
+    pub(super) atoms: Map<(Node, Node), Option<Flow>>,
     /// Whether a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
     /// The number of questions that are left.
@@ -162,6 +161,11 @@ impl Space {
         (0..self.pairs.len())
             .filter(|pair| set >> (2 * pair) & 3 == 3)
             .collect()
+    }
+
+    /// The variables that a motion moves.
+    pub(crate) fn moved(&mut self, motion: &Motion) -> Set {
+        motion.moves.iter().fold(0, |set, m| set | self.set(m.leaf))
     }
 
     /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
@@ -364,10 +368,24 @@ impl Space {
         }
         point
     }
+    /// Nodes as operations on variables; parameters and time have the values of a sample point.
+    pub(super) fn tape(&mut self, roots: &[Node]) -> Option<Tape> {
+        for root in roots {
+            self.set(*root);
+        }
+        let Space {
+            model,
+            sets,
+            values: [values, _],
+            ..
+        } = self;
+        let given = |node| values.at(model, node).value;
+        Tape::of(&model.dag, roots, |node| sets[node.0 as usize], given)
+    }
     /// The value at a point; NaN where there is none.
     pub(crate) fn value_at(&mut self, node: Node, point: &[f64]) -> f64 {
         if !self.tapes.contains_key(&node) {
-            let tape = Tape::of(self, &[node]);
+            let tape = self.tape(&[node]);
             let tape = tape.map(|tape| {
                 let numbers = tape.prepared(0.5);
                 (tape, numbers)

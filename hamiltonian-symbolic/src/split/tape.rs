@@ -3,8 +3,7 @@
 //! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0; a node that
 //! depends on no variable comes first and is computed once a step coefficient.
 
-use super::space::Space;
-use crate::dag::{Array, Kind, Node, Numbers, Relation};
+use crate::dag::{Array, Dag, Kind, Node, Numbers, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
 
@@ -32,28 +31,32 @@ pub(super) struct Tape {
 }
 
 impl Tape {
-    /// The tape of some nodes; variables are numbered as in sets, parameters and time have the
-    /// values of a sample point. `None` where something has no number.
-    pub(super) fn of(space: &mut Space, roots: &[Node]) -> Option<Tape> {
-        let nodes = space.model.dag.reachable(roots);
-        let mut place = Numbers::new(&space.model.dag);
+    /// The tape of some nodes, each of which is written with a set of variables, a bit for each;
+    /// what is `given` has a number. `None` where something has none.
+    pub(super) fn of(
+        dag: &Dag,
+        roots: &[Node],
+        variables: impl Fn(Node) -> u64,
+        mut given: impl FnMut(Node) -> f64,
+    ) -> Option<Tape> {
+        let nodes = dag.reachable(roots);
+        let mut place = Numbers::new(dag);
         let mut steps = Vec::with_capacity(nodes.len());
         let number = |k: &Rational| k.to_f64();
         let (fixed, moving): (Vec<Node>, Vec<Node>) =
-            nodes.into_iter().partition(|node| space.set(*node) == 0);
+            nodes.into_iter().partition(|node| variables(*node) == 0);
         for &node in fixed.iter().chain(&moving) {
             // Every operand was placed before.
             let at = |child: &Node| place.get(*child).map_or(usize::MAX, |at| at as usize);
-            let step = match space.model.dag.kind(node) {
+            let step = match dag.kind(node) {
                 Kind::Constant(value) => Step::Number(number(value)),
                 Kind::Pi => Step::Number(std::f64::consts::PI),
                 Kind::Coefficient => Step::Coefficient,
                 Kind::Element(Array::Phase(_), ..) => {
-                    let bit = space.set(node).trailing_zeros();
-                    Step::Variable(bit as usize)
+                    Step::Variable(variables(node).trailing_zeros() as usize)
                 }
                 Kind::Scalar(_) | Kind::Time | Kind::Extent(_) | Kind::Element(..) => {
-                    Step::Number(space.value(node))
+                    Step::Number(given(node))
                 }
                 Kind::Sum(c, terms) => Step::Sum(
                     number(c),

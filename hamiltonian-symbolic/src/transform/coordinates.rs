@@ -2,8 +2,7 @@
 //!
 //! Input: a model whose H is written in the old coordinates, and charts. Output: [`Transformed`]:
 //! the model in the new ones, K(Q, P, t) = H(q(Q), p(Q, P), t), and both maps as nodes. Invariant:
-//! K agrees with H at sample points of the chart ([`check`], which [`apply`] ends with); the new
-//! groups of a chart stand where its first old group stood.
+//! the new groups of a chart stand where its first old group stood.
 
 use super::Refusal;
 use super::bodies::{Below, Bodies};
@@ -11,7 +10,6 @@ use super::charts::{self, Chart, Masses, Replaced, Variables};
 use super::layout::{Layout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
 use super::reduce::{self, Rules};
-use super::verify::check;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
 use crate::diff;
 use crate::index::{Affine, Index};
@@ -38,94 +36,91 @@ pub struct Transformed {
     rules: Rules,
 }
 
-/// The system in the coordinates of the charts, which replace different coordinates.
-///
-/// Loops that read a replaced coordinate are unrolled, so their lengths must be literal, but
-/// for heliocentric coordinates of any number of bodies.
-///
-/// # Errors
-/// [`Refusal`].
-pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
-    let layout = Layout::new(model, charts)?;
-    let mut source = model.clone();
-    let bodies = bodies(&mut source, charts, &layout);
-    for of in &bodies {
-        let force = std::mem::take(&mut source.force);
-        let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
-        source.force = parts.collect();
-    }
-    let model = &source.clone();
-    let below = Below::new(model, &bodies);
-    let (mut new, roots) = written_out(model, &layout, &bodies)?;
-    new.groups = layout.groups.clone();
-
-    let mut rules = Rules::default();
-    let mut forward = Vec::new();
-    let mut inverse = Vec::new();
-    for (chart, place) in charts.iter().zip(&layout.places) {
-        for block in &place.blocks {
-            let old = block.variables(&mut source.dag, true);
-            let image = to_new(chart, model, &mut source.dag, &old);
-            forward.extend(entries(&block.new, &image));
-            let fresh = block.variables(&mut new.dag, false);
-            let image = to_old(chart, model, &mut new.dag, &fresh, &mut rules);
-            inverse.extend(entries(&block.old, &image));
-        }
-        if let Chart::Jacobi(bodies) = chart {
-            let masses = masses_of(model, &mut new.dag, bodies.masses);
-            charts::jacobi_rules(&masses, &mut rules);
-        }
-    }
-
-    let mut kept = layout.kept.clone();
-    for (chart, place) in charts.iter().zip(&layout.places) {
-        if let Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) = chart {
-            kept.push((REPLACING + bodies.group, place.first));
-        }
-    }
-    let images = images(&mut new.dag, &roots, &inverse, &kept, &bodies, &below).map_err(|old| {
-        Refusal::Wrapped {
-            coordinate: coordinate(model, old),
-        }
-    })?;
-    for of in &bodies {
-        forward.extend(of.forward(&mut source.dag));
-        inverse.extend(of.inverse(&mut new.dag));
-    }
-    let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
-    new.set_roots(&roots);
-    let mut places: Vec<Placement> = charts
-        .iter()
-        .zip(&layout.places)
-        .flat_map(|(chart, place)| placements(model, chart, place.first))
-        .collect();
-    places.extend(layout.kept.iter().map(|&(old, new)| Placement {
-        old: (old, None),
-        new,
-    }));
-    let force = std::mem::take(&mut new.force);
-    let mut transformed = Transformed {
-        model: new,
-        source,
-        forward,
-        inverse,
-        kept: layout.kept,
-        places,
-        bodies,
-        rules,
-    };
-    if [&transformed.source, &transformed.model]
-        .iter()
-        .any(|model| model.dag.has_too_many_loops())
-    {
-        return Err(Refusal::TooManyLoops);
-    }
-    check(&transformed)?;
-    transformed.force(force);
-    Ok(transformed)
-}
-
 impl Transformed {
+    /// The system in the coordinates of the charts, which replace different coordinates.
+    ///
+    /// # Errors
+    /// [`Refusal`]
+    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
+        let layout = Layout::new(model, charts)?;
+        let mut source = model.clone();
+        let bodies = bodies(&mut source, charts, &layout);
+        for of in &bodies {
+            let force = std::mem::take(&mut source.force);
+            let parts = force.iter().flat_map(|f| of.apart(&mut source.dag, f));
+            source.force = parts.collect();
+        }
+        let model = &source.clone();
+        let below = Below::new(model, &bodies);
+        let (mut new, roots) = written_out(model, &layout, &bodies)?;
+        new.groups = layout.groups.clone();
+
+        let mut rules = Rules::default();
+        let mut forward = Vec::new();
+        let mut inverse = Vec::new();
+        for (chart, place) in charts.iter().zip(&layout.places) {
+            for block in &place.blocks {
+                let old = block.variables(&mut source.dag, true);
+                let image = to_new(chart, model, &mut source.dag, &old);
+                forward.extend(entries(&block.new, &image));
+                let fresh = block.variables(&mut new.dag, false);
+                let image = to_old(chart, model, &mut new.dag, &fresh, &mut rules);
+                inverse.extend(entries(&block.old, &image));
+            }
+            if let Chart::Jacobi(bodies) = chart {
+                let masses = masses_of(model, &mut new.dag, bodies.masses);
+                charts::jacobi_rules(&masses, &mut rules);
+            }
+        }
+
+        let mut kept = layout.kept.clone();
+        for (chart, place) in charts.iter().zip(&layout.places) {
+            if let Chart::Jacobi(bodies) | Chart::Heliocentric(bodies) = chart {
+                kept.push((REPLACING + bodies.group, place.first));
+            }
+        }
+        let images =
+            images(&mut new.dag, &roots, &inverse, &kept, &bodies, &below).map_err(|old| {
+                Refusal::Wrapped {
+                    coordinate: coordinate(model, old),
+                }
+            })?;
+        for of in &bodies {
+            forward.extend(of.forward(&mut source.dag));
+            inverse.extend(of.inverse(&mut new.dag));
+        }
+        let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
+        new.set_roots(&roots);
+        let mut places: Vec<Placement> = charts
+            .iter()
+            .zip(&layout.places)
+            .flat_map(|(chart, place)| placements(model, chart, place.first))
+            .collect();
+        places.extend(layout.kept.iter().map(|&(old, new)| Placement {
+            old: (old, None),
+            new,
+        }));
+        let force = std::mem::take(&mut new.force);
+        let mut transformed = Transformed {
+            model: new,
+            source,
+            forward,
+            inverse,
+            kept: layout.kept,
+            places,
+            bodies,
+            rules,
+        };
+        if [&transformed.source, &transformed.model]
+            .iter()
+            .any(|model| model.dag.has_too_many_loops())
+        {
+            return Err(Refusal::TooManyLoops);
+        }
+        transformed.force(force);
+        Ok(transformed)
+    }
+
     /// The place of an element of the old variables among the new ones.
     fn place(&self, at: Column, row: &Index) -> (Column, Index) {
         let number = row.affine.as_constant().map(|row| row as u32);

@@ -1,7 +1,7 @@
 //! Canonical transformations of a system: another time, other coordinates; the pieces and forces
 //! that are declared beside H, checked and carried along.
 //!
-//! Input: a [`Model`](crate::model::Model) with its H. Output: a model of the same dynamics in other variables, with
+//! Input: a [`Model`] with its H. Output: a model of the same dynamics in other variables, with
 //! the maps between them as nodes. Invariant: signs stay q̇ = ∂H/∂p, ṗ = −∂H/∂q; the order of the
 //! stages is coordinates, then time, and declarations beside H (observables, pieces, forces,
 //! the factor of time) are written in the variables of the definition and carried through both.
@@ -17,7 +17,7 @@ pub mod time;
 mod verify;
 
 pub use charts::{Bodies, Chart, Component};
-pub use coordinates::{Transformed, apply};
+pub use coordinates::Transformed;
 pub use layout::Placement;
 pub use split::{Difference, check_split};
 pub use time::{Retimed, retime};
@@ -25,7 +25,21 @@ pub use verify::check;
 
 use crate::index::LOOPS;
 use crate::loops::Point;
+use crate::model::Model;
 use std::fmt;
+
+/// The system in the coordinates of the charts, which replace different coordinates.
+///
+/// Loops that read a replaced coordinate are unrolled, so their lengths must be literal, but
+/// for heliocentric coordinates of any number of bodies.
+///
+/// # Errors
+/// [`Refusal`]; also where [`check`] finds that H in the new coordinates is not H in the old ones.
+pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
+    let transformed = Transformed::new(model, charts)?;
+    check(&transformed)?;
+    Ok(transformed)
+}
 
 /// Why a transformation is refused.
 #[derive(Clone, PartialEq, Debug)]

@@ -1,14 +1,12 @@
-//! Functions of a program as function bodies.
+//! Functions of a program, and their beginnings as function bodies.
 //!
-//! Input: steps with their inputs and results. Output: the text of a body; long ones go to
-//! `parts`. Invariant: sizes, slices and values computed earlier are bound before the first step.
+//! Input: steps with their inputs and results. Output: the text that binds what they read. Invariant:
+//! sizes, slices and values computed earlier are bound before the first step.
 
 use super::block;
 use super::context::Context;
 use super::holder::Receiver;
 use super::layout::Slice;
-use super::parts;
-use super::scan::scan;
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Step, Target, Value};
 use std::fmt::Write;
@@ -42,23 +40,6 @@ pub struct Bodies<'a> {
 }
 
 impl Bodies<'_> {
-    /// Writes a body after `let _self = …;`. All `results` are in scope at its end.
-    pub fn write(&mut self, out: &mut String, body: Body) {
-        let context = self.context;
-        if parts::cut(context.program, body.steps).len() > 1 {
-            let steps = context.program.compact(body.steps);
-            return self.write_parts(out, body, &steps);
-        }
-        let scan = scan(context, body.steps, body.results);
-        let mut slices = scan.slices;
-        slices.extend(block::cleared(context, body.cleared));
-        slices.extend(body.arrays);
-        self.bind(out, body.receiver, slices);
-        self.read(out, body.receiver, &scan.reads);
-        block::clear(out, context, body.cleared);
-        block::write(out, context, body.steps);
-    }
-
     /// Binds sizes and slices.
     pub(super) fn bind(&self, out: &mut String, receiver: Receiver, mut slices: Vec<Slice>) {
         let context = self.context;

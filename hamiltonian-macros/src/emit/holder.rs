@@ -8,7 +8,7 @@
 use super::block::names;
 use super::context::Context;
 use super::layout::Slice;
-use super::parts::{Values, Wanted};
+use super::values::{Values, Wanted};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;

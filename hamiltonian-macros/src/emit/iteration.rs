@@ -5,8 +5,8 @@
 //! call.
 
 use super::block::{Writer, name, names};
-use super::parts::Wanted;
 use super::scan::scan;
+use super::values::Wanted;
 use hamiltonian_symbolic::program::{Instruction, Step, Value};
 use std::fmt::Write;
 

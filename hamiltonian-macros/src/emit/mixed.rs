@@ -7,16 +7,6 @@ use super::context::{Context, ZERO};
 use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
-/// The name of the struct.
-pub fn name(context: Context) -> String {
-    format!("{}{}", context.generics.whole, context.suffix)
-}
-
-/// The type over `T`.
-pub fn ty(context: Context) -> String {
-    context.generics.holder_type(&name(context))
-}
-
 /// The traits the struct derives: it is `Copy` where static vectors are.
 pub fn derives(context: Context) -> String {
     let is_static = |group: &Group| !context.is_dynamic(&group.shape.of_parameter());
@@ -47,7 +37,7 @@ pub fn declaration(context: Context) -> String {
     }
     format!(
         "{visibility} struct {}{} {{\n{fields}}}",
-        name(context),
+        context.mixed_name(),
         context.generics.declared(["T".to_owned()]),
     )
 }
@@ -94,15 +84,15 @@ pub fn constructor(context: Context, method: &str) -> String {
     } = arguments(context);
     format!(
         "pub fn {method}<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
-        ty(context),
-        name(context),
+        context.mixed_type(),
+        context.mixed_name(),
     )
 }
 
 /// The implementations.
 pub fn implementations(context: Context) -> String {
     let visibility = &context.generics.visibility;
-    let ty = ty(context);
+    let ty = context.mixed_type();
     let declaration = context.generics.holder_declaration();
     let groups = context.groups;
     let Arguments {

@@ -41,6 +41,8 @@ mod parts;
 mod pieces;
 mod reach;
 mod scan;
+mod storage;
+mod values;
 mod vectors;
 
 #[cfg(test)]

@@ -1,14 +1,13 @@
-//! Long bodies as chains of free functions.
+//! Function bodies: short ones whole, long ones as chains of free functions.
 //!
-//! Input: steps. Output: the text of a body that calls one function a part and hands values over
-//! as arrays, and the functions. Invariant: rustc sees no straight line of more than about
-//! [`LONGEST`] values in one function, because its time grows faster than their number; arrays are
-//! taken apart by patterns, which cost it a hundredth of what as many indices do.
+//! Input: steps. Output: the text of a body; a long one calls one function a part and hands values over
+//! as arrays. Invariant: rustc sees no straight line of more than about [`LONGEST`] values in one
+//! function, because its time grows faster than their number.
 
-use super::block::{self, name, names};
+use super::block;
 use super::function::{Bodies, Body};
 use super::scan::{Scan, scan};
-use hamiltonian_symbolic::dag::Map;
+use super::values::{Values, Wanted};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
 use std::fmt::Write;
 use std::ops::Range;
@@ -17,7 +16,7 @@ use std::ops::Range;
 const LONGEST: usize = 1000;
 
 /// Runs of steps of at most about [`LONGEST`] values each; a cosine stays with its sine.
-pub fn cut(program: &Program, steps: &[Step]) -> Vec<Range<usize>> {
+fn cut(program: &Program, steps: &[Step]) -> Vec<Range<usize>> {
     let is_cosine = |step: &Step| match step {
         Step::Let(value) => matches!(program.instruction(*value), Instruction::PairedCos(_)),
         _ => false,
@@ -45,81 +44,26 @@ fn weight(program: &Program, step: &Step) -> usize {
     }
 }
 
-/// A set of values.
-pub type Wanted = Map<Value, ()>;
-
-/// Values that are handed on: numbers in one array, masks in another.
-#[derive(Debug)]
-pub struct Values {
-    /// The numbers.
-    pub numbers: Vec<Value>,
-    /// The masks.
-    pub masks: Vec<Value>,
-}
-
-impl Values {
-    /// Sorts values into the two arrays.
-    pub fn of(program: &Program, values: impl Iterator<Item = Value>) -> Values {
-        let (masks, numbers) = values.partition(|value| program.instruction(*value).is_mask());
-        Values { numbers, masks }
-    }
-
-    /// All values, in the order of the arrays.
-    pub fn all(&self) -> impl Iterator<Item = Value> + '_ {
-        self.numbers.iter().chain(&self.masks).copied()
-    }
-
-    fn is_empty(&self) -> bool {
-        self.all().next().is_none()
-    }
-
-    fn make(&self) -> String {
-        format!("([{}], [{}])", names(&self.numbers), names(&self.masks))
-    }
-
-    fn ty(&self) -> String {
-        let (numbers, masks) = (self.numbers.len(), self.masks.len());
-        format!("([T; {numbers}], [<T as __h::Real>::Mask; {masks}])")
-    }
-
-    /// Binds its values that are wanted, which are no longer wanted then, out of the two arrays. Whether
-    /// there are any.
-    pub fn bind(&self, out: &mut String, [numbers, masks]: [&str; 2], wanted: &mut Wanted) -> bool {
-        bind(out, numbers, &self.numbers, wanted);
-        bind(out, masks, &self.masks, wanted);
-        let before = wanted.len();
-        for value in self.all() {
-            wanted.remove(&value);
-        }
-        wanted.len() < before
-    }
-}
-
-/// Binds the `wanted` elements of the array of `values` that stands in `place`.
-fn bind(out: &mut String, place: &str, values: &[Value], wanted: &Wanted) {
-    let is_wanted = |value: &Value| wanted.contains_key(value);
-    let (Some(first), Some(last)) = (
-        values.iter().position(is_wanted),
-        values.iter().rposition(is_wanted),
-    ) else {
-        return;
-    };
-    let element = |value: &Value| match is_wanted(value) {
-        true => name(*value),
-        false => "_".to_owned(),
-    };
-    let names: Vec<String> = values[first..=last].iter().map(element).collect();
-    let pattern = names.join(", ");
-    let _ = match names.len() {
-        1 => writeln!(out, "let {pattern} = {place}[{first}];"),
-        length if length == values.len() => writeln!(out, "let [{pattern}] = {place};"),
-        _ => writeln!(out, "let [{pattern}] = *__h::window(&{place}, {first});"),
-    };
-}
-
 impl Bodies<'_> {
+    /// Writes a body after `let _self = …;`. All `results` are in scope at its end.
+    pub fn write(&mut self, out: &mut String, body: Body) {
+        let context = self.context;
+        if cut(context.program, body.steps).len() > 1 {
+            let steps = context.program.compact(body.steps);
+            return self.write_parts(out, body, &steps);
+        }
+        let scan = scan(context, body.steps, body.results);
+        let mut slices = scan.slices;
+        slices.extend(block::cleared(context, body.cleared));
+        slices.extend(body.arrays);
+        self.bind(out, body.receiver, slices);
+        self.read(out, body.receiver, &scan.reads);
+        block::clear(out, context, body.cleared);
+        block::write(out, context, body.steps);
+    }
+
     /// Writes a body as calls of its parts, and the parts.
-    pub(super) fn write_parts(&mut self, out: &mut String, body: Body, steps: &[Step]) {
+    fn write_parts(&mut self, out: &mut String, body: Body, steps: &[Step]) {
         let context = self.context;
         let program = context.program;
         let parts = cut(program, steps);

@@ -1,0 +1,174 @@
+//! Storage of coordinates and parameter arrays, as types, zeros and the slices of a body.
+//!
+//! Input: the groups and shapes of a model. Output: text of types and values, and the bindings of slices
+//! at the top of a function body. Invariant: extents that are set at run time are in no type.
+
+use super::context::{Context, ZERO};
+use super::layout::{Layout, Slice};
+use hamiltonian_symbolic::dag::Column;
+use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::model::{Group, Shape};
+use std::fmt::Write;
+
+impl Context<'_> {
+    /// Whether an extent is set at run time.
+    fn is_set_at_run_time(self, extent: &Affine) -> bool {
+        let mut sizes = extent.sizes.iter();
+        sizes.any(|(size, _)| self.is_run_time[usize::from(size.0)])
+    }
+
+    /// Whether any extent of a shape is set at run time.
+    pub fn is_dynamic(self, shape: &Shape) -> bool {
+        match shape {
+            Shape::Scalar => false,
+            Shape::Vector(rows) => self.is_set_at_run_time(rows),
+            Shape::Matrix(rows, columns) => {
+                self.is_set_at_run_time(rows) || self.is_set_at_run_time(columns)
+            }
+        }
+    }
+
+    /// Whether the number of columns is set at run time.
+    pub fn has_dynamic_columns(self, shape: &Shape) -> bool {
+        matches!(shape, Shape::Matrix(_, columns) if self.is_set_at_run_time(columns))
+    }
+
+    /// Rows and columns as expressions.
+    pub fn extents(self, shape: &Shape) -> (String, String) {
+        let extent = |extent: &Affine| self.indices.plain(extent);
+        match shape {
+            Shape::Scalar => ("1usize".into(), "1usize".into()),
+            Shape::Vector(rows) => (extent(rows), "1usize".into()),
+            Shape::Matrix(rows, columns) => (extent(rows), extent(columns)),
+        }
+    }
+
+    /// The type of an array of `scalar`s.
+    pub fn storage(self, shape: &Shape, scalar: &str) -> String {
+        let text = |extent: &Affine| self.constant_extent(extent);
+        match shape {
+            Shape::Scalar => scalar.to_owned(),
+            Shape::Vector(_) if self.is_dynamic(shape) => format!("__h::DVector<{scalar}>"),
+            Shape::Vector(rows) => format!("__h::SVector<{scalar}, {}>", text(rows)),
+            Shape::Matrix(rows, columns) if self.is_dynamic(shape) => {
+                let dimension = |extent| match self.is_set_at_run_time(extent) {
+                    true => "__h::Dyn".to_owned(),
+                    false => format!("__h::Const<{}>", text(extent)),
+                };
+                let shape = format!("{scalar}, {}, {}", dimension(rows), dimension(columns));
+                format!("__h::Matrix<{shape}, __h::VecStorage<{shape}>>")
+            }
+            Shape::Matrix(rows, columns) => {
+                format!("__h::SMatrix<{scalar}, {}, {}>", text(rows), text(columns))
+            }
+        }
+    }
+
+    /// An extent as a const generic argument: a literal or a name.
+    fn constant_extent(self, extent: &Affine) -> String {
+        match extent.as_constant() {
+            Some(value) => value.to_string(),
+            None => self.indices.plain(extent),
+        }
+    }
+
+    /// The expression of an array of zeros of that shape.
+    pub fn zero(self, shape: &Shape) -> String {
+        let dimension = |extent: &Affine| match self.is_set_at_run_time(extent) {
+            true => format!("__h::Dyn({})", self.indices.plain(extent)),
+            false => format!("__h::Const::<{}>", self.constant_extent(extent)),
+        };
+        let (rows, columns) = match shape {
+            Shape::Scalar => return ZERO.to_owned(),
+            Shape::Vector(rows) => (dimension(rows), "__h::Const::<1>".to_owned()),
+            Shape::Matrix(rows, columns) => (dimension(rows), dimension(columns)),
+        };
+        format!("__h::Matrix::from_element_generic({rows}, {columns}, {ZERO})")
+    }
+
+    /// The type of coordinates and of momenta over `T`.
+    pub fn vector(self) -> String {
+        match self.layout {
+            Layout::Scalars => format!("__h::SVector<T, {}>", self.groups.len()),
+            Layout::Array => self.storage(&self.groups[0].shape.of_parameter(), "T"),
+            Layout::Mixed => self.mixed_type(),
+        }
+    }
+
+    /// The expression of the zero vector, where run-time sizes are called as in bodies.
+    pub fn zeros(self) -> String {
+        let zero = |group: &Group| self.zero(&group.shape.of_parameter());
+        let groups = self.groups;
+        match self.layout {
+            Layout::Scalars => {
+                let n = groups.len();
+                format!("__h::SVector::<T, {n}>::from_element({ZERO})")
+            }
+            Layout::Array => zero(&groups[0]),
+            Layout::Mixed => {
+                let field = |group: &Group| format!("{}: {}", group.coordinate, zero(group));
+                let fields: Vec<String> = groups.iter().map(field).collect();
+                format!("{} {{ {} }}", self.mixed_name(), fields.join(", "))
+            }
+        }
+    }
+
+    /// The name of the struct of coordinates of mixed shape.
+    pub fn mixed_name(self) -> String {
+        format!("{}{}", self.generics.whole, self.suffix)
+    }
+
+    /// Its type over `T`.
+    pub fn mixed_type(self) -> String {
+        self.generics.holder_type(&self.mixed_name())
+    }
+
+    /// The `let`s that bind slices at the top of a body. `slices` is sorted.
+    pub fn bind(self, out: &mut String, slices: &[Slice]) {
+        let part = |slice: &Slice| slice.part().map(|(_, at)| (slice.vector(), at.group));
+        for run in slices.chunk_by(|a, b| part(a) == part(b)) {
+            let Some((mutable, Column { group, .. })) = run[0].part() else {
+                continue;
+            };
+            let vector = run[0].vector();
+            let (suffix, borrow) = if mutable {
+                ("_mut", "mut")
+            } else {
+                ("", "ref")
+            };
+            let Group {
+                shape, coordinate, ..
+            } = &self.groups[usize::from(group)];
+            // Two parts of one vector are borrowed at once only as fields.
+            let whole = match (self.layout, shape) {
+                (Layout::Mixed, Shape::Scalar) => {
+                    let reference = if mutable { "&mut " } else { "&" };
+                    format!("__h::core::slice::from_{borrow}({reference}{vector}.{coordinate})")
+                }
+                (Layout::Mixed, _) => format!("{vector}.{coordinate}.as{suffix}_slice()"),
+                _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
+            };
+            let is_cut = shape.columns() > 1 || self.is_dynamic(&shape.of_parameter());
+            let _ = match shape.rows() {
+                Some(rows) if self.layout != Layout::Scalars && is_cut => {
+                    let rows = self.indices.plain(rows);
+                    let name = |column| {
+                        let is_it = |slice: &&Slice| {
+                            slice.part().is_some_and(|(_, at)| at.column == column)
+                        };
+                        run.iter()
+                            .find(is_it)
+                            .map_or("_".to_owned(), |slice| slice.name())
+                    };
+                    let names: Vec<String> = (0..shape.columns()).map(name).collect();
+                    let names = names.join(", ");
+                    writeln!(
+                        out,
+                        "let [{names}] = __h::columns{suffix}({whole}, {rows});"
+                    )
+                }
+                _ => writeln!(out, "let {} = {whole};", run[0].name()),
+            };
+        }
+    }
+}

@@ -5,9 +5,9 @@
 //! asks for children in this same order.
 
 use super::LARGEST;
-use super::evaluate::Evaluator;
+use super::loops::Loops;
 use crate::ast::BinaryOp;
-use crate::checked::{Extent, Kind, NodeId, Type};
+use crate::checked::{Checked, Extent, Kind, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, members};
@@ -65,14 +65,11 @@ impl Demand {
     }
 }
 
-/// Why a sum is not unrolled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum NotUnrolled {
-    /// A bound is no number.
-    NotNumbers,
-    /// It has more than [`LARGEST`] terms.
-    TooLong,
-}
+/// Demands on children.
+pub type Children = Vec<(NodeId, Demand)>;
+
+/// Why a demand cannot be met: message and remedy.
+pub type Refused = (String, &'static str);
 
 /// The way to run through the components of a vector.
 #[derive(Debug)]
@@ -92,7 +89,31 @@ impl Run {
     }
 }
 
-impl Evaluator<'_> {
+/// The demands that the expressions of one definition make on each other.
+#[derive(Debug)]
+pub struct Demands<'a> {
+    checked: &'a Checked,
+    /// Its loops.
+    pub loops: Loops,
+    /// The number of parents of each node.
+    uses: Vec<u32>,
+}
+
+impl<'a> Demands<'a> {
+    /// Those of a definition.
+    pub fn of(checked: &'a Checked) -> Demands<'a> {
+        let mut uses = vec![0; checked.nodes.len()];
+        for node in &checked.nodes {
+            node.kind
+                .for_each_child(|child| uses[child.0 as usize] += 1);
+        }
+        Demands {
+            checked,
+            loops: Loops::of(checked),
+            uses,
+        }
+    }
+
     /// A loop variable for a demand: a number, or the engine's variable.
     fn variable(&self, dag: &mut Dag, id: Domain, demand: &Demand) -> Affine {
         match demand.value(id) {
@@ -161,13 +182,19 @@ impl Evaluator<'_> {
     /// The values an unrolled sum runs through, innermost loop fastest.
     ///
     /// # Errors
-    /// [`NotUnrolled`]
+    /// A bound that is no number, more than [`LARGEST`] terms.
     pub fn unrolled_values(
         &self,
         dag: &mut Dag,
         loops: core::ops::Range<u32>,
         demand: &Demand,
-    ) -> Result<Vec<Demand>, NotUnrolled> {
+    ) -> Result<Vec<Demand>, Refused> {
+        let not_numbers = || {
+            (
+                "a loop that chooses components must have a literal range".to_owned(),
+                "components of a vector are chosen by number: write the range in numbers, as in `sum(c in 0..3) { … }`",
+            )
+        };
         let mut all = vec![demand.clone()];
         for id in loops.map(Domain) {
             if !self.loops.is_unrolled(id) {
@@ -178,11 +205,16 @@ impl Evaluator<'_> {
             for one in &all {
                 let mut number = |bound: &Affine| {
                     let bound = bound.substitute(|id| self.variable(dag, id, one));
-                    bound.as_constant().ok_or(NotUnrolled::NotNumbers)
+                    bound.as_constant().ok_or_else(not_numbers)
                 };
                 let (start, end) = (number(&range.lower)?, number(&range.upper)?);
                 if end.saturating_sub(start) > LARGEST as i64 || next.len() > LARGEST {
-                    return Err(NotUnrolled::TooLong);
+                    return Err((
+                        format!(
+                            "loops that choose components are unrolled, and here they run more than {LARGEST} times"
+                        ),
+                        "let a short loop choose the components, as in `sum(c in 0..3) { … }`, and others stay loops",
+                    ));
                 }
                 for value in start..end {
                     let mut with = one.clone();
@@ -219,12 +251,15 @@ impl Evaluator<'_> {
     }
 
     /// The demands a demand makes on the children of its node.
+    ///
+    /// # Errors
+    /// A component of a sum that is chosen by a loop variable, and those of [`Demands::unrolled_values`].
     pub fn children(
-        &mut self,
+        &self,
         dag: &mut Dag,
         node: NodeId,
         demand: &Demand,
-    ) -> Vec<(NodeId, Demand)> {
+    ) -> Result<Children, Refused> {
         let mut wanted = Vec::new();
         let checked = self.checked;
         let this = checked.node(node);
@@ -250,7 +285,11 @@ impl Evaluator<'_> {
             },
             Kind::Unary(_, a) => wanted.push((*a, same(*a))),
             Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..) => {
-                wanted.extend(self.terms(node).into_iter().map(|(_, term)| (term, same(term))));
+                wanted.extend(
+                    self.terms(node)
+                        .into_iter()
+                        .map(|(_, term)| (term, same(term))),
+                );
             }
             Kind::Binary(_, a, b) => wanted.extend([(*a, same(*a)), (*b, same(*b))]),
             Kind::Index { base, index } => {
@@ -266,13 +305,17 @@ impl Evaluator<'_> {
             Kind::Call(Builtin::Cross, items) => {
                 if let Some(at) = demand.number(0, 3) {
                     let (i, j) = ((at as i64 + 1) % 3, (at as i64 + 2) % 3);
-                    for (item, component) in [(items[0], i), (items[1], j), (items[0], j), (items[1], i)] {
+                    for (item, component) in
+                        [(items[0], i), (items[1], j), (items[0], j), (items[1], i)]
+                    {
                         wanted.push((item, demand.with(vec![Index::constant(component)])));
                     }
                 }
             }
             Kind::Call(Builtin::Dot | Builtin::Norm | Builtin::NormSquared, items) => {
-                let Type::Vector(extent) = checked.node(items[0]).ty else { return wanted };
+                let Type::Vector(extent) = checked.node(items[0]).ty else {
+                    return Ok(wanted);
+                };
                 let run = self.run(dag, node, items, extent, demand);
                 for k in run.indices() {
                     for item in items {
@@ -280,26 +323,26 @@ impl Evaluator<'_> {
                     }
                 }
             }
-            Kind::Sum { .. } if demand.indices.iter().any(|index| index.variables() != 0) => self.refuse(
-                this.spans,
-                "a component of a sum of vectors is chosen by a loop variable here",
-                "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
-            ),
-            Kind::Sum { loops, body } => match self.unrolled_values(dag, loops.clone(), demand) {
-                Ok(all) => wanted.extend(all.into_iter().map(|one| (*body, one))),
-                Err(NotUnrolled::NotNumbers) => self.refuse(
-                    this.spans,
-                    "a loop that chooses components must have a literal range",
-                    "components of a vector are chosen by number: write the range in numbers, as in `sum(c in 0..3) { … }`",
-                ),
-                Err(NotUnrolled::TooLong) => self.refuse(
-                    this.spans,
-                    &format!("loops that choose components are unrolled, and here they run more than {LARGEST} times"),
-                    "let a short loop choose the components, as in `sum(c in 0..3) { … }`, and others stay loops",
-                ),
-            },
-            Kind::If { condition, then, otherwise } => {
-                wanted.extend([(*condition, demand.scalar()), (*then, same(*then)), (*otherwise, same(*otherwise))]);
+            Kind::Sum { .. } if demand.indices.iter().any(|index| index.variables() != 0) => {
+                return Err((
+                    "a component of a sum of vectors is chosen by a loop variable here".to_owned(),
+                    "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
+                ));
+            }
+            Kind::Sum { loops, body } => {
+                let all = self.unrolled_values(dag, loops.clone(), demand)?;
+                wanted.extend(all.into_iter().map(|one| (*body, one)));
+            }
+            Kind::If {
+                condition,
+                then,
+                otherwise,
+            } => {
+                wanted.extend([
+                    (*condition, demand.scalar()),
+                    (*then, same(*then)),
+                    (*otherwise, same(*otherwise)),
+                ]);
             }
             // All others are leaves or made of scalars.
             kind => kind.for_each_child(|child| wanted.push((child, demand.scalar()))),
@@ -310,6 +353,6 @@ impl Evaluator<'_> {
             demand.values.retain(|(id, _)| numbers >> id.0 & 1 == 1);
             demand.values.sort_unstable();
         }
-        wanted
+        Ok(wanted)
     }
 }

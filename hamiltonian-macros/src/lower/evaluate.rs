@@ -3,9 +3,8 @@
 //! Input: roots with demands. Output: their nodes. Invariant: two passes over the expressions, one
 //! from parents to children that gathers demands, one back that answers them; each is answered once.
 
-use super::demand::{Demand, Run};
+use super::demand::{Children, Demand, Demands, Run};
 use super::domain;
-use super::loops::Loops;
 use super::velocity;
 use super::{Beyond, LARGEST};
 use crate::ast::{BinaryOp, Comparison, UnaryOp};
@@ -74,7 +73,7 @@ impl Derived {
 #[derive(Debug)]
 pub struct Evaluator<'a> {
     pub(super) checked: &'a Checked,
-    pub(super) loops: Loops,
+    pub(super) demands: Demands<'a>,
     report: &'a mut Report,
     /// Whether something was refused: then there is no model.
     refused: bool,
@@ -86,8 +85,6 @@ pub struct Evaluator<'a> {
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
-    /// The number of parents of each node.
-    pub(super) uses: Vec<u32>,
     /// The answers to demands.
     answers: Map<(u32, Demand), Node>,
 }
@@ -97,14 +94,13 @@ impl<'a> Evaluator<'a> {
     pub fn new(checked: &'a Checked, report: &'a mut Report) -> Evaluator<'a> {
         Evaluator {
             checked,
-            loops: Loops::of(checked),
+            demands: Demands::of(checked),
             report,
             refused: false,
             has_brackets: false,
             beyond: Vec::new(),
             derived: Derived::default(),
             velocities: None,
-            uses: uses(checked),
             answers: Map::default(),
         }
     }
@@ -124,32 +120,41 @@ impl<'a> Evaluator<'a> {
 
     /// The nodes of the roots.
     pub fn evaluate(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
-        let mut demands: Vec<Vec<Demand>> = vec![Vec::new(); self.checked.nodes.len()];
+        let count = self.checked.nodes.len();
+        let mut demands: Vec<Vec<Demand>> = vec![Vec::new(); count];
+        let mut asked: Vec<Vec<(Demand, Children)>> = vec![Vec::new(); count];
         for (root, demand) in roots {
             demands[root.0 as usize].push(demand.clone());
         }
         let mut total = 0;
-        for at in (0..demands.len()).rev() {
+        for at in (0..count).rev() {
+            let node = NodeId(at as u32);
             let mut own = core::mem::take(&mut demands[at]);
             own.sort_unstable();
             own.dedup();
-            own.retain(|demand| self.answer(NodeId(at as u32), demand).is_none());
+            own.retain(|demand| self.answer(node, demand).is_none());
             total += own.len();
-            for demand in &own {
-                for (child, wanted) in self.children(&mut model.dag, NodeId(at as u32), demand) {
-                    demands[child.0 as usize].push(wanted);
+            for demand in own {
+                match self.demands.children(&mut model.dag, node, &demand) {
+                    Ok(children) => {
+                        for (child, wanted) in &children {
+                            demands[child.0 as usize].push(wanted.clone());
+                        }
+                        asked[at].push((demand, children));
+                    }
+                    Err((message, help)) => {
+                        self.refuse(self.checked.node(node).spans, &message, help);
+                    }
                 }
             }
-            demands[at] = own;
             if self.refused || total > LARGEST {
                 self.too_large(at, total);
                 return None;
             }
         }
-        for (at, own) in demands.into_iter().enumerate() {
+        for (at, own) in asked.into_iter().enumerate() {
             let node = NodeId(at as u32);
-            for demand in own {
-                let children = self.children(&mut model.dag, node, &demand);
+            for (demand, children) in own {
                 let values: Option<Vec<Node>> = children
                     .iter()
                     .map(|(child, wanted)| self.answer(*child, wanted))
@@ -261,7 +266,7 @@ impl<'a> Evaluator<'a> {
             (Kind::Loop(id), _) => match demand.value(*id) {
                 Some(value) => dag.integer(value),
                 None => {
-                    let domain = self.domain(dag, *id, demand);
+                    let domain = self.demands.domain(dag, *id, demand);
                     dag.variable(domain)
                 }
             },
@@ -269,13 +274,14 @@ impl<'a> Evaluator<'a> {
             (Kind::Unary(UnaryOp::Neg, _), [a]) => dag.neg(*a),
             (Kind::Unary(UnaryOp::Not, _), [a]) => dag.not(*a),
             (Kind::Binary(BinaryOp::Add | BinaryOp::Sub, ..), values) => {
-                let signs = self
-                    .terms(node)
-                    .into_iter()
-                    .map(|(negative, _)| match negative {
-                        true => Rational::MINUS_ONE,
-                        false => Rational::ONE,
-                    });
+                let signs =
+                    self.demands
+                        .terms(node)
+                        .into_iter()
+                        .map(|(negative, _)| match negative {
+                            true => Rational::MINUS_ONE,
+                            false => Rational::ONE,
+                        });
                 let terms: Vec<(Rational, Node)> = signs.zip(values.iter().copied()).collect();
                 dag.linear(&Rational::ZERO, &terms)
             }
@@ -299,7 +305,7 @@ impl<'a> Evaluator<'a> {
             (Kind::Binary(BinaryOp::Mul, a, b), values) => {
                 match (checked.node(*a).ty, checked.node(*b).ty) {
                     (Type::Matrix(_, columns), Type::Vector(_)) => {
-                        let run = self.run(dag, node, &[*b], columns, demand);
+                        let run = self.demands.run(dag, node, &[*b], columns, demand);
                         products(dag, run, values)
                     }
                     _ => dag.mul(values),
@@ -448,7 +454,7 @@ impl<'a> Evaluator<'a> {
                 let Type::Vector(extent) = self.checked.node(items[0]).ty else {
                     return self.fault(node, "its argument is no vector");
                 };
-                let run = self.run(dag, node, items, extent, demand);
+                let run = self.demands.run(dag, node, items, extent, demand);
                 if function == Builtin::Dot {
                     return products(dag, run, values);
                 }
@@ -482,16 +488,20 @@ impl<'a> Evaluator<'a> {
         demand: &Demand,
         values: &[Node],
     ) -> Node {
-        let unrolled = self.unrolled_values(dag, loops.clone(), demand);
+        let unrolled = self.demands.unrolled_values(dag, loops.clone(), demand);
         let unrolled = unrolled.expect("its operands were asked for");
         let kept: Vec<Domain> = loops
             .rev()
             .map(Domain)
-            .filter(|id| !self.loops.is_unrolled(*id))
+            .filter(|id| !self.demands.loops.is_unrolled(*id))
             .collect();
         let mut nests: Vec<Vec<Domain>> = Vec::new();
         for one in &unrolled {
-            nests.push(kept.iter().map(|id| self.domain(dag, *id, one)).collect());
+            nests.push(
+                kept.iter()
+                    .map(|id| self.demands.domain(dag, *id, one))
+                    .collect(),
+            );
         }
         let derived = &mut self.derived;
         let mut over = |dag: &mut Dag, nest: &[Domain], body: Node| {
@@ -515,15 +525,6 @@ impl<'a> Evaluator<'a> {
             .collect();
         dag.add(&terms)
     }
-}
-
-fn uses(checked: &Checked) -> Vec<u32> {
-    let mut uses = vec![0; checked.nodes.len()];
-    for node in &checked.nodes {
-        node.kind
-            .for_each_child(|child| uses[child.0 as usize] += 1);
-    }
-    uses
 }
 
 fn is_zero(dag: &Dag, node: Node) -> bool {

@@ -193,8 +193,10 @@ impl Evaluator<'_> {
             let at_row = self.checked.force_row;
             let by_number = !self.checked.charts.is_empty()
                 || match at_row {
-                    Some(id) => self.loops.is_unrolled(id),
-                    None => matches!(shape, Shape::Vector(_)) && self.loops.by_number(*root),
+                    Some(id) => self.demands.loops.is_unrolled(id),
+                    None => {
+                        matches!(shape, Shape::Vector(_)) && self.demands.loops.by_number(*root)
+                    }
                 };
             let places: Vec<Index> = match rows {
                 None => vec![Index::constant(0)],

@@ -24,6 +24,7 @@ impl Checker<'_> {
         extent: Extent,
     ) -> Option<Index> {
         let affine = self.affine(raw.0, frame)?;
+        let [least, greatest] = self.ends(raw.0, &affine)?;
         let modulo = match raw.1 {
             None => None,
             Some(right) => Some(self.modulus(right, frame)?),
@@ -51,12 +52,9 @@ impl Checker<'_> {
             }
             return Some(index);
         }
-        let least = self.follow(&affine, End::Least);
-        let greatest = self.follow(&affine, End::Greatest);
-        let room = greatest.as_ref().and_then(|greatest| {
-            size.checked_plus(-1, &Affine::constant(1))?
-                .checked_plus(-1, greatest)
-        });
+        let room = size.checked_plus(-1, &Affine::constant(1));
+        let room = room.and_then(|last| last.checked_plus(-1, &greatest));
+        let room = self.fitting(raw.0, room)?;
         let last = match extent {
             Extent::Literal(value) => (value - 1).to_string(),
             Extent::Size(_) => format!("{shown} - 1"),
@@ -73,9 +71,6 @@ impl Checker<'_> {
             (End::Least, &least, &least),
             (End::Greatest, &room, &greatest),
         ] {
-            let (Some(form), Some(reached)) = (form, reached) else {
-                continue;
-            };
             if form.is_always_negative() && self.takes_place(&affine, end, &own) {
                 let reached = self.affine_shown(reached);
                 let message = if end == End::Least {
@@ -92,8 +87,7 @@ impl Checker<'_> {
                 return None;
             }
         }
-        let proven = least.is_some_and(|form| form.is_never_negative())
-            && room.is_some_and(|form| form.is_never_negative());
+        let proven = least.is_never_negative() && room.is_never_negative();
         let index = Index::plain(affine);
         if !proven {
             self.needs(base, raw.0, &index, index.affine.clone(), extent);
@@ -173,17 +167,23 @@ impl Checker<'_> {
         }
     }
 
-    /// `name in lower..upper`: a range that neither runs backwards nor begins below 0.
+    /// `name in lower..upper`: a range that neither runs backwards nor begins below 0. `None` where its
+    /// values are no numbers of 64 bits.
     pub(super) fn checked_range(
         &mut self,
         raw: ExprId,
         name: &str,
         bounds: (ExprId, ExprId),
         forms: [&Affine; 2],
-    ) {
-        if self.runs_forwards(raw, bounds, forms) {
-            self.begins_at_0(bounds.0, name, forms);
+    ) -> Option<()> {
+        let [least, _] = self.ends(bounds.0, forms[0])?;
+        self.ends(bounds.1, forms[1])?;
+        let width = forms[1].checked_plus(-1, forms[0]);
+        let width = self.fitting(raw, width)?;
+        if self.runs_forwards(raw, bounds, forms, &width) {
+            self.begins_at_0(bounds.0, name, forms, &width, &least);
         }
+        Some(())
     }
 
     /// Refuses a range that ends before its start whatever the sizes are. `0..0` is only empty.
@@ -192,9 +192,9 @@ impl Checker<'_> {
         raw: ExprId,
         bounds: (ExprId, ExprId),
         [lower, upper]: [&Affine; 2],
+        width: &Affine,
     ) -> bool {
-        let is_backwards = |width: Affine| width.loops.is_empty() && width.is_always_negative();
-        if !upper.checked_plus(-1, lower).is_some_and(is_backwards) {
+        if !width.loops.is_empty() || !width.is_always_negative() {
             return true;
         }
         let written = |id: ExprId| self.ast.nodes[id.0 as usize].spans;
@@ -208,25 +208,28 @@ impl Checker<'_> {
     }
 
     /// The first value is not to be negative, where the loops around it run.
-    fn begins_at_0(&mut self, raw: ExprId, name: &str, [lower, upper]: [&Affine; 2]) {
-        let least = self.follow(lower, End::Least);
-        if least.as_ref().is_some_and(Affine::is_never_negative) {
+    fn begins_at_0(
+        &mut self,
+        raw: ExprId,
+        name: &str,
+        [lower, upper]: [&Affine; 2],
+        width: &Affine,
+        least: &Affine,
+    ) {
+        if least.is_never_negative() {
             return;
         }
         let own = self.own_loops(lower);
-        if let Some(least) = least.filter(Affine::is_always_negative)
-            && self.takes_place(lower, End::Least, &own)
-        {
+        if least.is_always_negative() && self.takes_place(lower, End::Least, &own) {
             let message = format!(
                 "this range begins at {}, but ranges begin at 0 or above",
-                self.affine_shown(&least)
+                self.affine_shown(least)
             );
             let shifted = match lower.as_constant() {
                 Some(first) => format!("{name} - {}", first.unsigned_abs()),
                 None => format!("{} + {name}", self.affine_shown(lower)),
             };
-            let length = upper.checked_plus(-1, lower);
-            let length = length.map_or("…".to_owned(), |length| self.affine_shown(&length));
+            let length = self.affine_shown(width);
             let help = format!("write `{name} in 0..{length}`, and `({shifted})` for `{name}`");
             self.error_over(raw, message, help);
             return;
@@ -294,7 +297,21 @@ impl Checker<'_> {
         extent
     }
 
-    /// The least or greatest value of an index over the loops around it, in terms of sizes.
+    /// The least and the greatest value of a form over the loops around it, in terms of sizes.
+    fn ends(&mut self, raw: ExprId, form: &Affine) -> Option<[Affine; 2]> {
+        let [least, greatest] = [End::Least, End::Greatest].map(|end| self.follow(form, end));
+        Some([self.fitting(raw, least)?, self.fitting(raw, greatest)?])
+    }
+
+    /// Refuses what needs coefficients of more than 64 bits.
+    fn fitting(&mut self, raw: ExprId, form: Option<Affine>) -> Option<Affine> {
+        if form.is_none() {
+            let message = "values of this index or range need more than 64 bits";
+            self.error_over(raw, message, "write smaller factors or shorter ranges");
+        }
+        form
+    }
+
     fn follow(&self, form: &Affine, end: End) -> Option<Affine> {
         form.extreme(end, |id| self.bounds(id))
     }

@@ -1,24 +1,24 @@
 //! The order of a long straight line in which little is alive at a time.
 //!
 //! Input: steps in an order in which every value is computed before it is read. Output: the same
-//! steps in another such order, in which a value is read soon after it is computed. Invariant:
-//! loops keep their places, updates of one output keep their order, a cosine follows its sine;
-//! since every operation has the operands it had, no bit of a result changes.
+//! steps in another such order: after each one come those that end as many values as they make.
+//! Invariant: loops keep their places, updates of one output keep their order, a cosine follows its
+//! sine; since every operation has the operands it had, no bit of a result changes.
 
 use crate::dag::Map;
 use crate::program::{Instruction, Program, Step, Target, Value};
-use std::cmp::Reverse;
 
 impl Program {
     /// Orders the steps between loops.
     #[must_use]
     pub fn compact(&self, steps: &[Step]) -> Vec<Step> {
         let mut ordered = Vec::with_capacity(steps.len());
-        for run in steps.chunk_by(|a, b| !is_loop(a) && !is_loop(b)) {
-            match run {
-                [single] => ordered.push(single.clone()),
-                _ => Run::of(self, run).write(&mut ordered),
+        for line in steps.chunk_by(|a, b| !is_loop(a) && !is_loop(b)) {
+            let mut graph = Graph::of(self, line);
+            for unit in 0..graph.units.len() {
+                graph.perform(unit);
             }
+            ordered.extend(graph.order.into_iter().map(|at| line[at].clone()));
         }
         ordered
     }
@@ -28,25 +28,18 @@ fn is_loop(step: &Step) -> bool {
     matches!(step, Step::Loop(_))
 }
 
-/// Values computed together: one step, or a sine with its cosine.
-#[derive(Debug)]
+/// Steps done together: one, or a sine and its cosine.
+#[derive(Default)]
 struct Unit {
     steps: Vec<usize>,
-    /// Values of the run that it reads, each once, the highest first.
+    /// Values of the line that it reads, each once.
     reads: Vec<usize>,
-    /// The unit that comes before it although it reads nothing of it.
-    after: Option<usize>,
-    /// Units that are not done and that it waits for.
-    missing: usize,
     /// Values it makes.
     makes: Vec<usize>,
-    /// The longest way down to a unit that reads nothing.
-    height: usize,
-    done: bool,
+    is_done: bool,
 }
 
-/// A value of the run.
-#[derive(Debug)]
+/// A value of the line, or the state of an output between two updates.
 struct Made {
     by: usize,
     readers: Vec<usize>,
@@ -55,179 +48,113 @@ struct Made {
 }
 
 /// A straight line as a graph.
-struct Run<'a> {
-    steps: &'a [Step],
+#[derive(Default)]
+struct Graph {
     units: Vec<Unit>,
     values: Vec<Made>,
-    /// Units by the unit they come after.
-    followers: Map<usize, usize>,
     order: Vec<usize>,
 }
 
-impl<'a> Run<'a> {
-    fn of(program: &Program, steps: &'a [Step]) -> Run<'a> {
-        let mut run = Run {
-            steps,
-            units: Vec::with_capacity(steps.len()),
-            values: Vec::with_capacity(steps.len()),
-            followers: Map::default(),
-            order: Vec::with_capacity(steps.len()),
-        };
+impl Graph {
+    fn of(program: &Program, line: &[Step]) -> Graph {
+        let mut graph = Graph::default();
         let mut known: Map<Value, usize> = Map::default();
-        let mut writers: Map<Target, usize> = Map::default();
-        for (at, step) in steps.iter().enumerate() {
-            if let Step::Let(value) = step {
-                let instruction = program.instruction(*value);
-                if let Instruction::PairedCos(sine) = instruction
-                    && let Some(sine) = known.get(sine)
-                {
-                    let unit = run.values[*sine].by;
-                    run.units[unit].steps.push(at);
-                    known.insert(*value, run.make(unit));
-                    continue;
+        let mut outputs: Map<Target, usize> = Map::default();
+        for (at, step) in line.iter().enumerate() {
+            let mut reads: Vec<usize> = Vec::new();
+            let mut read = |value: Value| reads.extend(known.get(&value));
+            let unit = graph.units.len();
+            match step {
+                Step::Let(value) => {
+                    let instruction = program.instruction(*value);
+                    instruction.for_operands(&mut read);
+                    if let (Instruction::PairedCos(_), [sine]) = (instruction, reads.as_slice()) {
+                        let unit = graph.values[*sine].by;
+                        graph.units[unit].steps.push(at);
+                        known.insert(*value, graph.make(unit));
+                        continue;
+                    }
+                    graph.add(at, reads);
+                    if !instruction.is_number() {
+                        known.insert(*value, graph.make(unit));
+                    }
                 }
-            }
-            let mut reads = Vec::new();
-            for_reads(program, step, |value| reads.extend(known.get(&value)));
-            let after = match step {
-                Step::Store(target, ..) => writers.insert(*target, run.units.len()),
-                _ => None,
-            };
-            let unit = run.add(at, reads, after);
-            if let Step::Let(value) = step
-                && !program.instruction(*value).is_number()
-            {
-                known.insert(*value, run.make(unit));
+                Step::Store(target, _, _, update) => {
+                    update.for_operands(&mut read);
+                    reads.extend(outputs.get(target));
+                    graph.add(at, reads);
+                    outputs.insert(*target, graph.make(unit));
+                }
+                Step::Accumulate(..) | Step::Loop(_) => graph.add(at, reads),
             }
         }
-        run
+        graph
     }
 
-    /// A new unit of one step.
-    fn add(&mut self, step: usize, mut reads: Vec<usize>, after: Option<usize>) -> usize {
-        let unit = self.units.len();
-        let height = |value: &usize| self.units[self.values[*value].by].height;
-        // The longest way is reached first: a running sum before its next term.
-        reads.sort_unstable_by_key(|value| (Reverse(height(value)), *value));
+    /// Adds a unit of one step.
+    fn add(&mut self, step: usize, mut reads: Vec<usize>) {
+        reads.sort_unstable();
         reads.dedup();
-        let height = reads.first().map_or(0, |value| height(value) + 1);
         for &value in &reads {
-            self.values[value].readers.push(unit);
+            self.values[value].readers.push(self.units.len());
             self.values[value].waiting += 1;
-        }
-        if let Some(before) = after {
-            self.followers.insert(before, unit);
         }
         self.units.push(Unit {
             steps: vec![step],
-            missing: reads.len() + usize::from(after.is_some()),
             reads,
-            after,
-            makes: Vec::new(),
-            height,
-            done: false,
+            ..Unit::default()
         });
-        unit
     }
 
     /// A new value of a unit.
     fn make(&mut self, by: usize) -> usize {
-        self.units[by].makes.push(self.values.len());
+        let value = self.values.len();
+        self.units[by].makes.push(value);
         self.values.push(Made {
             by,
             readers: Vec::new(),
             waiting: 0,
         });
-        self.values.len() - 1
+        value
     }
 
-    /// From the ends of the line down to what they need, and from there at once on to whatever
-    /// leaves no more alive than there was.
-    fn write(mut self, ordered: &mut Vec<Step>) {
-        let is_read = |value: &usize| !self.values[*value].readers.is_empty();
-        let is_end = |unit: &usize| !self.units[*unit].makes.iter().any(is_read);
-        let ends: Vec<usize> = (0..self.units.len()).filter(is_end).collect();
-        for end in ends {
-            self.reach(end);
-        }
-        for unit in self.order {
-            let steps = &self.units[unit].steps;
-            ordered.extend(steps.iter().map(|step| self.steps[*step].clone()));
-        }
-    }
-
-    /// Does a unit after all it waits for.
-    fn reach(&mut self, end: usize) {
-        let mut path = vec![(end, 0)];
-        while let Some((unit, next)) = path.pop() {
-            let Unit { reads, after, .. } = &self.units[unit];
-            if self.units[unit].done {
+    /// Does a unit all of whose values are there, and whatever then pays for itself.
+    fn perform(&mut self, first: usize) {
+        let mut candidates = vec![first];
+        while let Some(unit) = candidates.pop() {
+            if self.units[unit].is_done || unit != first && !self.pays(unit) {
                 continue;
             }
-            let need = match reads.get(next) {
-                Some(value) => Some(self.values[*value].by),
-                None => after.filter(|_| next == reads.len()),
-            };
-            match need {
-                Some(need) => path.extend([(unit, next + 1), (need, 0)]),
-                None => self.finish(unit),
+            let Unit {
+                steps,
+                reads,
+                makes,
+                is_done,
+            } = &mut self.units[unit];
+            *is_done = true;
+            self.order.append(steps);
+            let (reads, makes) = (std::mem::take(reads), std::mem::take(makes));
+            for value in reads {
+                let value = &mut self.values[value];
+                value.waiting -= 1;
+                if value.waiting == 1 {
+                    let is_left = |reader: &&usize| !self.units[**reader].is_done;
+                    candidates.extend(value.readers.iter().find(is_left));
+                }
+            }
+            for value in makes.into_iter().rev() {
+                candidates.extend(self.values[value].readers.iter().rev());
             }
         }
     }
 
-    /// Does a unit that waits for nothing, and whatever then pays for itself.
-    fn finish(&mut self, unit: usize) {
-        let mut candidates = Vec::new();
-        self.perform(unit, &mut candidates);
-        while let Some(unit) = candidates.pop() {
-            if !self.units[unit].done && self.units[unit].missing == 0 && self.pays(unit) {
-                self.perform(unit, &mut candidates);
-            }
-        }
-    }
-
-    /// Does a unit; those that may pay for themselves now are candidates.
-    fn perform(&mut self, unit: usize, candidates: &mut Vec<usize>) {
-        self.units[unit].done = true;
-        self.order.push(unit);
-        for at in 0..self.units[unit].reads.len() {
-            let value = &mut self.values[self.units[unit].reads[at]];
-            value.waiting -= 1;
-            if value.waiting == 1 {
-                let last = value
-                    .readers
-                    .iter()
-                    .find(|reader| !self.units[**reader].done);
-                candidates.extend(last);
-            }
-        }
-        if let Some(&follower) = self.followers.get(&unit) {
-            self.units[follower].missing -= 1;
-            candidates.push(follower);
-        }
-        for at in (0..self.units[unit].makes.len()).rev() {
-            for &reader in self.values[self.units[unit].makes[at]].readers.iter().rev() {
-                self.units[reader].missing -= 1;
-                candidates.push(reader);
-            }
-        }
-    }
-
-    /// Whether a unit ends as many values as it makes, or more.
+    /// Whether a unit can be done now and ends as many values as it makes, or more.
     fn pays(&self, unit: usize) -> bool {
         let Unit { reads, makes, .. } = &self.units[unit];
+        let is_there = |value: &usize| self.units[self.values[*value].by].is_done;
         let ended = reads
             .iter()
             .filter(|value| self.values[**value].waiting == 1);
-        ended.count() >= makes.len()
-    }
-}
-
-/// Calls `visit` with each value a step reads.
-fn for_reads(program: &Program, step: &Step, visit: impl FnMut(Value)) {
-    match step {
-        Step::Let(value) => program.instruction(*value).for_operands(visit),
-        Step::Store(_, _, _, update) => update.for_operands(visit),
-        Step::Accumulate(..) | Step::Loop(_) => {}
+        reads.iter().all(is_there) && ended.count() >= makes.len()
     }
 }

@@ -91,6 +91,39 @@ pub enum Kind {
     Select(Node, Node, Node),
 }
 
+impl Kind {
+    /// Calls `visit` with each child.
+    fn for_children(&self, mut visit: impl FnMut(Node)) {
+        match self {
+            Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
+            Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
+            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
+                arguments.iter().for_each(|n| visit(*n))
+            }
+            Kind::Reduce(_, body) => visit(*body),
+            Kind::Not(a) => visit(*a),
+            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Select(c, a, b) => {
+                visit(*c);
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Constant(_)
+            | Kind::Pi
+            | Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Element(..)
+            | Kind::Count(_) => {}
+        }
+    }
+}
+
 /// Nodes that are seen but not visited: a bit for each.
 pub(crate) struct Ahead(Vec<u64>);
 
@@ -332,34 +365,8 @@ impl Dag {
     }
 
     /// Calls `visit` with each child of a node.
-    pub fn for_children(&self, node: Node, mut visit: impl FnMut(Node)) {
-        match self.kind(node) {
-            Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
-            Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
-            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
-                arguments.iter().for_each(|n| visit(*n))
-            }
-            Kind::Reduce(_, body) => visit(*body),
-            Kind::Not(a) => visit(*a),
-            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
-                visit(*a);
-                visit(*b);
-            }
-            Kind::Select(c, a, b) => {
-                visit(*c);
-                visit(*a);
-                visit(*b);
-            }
-            Kind::Constant(_)
-            | Kind::Pi
-            | Kind::Scalar(_)
-            | Kind::Time
-            | Kind::Coefficient
-            | Kind::Variable(_)
-            | Kind::Extent(_)
-            | Kind::Element(..)
-            | Kind::Count(_) => {}
-        }
+    pub fn for_children(&self, node: Node, visit: impl FnMut(Node)) {
+        self.kind(node).for_children(visit);
     }
 
     /// All nodes the roots need, children before parents.
@@ -441,61 +448,30 @@ impl Dag {
         let mut dependence = Dependence::default();
         let mut variables = 0u64;
         let mut height = 0;
-        let mut child = |node: Node| {
-            height = height.max(self.height(node) + 1);
-            dependence.0 |= self.dependence(node).0;
-            variables |= self.variables(node);
-        };
+        kind.for_children(|child| {
+            height = height.max(self.height(child) + 1);
+            dependence.0 |= self.dependence(child).0;
+            variables |= self.variables(child);
+        });
+        let is_nonnegative = |node: &Node| self.is_nonnegative(*node);
         let nonnegative = match kind {
             Kind::Constant(c) => !c.is_negative(),
             Kind::Pi | Kind::Extent(_) | Kind::Count(_) => true,
-            Kind::Scalar(_)
-            | Kind::Time
-            | Kind::Coefficient
-            | Kind::Variable(_)
-            | Kind::Element(..) => false,
             Kind::Sum(c, terms) => {
-                terms.iter().for_each(|(_, n)| child(*n));
-                !c.is_negative()
-                    && terms
-                        .iter()
-                        .all(|(k, n)| !k.is_negative() && self.is_nonnegative(*n))
+                let is_term = |(k, n): &(Rational, Node)| !k.is_negative() && is_nonnegative(n);
+                !c.is_negative() && terms.iter().all(is_term)
             }
             Kind::Product(c, factors) => {
-                factors.iter().for_each(|(n, _)| child(*n));
-                !c.is_negative()
-                    && bounds::is_nonnegative_product(
-                        factors.iter().map(|(n, k)| (self.is_nonnegative(*n), *k)),
-                    )
+                let factors = factors.iter().map(|(n, k)| (is_nonnegative(n), *k));
+                !c.is_negative() && bounds::is_nonnegative_product(factors)
             }
             Kind::Call(op, arguments) => {
-                arguments.iter().for_each(|n| child(*n));
-                let first = self.is_nonnegative(arguments[0]);
-                bounds::is_nonnegative_call(op.row().regularity.range, first)
+                let range = op.row().regularity.range;
+                bounds::is_nonnegative_call(range, is_nonnegative(&arguments[0]))
             }
-            Kind::External(_, _, arguments) => {
-                arguments.iter().for_each(|n| child(*n));
-                false
-            }
-            Kind::Reduce(_, body) => {
-                child(*body);
-                self.is_nonnegative(*body)
-            }
-            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
-                child(*a);
-                child(*b);
-                false
-            }
-            Kind::Not(a) => {
-                child(*a);
-                false
-            }
-            Kind::Select(c, a, b) => {
-                child(*c);
-                child(*a);
-                child(*b);
-                self.is_nonnegative(*a) && self.is_nonnegative(*b)
-            }
+            Kind::Reduce(_, body) => is_nonnegative(body),
+            Kind::Select(_, a, b) => is_nonnegative(a) && is_nonnegative(b),
+            _ => false,
         };
         let own = match kind {
             Kind::Scalar(_)

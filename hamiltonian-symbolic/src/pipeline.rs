@@ -5,14 +5,14 @@
 
 use crate::balance::balance;
 use crate::count::work;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Side, Stage};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
 use crate::flow::{ExactFlow, Motion, Piece};
 use crate::forces;
 use crate::hold::Arrays;
 use crate::index::{Affine, Index};
-use crate::model::{Model, Shape, VectorEntry};
+use crate::model::{Model, VectorEntry};
 use crate::op::Op;
 use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
@@ -335,20 +335,30 @@ fn vector(
     sides: (bool, bool),
     request: &mut Request,
 ) {
-    let mut stores: Vec<Store> = entries.into_iter().map(added).collect();
+    let mut outputs = Vec::new();
+    for (side, wanted) in [(Side::Q, sides.0), (Side::P, sides.1)] {
+        let columns = model.columns(side).into_iter().filter(|_| wanted);
+        outputs.extend(columns.map(|(column, rows)| (Target::Phase(column), rows)));
+    }
+    let stores = entries.into_iter().map(added).collect();
+    overwritten(&mut model.dag, stores, outputs, request);
+}
+
+/// Stores that overwrite outputs, of which the rows are given where they are arrays, with the sums of
+/// contributions to their elements.
+fn overwritten(
+    dag: &mut Dag,
+    mut stores: Vec<Store>,
+    outputs: Vec<(Target, Option<Affine>)>,
+    request: &mut Request,
+) {
     let mut places: Map<Target, Vec<usize>> = Map::default();
     for (at, store) in stores.iter().enumerate() {
         places.entry(store.target).or_default().push(at);
     }
-    for (side, wanted) in [(Side::Q, sides.0), (Side::P, sides.1)] {
-        if !wanted {
-            continue;
-        }
-        for (column, rows) in model.columns(side) {
-            let target = Target::Phase(column);
-            let own = places.get(&target).map_or(&[][..], Vec::as_slice);
-            overwrite(&mut model.dag, target, rows, own, &mut stores, request);
-        }
+    for (target, rows) in outputs {
+        let own = places.get(&target).map_or(&[][..], Vec::as_slice);
+        overwrite(dag, target, rows, own, &mut stores, request);
     }
     request.stores.append(&mut stores);
 }
@@ -393,7 +403,7 @@ fn overwrite(
     };
     if let [at] = own {
         let store = &mut stores[*at];
-        if let Some(domain) = dag.loop_of_rows(&store.row, &rows)
+        if let (None, Some(domain)) = (&store.column, dag.loop_of_rows(&store.row, &rows))
             && dag.variables(store.value) & !(1u64 << domain.0) == 0
         {
             store.add = false;
@@ -401,9 +411,12 @@ fn overwrite(
         }
     }
     let element = |at: &usize| match &stores[*at] {
-        Store { row, value, .. } if row.modulo.is_none() && dag.variables(*value) == 0 => {
-            row.affine.as_constant()
-        }
+        Store {
+            row,
+            column: None,
+            value,
+            ..
+        } if dag.variables(*value) == 0 => row.as_constant(),
         _ => None,
     };
     let mut elements: Vec<i64> = own.iter().filter_map(element).collect();
@@ -418,48 +431,26 @@ fn overwrite(
     request.cleared.push(target);
 }
 
+/// Stores that overwrite the outputs of all parameters with ∂/∂parameter.
 fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
-    let adjoints = diff::gradient(&mut model.dag, root, Dependence::PARAMETER);
-    let mut stores: Map<Target, ()> = Map::default();
-    for (leaf, value) in adjoints {
-        let (target, row, column, add) = match model.dag.kind(leaf).clone() {
-            Kind::Scalar(parameter) => (
-                Target::Parameter(parameter),
-                Index::constant(0),
-                None,
-                false,
-            ),
-            Kind::Element(Array::Parameter(parameter), row, column) => {
-                (Target::Parameter(parameter), row, column, true)
-            }
+    let adjoints = diff::gradient(&mut model.dag, root, Dependence::PARAMETER).into_iter();
+    let store = |(leaf, value): (Node, Node)| {
+        let (parameter, row, column) = match model.dag.kind(leaf).clone() {
+            Kind::Scalar(parameter) => (parameter, Index::constant(0), None),
+            Kind::Element(Array::Parameter(parameter), row, column) => (parameter, row, column),
             other => unreachable!("{other:?} is no parameter"),
         };
-        if stores.insert(target, ()).is_none() && add {
-            request.cleared.push(target);
-        }
-        request.stores.push(Store {
-            target,
+        Store {
+            target: Target::Parameter(parameter),
             row,
             column,
             value,
-            add,
-        });
-    }
-    for number in 0..model.parameters.len() {
-        let target = Target::Parameter(crate::dag::Parameter(number as u16));
-        if !stores.contains_key(&target) {
-            if model.parameters[number].shape == Shape::Scalar {
-                let value = model.dag.integer(0);
-                request.stores.push(Store {
-                    target,
-                    row: Index::constant(0),
-                    column: None,
-                    value,
-                    add: false,
-                });
-            } else {
-                request.cleared.push(target);
-            }
+            add: true,
         }
-    }
+    };
+    let stores = adjoints.map(store).collect();
+    let rows = model.parameters.iter().map(|p| p.shape.rows().cloned());
+    let outputs = (0..).map(|number| Target::Parameter(Parameter(number)));
+    let outputs = outputs.zip(rows).collect();
+    overwritten(&mut model.dag, stores, outputs, request);
 }

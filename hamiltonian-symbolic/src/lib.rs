@@ -24,6 +24,7 @@ pub mod pipeline;
 pub mod print;
 pub mod program;
 pub mod rational;
+mod reindex;
 pub mod rewrite;
 pub mod schedule;
 pub mod share;

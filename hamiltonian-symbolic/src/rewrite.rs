@@ -1,10 +1,10 @@
-//! Expressions made again over other children: substitution, renaming of loops.
+//! Expressions made again over other children.
 //!
 //! Input: nodes, and replacements for some of them. Output: nodes through the constructors
 //! of `simplify`, so in canonical form. Invariant: an expression that does not change keeps its node.
 
 use crate::dag::{Dag, Kind, Map, Node, Numbers};
-use crate::index::{Affine, Domain, Index, members};
+use crate::index::{Affine, Domain};
 
 impl Dag {
     /// The same node over other children; the node itself where none is another.
@@ -87,57 +87,6 @@ impl Dag {
         new[&root]
     }
 
-    /// The expression with a loop variable replaced by an affine index; loops inside it that
-    /// depend on the variable move with it.
-    pub fn replace(&mut self, root: Node, variable: Domain, by: &Affine) -> Node {
-        let mut moved: Map<Domain, Domain> = Map::default();
-        let mut new: Map<Node, Node> = Map::default();
-        // The variable itself and those of the loops inside it. A sum over the same loop binds
-        // the variable anew: the variable in it is not free and stays.
-        let inside = self.inside(variable);
-        for node in self.reachable(&[root]) {
-            if self.variables(node) & inside == 0 {
-                new.insert(node, node);
-                continue;
-            }
-            let image = match self.kind(node).clone() {
-                Kind::Variable(d) if d == variable => self.affine(by),
-                Kind::Variable(d) => {
-                    let d = self.moved(d, variable, by, &mut moved);
-                    self.variable(d)
-                }
-                Kind::Element(array, row, column) => {
-                    let mut image = |index: Index| {
-                        let mut targets: Map<Domain, Affine> = Map::default();
-                        let all = index.variables();
-                        for d in members(all) {
-                            let target = if d == variable {
-                                by.clone()
-                            } else {
-                                Affine::variable(self.moved(d, variable, by, &mut moved))
-                            };
-                            targets.insert(d, target);
-                        }
-                        index.substitute(|d| targets[&d].clone())
-                    };
-                    let (row, column) = (image(row), column.map(image));
-                    self.element(array, row, column)
-                }
-                Kind::Reduce(d, body) => {
-                    let d = self.moved(d, variable, by, &mut moved);
-                    self.reduce(d, new[&body])
-                }
-                Kind::Count(d) => {
-                    let d = self.moved(d, variable, by, &mut moved);
-                    self.count(d)
-                }
-                _ => self.rebuild(node, &|child| new[&child]),
-            };
-            new.insert(node, image);
-        }
-        new[&root]
-    }
-
     /// The same expression with its sums inside the loop `here`, each in the sum it stands in: the
     /// loops lie on one path, and none of them is open twice.
     pub(crate) fn nested(&mut self, root: Node, here: Option<Domain>) -> Node {
@@ -175,51 +124,5 @@ impl Dag {
             new.insert((node, here), image);
         }
         new[&(root, here)]
-    }
-
-    /// A loop and all loops inside it, as a bit set.
-    pub(crate) fn inside(&self, variable: Domain) -> u64 {
-        (0..self.loop_count() as u32)
-            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
-            .fold(0u64, |set, d| set | 1 << d)
-    }
-
-    /// The image of a loop when `variable` is replaced.
-    pub(crate) fn moved(
-        &mut self,
-        domain: Domain,
-        variable: Domain,
-        by: &Affine,
-        moved: &mut Map<Domain, Domain>,
-    ) -> Domain {
-        if !self.path(Some(domain)).contains(&variable) || domain == variable {
-            return domain;
-        }
-        if let Some(&known) = moved.get(&domain) {
-            return known;
-        }
-        let range = self.range(domain).clone();
-        let parent = match range.parent {
-            Some(parent) if parent == variable => {
-                let outer = self.range(variable).parent.map_or(0, |d| 1u64 << d.0);
-                self.deepest(by.variables() | outer)
-            }
-            Some(parent) => Some(self.moved(parent, variable, by, moved)),
-            None => None,
-        };
-        let chain = self.path(Some(domain));
-        let mut targets: Map<Domain, Affine> = Map::default();
-        for &d in &chain[..chain.len() - 1] {
-            let target = if d == variable {
-                by.clone()
-            } else {
-                Affine::variable(self.moved(d, variable, by, moved))
-            };
-            targets.insert(d, target);
-        }
-        let image = |affine: &Affine| affine.substitute(|d| targets[&d].clone());
-        let image = self.domain(parent, image(&range.start), image(&range.end));
-        moved.insert(domain, image);
-        image
     }
 }

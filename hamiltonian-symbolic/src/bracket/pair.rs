@@ -132,11 +132,8 @@ fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Optio
     let value = field::field(dag, &leaves, array, rows)?;
     let mut terms = Vec::new();
     for scatter in x {
-        let row = field::plain_where_possible(dag, scatter.row.clone());
-        let there = match &row.modulo {
-            None => dag.replace(value, k, &row.affine),
-            Some(_) => field::shift(dag, value, k, &row)?,
-        };
+        let row = dag.unwrapped(scatter.row.clone());
+        let there = dag.reindexed(value, k, &row)?;
         let mut term = dag.mul(&[scatter.value, there]);
         for &domain in scatter.chain.iter().rev() {
             term = dag.reduce(domain, term);

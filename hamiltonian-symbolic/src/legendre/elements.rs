@@ -8,7 +8,7 @@
 
 use crate::dag::{Array, Dag, Kind, Map, Node, Relation};
 use crate::index::{Affine, Domain, Index, Size};
-use crate::loops::{field, unroll_nodes};
+use crate::loops::unroll_nodes;
 use crate::model::Model;
 use crate::normal_form::{Proof, is_zero};
 use crate::rational::Rational;
@@ -62,8 +62,8 @@ pub(super) fn merged(dag: &mut Dag, entry: Node, k: Domain) -> Node {
     let element = dag.variable(k);
     let last = rows.plus(-1, &one);
     let (first_index, last_index) = (dag.integer(0), dag.affine(&last));
-    let is_later = field::at_least_zero(dag, &variable.plus(-1, &one));
-    let is_earlier = field::at_least_zero(dag, &last.plus(-1, &one).plus(-1, &variable));
+    let is_later = dag.at_least_zero(&variable.plus(-1, &one));
+    let is_earlier = dag.at_least_zero(&last.plus(-1, &one).plus(-1, &variable));
     let mut rest: Vec<(Rational, Node)> = Vec::new();
     type Terms = Vec<(Rational, Node)>;
     let mut pieces: Vec<(Node, Terms, Terms)> = Vec::new();

@@ -7,9 +7,8 @@
 
 use super::atoms::{Algebra, Key};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
-use crate::loops::field;
 use crate::rational::Rational;
 
 /// The most re-indexings of one sum that are looked at.
@@ -169,12 +168,14 @@ fn lower(dag: &mut Dag, nest: &Nest) -> Option<Nest> {
         return None;
     };
     let (outer, inner) = (dag.range(i).clone(), dag.range(j).clone());
-    let after = Affine::variable(i).plus(1, &Affine::constant(1));
-    if inner.start != after || inner.end != outer.end {
+    let after = |d: Domain| Affine::variable(d).plus(1, &Affine::constant(1));
+    if inner.start != after(i) || inner.end != outer.end {
         return None;
     }
     let below = dag.domain(Some(i), outer.start, Affine::variable(i));
-    let body = renamed(dag, nest.body, &|d| if d == i { below } else { i }, &[i, j])?;
+    let above = dag.domain(Some(below), after(below), outer.end);
+    let body = dag.replace(nest.body, i, &Affine::variable(below));
+    let body = dag.replace(body, above, &Affine::variable(i));
     Some(Nest {
         loops: vec![i, below],
         body,
@@ -244,7 +245,7 @@ fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
                 Affine::variable(domain).plus(-1, &offset),
                 range.end.clone(),
             );
-            if let Some(body) = field::shift(dag, nest.body, domain, &by) {
+            if let Some(body) = dag.reindexed(nest.body, domain, &by) {
                 found.push(Nest {
                     loops: nest.loops.clone(),
                     body,
@@ -253,38 +254,4 @@ fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
         }
     }
     found
-}
-
-/// A body without loops with its loop variables renamed all at once; `None` where the new names
-/// have no common place.
-fn renamed(
-    dag: &mut Dag,
-    root: Node,
-    name: &impl Fn(Domain) -> Domain,
-    which: &[Domain],
-) -> Option<Node> {
-    let target = |d: Domain| {
-        if which.contains(&d) {
-            Affine::variable(name(d))
-        } else {
-            Affine::variable(d)
-        }
-    };
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[root]) {
-        let image = match dag.kind(node).clone() {
-            Kind::Variable(d) => dag.affine(&target(d)),
-            Kind::Element(array, row, column) => {
-                let (row, column) = (
-                    row.substitute(&target),
-                    column.map(|c| c.substitute(&target)),
-                );
-                dag.element(array, row, column)
-            }
-            Kind::Reduce(..) | Kind::Count(_) => return None,
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
-    Some(new[&root])
 }

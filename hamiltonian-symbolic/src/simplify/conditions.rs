@@ -19,6 +19,16 @@ impl Dag {
     pub fn equal(&mut self, a: Node, b: Node) -> Node {
         self.intern(Kind::Compare(Relation::Equal, a, b))
     }
+    /// The condition `affine ≥ 0`, negative terms on the left: `1 <= k`, `k + 2 <= N`.
+    pub(crate) fn at_least_zero(&mut self, affine: &Affine) -> Node {
+        let mut above = affine.clone();
+        above.constant = above.constant.max(0);
+        above.loops.retain(|(_, n)| *n > 0);
+        above.sizes.retain(|(_, n)| *n > 0);
+        let below = above.plus(-1, affine);
+        let (below, above) = (self.affine(&below), self.affine(&above));
+        self.less_equal(below, above)
+    }
     /// The condition `not a`.
     pub fn not(&mut self, a: Node) -> Node {
         match self.kind(a) {

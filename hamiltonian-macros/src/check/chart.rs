@@ -68,63 +68,21 @@ impl Checker<'_> {
         }
     }
 
-    /// The formula, in the declared variables, of a name that a chart introduces, with the chart's
-    /// word.
-    pub(super) fn meaning_in_chart(&self, name: &str) -> Option<(String, String)> {
-        let charts = self.ast.statements.iter().filter_map(|s| match &s.kind {
-            StatementKind::Coordinates { chart, arguments } => Some((chart, arguments)),
+    /// The chart that introduces a name, with the coordinates that it replaces.
+    pub(super) fn introduced(&self, name: &str) -> Option<(String, String)> {
+        let new = name.strip_prefix("p_").unwrap_or(name);
+        self.ast.statements.iter().find_map(|s| match &s.kind {
+            StatementKind::Coordinates { chart, arguments } => {
+                let of_polar = matches!(new, "r" | "phi");
+                let is_new = match chart.to_string().as_str() {
+                    "polar" => of_polar,
+                    "spherical" => of_polar || new == "theta",
+                    _ => false,
+                };
+                is_new.then(|| (chart.to_string(), names::listed(arguments)))
+            }
             _ => None,
-        });
-        for (chart, arguments) in charts {
-            let word = chart.to_string();
-            let dimension = match word.as_str() {
-                "polar" => 2,
-                "spherical" => 3,
-                _ => continue,
-            };
-            let is_vector = arguments.len() == 1;
-            let variables = |momentum: bool| -> Option<Vec<String>> {
-                let mut names = Vec::new();
-                for argument in arguments {
-                    let group = self.out.groups.iter().find(|g| g.coordinate == *argument)?;
-                    names.push(if momentum {
-                        group.momentum.to_string()
-                    } else {
-                        argument.to_string()
-                    });
-                }
-                if is_vector {
-                    let vector = names.pop()?;
-                    names.extend((0..dimension).map(|at| format!("{vector}[{at}]")));
-                }
-                (names.len() == dimension).then_some(names)
-            };
-            let (q, p) = (variables(false)?, variables(true)?);
-            let flat = format!("hypot({}, {})", q[0], q[1]);
-            let r = match (is_vector, dimension) {
-                (true, _) => format!("norm({})", arguments[0]),
-                (false, 2) => flat.clone(),
-                (false, _) => format!("sqrt({}^2 + {}^2 + {}^2)", q[0], q[1], q[2]),
-            };
-            let along = |count: usize| {
-                let products = q.iter().zip(&p).take(count);
-                let products: Vec<String> = products.map(|(q, p)| format!("{q}*{p}")).collect();
-                products.join(" + ")
-            };
-            let meaning = match name {
-                "r" => r,
-                "phi" => format!("atan2({}, {})", q[1], q[0]),
-                "p_r" => format!("({})/{r}", along(dimension)),
-                "p_phi" => format!("{}*{} - {}*{}", q[0], p[1], q[1], p[0]),
-                "theta" if dimension == 3 => format!("atan2({flat}, {})", q[2]),
-                "p_theta" if dimension == 3 => {
-                    format!("({})*{}/{flat} - {flat}*{}", along(2), q[2], p[2])
-                }
-                _ => continue,
-            };
-            return Some((word, meaning));
-        }
-        None
+        })
     }
 
     /// The charts of bodies that are written, with the groups they replace.

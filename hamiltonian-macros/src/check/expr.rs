@@ -288,92 +288,56 @@ impl Checker<'_> {
     ) -> Option<NodeId> {
         let name = |raw: ExprId, otherwise: &str| self.name_of(raw).unwrap_or(otherwise).to_owned();
         let (a, b) = (self.type_shown(left), self.type_shown(right));
-        let both_vectors = matches!((left, right), (Type::Vector(x), Type::Vector(y)) if x == y);
+        let array = if left == Type::Scalar {
+            raw_right
+        } else {
+            raw_left
+        };
+        let array = name(array, "a");
         let (message, help) = match op {
-            BinaryOp::Add | BinaryOp::Sub => {
-                let done = if op == BinaryOp::Add {
-                    "added to"
-                } else {
-                    "subtracted from"
-                };
-                let (a, b) = if op == BinaryOp::Add { (a, b) } else { (b, a) };
-                let array = if left == Type::Scalar {
-                    raw_right
-                } else {
-                    raw_left
-                };
-                let help = match (left, right, self.name_of(array)) {
-                    (Type::Scalar, Type::Vector(_), Some(name))
-                    | (Type::Vector(_), Type::Scalar, Some(name)) => {
-                        format!("write a component, `{name}[i]`, or a length, `norm({name})`")
+            BinaryOp::Add | BinaryOp::Sub => (
+                match op {
+                    BinaryOp::Add => format!("{a} cannot be added to {b}"),
+                    _ => format!("{b} cannot be subtracted from {a}"),
+                },
+                match (left, right) {
+                    (Type::Scalar, _) | (_, Type::Scalar) => {
+                        format!("write a component, `{array}[i]`, or a length, `norm({array})`")
                     }
-                    (Type::Scalar, Type::Vector(_), None)
-                    | (Type::Vector(_), Type::Scalar, None) => {
-                        "write a component, or a length, `norm(…)`".into()
-                    }
-                    (Type::Scalar, ..) | (_, Type::Scalar, _) => "write one element".into(),
-                    _ => "both sides need the same extents".into(),
-                };
-                (format!("{a} cannot be {done} {b}"), help)
-            }
-            BinaryOp::Mul if both_vectors => (format!("{a} times {b} has no meaning"), {
-                let (x, y) = (name(raw_left, "a"), name(raw_right, "b"));
-                if left == Type::Vector(Extent::Literal(3)) {
-                    format!("write `dot({x}, {y})` or `cross({x}, {y})`")
-                } else {
-                    format!("write `dot({x}, {y})`")
-                }
-            }),
-            BinaryOp::Mul if matches!((left, right), (Type::Matrix(_, x), Type::Vector(y)) if x == y) => {
-                ("only a matrix parameter multiplies a vector".into(), {
-                    let (m, v) = (name(raw_left, "m"), name(raw_right, "v"));
-                    format!("write its components: `[dot({m}[0], {v}), dot({m}[1], {v}), …]`")
-                })
-            }
+                    _ => "both sides need the same extents".to_owned(),
+                },
+            ),
             BinaryOp::Mul => (
                 format!("{a} times {b} has no meaning"),
                 match (left, right) {
-                    (Type::Vector(extent), Type::Matrix(_, columns)) if extent == columns => {
-                        let (v, m) = (name(raw_left, "v"), name(raw_right, "m"));
-                        format!("write the matrix on the left: `{m}*{v}`")
+                    (Type::Vector(x), Type::Vector(y)) if x == y => {
+                        let (x, y) = (name(raw_left, "a"), name(raw_right, "b"));
+                        format!("write `dot({x}, {y})`, or `cross({x}, {y})` in space")
                     }
-                    (Type::Matrix(..), Type::Matrix(..)) => {
-                        "multiply a vector by one after the other: `a*(b*v)`".into()
-                    }
-                    _ => {
-                        "a matrix parameter `[r][c]` multiplies a vector `[c]` from the left".into()
-                    }
+                    _ => "a matrix parameter `[r][c]` multiplies a vector `[c]` from the left"
+                        .to_owned(),
                 },
             ),
             BinaryOp::Div => (
                 format!("nothing can be divided by {b}"),
-                match right {
-                    Type::Vector(_) => {
-                        let x = name(raw_right, "a");
-                        format!("divide by a component, `{x}[i]`, or by its length, `norm({x})`")
-                    }
-                    _ => "divide by one element".into(),
-                },
+                format!(
+                    "divide by a component, or by the length of a vector, `norm({})`",
+                    name(raw_right, "a")
+                ),
             ),
             BinaryOp::Pow if right == Type::Scalar => (
                 format!("{a} has no powers"),
-                match left {
-                    Type::Vector(_) => {
-                        let x = name(raw_left, "a");
-                        format!(
-                            "write `norm_squared({x})`, or the power of a component, `{x}[i]^2`"
-                        )
-                    }
-                    _ => "write the power of an element".into(),
-                },
+                format!(
+                    "write `norm_squared({array})`, or the power of a component, `{array}[i]^2`"
+                ),
             ),
             BinaryOp::Pow => (
                 format!("the exponent is {b}"),
-                "write a scalar exponent".into(),
+                "write a scalar exponent".to_owned(),
             ),
             _ => (
                 format!("{a} cannot be compared with {b}"),
-                "compare scalars, such as `norm(a)`".into(),
+                "compare scalars, such as `norm(a)`".to_owned(),
             ),
         };
         self.refuse(raw, message, help)

@@ -176,11 +176,12 @@ impl Checker<'_> {
             let message = format!("`{name}` is a keyword of Rust and not a value");
             return self.refuse(raw, message, "choose another name");
         }
-        if let Some((chart, meaning)) = self.meaning_in_chart(name) {
+        if let Some((chart, replaced)) = self.introduced(name) {
             let message = format!(
                 "`{name}` is a variable of `coordinates {chart}`, and everything is written in the declared ones"
             );
-            return self.refuse(raw, message, format!("write `{meaning}`"));
+            let help = format!("write it in `{replaced}` and their momenta");
+            return self.refuse(raw, message, help);
         }
         if ast.item.is_none() {
             self.unknown[symbol.0 as usize] = false;

@@ -128,9 +128,7 @@ impl Checker<'_> {
         if !self.are_numbered(coordinates.len(), ("coordinates", "q"), last) {
             return false;
         }
-        if self.is_interleaved(coordinates, others, word)
-            || self.is_crossed(coordinates, others, word)
-        {
+        if self.is_misplaced(coordinates, others, word) {
             return false;
         }
         for (coordinate, other) in coordinates.iter().zip(others) {
@@ -149,87 +147,53 @@ impl Checker<'_> {
         true
     }
 
-    /// Whether names of momenta (velocities) stand among the coordinates, as in
-    /// `H(x, p_x; y, p_y)`, which would make y the momentum of x. Where such a coordinate has a
-    /// momentum that is named after it, it was meant.
-    fn is_interleaved(
+    /// Whether a momentum (velocity) stands among the coordinates, as in `H(x, p_x; y, p_y)`, or in
+    /// the place of another's, as in `H(x, y; p_y, p_x)`. A coordinate that has a momentum which is
+    /// named after it was meant.
+    fn is_misplaced(
         &mut self,
         coordinates: &[Declarator],
         others: &[Declarator],
         word: &str,
     ) -> bool {
         let all = || coordinates.iter().chain(others);
-        let owners = Owners::new(all(), word);
-        let owner = |variable| owners.of(variable);
-        let mut found = false;
-        for (coordinate, other) in coordinates.iter().zip(others) {
-            let name = coordinate.name.to_string();
-            let Some(of) = owner(coordinate) else {
-                continue;
+        let (owners, of_coordinates) = (
+            Owners::new(all(), word),
+            Owners::new(coordinates.iter(), word),
+        );
+        let mut pairs = coordinates.iter().zip(others);
+        let wrong = pairs.find_map(|(coordinate, other)| {
+            let owned = match (owners.of(coordinate), of_coordinates.of(other)) {
+                (Some(owner), _) => (coordinate, owner),
+                (None, owner) => (other, owner?),
             };
-            if owners.is_of(other, coordinate) {
-                continue;
-            }
-            found = true;
-            let (partner, partners) = if word == "L" {
-                ("velocity", "velocities")
-            } else {
-                ("momentum", "momenta")
-            };
-            let (second, first): (Vec<&Declarator>, Vec<&Declarator>) =
-                all().partition(|variable| owner(variable).is_some());
-            let help = if first.len() == second.len() {
-                let (first, second) = (list(first), list(second));
-                format!("coordinates first, then {partners}: `{word}({first}; {second})`")
-            } else {
-                format!("coordinates come first, {partners} after the `;`")
-            };
-            let message = format!(
-                "`{name}` is listed among the coordinates, but has the name of the {partner} of `{}`",
-                of.name
-            );
-            self.report.error(coordinate.name.span(), message, help);
-        }
-        found
-    }
-
-    /// Whether a momentum (velocity) has the name of another coordinate's, as in `H(x, y; p_y, p_x)`,
-    /// which would make p_y the momentum of x.
-    fn is_crossed(
-        &mut self,
-        coordinates: &[Declarator],
-        others: &[Declarator],
-        word: &str,
-    ) -> bool {
-        let owners = Owners::new(coordinates.iter(), word);
-        let mut found = false;
-        for (coordinate, other) in coordinates.iter().zip(others) {
-            let name = other.name.to_string();
-            let Some(owner) = owners.of(other) else {
-                continue;
-            };
-            if owners.is_of(other, coordinate) {
-                continue;
-            }
-            found = true;
-            let partner_of = |of| others.iter().find(|other| owners.is_of(other, of));
-            let partner = if word == "L" { "velocity" } else { "momentum" };
-            let ordered: Option<Vec<&Declarator>> = coordinates.iter().map(partner_of).collect();
-            let help = match ordered {
-                Some(ordered) => format!(
-                    "in the order of the coordinates: `{word}({}; {})`",
-                    list(coordinates),
-                    list(ordered)
-                ),
-                None => format!("the {partner} in a place is that of the coordinate in this place"),
-            };
-            let message = format!(
-                "`{name}` stands in the place of the {partner} of `{}`, but has the name of that of `{}`",
-                coordinate.name, owner.name
-            );
-            self.report.error(other.name.span(), message, help);
-        }
-        found
+            (!owners.is_of(other, coordinate)).then_some(owned)
+        });
+        let Some((name, owner)) = wrong else {
+            return false;
+        };
+        let (partner, partners) = match word {
+            "L" => ("velocity", "velocities"),
+            _ => ("momentum", "momenta"),
+        };
+        let (second, first): (Vec<&Declarator>, Vec<&Declarator>) =
+            all().partition(|variable| owners.of(variable).is_some());
+        let partner_of = |first: &&Declarator| {
+            let mut second = second.iter().copied();
+            second.find(|second| owners.is_of(second, first))
+        };
+        let ordered: Option<Vec<&Declarator>> = first.iter().map(partner_of).collect();
+        let rule = format!("coordinates come first, then their {partners} in the same order");
+        let help = match ordered.filter(|ordered| ordered.len() == second.len()) {
+            Some(ordered) => format!("{rule}: `{word}({}; {})`", list(first), list(ordered)),
+            None => rule,
+        };
+        let message = format!(
+            "`{}` has the name of the {partner} of `{}`, but does not stand in its place",
+            name.name, owner.name
+        );
+        self.report.error(name.name.span(), message, help);
+        true
     }
 
     /// Coordinates without momentum (velocity) or the other way round.

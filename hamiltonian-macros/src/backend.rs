@@ -201,7 +201,7 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 
-/// The program, without second derivatives where a Rust function came without them.
+/// The program, without H's own second derivatives where a Rust function came without them.
 fn derive(
     frame: &Frame,
     model: &mut Model,
@@ -209,30 +209,31 @@ fn derive(
     report: &mut Report,
 ) -> Option<Program> {
     let checked = frame.checked;
-    let derived = match pipeline::derive(model, &wanted) {
-        Err(Refusal::NoSecondDerivative { .. }) => {
-            wanted.retain(|purpose| *purpose != Purpose::HessianVector);
-            pipeline::derive(model, &wanted)
+    let mut blamed = Vec::new();
+    loop {
+        match pipeline::derive(model, &wanted) {
+            Ok(program) => return Some(program),
+            Err(Refusal::NoSecondDerivative { purpose, function }) => {
+                wanted.retain(|other| *other != purpose);
+                if purpose != Purpose::HessianVector {
+                    let asked = (purpose, function.as_str());
+                    blame::second_derivative(checked, model, asked, &mut blamed, report);
+                }
+                continue;
+            }
+            Err(Refusal::TooLarge { operations }) => too_large(checked, operations, report),
+            Err(Refusal::TooManyLoops) => report.error(
+                definition(checked),
+                format!("derivatives of this system need more than {LOOPS} loops"),
+                SHARE_LOOPS,
+            ),
+            Err(Refusal::Internal { fault }) => report.internal(definition(checked), &fault),
+            Err(Refusal::OutOfRange { number }) => {
+                blame::number(checked, number.as_ref(), frame.beyond, report);
+            }
         }
-        result => result,
-    };
-    match derived {
-        Ok(program) => return Some(program),
-        Err(Refusal::TooLarge { operations }) => too_large(checked, operations, report),
-        Err(Refusal::TooManyLoops) => report.error(
-            definition(checked),
-            format!("derivatives of this system need more than {LOOPS} loops"),
-            SHARE_LOOPS,
-        ),
-        Err(Refusal::Internal { fault }) => report.internal(definition(checked), &fault),
-        Err(Refusal::OutOfRange { number }) => {
-            blame::number(checked, number.as_ref(), frame.beyond, report);
-        }
-        Err(Refusal::NoSecondDerivative { .. }) => {
-            blame::second_derivatives(checked, model, &wanted, report);
-        }
+        return None;
     }
-    None
 }
 
 /// The right side of H or L.

@@ -44,6 +44,8 @@ pub enum Refusal {
     },
     /// A second derivative of a Rust function that came without one, by name.
     NoSecondDerivative {
+        /// The purpose that needs it.
+        purpose: Purpose,
         /// The function's name.
         function: String,
     },
@@ -60,7 +62,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     for &purpose in wanted {
         let mut request = request(model, purpose, &mut gradient)?;
         let mut roots = request.roots();
-        refuse(model, &roots)?;
+        refuse(model, purpose, &roots)?;
         arrays.hold(&mut model.dag, &model.parameters, &mut roots);
         factor(&mut model.dag, &mut roots);
         in_range(&model.dag, &roots)?;
@@ -68,7 +70,9 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         request.replace_roots(&roots);
         requests.push(request);
     }
-    refuse(model, &[])?;
+    if model.dag.has_too_many_loops() {
+        return Err(Refusal::TooManyLoops);
+    }
     let images = shared_preparation(&mut model.dag, &requests);
     let program = schedule(&model.dag, &requests, &images, arrays.held);
     program.validate().map_err(internal)?;
@@ -135,7 +139,7 @@ fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
+fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), Refusal> {
     if model.dag.has_too_many_loops() {
         return Err(Refusal::TooManyLoops);
     }
@@ -144,6 +148,7 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
             let external = &model.externals[*function as usize];
             if matches!(part, crate::dag::Part::Second(..)) && !external.second {
                 return Err(Refusal::NoSecondDerivative {
+                    purpose,
                     function: external.name.clone(),
                 });
             }
@@ -154,7 +159,7 @@ fn refuse(model: &Model, roots: &[Node]) -> Result<(), Refusal> {
 
 /// The request of a purpose. Most ask for parts of its `gradient`, which is derived for
 /// the first of them and kept for the others.
-pub fn request(
+fn request(
     model: &mut Model,
     purpose: Purpose,
     gradient: &mut Option<Vec<VectorEntry>>,

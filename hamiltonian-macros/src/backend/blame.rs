@@ -1,55 +1,36 @@
 //! The place at which a program that could not be derived fails.
 //!
-//! Input: the functions wanted of a model, and the number that does not fit. Output: an error at
-//! each statement that needs a second derivative of a Rust function which came without one, or at
-//! the expression that makes the number. Invariant: the narrowest place that is known.
+//! Input: the function that needs a second derivative of a Rust function which came without one, or the
+//! number that does not fit. Output: an error at the statement that asks for the function, or at the
+//! expression that makes the number. Invariant: the narrowest place that is known.
 
 use super::definition;
 use crate::checked::{Checked, NodeId};
 use crate::lower::Beyond;
 use crate::report::{Report, Spans};
-use hamiltonian_symbolic::dag::{Kind, Part};
 use hamiltonian_symbolic::model::{Model, VectorUse};
-use hamiltonian_symbolic::pipeline;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
 
-/// Reports the places that need second derivatives that were not given.
-pub fn second_derivatives(
+/// Reports that a purpose needs a second derivative of `function`, which was not given. `blamed` are the
+/// statements that did already: a monitor that has the derivative in it has it in its gradient too.
+pub fn second_derivative(
     checked: &Checked,
-    model: &mut Model,
-    wanted: &[Purpose],
+    model: &Model,
+    (purpose, function): (Purpose, &str),
+    blamed: &mut Vec<String>,
     report: &mut Report,
 ) {
-    let mut blamed: Vec<String> = Vec::new();
-    let mut gradient = None;
-    for purpose in wanted {
-        let Ok(request) = pipeline::request(model, *purpose, &mut gradient) else {
-            continue;
-        };
-        let roots = request.roots();
-        let missing = model.dag.reachable(&roots).into_iter().find_map(|node| {
-            let Kind::External(function, Part::Second(..), _) = model.dag.kind(node) else {
-                return None;
-            };
-            let external = &model.externals[usize::from(*function)];
-            (!external.second).then(|| external.name.clone())
-        });
-        let Some(function) = missing else { continue };
-        let (spans, what) = asker(checked, model, *purpose);
-        // A monitor that has the derivative in it has it in its gradient too.
-        if blamed.contains(&what) {
-            continue;
-        }
-        report.error(
-            spans,
-            format!("{what} needs a second derivative of `{function}`"),
-            format!(
-                "give the second partials after the first: `fn {function}(x) = f, (df), (ddf)`"
-            ),
-        );
-        blamed.push(what);
+    let (spans, what) = asker(checked, model, purpose);
+    if blamed.contains(&what) {
+        return;
     }
+    report.error(
+        spans,
+        format!("{what} needs a second derivative of `{function}`"),
+        format!("give the second partials after the first: `fn {function}(x) = f, (df), (ddf)`"),
+    );
+    blamed.push(what);
 }
 
 /// Reports a number past the range of `f64` at the innermost expression that makes it; a derivative

@@ -39,6 +39,7 @@ pub fn implementations(context: Context) -> (String, String) {
     emission.kick();
     emission.separable();
     emission.pieces();
+    emission.split();
     emission.nystrom();
     emission.extras();
     (emission.out, emission.bodies.parts)

@@ -4,10 +4,13 @@
 //! drift, and of `Separable`. Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
 use super::Kick;
-use super::derived;
 use super::dynamics::{Emission, declared};
+use super::{derived, markers};
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
+
+/// The pieces V and T.
+pub const HALVES: [&str; 2] = ["__KickPiece", "__DriftPiece"];
 
 /// The holder of a field, a kick or a drift.
 fn holder(purpose: Purpose) -> &'static str {
@@ -76,26 +79,28 @@ impl Emission<'_> {
             ),
             _ => (types, values.concat()),
         };
-        self.maker("__KickPiece", &ty, &value);
+        self.maker(HALVES[0], &ty, &value);
     }
 
-    /// The piece T, and the splitting into V and T.
+    /// The piece T, and `Separable`.
     pub(super) fn separable(&mut self) {
-        let structure = &self.context.definition.structure;
-        if structure.separable.is_err() {
-            return;
-        }
-        self.flow(Purpose::Drift, "__Drift", &structure.halves[1], true);
-        let drift = self.made(Purpose::Drift, "__Drift");
-        let ty = self.context.generics.holder_type("__Drift");
-        self.maker("__DriftPiece", &ty, &drift);
-        self.pair(
+        let (context, structure) = (self.context, &self.context.definition.structure);
+        let pieces = structure.separable.as_ref().map(|()| {
+            self.flow(Purpose::Drift, "__Drift", &structure.halves[1], true);
+            let drift = self.made(Purpose::Drift, "__Drift");
+            let ty = context.generics.holder_type("__Drift");
+            self.maker(HALVES[1], &ty, &drift);
+            HALVES.map(str::to_owned)
+        });
+        let pieces = pieces.as_ref().map(<[String; 2]>::as_slice);
+        let pieces = pieces.map_err(|reason| ("__HIsSeparable", *reason));
+        markers::of_pieces(
+            &mut self.out,
+            context,
             "Separable",
-            [("Kick", "__KickPiece"), ("Drift", "__DriftPiece")],
+            &["Kick", "Drift"],
+            pieces,
+            "",
         );
-        if self.context.model.pieces.is_empty() {
-            let pieces = ["__KickPiece", "__DriftPiece"].map(str::to_owned);
-            self.split(&pieces, &structure.halves);
-        }
     }
 }

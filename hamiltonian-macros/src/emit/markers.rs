@@ -11,55 +11,40 @@ use std::fmt::Write;
 /// A piece that cannot exist.
 const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
 
-/// `Separable`, `Nystrom` and `Split` where they do not hold, `QuadraticKinetic`, `Autonomous`,
-/// `Unforced`, `Exact` and `Cyclic`.
+/// A trait of pieces, each as a type and as a constant, if they are there.
+pub fn of_pieces(
+    out: &mut String,
+    context: Context,
+    name: &str,
+    names: &[&str],
+    pieces: Result<&[String], (&str, &Reason)>,
+    more: &str,
+) {
+    let mut items = String::new();
+    for (at, name) in names.iter().enumerate() {
+        let (ty, value) = match &pieces {
+            Ok(pieces) => (pieces[at].clone(), pieces[at].clone()),
+            Err((_, reason)) => (
+                NEVER.to_owned(),
+                format!("__h::core::panic!({:?})", escaped(&reason.message)),
+            ),
+        };
+        let constant = name.to_uppercase();
+        let _ = writeln!(
+            items,
+            "type {name} = {ty};\nconst {constant}: Self::{name} = {value};"
+        );
+    }
+    items.push_str(more);
+    let declaration = context.generics.declaration_with_scalar();
+    let name = format!("{name}<T>");
+    marker(out, context, &name, &declaration, pieces.err(), &items);
+}
+
+/// `QuadraticKinetic`, `Autonomous`, `Unforced`, `Exact` and `Cyclic`.
 pub fn implementations(context: Context) -> String {
     let (structure, generics) = (&context.definition.structure, context.generics);
     let mut out = String::new();
-    const NO_NAMES: &str = "const NAMES: &'static [&'static __h::core::primitive::str] = &[];\n";
-    for (name, bound, reason, pieces, more) in [
-        (
-            "Separable",
-            "__HIsSeparable",
-            structure.separable.as_ref().err(),
-            &["Kick", "Drift"][..],
-            "",
-        ),
-        (
-            "Nystrom",
-            "__HIsKickedQuadratic",
-            structure.nystrom.as_ref().err(),
-            &["Kick", "Quadratic"],
-            "",
-        ),
-        (
-            "Split",
-            "__HIsSplit",
-            structure.split.as_ref().err(),
-            &["Pieces"],
-            NO_NAMES,
-        ),
-    ] {
-        let Some(reason) = reason else { continue };
-        let panic = format!("__h::core::panic!({:?})", escaped(&reason.message));
-        let types = pieces
-            .iter()
-            .map(|piece| format!("type {piece} = {NEVER};\n"));
-        let values = pieces.iter().map(|piece| {
-            let constant = piece.to_uppercase();
-            format!("const {constant}: Self::{piece} = {panic};\n")
-        });
-        let items: String = types.chain(values).chain([more.to_owned()]).collect();
-        let (name, declaration) = (format!("{name}<T>"), generics.declaration_with_scalar());
-        marker(
-            &mut out,
-            context,
-            &name,
-            &declaration,
-            Some((bound, reason)),
-            &items,
-        );
-    }
     let declaration = generics.declaration_without_bounds();
     for (name, bound, verdict) in [
         (

@@ -8,7 +8,9 @@ use super::Nystrom;
 use super::context::Access;
 use super::dynamics::Emission;
 use super::holder::Holder;
+use super::kicks::HALVES;
 use super::layout::Slice;
+use super::markers;
 use super::scan::scan;
 use hamiltonian_symbolic::dag::Side;
 use hamiltonian_symbolic::flow::ExactFlow;
@@ -16,40 +18,36 @@ use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
 
 impl Emission<'_> {
-    /// The flows of the model's pieces, and the splitting into them.
+    /// The flows of the model's pieces.
     pub(super) fn pieces(&mut self) {
-        let count = self.context.model.pieces.len();
-        if count == 0 {
-            return;
-        }
-        for number in 0..count {
+        for number in 0..self.context.model.pieces.len() {
             self.piece(number);
         }
-        let names = self.context.model.pieces.iter();
-        let mut names: Vec<String> = names.map(|piece| piece.name.clone()).collect();
-        let mut pieces: Vec<String> = (0..count).map(|at| format!("__Piece{at}")).collect();
-        let structure = &self.context.definition.structure;
-        if structure.kick.is_some() && structure.separable.is_err() {
-            pieces.push("__KickPiece".to_owned());
-            names.push(structure.halves[0].clone());
-        }
-        self.split(&pieces, &names);
     }
 
-    /// `Split`
-    pub(super) fn split(&mut self, pieces: &[String], names: &[String]) {
-        let generics = self.context.generics;
-        let tuple = format!("({},)", pieces.join(", "));
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{declaration} __h::Split<T> for {system} {{\n\
-             type Pieces = {tuple};\nconst PIECES: Self::Pieces = {tuple};\n\
-             const NAMES: &'static [&'static __h::core::primitive::str] = &{names:?};\n}}",
-            declaration = generics.declaration_with_scalar(),
-            system = generics.system_type(),
-        );
+    /// `Split`, into the model's pieces with the kick of a force, or into V and T.
+    pub(super) fn split(&mut self) {
+        let (context, generics) = (self.context, self.context.generics);
+        let (structure, own) = (&context.definition.structure, &context.model.pieces);
+        let mut pieces: Vec<String> = (0..own.len()).map(|at| format!("__Piece{at}")).collect();
+        let mut names: Vec<String> = own.iter().map(|piece| piece.name.clone()).collect();
+        if own.is_empty() {
+            pieces = HALVES.map(str::to_owned).to_vec();
+            names = structure.halves.to_vec();
+        } else if structure.kick.is_some() && structure.separable.is_err() {
+            pieces.push(HALVES[0].to_owned());
+            names.push(structure.halves[0].clone());
+        }
+        let tuple = [format!("({},)", pieces.join(", "))];
+        let (verdict, names) = match &structure.split {
+            Ok(()) => (Ok(&tuple[..]), names),
+            Err(reason) => (Err(("__HIsSplit", reason)), Vec::new()),
+        };
+        let list =
+            format!("const NAMES: &'static [&'static __h::core::primitive::str] = &{names:?};\n");
+        markers::of_pieces(&mut self.out, context, "Split", &["Pieces"], verdict, &list);
         // Over one scalar only, so that `Name::NAMES` is decided.
-        if self.context.definition.checked.item.is_some() {
+        if verdict.is_ok() && context.definition.checked.item.is_some() {
             let (constants, system) = generics.over_f64();
             line!(
                 self,
@@ -63,29 +61,22 @@ impl Emission<'_> {
 
     /// `Nystrom`, of V and T or of two of the model's pieces.
     pub(super) fn nystrom(&mut self) {
-        let [kick, quadratic] = match self.context.definition.structure.nystrom {
-            Ok(Nystrom::Halves) => ["__KickPiece", "__DriftPiece"].map(str::to_owned),
-            Ok(Nystrom::Pieces(numbers)) => numbers.map(|number| format!("__Piece{number}")),
-            Err(_) => return,
-        };
-        self.pair("Nystrom", [("Kick", &kick), ("Quadratic", &quadratic)]);
-    }
-
-    /// A trait of two pieces, each as a type and as a constant.
-    pub(super) fn pair(&mut self, name: &str, pieces: [(&str, &str); 2]) {
-        let generics = self.context.generics;
-        let (declaration, system) = (generics.declaration_with_scalar(), generics.system_type());
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{declaration} __h::{name}<T> for {system} {{"
+        let context = self.context;
+        let pieces = context.definition.structure.nystrom.as_ref();
+        let pieces = pieces.map(|nystrom| match nystrom {
+            Nystrom::Halves => HALVES.map(str::to_owned),
+            Nystrom::Pieces(numbers) => numbers.map(|number| format!("__Piece{number}")),
+        });
+        let pieces = pieces.as_ref().map(<[String; 2]>::as_slice);
+        let pieces = pieces.map_err(|reason| ("__HIsKickedQuadratic", *reason));
+        markers::of_pieces(
+            &mut self.out,
+            context,
+            "Nystrom",
+            &["Kick", "Quadratic"],
+            pieces,
+            "",
         );
-        for (ty, piece) in pieces {
-            line!(self, "type {ty} = {piece};");
-        }
-        for (ty, piece) in pieces {
-            line!(self, "const {}: {piece} = {piece};", ty.to_uppercase());
-        }
-        line!(self, "}}");
     }
 
     /// The unit struct `name` that makes a flow of a type by `body`.

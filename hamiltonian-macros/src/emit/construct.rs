@@ -5,7 +5,6 @@
 //! the parameters spelt out.
 
 use super::context::Context;
-use super::number::over;
 use super::{allowances, documented, lex, located, reach};
 use crate::ast::Header;
 use crate::checked::{Field, Parameter};
@@ -22,22 +21,22 @@ pub fn default(context: Context) -> String {
     if context.has_run_time_sizes() || definition.defaults.contains(&None) {
         return String::new();
     }
-    let fields = |scalar: Option<&str>| -> String {
+    let generics = context.generics;
+    let (constants, system) = generics.over_f64();
+    let value = match generics.scalars.is_empty() {
+        true => "Self {}",
+        false => "Self::with_defaults()",
+    };
+    let mut text = format!(
+        "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
+         fn default() -> Self {{ {value} }}\n}}\n"
+    );
+    if let Some(scalar) = generics.scalars.first() {
         let parameters = definition.checked.parameters.iter().enumerate();
         let fields = parameters.map(|(number, parameter)| {
             let value = default_of(context, number, scalar);
             format!("{}: {value}, ", parameter.name)
         });
-        fields.collect()
-    };
-    let generics = context.generics;
-    let (constants, system) = generics.over_f64();
-    let mut text = format!(
-        "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
-         fn default() -> Self {{ Self {{ {} }} }}\n}}\n",
-        fields(None)
-    );
-    if let Some(scalar) = generics.scalars.first() {
         let _ = write!(
             text,
             "{} {{\n\
@@ -46,16 +45,19 @@ pub fn default(context: Context) -> String {
              #[must_use]\n{} fn with_defaults() -> Self {{ Self {{ {} }} }}\n}}\n",
             generics.header(),
             generics.visibility,
-            fields(Some(scalar))
+            fields.collect::<String>()
         );
     }
     text
 }
 
-/// The default of a parameter that has one; over `f64` where no scalar is named.
-fn default_of(context: Context, number: usize, scalar: Option<&str>) -> String {
+/// The default of a parameter that has one, over a scalar.
+fn default_of(context: Context, number: usize, scalar: &str) -> String {
     let numbers = context.definition.defaults[number].iter().flatten();
-    let numbers: Vec<String> = numbers.map(|text| over(text, scalar)).collect();
+    let constant = format!("<{scalar} as __h::Real>::constant");
+    let numbers: Vec<String> = numbers
+        .map(|text| text.replace("T::constant", &constant))
+        .collect();
     match context.model.parameters[number].shape {
         Shape::Scalar => numbers.concat(),
         _ => format!("__h::core::convert::From::from([{}])", numbers.join(", ")),
@@ -71,8 +73,9 @@ pub fn set_by_new(value: &str) -> String {
 /// default. Where no argument tells the scalar of the parameters it is f64, as in `Default`.
 pub fn new(context: Context, item: &Header) -> TokenStream {
     let (definition, generics) = (context.definition, context.generics);
-    let scalar = generics.scalars.first().map_or("P", String::as_str);
     let is_told = definition.defaults.contains(&None);
+    let scalar = generics.scalars.first().filter(|_| is_told);
+    let scalar = scalar.map_or("__h::core::primitive::f64", String::as_str);
     // A constant of the user's may have the name of a parameter in capitals, and an argument may
     // not have a constant's.
     let argument = |name: &Ident| match name.to_string() {
@@ -95,7 +98,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         let name = &parameter.name;
         let shape = &context.model.parameters[number].shape;
         if definition.defaults[number].is_some() {
-            let value = default_of(context, number, is_told.then_some(scalar));
+            let value = default_of(context, number, scalar);
             let _ = write!(fields, "{name}: {value}, ");
             continue;
         }

@@ -62,19 +62,6 @@ pub fn closed(dag: &Dag, node: Node) -> Option<String> {
     })
 }
 
-/// An expression over `T` as one over another scalar; over `f64` a number is a literal.
-pub fn over(text: &str, scalar: Option<&str>) -> String {
-    let number = text.strip_prefix("T::constant(");
-    let number = number.and_then(|rest| rest.strip_suffix(')')?.split_once(", "));
-    match (scalar, number) {
-        (None, Some((high, low))) if !low.contains("T::") => high.to_owned(),
-        _ => {
-            let scalar = scalar.unwrap_or("__h::core::primitive::f64");
-            text.replace("T::constant", &format!("<{scalar} as __h::Real>::constant"))
-        }
-    }
-}
-
 /// π as an expression of the scalar type `T`.
 pub fn pi() -> String {
     format!("T::constant(__h::core::f64::consts::PI, {})", float(PI_LOW))

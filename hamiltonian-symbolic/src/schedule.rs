@@ -167,21 +167,15 @@ fn stage_of(dag: &Dag, node: Node, now: Stage) -> Stage {
 
 /// The nodes of the coefficient stage and of preparation that the roots need in stage `now`.
 fn frontier(dag: &Dag, roots: &[Node], now: Stage) -> (Vec<Node>, Vec<Node>) {
-    let mut seen = vec![false; dag.len()];
-    let (mut coefficients, mut prepared) = (Vec::new(), Vec::new());
-    let mut pending = roots.to_vec();
-    while let Some(node) = pending.pop() {
-        if std::mem::replace(&mut seen[node.0 as usize], true) {
-            continue;
+    let is_later = |node: &Node| stage_of(dag, *node, now) == now;
+    let mut known = dag.reached(roots, |node, ahead| {
+        if is_later(&node) {
+            dag.for_children(node, |child| ahead.add(child));
         }
-        match stage_of(dag, node, now) {
-            stage if stage == now => dag.for_children(node, |child| pending.push(child)),
-            Stage::Coefficient => coefficients.push(node),
-            _ => prepared.push(node),
-        }
-    }
-    coefficients.sort_unstable();
-    (coefficients, prepared)
+    });
+    known.retain(|node| !is_later(node));
+    let is_coefficient = |node: &Node| stage_of(dag, *node, now) == Stage::Coefficient;
+    known.into_iter().partition(is_coefficient)
 }
 
 /// The block of one stage, and the values known after it.
@@ -336,23 +330,16 @@ impl Placer<'_> {
 
     /// The nodes of this stage not yet computed that the wanted ones need, bottom-up.
     fn needed(&self, wanted: &[Node], stores: &[&Store]) -> Vec<Node> {
-        let mut seen = vec![false; self.dag.len()];
-        let mut list = Vec::new();
-        let mut pending: Vec<Node> = wanted
-            .iter()
-            .copied()
-            .chain(stores.iter().map(|s| s.value))
-            .collect();
-        while let Some(node) = pending.pop() {
-            let is_seen = std::mem::replace(&mut seen[node.0 as usize], true);
-            if is_seen || self.is_computed(node) || self.stage_of(node) != self.stage {
-                continue;
+        let stored = stores.iter().map(|store| store.value);
+        let roots: Vec<Node> = wanted.iter().copied().chain(stored).collect();
+        let is_needed = |node: Node| !self.is_computed(node) && self.stage_of(node) == self.stage;
+        let mut needed = self.dag.reached(&roots, |node, ahead| {
+            if is_needed(node) {
+                self.dag.for_children(node, |child| ahead.add(child));
             }
-            list.push(node);
-            self.dag.for_children(node, |child| pending.push(child));
-        }
-        list.sort_unstable();
-        list
+        });
+        needed.retain(|node| is_needed(*node));
+        needed
     }
 
     fn nest(&mut self, nest: &Nest) -> Loop {

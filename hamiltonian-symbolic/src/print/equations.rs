@@ -58,9 +58,9 @@ pub fn hamilton_equations(model: &Model) -> Equations {
 
 /// The equations of all coordinates, or of all momenta.
 fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Vec<Equation>) {
-    let (what, sign) = match side {
-        Side::Q => (Dependence::P, Rational::ONE),
-        Side::P => (Dependence::Q, Rational::MINUS_ONE),
+    let what = match side {
+        Side::Q => Dependence::P,
+        Side::P => Dependence::Q,
     };
     let mut leaves = Vec::new();
     let (mut is_large, mut length) = (is_large, 0);
@@ -95,21 +95,16 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
     is_large |= model.dag.has_too_many_loops();
     for (at, rows) in model.columns(side) {
         let own = of_array.remove(&at.conjugate()).unwrap_or_default();
-        let of = Derivative {
-            at,
-            sign: sign.clone(),
-        };
-        match &rows {
-            _ if is_large => {
-                let row = rows.as_ref().map(|_| Row::any(model, None));
-                list.push(of.equation(row, None));
-            }
+        let found = match &rows {
+            _ if is_large => vec![(rows.as_ref().map(|_| Row::any(model, None)), None)],
             None => {
-                let value = of.signed(model, own.first().map(|(_, adjoint)| *adjoint));
-                list.push(of.equation(None, Some(value)));
+                let value = signed(model, side, own.first().map(|(_, adjoint)| *adjoint));
+                vec![(None, Some(value))]
             }
-            Some(rows) => of.of_array(model, rows, &leaves, &own, list),
-        }
+            Some(rows) => elements(model, at, rows, &leaves, &own),
+        };
+        let equation = |(row, value)| Equation { at, row, value };
+        list.extend(found.into_iter().map(equation));
     }
 }
 
@@ -135,13 +130,12 @@ pub(crate) fn scalar_equation(
     notation: Notation,
     value: Node,
 ) -> (String, String) {
-    let derivative = Derivative {
+    let equation = Equation {
         at: Column::first(side, group as u16),
-        sign: Rational::ONE,
+        row: None,
+        value: Some(value),
     };
-    derivative
-        .equation(None, Some(value))
-        .written(model, notation)
+    equation.written(model, notation)
 }
 
 /// The name of an element's index.
@@ -160,6 +154,13 @@ struct Row {
 }
 
 impl Row {
+    /// One row of those there are.
+    fn numbered(row: i64) -> Row {
+        Row {
+            name: row.to_string(),
+            domain: None,
+        }
+    }
     /// The row that stands for all of them.
     fn any(model: &Model, domain: Option<Domain>) -> Row {
         Row {
@@ -169,106 +170,78 @@ impl Row {
     }
 }
 
-/// The left side of an equation, and the sign of the derivative on the right.
-#[derive(Clone, Debug)]
-struct Derivative {
-    at: Column,
-    sign: Rational,
-}
-
 /// One equation; the right side is named where its value is not there.
 #[derive(Debug)]
 struct Equation {
-    of: Derivative,
+    at: Column,
     row: Option<Row>,
     value: Option<Node>,
 }
 
-impl Derivative {
-    fn signed(&self, model: &mut Model, value: Option<Node>) -> Node {
-        let dag = &mut model.dag;
-        match value {
-            None => dag.integer(0),
-            Some(value) if self.sign.is_one() => value,
-            // −(a + b) is written −a − b.
-            Some(value) => match dag.kind(value).clone() {
-                Kind::Sum(c, terms) => {
-                    let mut negated = Vec::with_capacity(terms.len());
-                    for (k, term) in terms {
-                        let k = k.neg();
-                        match dag.kind(term).clone() {
-                            // Nor is a condition negated, but its branches are.
-                            Kind::Select(condition, yes, no) => {
-                                let (yes, no) = (dag.scale(&k, yes), dag.scale(&k, no));
-                                negated.push((Rational::ONE, dag.select(condition, yes, no)));
-                            }
-                            _ => negated.push((k, term)),
-                        }
-                    }
-                    dag.linear(&c.neg(), &negated)
-                }
-                _ => dag.scale(&self.sign, value),
-            },
-        }
+/// The right side of an equation from the derivative of H: ∂H/∂p, or −∂H/∂q.
+fn signed(model: &mut Model, side: Side, value: Option<Node>) -> Node {
+    let dag = &mut model.dag;
+    let Some(value) = value else {
+        return dag.integer(0);
+    };
+    if side == Side::Q {
+        return value;
     }
-
-    fn of_array(
-        &self,
-        model: &mut Model,
-        rows: &Affine,
-        leaves: &[(Node, Node)],
-        own: &[(Index, Node)],
-        list: &mut Vec<Equation>,
-    ) {
-        let numbered: Option<Vec<i64>> = own.iter().map(|(row, _)| row.as_constant()).collect();
-        // A short array that is read by number has an equation for each element.
-        if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant())
-            && !own.is_empty()
-        {
-            for row in 0..count {
-                let value = numbered
-                    .iter()
-                    .position(|at| *at == row)
-                    .map(|at| own[at].1);
-                let value = self.signed(model, value);
-                let row = Row {
-                    name: row.to_string(),
-                    domain: None,
-                };
-                list.push(self.equation(Some(row), Some(value)));
+    // −(a + b) is written −a − b.
+    let Kind::Sum(c, terms) = dag.kind(value).clone() else {
+        return dag.neg(value);
+    };
+    let mut negated = Vec::with_capacity(terms.len());
+    for (k, term) in terms {
+        let k = k.neg();
+        match *dag.kind(term) {
+            // Nor is a condition negated, but its branches are.
+            Kind::Select(condition, yes, no) => {
+                let (yes, no) = (dag.scale(&k, yes), dag.scale(&k, no));
+                negated.push((Rational::ONE, dag.select(condition, yes, no)));
             }
-            return;
+            _ => negated.push((k, term)),
         }
-        let domain = field::elements(&mut model.dag, rows);
-        // A long one read at many numbers would be a list of conditions nobody reads.
-        let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables() == 0);
-        let value = if is_listed {
-            None
-        } else {
-            field::field(
-                &mut model.dag,
-                leaves,
-                Array::Phase(self.at.conjugate()),
-                rows,
-            )
-        };
-        let value = value.map(|value| self.signed(model, Some(value)));
-        list.push(self.equation(Some(Row::any(model, Some(domain))), value));
     }
+    dag.linear(&c.neg(), &negated)
+}
 
-    fn equation(&self, row: Option<Row>, value: Option<Node>) -> Equation {
-        Equation {
-            of: self.clone(),
-            row,
-            value,
-        }
+/// The rows of the equations of an array, with their right sides, from the adjoints of all leaves and
+/// the `own` ones of its conjugate.
+fn elements(
+    model: &mut Model,
+    at: Column,
+    rows: &Affine,
+    leaves: &[(Node, Node)],
+    own: &[(Index, Node)],
+) -> Vec<(Option<Row>, Option<Node>)> {
+    let numbered: Option<Vec<i64>> = own.iter().map(|(row, _)| row.as_constant()).collect();
+    // A short array that is read by number has an equation for each element.
+    if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant())
+        && !own.is_empty()
+    {
+        let of_row = |row: i64| {
+            let place = numbered.iter().position(|at| *at == row);
+            let value = signed(model, at.side, place.map(|place| own[place].1));
+            (Some(Row::numbered(row)), Some(value))
+        };
+        return (0..count).map(of_row).collect();
     }
+    let domain = field::elements(&mut model.dag, rows);
+    // A long one read at many numbers would be a list of conditions nobody reads.
+    let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables() == 0);
+    let value = match is_listed {
+        true => None,
+        false => field::field(&mut model.dag, leaves, Array::Phase(at.conjugate()), rows),
+    };
+    let value = value.map(|value| signed(model, at.side, Some(value)));
+    vec![(Some(Row::any(model, Some(domain))), value)]
 }
 
 impl Equation {
     /// `dq[k]/dt`, or `dq[k]/ds` in another time, and its value.
     fn written(&self, model: &Model, notation: Notation) -> (String, String) {
-        let at = self.of.at;
+        let at = self.at;
         let group = &model.groups[usize::from(at.group)];
         let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
         let mut indices: Vec<String> = self.row.iter().map(|row| row.name.clone()).collect();

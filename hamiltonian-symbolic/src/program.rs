@@ -242,14 +242,6 @@ pub enum Purpose {
     Piece(u16),
 }
 
-impl Purpose {
-    /// Whether coordinates and momenta are read from the outputs.
-    #[must_use]
-    pub fn is_in_place(self) -> bool {
-        matches!(self, Purpose::Piece(_))
-    }
-}
-
 /// One function of a program.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Function {

@@ -7,7 +7,9 @@ use hamiltonian_lanes::Real;
 use hamiltonian_symbolic::PI_LOW;
 use hamiltonian_symbolic::dag::{Array, Map, Part, Relation};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
-use hamiltonian_symbolic::program::{Function, Instruction, Program, Step, Target, Update, Value};
+use hamiltonian_symbolic::program::{
+    Function, Instruction, Program, Purpose, Step, Target, Update, Value,
+};
 
 /// A function written in Rust: the part asked for, at its arguments.
 pub type ExternalFunction<T> = fn(Part, &[T]) -> T;
@@ -97,7 +99,7 @@ fn run_in_order<T: Real>(
         masks: Map::default(),
         variables: Map::default(),
         outputs: point.outputs.clone(),
-        is_in_place: function.purpose.is_in_place(),
+        is_in_place: matches!(function.purpose, Purpose::Piece(_)),
         reversed: false,
     };
     for target in &function.cleared {

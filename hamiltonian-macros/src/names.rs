@@ -129,6 +129,7 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("norm2", "norm_squared"),
     ("inner", "dot"),
     ("poisson", "bracket"),
+    ("not", "!(x)"),
     ("PI", "pi"),
     ("Pi", "pi"),
     ("π", "pi"),

@@ -7,7 +7,7 @@
 use super::{Abort, Parser, Result};
 use crate::ast::{ExprId, ExprKind, Scope, ScopeId};
 use crate::report::Spans;
-use crate::tokens::TokenKind;
+use crate::tokens::{Token, TokenKind};
 use proc_macro2::Delimiter;
 
 impl Parser<'_> {
@@ -188,6 +188,15 @@ impl Parser<'_> {
             && self.peek_at(1).is_some_and(|token| token.text == "in");
         if !is_loop {
             let span = self.here();
+            let compares =
+                |token: &Token| matches!(token.kind, TokenKind::Punct('<' | '>' | '=' | '!', _));
+            let has_condition = self.tokens[self.position..self.limit].iter().any(compares);
+            let form = match has_condition {
+                true => {
+                    "a sum has no condition: `j in 0..i` takes each pair once, `if c { a } else { 0 }` in the body chooses terms"
+                }
+                false => form,
+            };
             return self.abort(span, "expected a loop variable and its range", form);
         }
         let name = self.declared("a loop variable", form)?;

@@ -6,7 +6,7 @@
 //! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read in that
 //! meaning, so that the errors after it are found too.
 
-use super::operator::{Pending, begins_operand, left_binding};
+use super::operator::{Pending, begins_operand, ends_operand, left_binding};
 use super::{Parser, Result};
 use crate::ast::{BinaryOp, ExprId, ExprKind, UnaryOp};
 use crate::names;
@@ -94,6 +94,18 @@ impl Parser<'_> {
                 }
                 TokenKind::Punct('-', _) => UnaryOp::Neg,
                 TokenKind::Punct('!', _) => UnaryOp::Not,
+                // `not(…)` may be a function of the user's.
+                TokenKind::Ident
+                    if token.text == "not"
+                        && matches!(
+                            self.kind_at(1),
+                            Some(TokenKind::Ident | TokenKind::Literal)
+                        )
+                        && !self.peek_at(1).is_some_and(ends_operand) =>
+                {
+                    self.not_an_operator(token, "!( … )");
+                    UnaryOp::Not
+                }
                 _ => break,
             };
             self.deeper(token.span)?;

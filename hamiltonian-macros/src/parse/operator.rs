@@ -41,6 +41,11 @@ pub(super) fn begins_operand(kind: TokenKind) -> bool {
     )
 }
 
+/// Whether a word ends the expression before it.
+pub(super) fn ends_operand(token: &Token) -> bool {
+    token.kind == TokenKind::Ident && matches!(token.text.as_str(), "on" | "else" | "in")
+}
+
 /// The binding of the operand on the left of an operator.
 pub(super) fn left_binding(op: BinaryOp) -> u8 {
     match op {
@@ -104,6 +109,16 @@ impl Parser<'_> {
                 (op, 1 + usize::from(is_double))
             }
             TokenKind::Ident
+                if matches!(token.text.as_str(), "and" | "or") && self.operand_follows() =>
+            {
+                let (op, sign) = match token.text.as_str() {
+                    "and" => (BinaryOp::And, "&&"),
+                    _ => (BinaryOp::Or, "||"),
+                };
+                self.not_an_operator(token, sign);
+                (op, 1)
+            }
+            TokenKind::Ident
             | TokenKind::Literal
             | TokenKind::Open(Delimiter::Parenthesis | Delimiter::None) => {
                 if token.kind == TokenKind::Ident && names::is_foreign(&token.text) {
@@ -121,10 +136,26 @@ impl Parser<'_> {
         Ok(Some((op, Spans::from(span).to(end))))
     }
 
+    /// Whether a value begins after the token at the cursor, with a sign before it or none.
+    fn operand_follows(&self) -> bool {
+        self.kind_at(1).is_some_and(|kind| {
+            begins_operand(kind) || matches!(kind, TokenKind::Punct('+' | '-' | '!', _))
+        })
+    }
+
+    /// `and`, `or` and `not` of other languages.
+    pub(super) fn not_an_operator(&mut self, word: &Token, sign: &str) {
+        self.report.error(
+            word.span,
+            format!("`{}` is not an operator", word.text),
+            format!("write `{sign}`"),
+        );
+    }
+
     /// Two values side by side, or two statements.
     fn missing_operator(&mut self, token: &Token) -> Option<(BinaryOp, Spans)> {
         let name = token.text.as_str();
-        if token.kind == TokenKind::Ident && matches!(name, "on" | "else" | "in") {
+        if ends_operand(token) {
             return None;
         }
         let before = &self.tokens[self.position - 1];

@@ -21,6 +21,9 @@ impl Checker<'_> {
         if !CHARTS.contains(&word.as_str()) {
             let help = match names::nearest(&word, CHARTS.iter().copied()) {
                 Some(known) => format!("write `{known}`"),
+                None if word.starts_with("cylind") => {
+                    "write `polar(x, y)`, which leaves z as it is".into()
+                }
                 None => format!("known are `{}`", CHARTS.join("`, `")),
             };
             self.report

@@ -44,6 +44,23 @@ impl Checker<'_> {
         expression: &Expression,
         what: &str,
     ) -> Option<NodeId> {
+        self.scalar_unless(expression, what, choice)
+    }
+
+    /// The function of an event, whose roots are located.
+    pub(super) fn event(&mut self, expression: &Expression) -> Option<NodeId> {
+        self.scalar_unless(expression, "an event", |op| {
+            format!("write the function whose roots are events: `x` for `x {op} 0`, `a - b` for `a {op} b`")
+        })
+    }
+
+    /// A right side that is a scalar; `help` says of a comparison what to write instead.
+    fn scalar_unless(
+        &mut self,
+        expression: &Expression,
+        what: &str,
+        help: fn(&str) -> String,
+    ) -> Option<NodeId> {
         let value = self.expression(expression)?;
         let ty = self.type_of(value);
         if ty == Type::Scalar {
@@ -51,7 +68,7 @@ impl Checker<'_> {
         }
         let raw = expression.root;
         if ty == Type::Bool {
-            self.condition_as_number(raw);
+            self.refuse_condition(raw, help);
         } else {
             let message = format!("{what} is a scalar, but this is {}", self.type_shown(ty));
             let help = match self.name_of(raw) {
@@ -377,6 +394,10 @@ impl Checker<'_> {
     }
 
     pub(super) fn condition_as_number(&mut self, raw: ExprId) {
+        self.refuse_condition(raw, choice);
+    }
+
+    fn refuse_condition(&mut self, raw: ExprId, help: fn(&str) -> String) {
         let node = &self.ast.nodes[raw.0 as usize];
         let (message, op) = match node.kind {
             ExprKind::Binary(op, ..) => (
@@ -388,11 +409,7 @@ impl Checker<'_> {
             ),
             _ => ("expected a number, found a condition".into(), "<"),
         };
-        self.error(
-            raw,
-            message,
-            format!("write `if a {op} b {{ … }} else {{ … }}`"),
-        );
+        self.error(raw, message, help(op));
     }
 
     fn condition(&mut self, raw: ExprId, frame: &Frame) -> Option<NodeId> {
@@ -561,4 +578,9 @@ impl Checker<'_> {
         self.call_depth -= 1;
         value
     }
+}
+
+/// What makes a number of a comparison.
+fn choice(op: &str) -> String {
+    format!("write `if a {op} b {{ … }} else {{ … }}`")
 }

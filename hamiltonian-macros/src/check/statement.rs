@@ -206,7 +206,7 @@ impl<'a> Checker<'a> {
         }
         let word = kind.word();
         let value = match kind {
-            ObservableKind::Event => self.scalar_expression(value, "an event"),
+            ObservableKind::Event => self.event(value),
             _ => self.components(value, word),
         };
         let shell = match shell {

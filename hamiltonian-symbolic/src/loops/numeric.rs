@@ -246,29 +246,26 @@ fn number(value: &Rational) -> Sampled {
     }
 }
 
-/// Whether whole numbers of this size add and multiply without error, as indices must.
-fn is_whole(a: Sampled) -> bool {
-    a.error == 0.0 && a.value.fract() == 0.0 && a.value.abs() < 1e15
-}
+/// Sums and products of multiples of 1/64, as whole numbers are, have no error up to this size.
+const SHORT: f64 = 1e12;
 
-/// Whether numbers like this add and multiply without error: multiples of 1/64.
+/// Whether this is such a number.
 fn is_short(a: Sampled) -> bool {
-    a.error == 0.0 && (64.0 * a.value).fract() == 0.0 && a.value.abs() < 1e6
+    a.error == 0.0 && (64.0 * a.value).fract() == 0.0
 }
 
 /// a + b + …
 pub(crate) fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
     let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
-    let (mut whole, mut short) = (true, true);
+    let mut short = true;
     for part in parts {
         value += part.value;
         error += part.error;
         size += part.value.abs();
         count += 1.0;
-        whole &= is_whole(part);
         short &= is_short(part);
     }
-    if whole && size < 1e15 || short && size < 1e12 {
+    if short && size < SHORT {
         return exact(value);
     }
     Sampled {
@@ -280,7 +277,7 @@ pub(crate) fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
 /// a·b
 pub(crate) fn product(a: Sampled, b: Sampled) -> Sampled {
     let value = a.value * b.value;
-    if is_whole(a) && is_whole(b) && value.abs() < 1e15 || is_short(a) && is_short(b) {
+    if is_short(a) && is_short(b) && value.abs() < SHORT {
         return exact(value);
     }
     Sampled {

@@ -16,7 +16,7 @@ use crate::model::{Model, VectorEntry};
 use crate::op::Op;
 use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
-use crate::schedule::{Images, Request, Store, prepared, schedule};
+use crate::schedule::{Request, Store, prepared, schedule};
 use crate::share::share;
 
 /// The most operations a function may need after simplification.
@@ -73,8 +73,9 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     if model.dag.has_too_many_loops() {
         return Err(Refusal::TooManyLoops);
     }
-    let images = shared_preparation(&mut model.dag, &requests);
-    let program = schedule(&model.dag, &requests, &images, arrays.held);
+    let wanted = prepared(&model.dag, &requests);
+    let images = shared_preparation(&mut model.dag, &wanted);
+    let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.held);
     program.validate().map_err(internal)?;
     for (function, request) in program.functions.iter().zip(&requests) {
         if stores(&function.evaluation) != request.stores.len() {
@@ -89,14 +90,12 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
 }
 
 /// The prepared expressions with shared parts, where that is less work.
-fn shared_preparation(dag: &mut Dag, requests: &[Request]) -> Images {
-    let wanted = prepared(dag, requests);
-    let mut images = wanted.clone();
+fn shared_preparation(dag: &mut Dag, wanted: &[Node]) -> Vec<Node> {
+    let mut images = wanted.to_vec();
     share(dag, &mut images, Stage::Parameters);
-    if work(dag, &images) < work(dag, &wanted) {
-        wanted.into_iter().zip(images).collect()
-    } else {
-        Images::default()
+    match work(dag, &images) < work(dag, wanted) {
+        true => images,
+        false => wanted.to_vec(),
     }
 }
 

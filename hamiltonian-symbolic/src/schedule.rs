@@ -69,9 +69,6 @@ impl Request {
     }
 }
 
-/// Prepared expressions and as what they are computed.
-pub type Images = Map<Node, Node>;
-
 /// The expressions of parameters alone that the requests read.
 #[must_use]
 pub fn prepared(dag: &Dag, requests: &[Request]) -> Vec<Node> {
@@ -86,14 +83,16 @@ pub fn prepared(dag: &Dag, requests: &[Request]) -> Vec<Node> {
     wanted
 }
 
-/// Schedules the functions: first what is prepared for all of them, then each one's coefficient
-/// stage, then its evaluation.
+/// Schedules the functions: first what is [`prepared`] for all of them, where the second of each two
+/// expressions is computed for the first, then each one's coefficient stage, then its evaluation.
 #[must_use]
-pub fn schedule(dag: &Dag, requests: &[Request], images: &Images, held: Vec<Held>) -> Program {
+pub fn schedule(
+    dag: &Dag,
+    requests: &[Request],
+    (wanted, images): (&[Node], &[Node]),
+    held: Vec<Held>,
+) -> Program {
     let mut program = Program::default();
-    let wanted = prepared(dag, requests);
-    let image = |node: &Node| images.get(node).copied().unwrap_or(*node);
-    let computed: Vec<Node> = wanted.iter().map(image).collect();
     let nothing = Numbers::new(dag);
     let fill = |(held, number): (&Held, u16)| Store {
         target: Target::Held(number),
@@ -107,7 +106,7 @@ pub fn schedule(dag: &Dag, requests: &[Request], images: &Images, held: Vec<Held
         dag,
         &mut program,
         Stage::Parameters,
-        &computed,
+        images,
         &fills,
         None,
         nothing.clone(),
@@ -116,8 +115,8 @@ pub fn schedule(dag: &Dag, requests: &[Request], images: &Images, held: Vec<Held
     program.held = held;
     // Only what is wanted is handed on, not what it was computed from.
     let mut prepared = nothing;
-    for &node in &wanted {
-        let value = value_of(&computed, image(&node));
+    for (&node, &image) in wanted.iter().zip(images) {
+        let value = value_of(&computed, image);
         prepared.set(node, value.0);
         if !program.prepared.contains(&value) {
             program.prepared.push(value);

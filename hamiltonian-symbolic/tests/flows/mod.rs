@@ -8,7 +8,7 @@ use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::flow::ExactFlow;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
-use hamiltonian_symbolic::schedule::{Images, Request, schedule};
+use hamiltonian_symbolic::schedule::{Request, prepared, schedule};
 use hamiltonian_symbolic::split::exact_flow;
 
 /// A piece, and the row that takes it.
@@ -31,12 +31,10 @@ impl Values {
             cleared: Vec::new(),
             pinned: None,
         };
-        Values(schedule(
-            &model.dag,
-            &[request],
-            &Images::default(),
-            Vec::new(),
-        ))
+        let requests = [request];
+        let wanted = prepared(&model.dag, &requests);
+        let prepared = (&wanted[..], &wanted[..]);
+        Values(schedule(&model.dag, &requests, prepared, Vec::new()))
     }
     /// At coordinates and momenta (interleaved), parameters and a step coefficient.
     pub fn at<T: Real>(&self, model: &Model, z: &[T], parameters: &[f64], c: T) -> Vec<T> {

@@ -44,7 +44,7 @@ struct Term {
 
 impl Term {
     fn has_coefficient(&self, one: Node) -> bool {
-        self.p != one || !(self.k.is_one() || self.k == Rational::MINUS_ONE)
+        self.p != one || !self.k.is_unit()
     }
     fn multiplications(&self, one: Node) -> i64 {
         let factors: i64 = self.factors.iter().map(|(_, n)| i64::from(n.abs())).sum();
@@ -186,7 +186,7 @@ fn absorbing_sum(
     uses: &Numbers,
 ) -> Option<usize> {
     let has_prepared = factors.iter().any(|(n, _)| is_prepared(dag, *n));
-    if !has_prepared && (k.is_one() || *k == Rational::MINUS_ONE) {
+    if !has_prepared && k.is_unit() {
         return None;
     }
     factors.iter().position(|&(node, n)| {
@@ -200,14 +200,13 @@ fn absorbing_sum(
         let plain = terms
             .iter()
             .filter(|(k, n)| {
-                let unit = k.is_one() || *k == Rational::MINUS_ONE;
                 let product = match dag.kind(*n) {
                     Kind::Product(_, inner) if uses.get(*n) == Some(1) => {
                         inner.iter().any(|(f, _)| is_prepared(dag, *f))
                     }
                     _ => is_prepared(dag, *n),
                 };
-                unit && !product
+                k.is_unit() && !product
             })
             .count();
         plain + usize::from(!c.is_zero()) <= 1
@@ -299,11 +298,7 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
                     .map(|_| term.without(*base, *power)),
                 Common::Coefficient(k, p) => {
                     (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
-                        k: if term.k.is_negative() {
-                            Rational::MINUS_ONE
-                        } else {
-                            Rational::ONE
-                        },
+                        k: term.k.sign(),
                         p: one,
                         factors: term.factors.clone(),
                     })

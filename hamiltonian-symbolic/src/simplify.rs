@@ -145,15 +145,8 @@ impl Dag {
         {
             return sum;
         }
-        let sign = |k: &Rational| {
-            if k.is_negative() {
-                Rational::MINUS_ONE
-            } else {
-                Rational::ONE
-            }
-        };
-        let constant = if c.is_zero() { Rational::ZERO } else { sign(c) };
-        let terms: Vec<_> = terms.iter().map(|(k, n)| (sign(k), *n)).collect();
+        let constant = c.sign();
+        let terms: Vec<_> = terms.iter().map(|(k, n)| (k.sign(), *n)).collect();
         let sum = self.collected(&constant, &terms, false);
         self.scale(&content, sum)
     }

@@ -138,13 +138,6 @@ impl Algebra {
             // Squares of the sine lowered at each step keep the cosine a polynomial in cos x.
             (c, s) = (self.canonical(&next.0)?, self.canonical(&next.1)?);
         }
-        Ok((
-            c,
-            if n < 0 {
-                s.scale(&Rational::MINUS_ONE)
-            } else {
-                s
-            },
-        ))
+        Ok((c, s.scale(&Rational::integer(n.signum()))))
     }
 }

@@ -360,11 +360,7 @@ impl Algebra {
             return Ok(Poly::default());
         }
         let mut outside = Poly::integer(1);
-        let mut inside = rest.scale(&if k.is_negative() {
-            Rational::MINUS_ONE
-        } else {
-            Rational::ONE
-        });
+        let mut inside = rest.scale(&k.sign());
         for &(atom, n) in &monomial.0 {
             if let Key::Exp(exponent) = self.entry(atom).key.clone() {
                 let factor = self.exponential(&exponent.scale(&Rational::new(i64::from(n), 2)))?;

@@ -112,12 +112,11 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
     let structure = structure::analyse(&mut model);
     let large = is_large(checked, &model);
     let mut text = docs::text(&model, &structure, part.readable, large);
-    if let Ok(split) = &structure.separable {
+    if let Ok(split) = &structure.separable
+        && !split.as_written
+    {
         // A product such as (p + q)^2/2 - q*p separates only when multiplied out.
-        let split = model.dag.add(&[split.kinetic, split.potential]);
-        if !surface::separates_as_written(&mut model) {
-            model.hamiltonian = Some(split);
-        }
+        model.hamiltonian = Some(model.dag.add(&[split.kinetic, split.potential]));
     }
     let large = is_large(checked, &model);
     let split = splits::decide(checked, &mut model, &structure, &part, large, report);

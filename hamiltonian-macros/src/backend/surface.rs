@@ -9,7 +9,6 @@ use crate::lower::constants;
 use crate::report::Report;
 use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
-use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use proc_macro2::Ident;
 
@@ -42,19 +41,6 @@ pub fn defaults(checked: &Checked, report: &mut Report) -> Option<Defaults> {
         all.push(Some(numbers));
     }
     Some(all)
-}
-
-/// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written. Neither says so
-/// alone: a condition couples without a derivative.
-pub fn separates_as_written(model: &mut Model) -> bool {
-    let h = model.h();
-    let mut is_free = |by: Dependence, of: Dependence| {
-        let adjoints = diff::gradient(&mut model.dag, h, by);
-        adjoints
-            .iter()
-            .all(|(_, value)| !model.dag.dependence(*value).on(of))
-    };
-    is_free(Dependence::Q, Dependence::P) && is_free(Dependence::P, Dependence::Q)
 }
 
 /// The model of a piece.

@@ -26,6 +26,8 @@ pub struct Split {
     pub kinetic: Node,
     /// V: everything else, terms of time and parameters alone included.
     pub potential: Node,
+    /// Whether H separates without being multiplied out.
+    pub as_written: bool,
 }
 
 /// Why H is not separable.

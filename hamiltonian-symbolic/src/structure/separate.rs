@@ -22,11 +22,11 @@ fn couples(dag: &Dag, node: Node) -> bool {
 pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
     let parts = apart(model, h);
     if model.dag.is_zero(parts.coupling) {
-        return Ok(parts.split());
+        return Ok(parts.split(true));
     }
     // Coupling terms may cancel.
     match resolved(model, parts) {
-        Ok(parts) => Ok(parts.split()),
+        Ok(parts) => Ok(parts.split(false)),
         Err(term) => Err(Coupling {
             term,
             text: print::text(model, term),
@@ -43,8 +43,9 @@ struct Parts {
 }
 
 impl Parts {
-    fn split(self) -> Split {
+    fn split(self, as_written: bool) -> Split {
         Split {
+            as_written,
             kinetic: self.kinetic,
             potential: self.potential,
         }

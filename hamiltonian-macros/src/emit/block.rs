@@ -348,10 +348,7 @@ impl Writer<'_> {
 
 /// The borrow of a part of a slice.
 fn reference(slice: &Slice) -> &'static str {
-    match slice {
-        Slice::Output(_) | Slice::Derivative(_) | Slice::Filled(_) => "&mut ",
-        _ => "&",
-    }
+    if slice.is_written() { "&mut " } else { "&" }
 }
 
 /// A `usize` expression as a scalar.

@@ -13,6 +13,7 @@ use super::holder::{Holder, Receiver, field, shape};
 use super::layout::{Layout, Slice};
 use super::scan::scan;
 use super::{derived, observables, reach};
+use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::model::{Model, Shape, VectorUse};
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::program::{Function, Purpose, Value};
@@ -111,7 +112,7 @@ impl<'a> Emission<'a> {
         let results: Vec<_> = self.prepared.values().collect();
         let arguments = self.held();
         let read: Vec<Slice> = (self.prepared.arrays.iter().copied())
-            .filter(|array| matches!(array, Slice::Parameter(_)))
+            .filter(|array| matches!(array, Slice::Read(Array::Parameter(_))))
             .collect();
         let body = Body {
             name: "prepare",
@@ -125,7 +126,7 @@ impl<'a> Emission<'a> {
         self.bodies.write(&mut self.out, body);
         let fill = self.prepared.fill(context, |array| {
             let place = match array {
-                Slice::Held(number) => format!("_made.{number}"),
+                Slice::Read(Array::Held(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", field(array).trim_start_matches('a')),
             };
             match context.is_dynamic(&shape(context, array)) {
@@ -150,7 +151,7 @@ impl<'a> Emission<'a> {
         }
         let (mut types, mut values) = (String::new(), String::new());
         for number in 0..context.program.held.len() {
-            let shape = shape(context, Slice::Held(number as u16));
+            let shape = shape(context, Slice::Read(Array::Held(number as u16)));
             types.push_str(&format!("{}, ", context.storage(&shape, "T")));
             values.push_str(&format!("{}, ", context.zero(&shape)));
         }

@@ -7,6 +7,7 @@ use super::block;
 use super::context::Context;
 use super::holder::Receiver;
 use super::layout::Slice;
+use hamiltonian_symbolic::dag::{Array, Parameter};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Step, Target, Value};
 use std::fmt::Write;
@@ -50,13 +51,13 @@ impl Bodies<'_> {
         for slice in &slices {
             let name = slice.name();
             match slice {
-                Slice::Parameter(_) | Slice::Held(_) => {
+                Slice::Read(Array::Parameter(_) | Array::Held(_)) => {
                     receiver.bind_array(out, context, *slice);
                 }
-                Slice::Filled(number) => {
+                Slice::Write(Target::Held(number)) => {
                     let _ = writeln!(out, "let {name} = _held.{number}.as_mut_slice();");
                 }
-                Slice::Derivative(number) => {
+                Slice::Write(Target::Parameter(Parameter(number))) => {
                     let field = context.generics.field(*number);
                     let _ = match &context.model.parameters[usize::from(*number)].shape {
                         Shape::Scalar => writeln!(out, "let {name} = &mut _d.{field};"),
@@ -67,7 +68,7 @@ impl Bodies<'_> {
                         _ => writeln!(out, "let {name} = _d.{field}.as_mut_slice();"),
                     };
                 }
-                Slice::Input(_) | Slice::Direction(_) | Slice::Output(_) => {}
+                _ => {}
             }
         }
     }

@@ -9,6 +9,7 @@ use super::block::names;
 use super::context::Context;
 use super::layout::Slice;
 use super::values::{Values, Wanted};
+use hamiltonian_symbolic::dag::{Array, Parameter};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
@@ -26,7 +27,7 @@ pub struct Holder {
 impl Holder {
     /// A holder of these values, and of the arrays among these slices.
     pub fn new(context: Context, name: String, values: &[Value], mut slices: Vec<Slice>) -> Holder {
-        slices.retain(|slice| matches!(slice, Slice::Parameter(_) | Slice::Held(_)));
+        slices.retain(|slice| matches!(slice, Slice::Read(Array::Parameter(_) | Array::Held(_))));
         slices.sort_unstable();
         slices.dedup();
         Holder {
@@ -110,10 +111,12 @@ pub fn field(array: Slice) -> String {
 /// The shape of an array that a holder has.
 pub fn shape(context: Context, array: Slice) -> Shape {
     match array {
-        Slice::Held(number) => {
+        Slice::Read(Array::Held(number)) => {
             Shape::Vector(context.program.held[usize::from(number)].rows.clone())
         }
-        Slice::Parameter(number) => context.model.parameters[usize::from(number)].shape.clone(),
+        Slice::Read(Array::Parameter(Parameter(number))) => {
+            context.model.parameters[usize::from(number)].shape.clone()
+        }
         _ => unreachable!("a holder has no parts of vectors"),
     }
 }
@@ -170,7 +173,7 @@ impl Receiver<'_> {
     pub fn bind_array(self, out: &mut String, context: Context, array: Slice) {
         let name = array.name();
         let _ = match (self, array) {
-            (Receiver::System, Slice::Parameter(number)) => writeln!(
+            (Receiver::System, Slice::Read(Array::Parameter(Parameter(number)))) => writeln!(
                 out,
                 "let _b{number} = {};\nlet {name} = _b{number}.as_slice();",
                 context.generics.lifted_array(number)

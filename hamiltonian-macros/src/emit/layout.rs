@@ -38,79 +38,60 @@ pub fn layout(groups: &[Group]) -> Layout {
     }
 }
 
-/// A slice that a function body reads or writes: a column of a group, a parameter array.
+/// A slice that a function body reads or writes: a column of a vector, an array of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slice {
-    /// Coordinates or momenta.
-    Input(Column),
-    /// The direction of a Hessian product.
-    Direction(Column),
-    /// A parameter array.
-    Parameter(u16),
-    /// An output vector.
-    Output(Column),
-    /// The derivative with respect to a parameter.
-    Derivative(u16),
-    /// An array that preparation filled.
-    Held(u16),
-    /// The same while it is filled.
-    Filled(u16),
+    /// Elements are read from it.
+    Read(Array),
+    /// Elements are written to it.
+    Write(Target),
 }
 
 impl Slice {
     /// The slice an array's elements are read from.
     pub fn read(layout: Layout, array: Array) -> Slice {
-        match array {
-            Array::Phase(column) => Slice::Input(stored(layout, column)),
-            Array::Direction(column) => Slice::Direction(stored(layout, column)),
-            Array::Velocity(_) => unreachable!("`validate` finds velocities in a program"),
-            Array::Parameter(Parameter(number)) => Slice::Parameter(number),
-            Array::Held(number) => Slice::Held(number),
-        }
+        Slice::Read(match array {
+            Array::Phase(column) => Array::Phase(stored(layout, column)),
+            Array::Direction(column) => Array::Direction(stored(layout, column)),
+            array => array,
+        })
     }
 
     /// The slice a target's elements are written to.
     pub fn write(layout: Layout, target: Target) -> Slice {
-        match target {
-            Target::Phase(column) => Slice::Output(stored(layout, column)),
-            Target::Parameter(Parameter(number)) => Slice::Derivative(number),
-            Target::Held(number) => Slice::Filled(number),
-        }
+        Slice::Write(match target {
+            Target::Phase(column) => Target::Phase(stored(layout, column)),
+            target => target,
+        })
     }
 
     /// Its name in a function body.
     pub fn name(self) -> String {
-        let number = match self {
-            Slice::Input(at) | Slice::Direction(at) | Slice::Output(at) => {
-                format!("{}_{}", at.group, at.column)
-            }
-            Slice::Parameter(number) => return format!("_a{number}"),
-            Slice::Derivative(number) => return format!("_d{number}"),
-            Slice::Held(number) => return format!("_h{number}"),
-            Slice::Filled(number) => return format!("_u{number}"),
+        if let Some((vector, Column { group, column, .. })) = self.part() {
+            return format!("{vector}{group}_{column}");
+        }
+        match self {
+            Slice::Read(Array::Parameter(Parameter(number))) => format!("_a{number}"),
+            Slice::Write(Target::Parameter(Parameter(number))) => format!("_d{number}"),
+            Slice::Read(Array::Held(number)) => format!("_h{number}"),
+            Slice::Write(Target::Held(number)) => format!("_u{number}"),
+            _ => unreachable!("`validate` finds velocities in a program"),
+        }
+    }
+
+    /// The vector it is a part of, by its name, and its column; `None` for other arrays.
+    pub fn part(self) -> Option<(&'static str, Column)> {
+        let ([q, p], at) = match self {
+            Slice::Read(Array::Phase(at)) => (["_q", "_p"], at),
+            Slice::Read(Array::Direction(at)) => (["_vq", "_vp"], at),
+            Slice::Write(Target::Phase(at)) => (["_oq", "_op"], at),
+            _ => return None,
         };
-        format!("{}{number}", self.vector())
+        Some((if at.side == Side::Q { q } else { p }, at))
     }
 
-    /// The name of the vector it is a part of.
-    pub fn vector(self) -> &'static str {
-        match self {
-            Slice::Input(at) if at.side == Side::Q => "_q",
-            Slice::Input(_) => "_p",
-            Slice::Direction(at) if at.side == Side::Q => "_vq",
-            Slice::Direction(_) => "_vp",
-            Slice::Output(at) if at.side == Side::Q => "_oq",
-            Slice::Output(_) => "_op",
-            _ => "",
-        }
-    }
-
-    /// Whether it is written, and its column; `None` for parameters.
-    pub fn part(self) -> Option<(bool, Column)> {
-        match self {
-            Slice::Input(column) | Slice::Direction(column) => Some((false, column)),
-            Slice::Output(column) => Some((true, column)),
-            _ => None,
-        }
+    /// Whether elements are written to it.
+    pub fn is_written(self) -> bool {
+        matches!(self, Slice::Write(_))
     }
 }

@@ -174,9 +174,12 @@ impl Emission<'_> {
     fn one_way(&self, function: &Function) -> Option<Side> {
         let slices = scan(self.context, &function.evaluation, &function.results).slices;
         let touched = |side: Side| {
-            let reads = |slice: &Slice| matches!(slice, Slice::Input(of) if of.side == side);
-            let writes = |slice: &Slice| matches!(slice, Slice::Output(of) if of.side == side);
-            (slices.iter().any(reads), slices.iter().any(writes))
+            let of_side = |slice: &&Slice| slice.part().is_some_and(|(_, of)| of.side == side);
+            let own = || slices.iter().filter(of_side);
+            (
+                own().any(|slice| !slice.is_written()),
+                own().any(|slice| slice.is_written()),
+            )
         };
         match (touched(Side::Q), touched(Side::P)) {
             ((_, false), (false, true)) => Some(Side::Q),

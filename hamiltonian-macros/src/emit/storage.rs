@@ -5,7 +5,6 @@
 
 use super::context::{Context, ZERO};
 use super::layout::{Layout, Slice};
-use hamiltonian_symbolic::dag::Column;
 use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
@@ -125,12 +124,12 @@ impl Context<'_> {
 
     /// The `let`s that bind slices at the top of a body. `slices` is sorted.
     pub fn bind(self, out: &mut String, slices: &[Slice]) {
-        let part = |slice: &Slice| slice.part().map(|(_, at)| (slice.vector(), at.group));
+        let part = |slice: &Slice| slice.part().map(|(vector, at)| (vector, at.group));
         for run in slices.chunk_by(|a, b| part(a) == part(b)) {
-            let Some((mutable, Column { group, .. })) = run[0].part() else {
+            let Some((vector, group)) = part(&run[0]) else {
                 continue;
             };
-            let vector = run[0].vector();
+            let mutable = run[0].is_written();
             let (suffix, borrow) = if mutable {
                 ("_mut", "mut")
             } else {

@@ -34,7 +34,6 @@ const LARGE: usize = 1000;
 /// `#root::private`.
 pub fn generate(checked: &Checked, root: &TokenStream, report: &mut Report) -> Option<TokenStream> {
     let mut lowered = lower(checked, report)?;
-    surface::refuse_motionless(checked, &lowered.model, report);
     proofs::prove(checked, &mut lowered, report);
     surface::refuse_unsupported(checked, report);
     report.barrier(())?;

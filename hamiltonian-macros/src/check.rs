@@ -17,10 +17,8 @@ mod reach;
 mod signature;
 mod statement;
 
-use crate::ast::{Ast, Expression, Size, StatementKind, Symbol};
-use crate::checked::{
-    Checked, Definition, Extent, FunctionId, GroupId, Kind, NodeId, ParameterId, Type, Variable,
-};
+use crate::ast::{Ast, Expression, Size, Symbol};
+use crate::checked::{Checked, Extent, FunctionId, GroupId, NodeId, ParameterId, Type, Variable};
 use crate::names::listed;
 use crate::report::Report;
 use hamiltonian_symbolic::index::{self, Affine, Domain, LOOPS};
@@ -33,7 +31,6 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
     if checker.header() && checker.signature() {
         checker.values();
         checker.claims();
-        checker.occurs();
         if let Some(one) = checker.out.loops.get(LOOPS) {
             let message = format!("there are more than {LOOPS} loops");
             let at = one.name.span();
@@ -278,62 +275,5 @@ impl<'a> Checker<'a> {
         self.report.error(name.span(), message, help);
         self.unknown_sizes.push(text);
         None
-    }
-
-    /// Some momentum (velocity) occurs in the definition.
-    fn occurs(&mut self) {
-        if !self.report.is_empty() {
-            return;
-        }
-        let (root, what, example) = match self.out.definition {
-            Definition::Hamiltonian(root) => (root, "momentum", "p^2/2"),
-            Definition::Lagrangian(root) => (root, "velocity", "v^2/2"),
-        };
-        let mut reached = vec![false; root.0 as usize + 1];
-        reached[root.0 as usize] = true;
-        for id in (0..reached.len()).rev() {
-            if !reached[id] {
-                continue;
-            }
-            let node = &self.out.nodes[id];
-            if matches!(
-                node.kind,
-                Kind::Phase(Variable::Momentum | Variable::Velocity, _)
-            ) {
-                return;
-            }
-            node.kind
-                .for_each_child(|child| reached[child.0 as usize] = true);
-        }
-        let groups = self.out.groups.iter();
-        let names = listed(groups.map(|group| format!("`{}`", group.partner())));
-        let word = if what == "momentum" { "H" } else { "L" };
-        let help = match self.out.captures.first() {
-            Some(capture) if what == "momentum" => format!(
-                "`{capture}` is captured from the surrounding scope; name the momenta in the signature: \
-                 `H(x; p_x) = …`"
-            ),
-            _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),
-        };
-        let occur = match self.out.groups.len() {
-            1 => "does not occur",
-            _ => "do not occur",
-        };
-        let message = format!("`{word}` depends on no {what}: {names} {occur}");
-        self.report.error(self.definition_span(), message, help);
-    }
-
-    /// The first word of the definition.
-    fn definition_span(&self) -> Span {
-        self.ast
-            .statements
-            .iter()
-            .find(|statement| {
-                matches!(
-                    statement.kind,
-                    StatementKind::Hamiltonian { .. } | StatementKind::Lagrangian { .. }
-                )
-            })
-            .map_or_else(Span::call_site, |statement| statement.keyword)
     }
 }

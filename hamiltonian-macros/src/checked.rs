@@ -19,7 +19,7 @@
 //! - An index is in range whatever the sizes are, where the loops around it run at all, or there is
 //!   a [`Reach`]: then the sizes decide, and a check is needed where they are known. None is
 //!   provably out of range.
-//! - There is exactly one definition, at least one group, and some momentum occurs in it.
+//! - There is exactly one definition, and at least one group.
 
 use crate::ast::{BinaryOp, Function, Header, UnaryOp};
 use crate::names::Builtin;

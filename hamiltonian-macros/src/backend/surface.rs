@@ -7,7 +7,6 @@ use crate::checked::{Checked, Definition, Type};
 use crate::emit::{self, piece_method};
 use crate::lower::constants;
 use crate::report::Report;
-use hamiltonian_symbolic::dag::Dependence;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use proc_macro2::Ident;
@@ -53,19 +52,6 @@ pub fn piece_model(model: &Model, hamiltonian: Node) -> Model {
     model.vectors.clear();
     model.pieces.clear();
     model
-}
-
-/// An H whose momenta cancel.
-pub fn refuse_motionless(checked: &Checked, model: &Model, report: &mut Report) {
-    if let Definition::Hamiltonian(root) = &checked.definition
-        && !model.dag.dependence(model.h()).on(Dependence::P)
-    {
-        report.error(
-            checked.node(*root).spans,
-            "`H` depends on no momentum: its momenta cancel",
-            "nothing would move: write a kinetic energy, such as `p^2/2`",
-        );
-    }
 }
 
 /// Combinations that have no meaning.

@@ -178,25 +178,11 @@ impl Checker<'_> {
         if given == due || by_momenta {
             return true;
         }
-        let undeclared = match self.out.time {
-            None => given.get(2).filter(|names| !names.is_empty()),
-            Some(_) => None,
-        };
-        due.extend(undeclared.cloned());
-        let shown = due.join("; ");
-        let word = if self.is_lagrangian() { "L" } else { "H" };
-        match undeclared {
-            Some(time) => self.report.error(
-                signature.spans,
-                "the force depends on time, and the definition declares none",
-                format!("declare it in both: `{word}(…; {time})`, `force({shown})`"),
-            ),
-            None => self.report.error(
-                signature.spans,
-                "a force acts on the coordinates and momenta of the definition",
-                format!("write `force({shown})`"),
-            ),
-        }
+        self.report.error(
+            signature.spans,
+            "a force acts on the coordinates and momenta of the definition",
+            format!("write `force({})`", due.join("; ")),
+        );
         false
     }
 }

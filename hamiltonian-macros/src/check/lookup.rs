@@ -5,7 +5,7 @@
 
 use super::expr::Frame;
 use super::{Binding, Checker, Place};
-use crate::ast::{ExprId, ExprKind, ScopeId, StatementKind, Symbol};
+use crate::ast::{ExprId, ScopeId, StatementKind, Symbol};
 use crate::checked::{CaptureId, Kind, NodeId, Type, Variable};
 use crate::names;
 use hamiltonian_symbolic::index::{Affine, Domain};
@@ -187,7 +187,7 @@ impl Checker<'_> {
             self.unknown[symbol.0 as usize] = false;
             return self.capture(raw, symbol);
         }
-        let help = self.help_for_unknown(raw, name);
+        let help = self.help_for_unknown(name);
         self.refuse(raw, format!("unknown name `{name}`"), help)
     }
 
@@ -208,7 +208,7 @@ impl Checker<'_> {
     }
 
     /// The name that an unknown one should have been.
-    fn help_for_unknown(&self, raw: ExprId, name: &str) -> String {
+    fn help_for_unknown(&self, name: &str) -> String {
         if let Some(known) = names::synonym(name) {
             return format!("write `{known}`");
         }
@@ -238,52 +238,18 @@ impl Checker<'_> {
             return format!("the nearest known name is `{longer}`");
         }
         match &self.ast.item {
-            Some(item) if self.is_in_index(raw) => {
-                let declared = format!(
-                    "`{name}: usize` among the parameters of `{}`",
-                    item.header.name
-                );
-                match self.ast.nodes[raw.0 as usize].kind {
-                    ExprKind::Name(_, Some(scope)) => {
-                        let inner = &self.ast.scopes[scope.0 as usize].name;
-                        format!(
-                            "write a loop variable, such as `{inner}`, or declare a size, {declared}"
-                        )
-                    }
-                    _ => format!("declare it as a size: {declared}"),
-                }
-            }
             Some(item) => {
                 let number = match name {
                     "e" => "; Euler's number is `exp(1)`",
                     _ => "",
                 };
                 format!(
-                    "declare it: a parameter of `{}`, such as `{name} = 1.0`, or `let {name} = …;`{number}",
+                    "declare it: a parameter of `{}`, such as `{name} = 1.0`, a size, `{name}: usize`, or `let {name} = …;`{number}",
                     item.header.name
                 )
             }
             None => format!("declare it: `let {name} = …;`"),
         }
-    }
-
-    /// Whether a name stands in an index or a range, where only whole numbers do.
-    fn is_in_index(&self, name: ExprId) -> bool {
-        let mut inner = name;
-        let later = self.ast.nodes.iter().enumerate().skip(name.0 as usize + 1);
-        // A node stands after its operands.
-        for (at, node) in later {
-            match node.kind {
-                ExprKind::Bind { lower, upper, .. } if lower == inner || upper == inner => {
-                    return true;
-                }
-                ExprKind::Index { index, .. } if index == inner => return true,
-                ExprKind::Binary(_, a, b) if a == inner || b == inner => inner = ExprId(at as u32),
-                ExprKind::Unary(_, a) if a == inner => inner = ExprId(at as u32),
-                _ => {}
-            }
-        }
-        false
     }
 
     /// All names that are declared: functions, or values. In the order they were declared.

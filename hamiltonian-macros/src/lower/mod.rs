@@ -20,7 +20,7 @@ use crate::checked::{Checked, Definition, NodeId, Type};
 use crate::report::Report;
 use demand::Demand;
 use evaluate::{Derived, Evaluator};
-use hamiltonian_symbolic::dag::{Column, Dag, Node, Side};
+use hamiltonian_symbolic::dag::{Column, Dag, Dependence, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
 use hamiltonian_symbolic::legendre::{Legendre, Refusal};
 use hamiltonian_symbolic::model::{
@@ -69,10 +69,18 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let (Definition::Hamiltonian(h) | Definition::Lagrangian(h)) = checked.definition;
     let value = evaluator.evaluate(&mut model, &whole([h]))?;
     model.hamiltonian = Some(value[0]);
+    let before = model.dag.len();
+    let in_momenta = match checked.definition {
+        Definition::Hamiltonian(_) => value[0],
+        Definition::Lagrangian(_) => velocity::as_momenta(&mut model.dag, value[0]),
+    };
+    if !model.dag.dependence(in_momenta).on(Dependence::P) {
+        evaluator.refuse_motionless(h);
+        return None;
+    }
     let mut made = None;
     if let Definition::Lagrangian(root) = checked.definition {
-        let before = model.dag.len();
-        match legendre(&mut model, value[0]) {
+        match legendre(&mut model, in_momenta) {
             Ok(legendre) => {
                 evaluator.derived.since(before, &model);
                 evaluator.velocities = Some(legendre.velocities.clone());
@@ -138,9 +146,8 @@ pub fn constants(
     Some((model.dag, values))
 }
 
-/// H in the place of L; p(q, v) and v(q, p) become vector functions.
+/// H in the place of L, which has momenta in the place of velocities; p(q, v) and v(q, p) become vector functions.
 fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
-    let lagrangian = velocity::as_momenta(&mut model.dag, lagrangian);
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
     for (usage, components, side) in [
@@ -162,6 +169,23 @@ fn whole(roots: impl IntoIterator<Item = NodeId>) -> Vec<(NodeId, Demand)> {
 }
 
 impl Evaluator<'_> {
+    /// Refuses a definition that depends on no momentum, or on no velocity, or in which they cancel.
+    fn refuse_motionless(&mut self, root: NodeId) {
+        let (word, of, example) = match self.checked.definition {
+            Definition::Hamiltonian(_) => ("H", "momentum", "p^2/2"),
+            Definition::Lagrangian(_) => ("L", "velocity", "v^2/2"),
+        };
+        let help = match self.checked.captures.first() {
+            Some(capture) if word == "H" => format!(
+                "`{capture}` is captured from the surrounding scope; name the momenta in the signature: \
+                 `H(x; p_x) = …`"
+            ),
+            _ => format!("nothing would move: write a kinetic energy, such as `{example}`"),
+        };
+        let message = format!("`{word}` depends on no {of}");
+        self.refuse(self.checked.node(root).spans, &message, &help);
+    }
+
     /// The values of roots, velocities as functions of (q, p, t).
     fn values(&mut self, model: &mut Model, roots: &[(NodeId, Demand)]) -> Option<Vec<Node>> {
         let values = self.evaluate(model, roots)?;

@@ -252,23 +252,4 @@ impl Parser<'_> {
         }
         self.expression()
     }
-
-    /// Whether the `{` after a condition is still to come, within a few tokens.
-    pub(super) fn brace_follows(&self) -> bool {
-        let mut index = self.position;
-        for _ in 0..32 {
-            if index >= self.limit {
-                return false;
-            }
-            let token = &self.tokens[index];
-            match token.kind {
-                TokenKind::Open(Delimiter::Brace) => return true,
-                TokenKind::Open(_) => index = token.close + 1,
-                TokenKind::Punct(';', _) => return false,
-                TokenKind::Ident if token.text == "else" => return false,
-                _ => index += 1,
-            }
-        }
-        true
-    }
 }

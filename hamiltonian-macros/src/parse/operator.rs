@@ -170,7 +170,7 @@ impl Parser<'_> {
             self.separator_missing = Some(self.position);
             return None;
         }
-        if self.condition == Some(self.limit) && !self.brace_follows() {
+        if self.condition == Some(self.limit) {
             return None;
         }
         let shown = |token: &Token| match token.kind {

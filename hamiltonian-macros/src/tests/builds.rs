@@ -183,3 +183,27 @@ fn elements_named_one_by_one_cost_what_scalars_cost() {
         }
     }
 }
+
+/// What rustc reads grows with H: past `LARGE` nodes the gradient stands in for the functions
+/// that it is made of, and every one is still there.
+#[test]
+fn a_large_h_is_written_out_fewer_times() {
+    let sines = |terms: usize| {
+        let mut source = "H(q; p) = p^2/2".to_owned();
+        for k in 2..terms + 2 {
+            let _ = write!(source, " + p*sin({k}*q)");
+        }
+        let code = built(&source).unwrap_or_else(|e| panic!("{e:?}"));
+        for method in ["gradient_q", "gradient_p", "gradient", "field"] {
+            assert!(code.contains(&format!("fn {method} (& self")), "{method}");
+        }
+        let is_made = code.contains("__h :: Dynamics :: energy_and_gradient (& self . prepared");
+        (code.matches(". sin").count() / terms, is_made)
+    };
+    let ((small, is_made), (large, is_made_of_large)) = (sines(200), sines(400));
+    assert!(!is_made && is_made_of_large);
+    assert!(
+        2 * large <= small,
+        "{large} sines a term, {small} where H is small"
+    );
+}

@@ -51,7 +51,7 @@ pub struct Gauss<const S: usize> {
 }
 
 impl<const S: usize> Default for Gauss<S> {
-    /// At most 100 iterations.
+    /// At most 100 iterations of each method.
     fn default() -> Self {
         Gauss {
             coefficients: Collocation::gauss(),
@@ -61,7 +61,8 @@ impl<const S: usize> Default for Gauss<S> {
 }
 
 impl<const S: usize> Gauss<S> {
-    /// A step that is not solved after so many iterations is an error.
+    /// A step that is not solved after so many iterations of the fixed point, nor then after as many of
+    /// Newton's method, is an error; 100 unless said here.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {
         Gauss {

@@ -61,7 +61,7 @@ impl<const S: usize> Default for GaussNystrom<S> {
 }
 
 impl<const S: usize> GaussNystrom<S> {
-    /// A step that is not solved after so many iterations is an error.
+    /// A step that is not solved after so many iterations is an error; 100 unless said here.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {
         GaussNystrom {

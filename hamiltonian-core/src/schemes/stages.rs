@@ -131,6 +131,7 @@ pub struct Collocated<T: Real, P: Dynamics<T>, const S: usize> {
     pub(super) momenta: [[T; S]; S],
     pub(super) modes: Option<Modes<T, S>>,
     pub(super) guess: [[T; S]; S],
+    /// The most iterations of each method.
     pub(super) limit: u32,
 }
 
@@ -274,9 +275,6 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
     }
 }
 
-/// Newton's method doubles digits: so many steps are enough, or none, where it comes second.
-const NEWTON: u32 = 30;
-
 impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     /// Δq and Δp of the unknowns.
     #[inline(always)]
@@ -411,7 +409,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
                 slopes: equations,
                 linear: &mut work.linear,
             };
-            outcome = iterate(NEWTON, &mut newton, &mut work.guess, &mut work.next);
+            outcome = iterate(self.limit, &mut newton, &mut work.guess, &mut work.next);
             // Lanes that were solved know nothing of those that were not.
             slopes.copy_where(!fixed, &work.guess);
             outcome.solved = outcome.solved | fixed;

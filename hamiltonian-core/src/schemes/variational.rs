@@ -125,7 +125,8 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         }
     }
 
-    /// A step that is not solved after so many iterations is an error; 100 unless said here.
+    /// A step that is not solved after so many iterations is an error; 100 unless said here. With as many
+    /// points as the degree they are those of the fixed point, then as many of Newton's method.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {
         Variational {

@@ -240,6 +240,14 @@ pub enum Error {
         /// Their number.
         count: usize,
     },
+    /// No deviation, or more of them than there are coordinates and momenta.
+    #[error("the number of deviations must be from 1 to {most}, found {found}")]
+    Deviations {
+        /// The number of coordinates and momenta together.
+        most: usize,
+        /// The number asked for.
+        found: usize,
+    },
     /// An index of an observable that there is not.
     #[error("there is no observable {index}: the system declares {count}")]
     Observable {

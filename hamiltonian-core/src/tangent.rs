@@ -47,7 +47,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// it: as many as there are coordinates and momenta for the whole tangent map.
     ///
     /// # Errors
-    /// Those of [`Integrator::new`]; [`Error::Component`] for no deviation, or more than there are
+    /// Those of [`Integrator::new`]; [`Error::Deviations`] for no deviation, or more than there are
     /// coordinates and momenta.
     pub fn new<M>(
         system: &S,
@@ -74,9 +74,9 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         }
         let n = lifted.q.len();
         if deviations == 0 || deviations > 2 * n {
-            return Err(Error::Component {
-                index: deviations,
-                count: 2 * n,
+            return Err(Error::Deviations {
+                most: 2 * n,
+                found: deviations,
             });
         }
         let run = |deviation: usize| {
@@ -152,12 +152,14 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         lengths
     }
 
-    /// The Lyapunov exponents over the next `steps`, greatest first: as many as there are deviations.
-    /// These are made orthonormal every so many steps: so often that they neither overflow nor
+    /// The Lyapunov exponents over the next `steps`: as many as there are deviations. These are made
+    /// orthonormal every so many steps: so often that they neither overflow nor
     /// fall into one direction, every time unit or so.
     ///
-    /// They are mean rates of growth of the finite stretch; of longer and longer ones they tend to the
-    /// exponents. (V. I. Oseledets, Trans. Moscow Math. Soc. 19 (1968) 197; G. Benettin, L. Galgani,
+    /// They are mean rates of growth of the finite stretch, in the order of the deviations: the sum of the first
+    /// k is the rate of the volume of the first k deviations, whose number changes none of them. Of longer and
+    /// longer stretches they tend to the exponents, greatest first; rates as near to each other as the stretch is
+    /// short, such as those of a regular orbit, may come in another order. (V. I. Oseledets, Trans. Moscow Math. Soc. 19 (1968) 197; G. Benettin, L. Galgani,
     /// A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9, doi:10.1007/BF02128236; I. Shimada,
     /// T. Nagashima, Prog. Theor. Phys. 61 (1979) 1605, doi:10.1143/PTP.61.1605.)
     ///

@@ -222,14 +222,35 @@ fn renormalising_changes_neither_orbit_nor_span() {
     assert!((a - b).norm() < 1e-10);
 }
 
+/// The rates of a finite stretch belong to the deviations, one by one; on a regular orbit the first need not
+/// be the greatest.
+#[test]
+fn rates_are_in_the_order_of_the_deviations() {
+    let rates = |deviations| {
+        let start = State::new([0.1], [1.0]);
+        let system = Hand(Pendulum {
+            m: 1.0,
+            l: 1.0,
+            g: 1.0,
+            from_bottom: true,
+        });
+        let mut tangent = Tangent::new(&system, Strang, start, 0.1, deviations).unwrap();
+        tangent.lyapunov(1_000, 10).unwrap()
+    };
+    let (one, two) = (rates(1), rates(2));
+    assert!(two[0] < two[1], "{two:?}");
+    assert_eq!(one[0], two[0]);
+    // Areas stay.
+    assert!((two[0] + two[1]).abs() < 1e-12, "{two:?}");
+}
+
 #[test]
 fn deviations_that_there_are_not_are_refused() {
-    for deviations in [0, 5] {
+    for (deviations, end) in [(0, "found 0"), (5, "found 5")] {
         let tangent = Tangent::new(&HEILES, BlanesMoan4, regular(), 0.1, deviations);
-        assert!(matches!(
-            tangent.err(),
-            Some(Error::Component { count: 4, .. })
-        ));
+        let error = tangent.err().expect("it is refused").to_string();
+        let begin = "the number of deviations must be from 1 to 4";
+        assert!(error.starts_with(begin) && error.ends_with(end), "{error}");
     }
 }
 

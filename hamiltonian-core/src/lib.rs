@@ -90,7 +90,7 @@ pub use output::Recorder;
 #[cfg(feature = "progress")]
 pub use progress::Progress;
 pub use push::{Both, Coupled, SubStep};
-pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 pub use state::{Carried, Gradient, Pair, Point, State};
 pub use system::{
     Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,

@@ -147,3 +147,16 @@ pub trait OneStep: Listed + PartialEq {
     /// The adjoint scheme Φ*ₕ = (Φ₋ₕ)⁻¹; symmetric schemes are their own.
     fn adjoint(&self) -> Self::Adjoint;
 }
+
+/// A scheme that is its own adjoint, Φₕ = (Φ₋ₕ)⁻¹, whichever choices are made in it: its order is even.
+///
+/// An adjoint of the same type is not enough: that of `SymplecticEuler::KickDrift` is
+/// `SymplecticEuler::DriftKick`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to be symmetric",
+    label = "expected a scheme that is its own adjoint",
+    note = "weights for symmetric schemes have their order with those alone; \
+            `Composition::with_adjoint(…)` makes a symmetric scheme of order 2 of one whose adjoint has its type",
+    note = "for a scheme of yours that is its own adjoint: `impl Symmetric for … {{}}`"
+)]
+pub trait Symmetric: OneStep<Adjoint = Self> {}

@@ -5,7 +5,7 @@ use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::schemes::{Durations, Table, Weight, Zigzag, ZigzagOf};
 use hamiltonian_core::{Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point, Scheme};
-use hamiltonian_core::{Split, Step, Vector, VectorField};
+use hamiltonian_core::{Split, Step, Symmetric, Vector, VectorField};
 use std::marker::PhantomData;
 
 // A one-step scheme.
@@ -105,13 +105,15 @@ impl<T: Real, S: Split<T>> Scheme<T, S> for TwoStages {
     }
 }
 
-/// A symmetric scheme is its own adjoint.
 impl OneStep for TwoStages {
     type Adjoint = Self;
     fn adjoint(&self) -> Self {
         *self
     }
 }
+
+/// It is its own adjoint.
+impl Symmetric for TwoStages {}
 // A table, end.
 
 #[test]
@@ -124,6 +126,7 @@ fn their_orders_are_those_they_claim() {
     let both = Composition::new(Runge, [half, half], 2, "two halves");
     is(2.0, slope(&Hand(Pumped), both, q, p));
     is(2.0, slope(&Hand(Paper34), Adjoint(Runge), &[0.9], &[0.4]));
+    is(4.0, slope(&Hand(Pumped), Yoshida4.of(TwoStages), q, p));
 }
 
 /// The recipes show these lines.

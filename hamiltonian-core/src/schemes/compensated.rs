@@ -11,7 +11,7 @@ use super::table::Table;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces, Scratch};
 use crate::map::Step;
-use crate::scheme::{Entry, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Listed, Needs, Scheme, Symmetric};
 use crate::state::{Pair, Point, State};
 use crate::system::{Separable, Unforced};
 use crate::vector::Vector;
@@ -65,7 +65,7 @@ impl<M: Table> Listed for Compensated<M> {
     }
 }
 
-symmetric!(Compensated<M>, M: Table + OneStep<Adjoint = M>);
+symmetric!(Compensated<M>, M: Table + Symmetric);
 
 /// The point and its low words.
 type Words<V> = Pair<Point<V>, Point<V>>;

@@ -5,10 +5,10 @@
 
 use super::iterate::{Contraction, iterate};
 use super::table::Weight;
-use super::tables::general as tables;
+use super::tables::{Coefficients, general as tables};
 use crate::flow::Scratch;
 use crate::map::{Cause, Either, Map, ScalarOf, Step};
-use crate::scheme::{Entry, Listed, OneStep, Scheme};
+use crate::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
 use crate::state::{Point, State};
 use crate::system::System;
 use crate::vector::Vector;
@@ -42,20 +42,31 @@ use hamiltonian_lanes::{Mask, Real};
 /// let _ = Composition::yoshida(IntersectingSubTrajectories::default());
 /// ```
 ///
-/// ```compile_fail,E0271
-/// use hamiltonian_core::schemes::{KahanLi6, RungeKutta4};
+/// ```compile_fail,E0277
+/// use hamiltonian_core::schemes::{KahanLi6, SymplecticEuler};
 ///
 /// // Its adjoint is another scheme; a table has its order with symmetric ones.
-/// let _ = KahanLi6.of(RungeKutta4);
+/// let _ = KahanLi6.of(SymplecticEuler::default());
 /// ```
+///
+/// With that adjoint it is symmetric:
+///
+/// ```
+/// use hamiltonian_core::schemes::{Composition, KahanLi6, SymplecticEuler};
+///
+/// let _ = KahanLi6.of(Composition::with_adjoint(SymplecticEuler::default()));
+/// ```
+///
+/// Of the weights given to [`new`](Composition::new) and [`of`](Composition::of) nothing is known:
+/// `SYMMETRIC` is false.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Composition<M, const S: usize> {
+pub struct Composition<M, const S: usize, const SYMMETRIC: bool = true> {
     stages: [(M, Weight); S],
     order: u32,
     name: &'static str,
 }
 
-impl<M: OneStep, const S: usize> Composition<M, S> {
+impl<M: OneStep, const S: usize> Composition<M, S, false> {
     /// Steps of `scheme` of the sizes `weights` in units of the step, first to last; their sum is 1.
     /// `order` is the order of the whole, `name` its name in tables. Without any stage it does not
     /// compile.
@@ -66,6 +77,12 @@ impl<M: OneStep, const S: usize> Composition<M, S> {
     /// The same of schemes of one type that may differ in their choices: of a scheme and its adjoint,
     /// say.
     pub fn of(stages: [(M, Weight); S], order: u32, name: &'static str) -> Self {
+        Self::made(stages, order, name)
+    }
+}
+
+impl<M: OneStep, const S: usize, const SYMMETRIC: bool> Composition<M, S, SYMMETRIC> {
+    fn made(stages: [(M, Weight); S], order: u32, name: &'static str) -> Self {
         const { assert!(S > 0, "a composition has at least one stage") };
         Composition {
             stages,
@@ -75,33 +92,36 @@ impl<M: OneStep, const S: usize> Composition<M, S> {
     }
 }
 
+impl<M: Symmetric, const S: usize> Composition<M, S> {
+    /// The steps γₛh of a table for symmetric schemes. Its stages are γ/2 down and γ/2 up, and twice a
+    /// number is exact.
+    pub(super) fn of_table(scheme: M, table: &Coefficients<S>, name: &'static str) -> Self {
+        let stages =
+            (table.stages).map(|(down, _)| (scheme.clone(), Weight(2.0 * down.0, 2.0 * down.1)));
+        Self::made(stages, table.order, name)
+    }
+}
+
 impl<M: OneStep<Adjoint = M>> Composition<M, 2> {
     /// Half a step of the scheme, then half a step of its adjoint: symmetric, of order 2.
     pub fn with_adjoint(scheme: M) -> Self {
         let adjoint = scheme.adjoint();
         let half = Weight(0.5, 0.0);
-        Composition::of(
-            [(scheme, half), (adjoint, half)],
-            2,
-            "Composition with adjoint",
-        )
+        let stages = [(scheme, half), (adjoint, half)];
+        Self::made(stages, 2, "Composition with adjoint")
     }
 }
 
-impl<M: OneStep<Adjoint = M>> Composition<M, 3> {
-    /// Yoshida's three steps, which make a symmetric scheme of order 2 one of order 4. A scheme whose
-    /// adjoint is of another type is not symmetric, and refused.
+impl<M: Symmetric> Composition<M, 3> {
+    /// Yoshida's three steps, which make a symmetric scheme of order 2 one of order 4. A scheme that is
+    /// not [`Symmetric`] is refused.
     pub fn yoshida(scheme: M) -> Self {
         let table = tables::YOSHIDA_4;
-        // Both halves of a stage are γ/2.
-        let weights = table
-            .stages
-            .map(|(down, _)| Weight(2.0 * down.0, 2.0 * down.1));
-        Composition::new(scheme, weights, table.order, table.name)
+        Self::of_table(scheme, &table, table.name)
     }
 }
 
-impl<M: OneStep, const S: usize> Listed for Composition<M, S> {
+impl<M: OneStep, const S: usize, const SYMMETRIC: bool> Listed for Composition<M, S, SYMMETRIC> {
     fn entry(&self) -> Entry {
         let of = self.stages[0].0.entry();
         Entry {
@@ -114,20 +134,26 @@ impl<M: OneStep, const S: usize> Listed for Composition<M, S> {
     }
 }
 
-impl<M: OneStep, const S: usize> OneStep for Composition<M, S> {
-    type Adjoint = Composition<M::Adjoint, S>;
+impl<M: OneStep, const S: usize, const SYMMETRIC: bool> OneStep for Composition<M, S, SYMMETRIC> {
+    type Adjoint = Composition<M::Adjoint, S, SYMMETRIC>;
     fn adjoint(&self) -> Self::Adjoint {
         let mut stages = self
             .stages
             .clone()
             .map(|(scheme, weight)| (scheme.adjoint(), weight));
         stages.reverse();
-        Composition::of(stages, self.order, self.name)
+        Composition::made(stages, self.order, self.name)
     }
 }
 
-impl<T: Real, S: System<T>, M: OneStep + Scheme<T, S>, const STAGES: usize> Scheme<T, S>
-    for Composition<M, STAGES>
+impl<M: OneStep<Adjoint = M>, const S: usize> Symmetric for Composition<M, S> {}
+
+impl<T, S, M, const STAGES: usize, const SYMMETRIC: bool> Scheme<T, S>
+    for Composition<M, STAGES, SYMMETRIC>
+where
+    T: Real,
+    S: System<T>,
+    M: OneStep + Scheme<T, S>,
 {
     type Map = Either<Composed<M::Map, STAGES, true>, Composed<M::Map, STAGES, false>>;
     #[inline(always)]

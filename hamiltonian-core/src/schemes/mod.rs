@@ -51,6 +51,7 @@ macro_rules! symmetric {
                 *self
             }
         }
+        impl<$($($generics)*)?> crate::scheme::Symmetric for $scheme {}
     };
 }
 

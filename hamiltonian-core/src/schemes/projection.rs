@@ -10,7 +10,7 @@ use super::table::Table;
 use super::zigzag::Zigzag;
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::state::{Carried, Pair, Point, State};
 use crate::system::{System, Unforced};
 use crate::vector::Vector;
@@ -76,7 +76,7 @@ impl<M: Table> Listed for MidpointProjected<M> {
     }
 }
 
-impl<M: Table + OneStep<Adjoint = M>> OneStep for MidpointProjected<M> {
+impl<M: Table + Symmetric> OneStep for MidpointProjected<M> {
     type Adjoint = super::Adjoint<Self>;
     fn adjoint(&self) -> Self::Adjoint {
         super::Adjoint(*self)
@@ -307,7 +307,7 @@ impl<M: Table> Listed for Semiexplicit<M> {
     }
 }
 
-symmetric!(Semiexplicit<M>, M: Table + OneStep<Adjoint = M>);
+symmetric!(Semiexplicit<M>, M: Table + Symmetric);
 
 impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Semiexplicit<M> {
     type Map = Projected<Inner<T, S, M>>;

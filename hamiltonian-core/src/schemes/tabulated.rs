@@ -6,11 +6,11 @@
 //! loop is [`Zigzag`]'s.
 
 use super::composition::Composition;
-use super::table::{Durations, Reversed, Table, Weight};
+use super::table::{Durations, Reversed, Table};
 use super::tables::{Coefficients, general, near_integrable, nystrom};
 use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
-use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
 use crate::state::{Point, State};
 use crate::system::{Exact, Nystrom, Split};
 use hamiltonian_lanes::Real;
@@ -29,9 +29,10 @@ fn entry<const S: usize>(name: &'static str, table: &Coefficients<S>, needs: Nee
     }
 }
 
-/// The type `$name` of the table `$table` with its entry.
+/// The type `$name` of the table `$table` with its entry, which is `symmetric` or has the `reversed` table as its
+/// adjoint.
 macro_rules! tabulated {
-    ($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $needs:ident, $adjoint:ty) => {
+    ($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $needs:ident, $adjoint:ident) => {
         $(#[$doc])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
         pub struct $name;
@@ -54,10 +55,16 @@ macro_rules! tabulated {
             }
         }
 
+        tabulated!(adjoint $name $adjoint);
+    };
+    (adjoint $name:ident symmetric) => {
+        symmetric!($name);
+    };
+    (adjoint $name:ident reversed) => {
         impl OneStep for $name {
-            type Adjoint = $adjoint;
-            fn adjoint(&self) -> $adjoint {
-                <$adjoint>::default()
+            type Adjoint = Reversed<$name>;
+            fn adjoint(&self) -> Reversed<$name> {
+                Reversed(*self)
             }
         }
     };
@@ -80,7 +87,7 @@ macro_rules! on_exact_pieces {
 }
 
 macro_rules! general {
-    ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $adjoint:ty;)+) => {$(
+    ($($(#[$doc:meta])* $name:ident: $table:path, $stages:literal, $adjoint:ident;)+) => {$(
         tabulated! {
             $(#[$doc])*
             ///
@@ -109,7 +116,7 @@ macro_rules! of_symmetric {
     ($($name:ident: $table:path, $stages:literal;)+) => {$(
         impl $name {
             /// Steps of the sizes γ of any symmetric scheme of order 2, which make one of the order of
-            /// the table. A scheme whose adjoint is of another type is not symmetric, and refused.
+            /// the table. A scheme that is not [`Symmetric`] is refused.
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
@@ -121,10 +128,8 @@ macro_rules! of_symmetric {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-6);
             /// # Ok::<(), hamiltonian_core::Error>(())
             /// ```
-            pub fn of<M: OneStep<Adjoint = M>>(self, scheme: M) -> Composition<M, $stages> {
-                // down = up = γ/2, and twice a number is exact.
-                let gammas = $table.stages.map(|(Weight(hi, lo), _)| Weight(2.0 * hi, 2.0 * lo));
-                Composition::new(scheme, gammas, $table.order, stringify!($name))
+            pub fn of<M: Symmetric>(self, scheme: M) -> Composition<M, $stages> {
+                Composition::of_table(scheme, &$table, stringify!($name))
             }
         }
     )+};
@@ -145,7 +150,7 @@ general! {
     /// Ruth's scheme: order 3 with 3 stages, not symmetric.
     ///
     /// Source: R. D. Ruth, IEEE Trans. Nucl. Sci. 30 (1983) 2669, doi:10.1109/TNS.1983.4332919.
-    Ruth3: general::RUTH_3, 3, Reversed<Ruth3>;
+    Ruth3: general::RUTH_3, 3, reversed;
     /// The triple jump, the scheme of Forest and Ruth: order 4 with 3 stages.
     ///
     /// Steps γ₁h, γ₂h, γ₁h of Strang's splitting with γ₁ = 1/(2 − ∛2) and γ₂ = 1 − 2γ₁. Its errors are
@@ -153,49 +158,49 @@ general! {
     ///
     /// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, doi:10.1016/0375-9601(90)90092-3; E. Forest,
     /// R. D. Ruth, Physica D 43 (1990) 105, doi:10.1016/0167-2789(90)90019-L.
-    Yoshida4: general::YOSHIDA_4, 3, Yoshida4;
+    Yoshida4: general::YOSHIDA_4, 3, symmetric;
     /// Suzuki's composition: order 4 with 5 stages.
     ///
     /// Steps γ₁h, γ₁h, γ₃h, γ₁h, γ₁h of Strang's splitting with γ₁ = 1/(4 − ∛4) and γ₃ = 1 − 4γ₁.
     ///
     /// Source: M. Suzuki, Phys. Lett. A 146 (1990) 319, doi:10.1016/0375-9601(90)90962-N.
-    Suzuki4: general::SUZUKI_4, 5, Suzuki4;
+    Suzuki4: general::SUZUKI_4, 5, symmetric;
     /// Blanes and Moan's S6: order 4 with 6 stages, the most accurate of order 4 here.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    BlanesMoan4: general::BLANES_MOAN_4, 6, BlanesMoan4;
+    BlanesMoan4: general::BLANES_MOAN_4, 6, symmetric;
     /// Blanes and Moan's S10: order 6 with 10 stages, the most accurate of order 6 here.
     ///
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
-    BlanesMoan6: general::BLANES_MOAN_6, 10, BlanesMoan6;
+    BlanesMoan6: general::BLANES_MOAN_6, 10, symmetric;
     /// Yoshida's solution A: order 6 with 7 stages, the least.
     ///
     /// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, doi:10.1016/0375-9601(90)90092-3.
-    Yoshida6: general::YOSHIDA_6, 7, Yoshida6;
+    Yoshida6: general::YOSHIDA_6, 7, symmetric;
     /// Kahan and Li's composition: order 6 with 9 stages.
     ///
     /// Source: W. Kahan, R.-C. Li, Math. Comp. 66 (1997) 1089, doi:10.1090/S0025-5718-97-00873-9.
-    KahanLi6: general::KAHAN_LI_6, 9, KahanLi6;
+    KahanLi6: general::KAHAN_LI_6, 9, symmetric;
     /// Order 8 with 15 stages, the least.
     ///
     /// Source: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151, doi:10.1137/0916010.
-    McLachlan8: general::MCLACHLAN_8, 15, McLachlan8;
+    McLachlan8: general::MCLACHLAN_8, 15, symmetric;
     /// Kahan and Li's composition: order 8 with 17 stages.
     ///
     /// Source: W. Kahan, R.-C. Li, Math. Comp. 66 (1997) 1089, doi:10.1090/S0025-5718-97-00873-9.
-    KahanLi8: general::KAHAN_LI_8, 17, KahanLi8;
+    KahanLi8: general::KAHAN_LI_8, 17, symmetric;
     /// Sofroniou and Spaletta's composition: order 8 with 21 stages.
     ///
     /// Source: M. Sofroniou, G. Spaletta, Optim. Methods Softw. 20 (2005) 597,
     /// doi:10.1080/10556780500140664.
-    SofroniouSpaletta8: general::SOFRONIOU_SPALETTA_8, 21, SofroniouSpaletta8;
+    SofroniouSpaletta8: general::SOFRONIOU_SPALETTA_8, 21, symmetric;
     /// Sofroniou and Spaletta's composition: order 10 with 35 stages.
     ///
     /// Source: M. Sofroniou, G. Spaletta, Optim. Methods Softw. 20 (2005) 597,
     /// doi:10.1080/10556780500140664.
-    SofroniouSpaletta10: general::SOFRONIOU_SPALETTA_10, 35, SofroniouSpaletta10;
+    SofroniouSpaletta10: general::SOFRONIOU_SPALETTA_10, 35, symmetric;
 }
 
 /// `first` and `second` are the constants of [`Nystrom`] for the two pieces.
@@ -217,7 +222,7 @@ macro_rules! nystrom {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-8);
             /// # Ok::<(), hamiltonian_core::Error>(())
             /// ```
-            $name: $table, $stages, Nystrom, $name
+            $name: $table, $stages, Nystrom, symmetric
         }
 
         impl<T: Real, S: Nystrom<T>> Scheme<T, S> for $name {
@@ -273,7 +278,7 @@ macro_rules! near_integrable {
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
             /// # Ok::<(), hamiltonian_core::Error>(())
             /// ```
-            $name: $table, $stages, Exact, $name
+            $name: $table, $stages, Exact, symmetric
         }
         on_exact_pieces!($name);
     )+};

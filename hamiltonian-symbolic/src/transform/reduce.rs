@@ -12,14 +12,10 @@ use crate::op::Op;
 use crate::rational::Rational;
 use crate::structure::{Collected, Term, expand, times};
 
-/// The most terms of one sum that are multiplied out.
-const WIDEST: u64 = 1 << 14;
-/// The most terms of all sums together.
-const BUDGET: u64 = 1 << 17;
+/// The most terms of all sums together that are multiplied out.
+const BUDGET: usize = 1 << 17;
 /// The largest power that is rewritten.
 const HIGHEST: i32 = 16;
-/// The most angles whose sine and cosine are told apart; beyond, all are rewritten alike.
-const ANGLES: usize = 3;
 
 type Factors = Vec<(Node, i32)>;
 
@@ -46,7 +42,6 @@ pub(super) fn substitute(
     let mut reducer = Reducer {
         rules,
         left: BUDGET,
-        widths: Map::default(),
     };
     let mut new: Map<Node, Node> = Map::default();
     for node in order {
@@ -54,11 +49,8 @@ pub(super) fn substitute(
             new.insert(node, *image);
             continue;
         }
-        let changed = {
-            let mut changed = false;
-            dag.for_children(node, |child| changed |= new[&child] != child);
-            changed
-        };
+        let mut changed = false;
+        dag.for_children(node, |child| changed |= new[&child] != child);
         let image = if changed {
             let image = dag.rebuild(node, &|child| new[&child]);
             let image = positive(dag, image, rules);
@@ -68,10 +60,7 @@ pub(super) fn substitute(
         };
         new.insert(node, image);
     }
-    roots
-        .iter()
-        .map(|root| reducer.sum(dag, new[root], inside.contains_key(root)))
-        .collect()
+    roots.iter().map(|root| new[root]).collect()
 }
 
 /// A node made of others that were reduced before.
@@ -79,7 +68,6 @@ pub(super) fn reduce(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
     let mut reducer = Reducer {
         rules,
         left: BUDGET,
-        widths: Map::default(),
     };
     reducer.sum(dag, node, false)
 }
@@ -144,8 +132,7 @@ fn positive(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
 
 struct Reducer<'a> {
     rules: &'a Rules,
-    left: u64,
-    widths: Map<Node, u64>,
+    left: usize,
 }
 
 impl Reducer<'_> {
@@ -168,73 +155,40 @@ impl Reducer<'_> {
         }
     }
 
-    /// The number of terms of a node when it is multiplied out, without collecting.
-    fn width(&mut self, dag: &Dag, root: Node) -> u64 {
-        let nodes = dag.reached(&[root], |node, ahead| match dag.kind(node) {
-            Kind::Sum(..) | Kind::Product(..) | Kind::Reduce(..)
-                if !self.widths.contains_key(&node) =>
-            {
-                dag.for_children(node, |child| ahead.add(child));
-            }
-            _ => {}
-        });
-        for node in nodes {
-            if self.widths.contains_key(&node) {
-                continue;
-            }
-            let known = |child: &Node| self.widths[child];
-            let width = match dag.kind(node) {
-                Kind::Sum(c, terms) => terms
-                    .iter()
-                    .map(|(_, n)| known(n))
-                    .fold(u64::from(!c.is_zero()), u64::saturating_add),
-                Kind::Product(_, factors) => factors
-                    .iter()
-                    .filter(|(_, n)| *n > 0)
-                    .map(|(node, n)| known(node).saturating_pow(n.unsigned_abs()))
-                    .fold(1, u64::saturating_mul),
-                Kind::Reduce(_, body) => known(body),
-                _ => 1,
-            };
-            self.widths.insert(node, width);
-        }
-        self.widths[&root]
-    }
-
     /// The sum with those of its operands multiplied out and collected that gain by it.
     fn sum(&mut self, dag: &mut Dag, node: Node, inside: bool) -> Node {
-        let (constant, operands) = match dag.kind(node) {
+        let (mut constant, operands) = match dag.kind(node) {
             Kind::Sum(c, terms) => (c.clone(), terms.clone()),
             Kind::Product(..) => (Rational::ZERO, vec![(Rational::ONE, node)]),
             _ => return node,
         };
-        let widths: Vec<u64> = operands.iter().map(|(_, n)| self.width(dag, *n)).collect();
-        let all = widths.iter().fold(0u64, |sum, n| sum.saturating_add(*n));
-        if all > WIDEST || all > self.left || (operands.len() == 1 && all == 1) {
-            return node;
-        }
-        self.left -= all;
         let mut terms: Vec<Vec<Term>> = Vec::with_capacity(operands.len());
         for (k, operand) in &operands {
             let scaled = dag.scale(k, *operand);
-            match expand(dag, scaled) {
-                Some(found) => terms.push(found),
-                None => return node,
-            }
+            let Some(found) = expand(dag, scaled).filter(|found| found.len() <= self.left) else {
+                return node;
+            };
+            self.left -= found.len();
+            terms.push(found);
         }
         let parts = connected(dag, &terms, self.rules);
         let mut picked: Vec<(Rational, Node)> = Vec::with_capacity(parts.len());
         for part in &parts {
             let own: Vec<(Rational, Node)> = part.iter().map(|at| operands[*at].clone()).collect();
-            let width = part.iter().map(|at| widths[*at]).sum();
             let together: Vec<&Term> = part.iter().flat_map(|at| &terms[*at]).collect();
-            match self.cheaper(dag, &own, &together, width) {
-                Some(better) => picked.push((Rational::ONE, better)),
-                None => picked.extend(own),
+            let better = self.cheaper(dag, &own, &together);
+            // An operand that is a sum is continued: its terms were collected with the others.
+            for (k, operand) in better.map_or(own, |better| vec![(Rational::ONE, better)]) {
+                match dag.kind(operand) {
+                    Kind::Sum(c, inner) if k.is_one() => {
+                        constant = constant.add(c);
+                        picked.extend(inner.iter().cloned());
+                    }
+                    _ => picked.push((k, operand)),
+                }
             }
         }
         let reduced = dag.collected(&constant, &picked, false);
-        let reduced = flattened(dag, reduced);
         if inside && dag.is_nonnegative(node) && !dag.is_nonnegative(reduced) {
             return node;
         }
@@ -242,29 +196,18 @@ impl Reducer<'_> {
     }
 
     /// Some operands of a sum, multiplied out and collected, where that is cheaper.
-    fn cheaper(
-        &self,
-        dag: &mut Dag,
-        own: &[(Rational, Node)],
-        terms: &[&Term],
-        width: u64,
-    ) -> Option<Node> {
+    fn cheaper(&self, dag: &mut Dag, own: &[(Rational, Node)], together: &[&Term]) -> Option<Node> {
         let kept = dag.linear(&Rational::ZERO, own);
         let mut best: Option<(u32, Node)> = None;
-        let ways = if self.rules.angles.len() <= ANGLES {
-            1u32 << self.rules.angles.len()
-        } else {
-            2
-        };
-        for way in 0..ways {
+        for keeps_sines in [true, false] {
             let mut collected = Collected::default();
             let mut rewritten = false;
-            for term in terms {
-                rewritten |= rewrite(term, self.rules, direction(way, ways), &mut collected);
+            for term in together {
+                rewritten |= rewrite(term, self.rules, keeps_sines, &mut collected);
             }
             let terms = collected.terms();
-            let count = terms.len() as u64;
-            if count > width || (count == width && !rewritten) {
+            let (before, after) = (together.len(), terms.len());
+            if after > before || after == before && !rewritten {
                 continue;
             }
             let node = grouped(dag, &terms);
@@ -281,72 +224,34 @@ impl Reducer<'_> {
     }
 }
 
-/// The one of the two that goes for each angle: bit i set means sin² of angle i.
-fn direction(way: u32, ways: u32) -> u32 {
-    // With many angles the two ways are all cosines and all sines.
-    if ways == 2 && way == 1 { u32::MAX } else { way }
-}
-
-/// A sum whose operands are sums is one sum: they were collected together.
-fn flattened(dag: &mut Dag, node: Node) -> Node {
-    let Kind::Sum(c, terms) = dag.kind(node) else {
-        return node;
-    };
-    let mut constant = c.clone();
-    let mut flat = Vec::new();
-    for (k, term) in terms {
-        match dag.kind(*term) {
-            Kind::Sum(c, inner) if k.is_one() => {
-                constant = constant.add(c);
-                flat.extend(inner.iter().cloned());
-            }
-            _ => flat.push((k.clone(), *term)),
-        }
-    }
-    dag.linear(&constant, &flat)
-}
-
 /// The operands that have a monomial in common, directly or through others, in order.
 fn connected(dag: &Dag, terms: &[Vec<Term>], rules: &Rules) -> Vec<Vec<usize>> {
-    let mut leader: Vec<usize> = (0..terms.len()).collect();
-    let find = |leader: &[usize], mut at: usize| {
-        while leader[at] != at {
-            at = leader[at];
-        }
-        at
-    };
-    let mut first: Map<Factors, usize> = Map::default();
+    let mut parts: Vec<(Vec<usize>, Map<Factors, ()>)> = Vec::new();
     for (at, own) in terms.iter().enumerate() {
         let mut collected = Collected::default();
         for term in own {
-            rewrite(term, rules, 0, &mut collected);
+            rewrite(term, rules, true, &mut collected);
         }
+        let mut monomials: Map<Factors, ()> = Map::default();
         for term in collected.terms() {
-            let (_, mut key) = parted(dag, &term);
-            key.sort_unstable();
-            match first.get(&key) {
-                Some(&other) => {
-                    let (a, b) = (find(&leader, at), find(&leader, other));
-                    leader[a.max(b)] = a.min(b);
-                }
-                None => {
-                    first.insert(key, at);
-                }
-            }
+            let (_, mut factors) = parted(dag, &term);
+            factors.sort_unstable();
+            monomials.insert(factors, ());
         }
-    }
-    let mut place: Map<usize, usize> = Map::default();
-    let mut parts: Vec<Vec<usize>> = Vec::new();
-    for at in 0..terms.len() {
-        let root = find(&leader, at);
-        match place.get(&root) {
-            Some(&part) => parts[part].push(at),
-            None => {
-                place.insert(root, parts.len());
-                parts.push(vec![at]);
+        let mut part = vec![at];
+        parts.retain_mut(|(others, known)| {
+            let meets = monomials.keys().any(|factors| known.contains_key(factors));
+            if meets {
+                part.append(others);
+                monomials.extend(known.drain());
             }
-        }
+            !meets
+        });
+        part.sort_unstable();
+        parts.push((part, monomials));
     }
+    let mut parts: Vec<Vec<usize>> = parts.into_iter().map(|(part, _)| part).collect();
+    parts.sort_unstable();
     parts
 }
 
@@ -358,14 +263,13 @@ fn parted(dag: &Dag, term: &Term) -> (Factors, Factors) {
 }
 
 /// A term by the rules, into a collection; whether any rule applied.
-fn rewrite(term: &Term, rules: &Rules, way: u32, into: &mut Collected) -> bool {
+fn rewrite(term: &Term, rules: &Rules, keeps_sines: bool, into: &mut Collected) -> bool {
     let mut terms = vec![term.clone()];
     let mut rewritten = false;
-    for (at, &(sin, cos)) in rules.angles.iter().enumerate() {
-        let (kept, gone) = if way >> (at.min(31)) & 1 == 0 {
-            (sin, cos)
-        } else {
-            (cos, sin)
+    for &(sin, cos) in &rules.angles {
+        let (kept, gone) = match keeps_sines {
+            true => (sin, cos),
+            false => (cos, sin),
         };
         // gone² = 1 − kept²
         rewritten |= exchange(&mut terms, (gone, 2), |_, k| vec![(kept, 2 * k)]);

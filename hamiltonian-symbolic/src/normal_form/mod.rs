@@ -171,7 +171,7 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
 }
 
 /// The sizes at which a statement about all sizes is tried: small ones, one past every index that
-/// is given by number, and, where there are several sizes, different ones.
+/// is given by number, and, where there are several sizes, different ones, some twice as large as others.
 pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     let count = model.sizes.len();
     if count == 0 {
@@ -190,6 +190,8 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     if count > 1 {
         trials.push((3..).take(count).collect());
         trials.push((3..3 + count as i64).rev().collect());
+        trials.push((1..).map(|n| 2 << n).take(count).collect());
+        trials.push((1..=count).rev().map(|n| 2 << n).collect());
     }
     trials
 }

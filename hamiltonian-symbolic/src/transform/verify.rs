@@ -11,6 +11,7 @@ use crate::dag::{Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample, Signs, next_random};
 use crate::model::{Model, VectorEntry};
+use crate::normal_form::trials;
 
 /// The number of points that [`check`] compares at certain sizes,
 const POINTS: usize = 3;
@@ -33,7 +34,8 @@ const CLOSE: f64 = 1e-8;
 pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
     let old = &transformed.source;
     let old_roots = old.functions();
-    let fitting = choices(old.sizes.len())
+    let fitting = trials(old, &old_roots).into_iter();
+    let fitting = fitting
         .filter(|sizes| sizes.is_empty() || loops::unroll_nodes(old, sizes, &old_roots).is_ok())
         .take(CHOICES);
     let mut compared = None;
@@ -46,30 +48,6 @@ pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
         None => "no sizes were found at which every index is in range",
     };
     Err(Refusal::Uncompared { reason })
-}
-
-/// Choices of sizes, those first that are small and differ from each other.
-fn choices(count: usize) -> impl Iterator<Item = Vec<i64>> {
-    // As many as literal indices ask for: q[100] is an index too.
-    let least = [3, 4, 5, 6, 8, 11, 16, 32, 64, 128, 256, 512, 1024];
-    let in_line = least.into_iter().flat_map(move |least| {
-        let rising: Vec<i64> = (least..).take(count).collect();
-        let falling = rising.iter().rev().copied().collect();
-        let mut choices = vec![rising, falling, vec![least; count]];
-        choices.dedup();
-        choices
-    });
-    // And where sizes bound each other in other ways, all small ones; those past the fourth are as
-    // the fourth.
-    let greatest: i64 = 6;
-    let all = (0..greatest.pow(count.min(4) as u32)).map(move |number| {
-        (0..count)
-            .map(|at| greatest - number / greatest.pow(at.min(3) as u32) % greatest)
-            .collect()
-    });
-    let none = (count == 0).then(Vec::new);
-    none.into_iter()
-        .chain(in_line.chain(all).filter(|sizes| !sizes.is_empty()))
 }
 
 /// The number of points that were compared at these sizes.

@@ -262,19 +262,8 @@ fn time_and_cyclic_coordinates_are_reported() {
         "sum(i in 0..N) { p[i][0]^2 + q[i][1] } + s[0]*s[2]",
     );
     let cyclic = analyse(&mut model).cyclic;
-    let found: Vec<_> = cyclic
-        .iter()
-        .map(|c| (c.coordinate.as_str(), c.row, c.column))
-        .collect();
-    assert_eq!(
-        found,
-        [
-            ("q[i][0]", None, 0),
-            ("q[i][2]", None, 2),
-            ("s[1]", Some(1), 0),
-            ("c[i]", None, 0)
-        ]
-    );
+    let found: Vec<_> = cyclic.iter().map(|c| c.coordinate.as_str()).collect();
+    assert_eq!(found, ["q[i][0]", "q[i][2]", "s[1]", "c[i]"]);
     assert_eq!(cyclic[2].momentum, "r[1]");
 }
 

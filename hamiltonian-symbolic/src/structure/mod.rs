@@ -15,9 +15,9 @@ pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;
 
 use crate::dag::{Column, Dag, Dependence, Kind, Map, Node, Side};
-use crate::index::Affine;
 use crate::model::Model;
 use crate::print;
+use std::collections::HashSet;
 
 /// H = T(p, t) + V(q, t).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -42,12 +42,6 @@ pub struct Coupling {
 /// A coordinate that H does not depend on: its momentum is conserved.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct Cyclic {
-    /// The group of the coordinate.
-    pub group: u16,
-    /// The row, where only a row of literal number is meant; otherwise all rows.
-    pub row: Option<u32>,
-    /// The column, of a rank-2 group.
-    pub column: u16,
     /// The coordinate as text: `phi`, `q[2]`, `q[i][0]` for all i.
     pub coordinate: String,
     /// Its momentum as text.
@@ -159,39 +153,24 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
         }
     }
     let mut found = Vec::new();
-    for (number, group) in model.groups.iter().enumerate() {
-        let rows = group.shape.rows();
-        for column in 0..group.shape.columns() {
-            let mut push = |row: Option<i64>| {
-                let index = row.map_or_else(|| "i".to_owned(), |row| row.to_string());
-                found.push(Cyclic {
-                    group: number as u16,
-                    row: row.and_then(|row| u32::try_from(row).ok()),
-                    column,
-                    coordinate: group.shape.element(&group.coordinate, &index, column),
-                    momentum: group.shape.element(&group.momentum, &index, column),
-                });
-            };
-            let at = Column {
-                side: Side::Q,
-                group: number as u16,
-                column,
-            };
-            match read.get(&at) {
-                None => push(None),
-                // Rows can be told apart where all are named by number.
-                Some(used) if used.iter().all(Option::is_some) => {
-                    let Some(literal) = rows.and_then(Affine::as_constant) else {
-                        continue;
-                    };
-                    let mut used = used.clone();
-                    used.sort_unstable();
-                    (0..literal.min(1024))
-                        .filter(|row| used.binary_search(&Some(*row)).is_err())
-                        .for_each(|row| push(Some(row)));
-                }
-                Some(_) => {}
+    for (at, rows) in model.columns(Side::Q) {
+        let group = &model.groups[usize::from(at.group)];
+        let element = |index: &str| Cyclic {
+            coordinate: group.shape.element(&group.coordinate, index, at.column),
+            momentum: group.shape.element(&group.momentum, index, at.column),
+        };
+        let used: Option<HashSet<i64>> = match read.get(&at) {
+            None => {
+                found.push(element("i"));
+                continue;
             }
+            // Rows can be told apart where all are named by number.
+            Some(used) => used.iter().copied().collect(),
+        };
+        if let (Some(used), Some(rows)) = (used, rows.and_then(|rows| rows.as_constant())) {
+            let is_unused = |row: &i64| !used.contains(row);
+            let unused = (0..rows.min(1024)).filter(is_unused);
+            found.extend(unused.map(|row| element(&row.to_string())));
         }
     }
     found

@@ -505,21 +505,16 @@ struct Nest<'a> {
 
 impl<'a> Nest<'a> {
     fn at<'n>(nests: &'n mut Vec<Nest<'a>>, level: u32, domain: Domain) -> &'n mut Nest<'a> {
-        let at = match nests
-            .iter()
-            .position(|n| n.level == level && n.domain == domain)
-        {
-            Some(at) => at,
-            None => {
-                nests.push(Nest {
-                    level,
-                    domain,
-                    sums: Vec::new(),
-                    stores: Vec::new(),
-                });
-                nests.len() - 1
-            }
-        };
+        let is_asked = |nest: &Nest| (nest.level, nest.domain) == (level, domain);
+        let at = nests.iter().position(is_asked).unwrap_or(nests.len());
+        if at == nests.len() {
+            nests.push(Nest {
+                level,
+                domain,
+                sums: Vec::new(),
+                stores: Vec::new(),
+            });
+        }
         &mut nests[at]
     }
 }

@@ -137,18 +137,10 @@ impl<M: Meaning> Walk<'_, M> {
             let value = match self.dag.kind(node) {
                 Kind::Reduce(domain, body) => self.run_loop(node, *domain, *body),
                 _ => {
-                    let values = &self.values;
-                    let dag = self.dag;
-                    // Children come first in the arena, so a missing one means a stopped walk.
-                    let complete = {
-                        let mut complete = true;
-                        dag.for_children(node, |child| complete &= values.contains_key(&child));
-                        complete
-                    };
-                    complete.then(|| {
-                        self.meaning
-                            .value(dag, node, &self.place, &|child| values[&child].clone())
-                    })
+                    // Children come first in the arena.
+                    let child = |child: Node| self.values[&child].clone();
+                    let value = self.meaning.value(self.dag, node, &self.place, &child);
+                    Some(value)
                 }
             };
             if let Some(value) = value {

@@ -31,6 +31,11 @@ impl Algebra {
         Rc::clone(&self.converted[&node])
     }
 
+    fn all(&self, nodes: &[Node]) -> Vec<Poly> {
+        let poly = |node: &Node| self.of(*node).as_ref().clone();
+        nodes.iter().map(poly).collect()
+    }
+
     fn convert_one(&mut self, dag: &Dag, node: Node) -> Result<Poly, Undecided> {
         Ok(match dag.kind(node) {
             Kind::Constant(value) => Poly::constant(value.clone()),
@@ -59,19 +64,9 @@ impl Algebra {
                 }
                 product
             }
-            Kind::Call(op, arguments) => {
-                let arguments: Vec<Poly> = arguments
-                    .iter()
-                    .map(|x| self.of(*x).as_ref().clone())
-                    .collect();
-                self.call(*op, &arguments)?
-            }
+            Kind::Call(op, arguments) => self.call(*op, &self.all(arguments))?,
             Kind::External(function, part, arguments) => {
-                let arguments: Vec<Poly> = arguments
-                    .iter()
-                    .map(|x| self.of(*x).as_ref().clone())
-                    .collect();
-                self.external(*function, *part, &arguments)?
+                self.external(*function, *part, &self.all(arguments))?
             }
             Kind::Reduce(domain, body) => {
                 let bit = 1u64 << domain.0;
@@ -137,6 +132,9 @@ impl Algebra {
                 let x = assemble(dag, x, &nodes);
                 dag.call(op, &[x])
             };
+            let all = |dag: &mut Dag, polys: &[Poly]| -> Vec<Node> {
+                polys.iter().map(|x| assemble(dag, x, &nodes)).collect()
+            };
             let node = match &self.entry(atom).key {
                 Key::Leaf(node) => *node,
                 Key::Cos(x) => call(dag, Op::Cos, x),
@@ -151,13 +149,11 @@ impl Algebra {
                 Key::Sign(x) => call(dag, Op::Sign, x),
                 Key::Divisor(x) => assemble(dag, x, &nodes),
                 Key::Function(op, arguments) => {
-                    let arguments: Vec<Node> =
-                        arguments.iter().map(|x| assemble(dag, x, &nodes)).collect();
+                    let arguments = all(dag, arguments);
                     dag.call(*op, &arguments)
                 }
                 Key::External(function, part, arguments) => {
-                    let arguments: Vec<Node> =
-                        arguments.iter().map(|x| assemble(dag, x, &nodes)).collect();
+                    let arguments = all(dag, arguments);
                     dag.external(*function, *part, &arguments)
                 }
                 Key::Sum(domain, body) => {

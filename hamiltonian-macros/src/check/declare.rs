@@ -4,7 +4,7 @@
 //! the bindings of their names. Invariant: every name is declared once.
 
 use super::{Binding, Checker};
-use crate::ast::{Expression, ParameterKind, Size, StatementKind};
+use crate::ast::{ExprKind, Expression, ParameterKind, Size, StatementKind};
 use crate::checked::{Extent, Field, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, Type};
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
@@ -12,6 +12,9 @@ use proc_macro2::{Ident, Span};
 /// The most numbers of an array of literal size. Such arrays live on the stack, a scheme holds tens of
 /// them, and a thread may have no more than 2 MB.
 const LARGEST: u64 = 1 << 12;
+
+/// The default of a vector.
+const LIST: &str = "write one number for each component: `[1.0, 2.0]`";
 
 impl Checker<'_> {
     /// Lets a name stand for something, unless it does already.
@@ -97,35 +100,51 @@ impl Checker<'_> {
         self.one_definition()
     }
 
-    /// The numbers of a default, if it is made of numbers.
+    /// The numbers of a default, row by row, if it is made of numbers.
     fn default_value(
         &mut self,
         name: &Ident,
         ty: Type,
         default: &Expression,
     ) -> Option<Vec<NodeId>> {
-        let value = self.expression(default)?;
-        let at = self.out.node(value).spans;
-        let found = self.type_of(value);
-        if found != ty || matches!(ty, Type::Matrix(..)) {
-            let message = format!(
-                "the default of `{name}` is {}, but the parameter is {}",
-                self.type_shown(found),
-                self.type_shown(ty)
-            );
-            let help = match ty {
-                Type::Vector(Extent::Literal(_)) => {
-                    "write one number for each component: `[1.0, 2.0]`"
-                }
-                Type::Scalar => "write one number",
-                _ => {
-                    "remove it and give the value to `new`: an array with a default is a vector of a literal length"
-                }
+        let root = &self.ast.nodes[default.root.0 as usize];
+        let rows = match (ty, &root.kind) {
+            (Type::Matrix(..), ExprKind::Vector(rows)) => {
+                let read = self.visit(default, Vec::new(), Some(default.root));
+                let rows = rows.iter().map(|row| read.value(*row));
+                rows.collect::<Option<Vec<_>>>()?
+            }
+            _ => vec![self.expression(default)?],
+        };
+        let all_are = |of| rows.iter().all(|row| self.type_of(*row) == of);
+        let (fits, help) = match ty {
+            Type::Scalar => (all_are(ty), "write one number"),
+            Type::Vector(Extent::Literal(_)) => (all_are(ty), LIST),
+            Type::Matrix(Extent::Literal(count), columns @ Extent::Literal(_)) => (
+                rows.len() as u64 == count && all_are(Type::Vector(columns)),
+                "write its rows: `[[1.0, 2.0], [3.0, 4.0]]`",
+            ),
+            _ => (
+                false,
+                "remove it and give the value to `new`: an array with a default has literal extents",
+            ),
+        };
+        if !fits {
+            let message = match ty {
+                Type::Matrix(..) => format!(
+                    "the default of `{name}` does not list the rows of {}",
+                    self.type_shown(ty)
+                ),
+                _ => format!(
+                    "the default of `{name}` is {}, but the parameter is {}",
+                    self.type_shown(self.type_of(rows[0])),
+                    self.type_shown(ty)
+                ),
             };
-            self.report.error(at, message, help);
+            self.report.error(root.spans, message, help);
             return None;
         }
-        let mut pending = vec![value];
+        let mut pending = rows.clone();
         while let Some(id) = pending.pop() {
             let node = self.out.node(id);
             match &node.kind {
@@ -143,16 +162,19 @@ impl Checker<'_> {
                 }
             }
         }
-        match &self.out.node(value).kind {
-            Kind::Vector(items) => Some(items.clone()),
-            _ if ty == Type::Scalar => Some(vec![value]),
-            _ => {
-                let help = "write one number for each component: `[1.0, 2.0]`";
-                let message = format!("the default of `{name}` is not a list of numbers");
-                self.report.error(at, message, help);
-                None
+        let mut numbers = Vec::new();
+        for row in rows {
+            match &self.out.node(row).kind {
+                Kind::Vector(items) => numbers.extend(items),
+                _ if ty == Type::Scalar => numbers.push(row),
+                _ => {
+                    let message = format!("the default of `{name}` is not a list of numbers");
+                    self.report.error(self.out.node(row).spans, message, LIST);
+                    return None;
+                }
             }
         }
+        Some(numbers)
     }
 
     fn size(&mut self, name: &Ident, run_time: bool, attributes: Vec<proc_macro2::TokenStream>) {

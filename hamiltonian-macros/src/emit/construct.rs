@@ -7,7 +7,7 @@
 use super::context::Context;
 use super::{allowances, documented, lex, located, reach};
 use crate::ast::Header;
-use crate::checked::{Field, Parameter};
+use crate::checked::{Extent, Field, Parameter, Type};
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
@@ -58,10 +58,21 @@ fn default_of(context: Context, number: usize, scalar: &str) -> String {
     let numbers: Vec<String> = numbers
         .map(|text| text.replace("T::constant", &constant))
         .collect();
-    match context.model.parameters[number].shape {
-        Shape::Scalar => numbers.concat(),
-        _ => format!("__h::core::convert::From::from([{}])", numbers.join(", ")),
-    }
+    let array = |numbers: &[String]| format!("[{}]", numbers.join(", "));
+    let value = match context.definition.checked.parameters[number].ty {
+        Type::Matrix(_, Extent::Literal(columns)) => {
+            // An array of arrays is a list of columns to the matrices that are emitted.
+            let columns = columns as usize;
+            let column = |at: usize| {
+                let column = numbers.iter().skip(at).step_by(columns).cloned();
+                array(&column.collect::<Vec<_>>())
+            };
+            array(&(0..columns).map(column).collect::<Vec<_>>())
+        }
+        Type::Vector(_) => array(&numbers),
+        _ => return numbers.concat(),
+    };
+    format!("__h::core::convert::From::from({value})")
 }
 
 /// The value of a field that only `new` sets.

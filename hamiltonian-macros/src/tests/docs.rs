@@ -219,6 +219,35 @@ fn equations_are_said_to_contain_the_force() {
 }
 
 #[test]
+fn a_vector_that_is_read_by_number_has_an_equation_for_each_element() {
+    let planet = docs(
+        "pub struct Planet { c = 0.1 } H(q[3]; p[3]) = norm_squared(p)/2 - 1/norm(q); force(q; p) = -c*p",
+    );
+    let equations = section(&planet, "Equations of motion");
+    for row in 0..3 {
+        let gravity = format!("-q[{row}]/sqrt(q[0]^2 + q[1]^2 + q[2]^2)^3");
+        let equation = format!("dp[{row}]/dt = {gravity} - c*p[{row}]\n");
+        assert!(equations.contains(&equation), "{equations}");
+    }
+    assert!(!section(&planet, "LaTeX").contains("cases"));
+    let shot = docs(
+        "pub struct Shot { g = 9.81, c = 0.1 } H(q[3]; p[3]) = norm_squared(p)/2 + g*q[2];
+        force(q[i]; p[i]) = -c*p[i]",
+    );
+    let equations = section(&shot, "Equations of motion");
+    assert!(
+        equations.contains("dp[1]/dt = -c*p[1]\ndp[2]/dt = -g - c*p[2]\n"),
+        "{equations}"
+    );
+    // One element of many is a condition in one equation.
+    let held = docs(
+        "pub struct Held {} H(q[9]; p[9]) = norm_squared(p)/2 + q[0]^2/2 + sum(i in 0..9) { q[i]^4/4 }",
+    );
+    let equations = section(&held, "Equations of motion");
+    assert!(equations.contains("dp[k]/dt = "), "{equations}");
+}
+
+#[test]
 fn equations_in_another_time_are_in_that_time() {
     let sundman = docs(
         "pub struct Sundman {} let r = hypot(x, y);

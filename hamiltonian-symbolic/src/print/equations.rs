@@ -215,24 +215,39 @@ fn elements(
     leaves: &[(Node, Node)],
     own: &[(Index, Node)],
 ) -> Vec<(Option<Row>, Option<Node>)> {
-    let numbered: Option<Vec<i64>> = own.iter().map(|(row, _)| row.as_constant()).collect();
-    // A short array that is read by number has an equation for each element.
-    if let (Some(numbered), Some(count @ 1..=16)) = (numbered, rows.as_constant())
-        && !own.is_empty()
-    {
-        let of_row = |row: i64| {
-            let place = numbered.iter().position(|at| *at == row);
-            let value = signed(model, at.side, place.map(|place| own[place].1));
-            (Some(Row::numbered(row)), Some(value))
-        };
-        return (0..count).map(of_row).collect();
-    }
     let domain = field::elements(&mut model.dag, rows);
+    let array = Array::Phase(at.conjugate());
+    let is_numbered = |row: &Index| row.as_constant().is_some();
+    let numbered = own.iter().filter(|(row, _)| is_numbered(row)).count();
+    // A short array that is read by number, at least by a quarter, has an equation for each element.
+    if let Some(count @ 1..=16) = rows.as_constant()
+        && numbered > 0
+        && (numbered == own.len() || 4 * numbered >= count as usize)
+    {
+        let looped = leaves.iter().copied().filter(|(leaf, _)| {
+            let place = model.dag.phase_place(*leaf);
+            place.is_some_and(|(_, row)| !is_numbered(row))
+        });
+        let looped: Vec<_> = looped.collect();
+        if let Some(looped) = field::field(&mut model.dag, &looped, array, rows) {
+            let of_row = |row: i64| {
+                let own = own.iter().filter(|(at, _)| at.as_constant() == Some(row));
+                let mut parts: Vec<Node> = own.map(|(_, adjoint)| *adjoint).collect();
+                parts.push(model.dag.replace(looped, domain, &Affine::constant(row)));
+                let sum = model.dag.add(&parts);
+                (
+                    Some(Row::numbered(row)),
+                    Some(signed(model, at.side, Some(sum))),
+                )
+            };
+            return (0..count).map(of_row).collect();
+        }
+    }
     // A long one read at many numbers would be a list of conditions nobody reads.
     let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables() == 0);
     let value = match is_listed {
         true => None,
-        false => field::field(&mut model.dag, leaves, Array::Phase(at.conjugate()), rows),
+        false => field::field(&mut model.dag, leaves, array, rows),
     };
     let value = value.map(|value| signed(model, at.side, Some(value)));
     vec![(Some(Row::any(model, Some(domain))), value)]

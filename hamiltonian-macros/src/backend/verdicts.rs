@@ -11,6 +11,16 @@ use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure::{Coupling, Structure, kick_beside};
 
+/// The schemes beside those that take no force.
+const FORCED: &str = "where H is split, `Strang` and its compositions integrate a force; \
+    `ImplicitMidpoint` and its compositions, `Gauss`, `Variational` and `RungeKutta4` take any H with any force";
+
+/// What keeps a system from being a kick beside a piece at most quadratic in the momenta.
+enum Obstacle {
+    H(String),
+    Force(&'static str),
+}
+
 /// The verdicts.
 pub fn verdicts(
     model: &mut Model,
@@ -19,16 +29,27 @@ pub fn verdicts(
 ) -> emit::Structure {
     let name = subject(model);
     let (kick, exact) = kick(model, structure);
-    let nystrom = nystrom(model, structure, kick).map_err(|why| Reason {
-        message: format!(
-            "{name} is no kick V(q, t) beside a piece at most quadratic in the momenta: {why}"
-        ),
-        label: "needs H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow"
-            .into(),
-        note:
-            "declare the two, `split { A = …; V = …; }`, or use a scheme for any pieces with exact \
-               flows: `BlanesMoan4`, `BlanesMoan6`, `KahanLi8`"
-                .into(),
+    let nystrom = nystrom(model, structure, kick).map_err(|obstacle| {
+        let (what, why, label, note) = match obstacle {
+            Obstacle::H(why) => (
+                name.clone(),
+                why,
+                "needs H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow",
+                "declare the two, `split { A = …; V = …; }`, or use a scheme for any pieces with exact \
+                 flows: `BlanesMoan4`, `BlanesMoan6`, `KahanLi8`",
+            ),
+            Obstacle::Force(why) => {
+                let label = "needs a system without such a force";
+                (of(model), why.to_owned(), label, FORCED)
+            }
+        };
+        Reason {
+            message: format!(
+                "{what} is no kick V(q, t) beside a piece at most quadratic in the momenta: {why}"
+            ),
+            label: label.into(),
+            note: note.into(),
+        }
     });
     emit::Structure {
         separable: match &structure.separable {
@@ -60,10 +81,7 @@ pub fn verdicts(
                     of(model)
                 ),
                 label: "needs a system without a force".into(),
-                note: "where H is split, `Strang` and its compositions integrate a force; \
-                       `ImplicitMidpoint` and its compositions, `Gauss`, `Variational` and \
-                       `RungeKutta4` take any H with any force"
-                    .into(),
+                note: FORCED.into(),
             }),
         },
         exact,
@@ -91,22 +109,26 @@ fn nystrom(
     model: &mut Model,
     structure: &Structure,
     kick: Option<emit::Kick>,
-) -> Result<emit::Nystrom, String> {
+) -> Result<emit::Nystrom, Obstacle> {
+    let of_h = Obstacle::H;
     let pieces = match model.pieces.as_slice() {
-        [] => Err("it is not split into exact flows".to_owned()),
-        _ if !model.force.is_empty() => Err("a force acts beside its pieces".to_owned()),
+        [] => Err(of_h("it is not split into exact flows".to_owned())),
+        _ if !model.force.is_empty() => Err(Obstacle::Force("a force acts beside the pieces of H")),
         pieces => match pieces.iter().find(|piece| !piece.flow.merges()) {
-            Some(piece) => Err(format!(
+            Some(piece) => Err(of_h(format!(
                 "the terms of its piece `{}` do not commute",
                 piece.name
-            )),
+            ))),
             None => match *pieces {
                 [ref first, ref second] => {
                     let parts = [first.h, second.h];
-                    kick_beside(model, parts).map(emit::Nystrom::Pieces)
+                    let beside = kick_beside(model, parts).map(emit::Nystrom::Pieces);
+                    beside.map_err(of_h)
                 }
-                [_] => Err("all of it is one exact flow, which `Strang` makes".to_owned()),
-                _ => Err(format!("it is split into {} pieces", pieces.len())),
+                [_] => Err(of_h(
+                    "all of it is one exact flow, which `Strang` makes".to_owned(),
+                )),
+                _ => Err(of_h(format!("it is split into {} pieces", pieces.len()))),
             },
         },
     };
@@ -115,9 +137,10 @@ fn nystrom(
     };
     pieces.or_else(|_| match kick {
         Some(emit::Kick::Plain) => {
-            kick_beside(model, [split.potential, split.kinetic]).map(|_| emit::Nystrom::Halves)
+            let beside = kick_beside(model, [split.potential, split.kinetic]);
+            beside.map(|_| emit::Nystrom::Halves).map_err(of_h)
         }
-        _ => Err("a force depends on momenta".to_owned()),
+        _ => Err(Obstacle::Force("its force depends on momenta")),
     })
 }
 

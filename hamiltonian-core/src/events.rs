@@ -245,7 +245,7 @@ impl<V: Vector> Events<V> {
         &self.located
     }
 
-    /// The states at the events of that name, in the order of the run.
+    /// The states at the events of that name, in the order of the run; none where no event has it.
     pub fn states(&self, name: &str) -> impl Iterator<Item = &State<V>> {
         let of_name = move |located: &&Located<V>| self.events[located.event].name == name;
         (self.located.iter().filter(of_name)).map(|located| &located.state)

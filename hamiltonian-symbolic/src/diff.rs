@@ -218,8 +218,9 @@ fn derivative_of(part: Part, i: u16) -> Part {
 }
 
 /// The partial derivatives of a product or a function by its factors or arguments; of a product, by
-/// those that depend on `what`. Long products are trees by now (see [`crate::balance`]); of one of
-/// its pairs, a derivative is the other.
+/// those that depend on `what`, and by x where a factor is (√x)ⁿ or (∛x)ⁿ with a derivative that has a
+/// value where x is 0. Long products are trees by now (see [`crate::balance`]); of one of its pairs, a
+/// derivative is the other.
 fn partials(dag: &mut Dag, node: Node, what: Dependence) -> Vec<(Node, Node)> {
     let mut partials = Vec::new();
     match dag.kind(node).clone() {
@@ -228,13 +229,18 @@ fn partials(dag: &mut Dag, node: Node, what: Dependence) -> Vec<(Node, Node)> {
                 if !dag.dependence(node).on(what) {
                     continue;
                 }
+                let (child, degree) = match dag.kind(node) {
+                    Kind::Call(Op::Sqrt, x) if n >= 2 => (x[0], 2),
+                    Kind::Call(Op::Cbrt, x) if n >= 3 => (x[0], 3),
+                    _ => (node, 1),
+                };
                 let mut rest = factors.clone();
-                rest[at].1 = n - 1;
-                if n == 1 {
+                rest[at].1 = n - degree;
+                if n == degree {
                     rest.remove(at);
                 }
-                let scale = k.mul(&Rational::integer(i64::from(n)));
-                partials.push((node, dag.product(&scale, &rest)));
+                let scale = k.mul(&Rational::new(i64::from(n), i64::from(degree)));
+                partials.push((child, dag.product(&scale, &rest)));
             }
         }
         Kind::Call(op, arguments) => {

@@ -374,7 +374,13 @@ impl Dag {
                     let root = self.call(Op::Cbrt, &[x]);
                     return self.powi(root, n);
                 }
-                _ => {}
+                // (x²)^y is |x|^2y, whose derivative has a value at 0 from y = ½ on.
+                _ => {
+                    if let Some(root) = self.exact_root(x) {
+                        let twice = self.scale(&Rational::integer(2), y);
+                        return self.pow(root, twice);
+                    }
+                }
             }
         }
         self.intern(Kind::Call(Op::Pow, vec![x, y]))

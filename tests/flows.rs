@@ -83,6 +83,13 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// Particles that a wave pushes, which they push back: no component meets its own momentum in
+    /// the sum that joins all of them.
+    pub struct Beam { n: usize, k: [n], eps = 0.1 }
+    H(x[n], f; p[n], w) = sum(i in 0..n) { p[i]^2/2 } + w^2/2 + eps*w*sum(i in 0..n) { sin(k[i]*x[i]) }
+}
+
+hamiltonian! {
     /// Hénon and Heiles's system in polar coordinates.
     pub struct Polar { a = 1.0 }
     H(r, th; pr, pt) = pr^2/2 + pt^2/(2*r^2) + r^2/2 + a*r^3*sin(3*th)/3
@@ -174,6 +181,8 @@ flows! {
     ring: Ring::<2>::default(), "q[2]; p[2]", [g = [1.0]], [ANY; 4];
     vortices: Vortices::new(2, vec![1.0, 1.5]).expect("two strengths"), "x[2]; y[2]",
         [k = [1.0, 1.5]], [ANY; 4];
+    beam: Beam::new(2, vec![1.0, 1.5]).expect("two charges"), "x[2], f; p[2], w",
+        [k = [1.0, 1.5], eps = [0.1]], [ANY; 6];
 }
 
 /// Two flows of a quadratic form are one, to the rounding of the numbers they are made in; the whole of H

@@ -96,7 +96,11 @@ impl Equations {
     fn at(&self, z: &[DoubleDouble], purpose: Purpose) -> eval::Outcome<DoubleDouble> {
         let mut point = eval::Point::new();
         let n = z.len() / 2;
-        point.sizes = vec![n; 2];
+        let rows = |group: &Group| match &group.shape {
+            Shape::Vector(rows) => rows.as_constant().expect("a number") as usize,
+            _ => 1,
+        };
+        point.sizes = vec![rows(&self.model.groups[0]); 2];
         let exact = |values: &[f64]| values.iter().copied().map(DoubleDouble::from).collect();
         for (number, values) in self.parameters.iter().enumerate() {
             point.scalars.push(DoubleDouble::from(values[0]));
@@ -106,10 +110,7 @@ impl Equations {
         for (side, numbers) in [(Side::Q, &z[..n]), (Side::P, &z[n..])] {
             let mut left = numbers.iter().copied();
             for (group, declared) in self.model.groups.iter().enumerate() {
-                let rows = match &declared.shape {
-                    Shape::Vector(rows) => rows.as_constant().expect("a number") as usize,
-                    _ => 1,
-                };
+                let rows = rows(declared);
                 let column = Column::first(side, group as u16);
                 let values: Vec<_> = left.by_ref().take(rows).collect();
                 let nothing = vec![DoubleDouble::zero(); rows];

@@ -17,7 +17,7 @@ mod units;
 pub use rows::{ROWS, Row};
 pub use space::NODES;
 
-use crate::dag::{Dependence, Node};
+use crate::dag::Node;
 use crate::flow::{ExactFlow, Flow, Piece};
 use crate::model::{Model, ObservableKind};
 use crate::print;
@@ -82,11 +82,10 @@ pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
 
 /// The flow of an expression with loops.
 fn looped(model: &mut Model, h: Node) -> Option<ExactFlow> {
-    let dependence = model.dag.dependence(h);
-    match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
-        (true, true) => sweep::one(model, h),
-        _ => Some(ExactFlow::Linear),
+    if sweep::is_linear(&sweep::columns(&model.dag, h)) {
+        return Some(ExactFlow::Linear);
     }
+    sweep::one(model, h)
 }
 
 /// The flow of an expression as it stands, or multiplied out.

@@ -3,7 +3,7 @@
 //! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
 //! solved once, as a system of the few elements it names, which are proven to be different ones;
 //! terms of one site are exact in any order, terms that join sites are swept one way down and the
-//! other way up.
+//! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
 use super::space::Space;
 use super::units::{Term, terms};
@@ -42,6 +42,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
         }
     }
     let mut pieces = Vec::new();
+    let mut linear = Vec::new();
     for site in sites {
         let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).collect();
         // In one site alone V and T need not be a loop of flows.
@@ -65,16 +66,36 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
             let (first, bodies) = (first.clone(), hard.iter().map(|term| term.body));
             let bodies: Vec<Node> = bodies.collect();
             let body = model.dag.add(&bodies);
-            match solved(model, &site, body, true) {
-                Some(found) => pieces.extend(found),
-                None => return Err(first.source),
+            if let Some(found) = solved(model, &site, body, true) {
+                pieces.extend(found);
+                continue;
             }
+            let is_linear = |term: &Term| is_linear(&columns(&model.dag, term.body));
+            if !hard.iter().all(is_linear) {
+                return Err(first.source);
+            }
+            linear.extend(hard);
         }
     }
     // A term of parameters alone moves nothing; it joins the piece that moves least.
-    easy[0].extend(constants);
-    let [potential, kinetic] = easy.map(|terms| summed(&mut model.dag, &terms));
-    for (at, part) in [kinetic, potential].into_iter().enumerate() {
+    let [mut potential, kinetic] = easy;
+    potential.extend(constants);
+    let mut parts = vec![kinetic, potential];
+    for term in linear {
+        let own = columns(&model.dag, term.body);
+        let fits = |part: &&mut Vec<Term>| {
+            let others = part
+                .iter()
+                .flat_map(|other| columns(&model.dag, other.body));
+            is_linear(&own.iter().copied().chain(others).collect::<Vec<_>>())
+        };
+        match parts.iter_mut().find(fits) {
+            Some(part) => part.push(term),
+            None => parts.push(vec![term]),
+        }
+    }
+    for (at, terms) in parts.iter().enumerate() {
+        let part = summed(&mut model.dag, terms);
         if !model.dag.is_zero(part) {
             let piece = Piece {
                 h: part,
@@ -115,7 +136,7 @@ pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
     pieces.into_iter().next().map(|piece| piece.flow)
 }
 
-/// The elements of phase space that an expression names, without those of its own loops.
+/// The elements of phase space that an expression names.
 fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
     let mut found = Vec::new();
     for node in dag.reachable(&[root]) {
@@ -124,6 +145,18 @@ fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
         }
     }
     found
+}
+
+/// The columns it names.
+pub(super) fn columns(dag: &Dag, root: Node) -> Vec<Column> {
+    elements(dag, root).into_iter().map(|e| e.1).collect()
+}
+
+/// Whether no column stands among these with its conjugate: then c·J∇h is constant along the flow.
+pub(super) fn is_linear(columns: &[Column]) -> bool {
+    !columns
+        .iter()
+        .any(|column| columns.contains(&column.conjugate()))
 }
 
 /// The rows it names, sorted.

@@ -286,9 +286,9 @@ fn a_failed_solve_is_reported() {
 /// So many iterations of the fixed point, and as many of Newton's method, are not enough for rounding.
 #[test]
 fn limits_of_iterations_are_kept() {
-    fn stopped(scheme: impl Scheme<f64, Hand<Pendulum, 1>>, most: u32) {
-        let start = State::new([0.7], [0.4]);
-        let mut run = Integrator::new(&pendulum(true), scheme, start, 1.0).unwrap();
+    fn stopped(scheme: impl Scheme<f64, Hand<Paper34, 1>>, most: u32) {
+        let start = State::new([1.0], [0.3]);
+        let mut run = Integrator::new(&Hand(Paper34), scheme, start, 0.25).unwrap();
         match run.advance(1).unwrap_err() {
             Error::Solve { iterations, .. } => assert_eq!(iterations, most),
             other => panic!("{other:?}"),
@@ -301,8 +301,8 @@ fn limits_of_iterations_are_kept() {
         stopped(Variational::<2, 2>::lobatto().at_most(most), most);
     }
     // The control.
-    let start = State::new([0.7], [0.4]);
-    let mut run = Integrator::new(&pendulum(true), Gauss::<2>::default(), start, 1.0).unwrap();
+    let start = State::new([1.0], [0.3]);
+    let mut run = Integrator::new(&Hand(Paper34), Gauss::<2>::default(), start, 0.25).unwrap();
     run.advance(1).unwrap();
 }
 

@@ -3,6 +3,7 @@
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
 
+use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
 
@@ -11,7 +12,7 @@ use alloc::vec::Vec;
 #[non_exhaustive]
 pub enum Error {
     /// The step is zero, NaN or infinite.
-    #[error("a step must be finite and not zero, found {step}")]
+    #[error("a step must be finite and not zero, found {}", Number(*.step))]
     Step {
         /// The step given.
         step: f64,
@@ -45,8 +46,10 @@ pub enum Error {
         first: i64,
     },
     /// A start has a NaN or an infinity in it.
-    #[error("the start is not finite: t = {time}, q = {}, p = {}", Numbers(.q), Numbers(.p))]
+    #[error("the start is not finite: {clock} = {}, q = {}, p = {}", Number(*.time), Numbers(.q), Numbers(.p))]
     Start {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// Its time.
         time: f64,
         /// Its coordinates.
@@ -56,24 +59,29 @@ pub enum Error {
     },
     /// A start at which H or a first derivative of it is NaN or infinite.
     #[error(
-        "{name} is {value}{} at the start t = {time}, q = {}, p = {}: {}",
-        Lane(*.lane), Numbers(.q), Numbers(.p), Remedy(.parameter)
+        "{}{name} is {}{} at the start {clock} = {}, q = {}, p = {}: {}",
+        Part(*.derivative), Number(*.value), Lane(*.lane), Number(*.time), Numbers(.q), Numbers(.p),
+        Remedy(.parameter, *.derivative)
     )]
     Values {
         /// `H`, or a derivative, `∂H/∂q[1]`.
-        name: String,
+        name: Box<str>,
+        /// Over dual numbers, whether `value` is the derivative part: the value itself is finite.
+        derivative: bool,
         /// Its value.
         value: f64,
         /// The first lane in which it is that, where the scalar has several.
         lane: Option<u32>,
         /// The first parameter that is NaN or infinite, `m[1] = NaN`, where there is one.
-        parameter: Option<String>,
+        parameter: Option<Box<str>>,
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time of the start.
         time: f64,
         /// Its coordinates.
-        q: Vec<f64>,
+        q: Box<[f64]>,
         /// Its momenta.
-        p: Vec<f64>,
+        p: Box<[f64]>,
     },
     /// A parameter that is NaN.
     #[error("the parameter `{name}` is NaN, and must be a number")]
@@ -89,8 +97,9 @@ pub enum Error {
     /// A start of a system in another time (`dt = g*ds`) that is not on the shell H = 0, where alone
     /// its orbits are those of the declared system.
     #[error(
-        "the start is not on the shell H = 0: `{momentum}` is {given} and must be {due}; the methods \
-         `on_shell` and `from_declared` set it"
+        "the start is not on the shell H = 0: `{momentum}` is {} and must be {}; the methods \
+         `on_shell` and `from_declared` set it",
+        Number(*.given), Number(*.due)
     )]
     Shell {
         /// The momentum of time.
@@ -101,10 +110,19 @@ pub enum Error {
         due: f64,
     },
     /// The monitor function g of another time, dt = g ds, is not positive.
-    #[error("the monitor function is {value} at the start, and must be positive")]
+    #[error("the monitor function is {} at the start, and must be positive", Number(*.value))]
     Monitor {
         /// Its value there.
         value: f64,
+    },
+    /// A monitor function of momenta, for a scheme that asks for one of coordinates alone.
+    #[error(
+        "the monitor function depends on momenta, and `{scheme}` asks for one of coordinates alone: `Gauss` and \
+         other schemes that ask for no structure take any"
+    )]
+    MonitorOfMomenta {
+        /// The scheme.
+        scheme: &'static str,
     },
     /// A monitor that depends on time, where only q and p may occur.
     #[error(
@@ -128,8 +146,8 @@ pub enum Error {
     /// A step led to a NaN or an infinity: a number grew beyond all bounds, or the exact flow of a
     /// piece left its domain. The run stays at the state before that step.
     #[error(
-        "step {step} led to a state that is not finite{}{}: t = {time}, q = {}, p = {}",
-        Within(*.piece), Lane(*.lane), Numbers(.q), Numbers(.p)
+        "step {step} led to a state that is not finite{}{}: {clock} = {}, q = {}, p = {}",
+        Within(*.piece), Lane(*.lane), Number(*.time), Numbers(.q), Numbers(.p)
     )]
     NotFinite {
         /// The number of the step, counted from 1: the first whose end is not finite.
@@ -138,6 +156,8 @@ pub enum Error {
         piece: Option<&'static str>,
         /// The first lane it happened in, where the scalar has several.
         lane: Option<u32>,
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time at the end of that step.
         time: f64,
         /// The coordinates there.
@@ -148,15 +168,17 @@ pub enum Error {
     /// The equations of an implicit step were not solved. The run stays at the state before that
     /// step.
     #[error(
-        "step {step} from t = {time} was not solved{}: residual {residual:e} after {iterations} iterations; \
+        "step {step} from {clock} = {} was not solved{}: residual {residual:e} after {iterations} iterations; \
          a shorter step, or more iterations, may solve it",
-        Lane(*.lane)
+        Number(*.time), Lane(*.lane)
     )]
     Solve {
         /// The number of the step, counted from 1.
         step: u64,
         /// The first lane that was not solved, where the scalar has several.
         lane: Option<u32>,
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time at its beginning.
         time: f64,
         /// The last change of the iterate, in the sum norm.
@@ -166,8 +188,9 @@ pub enum Error {
     },
     /// No stationary path of a variational integrator was found between the ends given.
     #[error(
-        "no stationary path of a step of {step} from t = {time} was found: residual {residual:e} after \
-         {iterations} iterations; ends nearer to each other, or a shorter step, may have one"
+        "no stationary path of a step of {} from t = {} was found: residual {residual:e} after \
+         {iterations} iterations; ends nearer to each other, or a shorter step, may have one",
+        Number(*.step), Number(*.time)
     )]
     Stationary {
         /// The time at its beginning.
@@ -181,10 +204,13 @@ pub enum Error {
     },
     /// A time that whole steps from the present one do not meet.
     #[error(
-        "t = {target} is no whole number of steps ahead: the nearest times are {before} and {after}; \
-         `advance_until` goes to any time"
+        "{clock} = {} is no whole number of steps ahead: the nearest times are {} and {}; \
+         `advance_until` goes to any time",
+        Number(*.target), Number(*.before), Number(*.after)
     )]
     OffGrid {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time asked for.
         target: f64,
         /// The last reachable time that is not beyond it.
@@ -193,14 +219,22 @@ pub enum Error {
         after: f64,
     },
     /// A time that no number of steps leads to: NaN, infinite, or 2⁵³ steps ahead and more.
-    #[error("t = {target} cannot be reached: give a finite time, less than 2^53 steps ahead")]
+    #[error(
+        "{clock} = {} cannot be reached: give a finite time, less than 2^53 steps ahead", Number(*.target)
+    )]
     Unreachable {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time asked for.
         target: f64,
     },
     /// A time that lies behind the run.
-    #[error("t = {target} lies behind the run, which is at t = {now}")]
+    #[error(
+        "{clock} = {} lies behind the run, which is at {clock} = {}", Number(*.target), Number(*.now)
+    )]
     Behind {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time asked for.
         target: f64,
         /// The present time.
@@ -211,9 +245,12 @@ pub enum Error {
     Uneven,
     /// A time more than one step from the present one.
     #[error(
-        "t = {target} is more than one step from the present: from {from} to {to} can be asked for"
+        "{clock} = {} is more than one step from the present: from {} to {} can be asked for",
+        Number(*.target), Number(*.from), Number(*.to)
     )]
     Far {
+        /// The name of the run's time: `t`, in another time the one that it has there.
+        clock: &'static str,
         /// The time asked for.
         target: f64,
         /// One step back from the present time.
@@ -258,7 +295,8 @@ pub enum Error {
     },
     /// No value of a momentum gives the energy asked for (on the branch asked for).
     #[error(
-        "no `{name}` (component {index}) gives H = {energy}: the nearest H found is {reached}, at {at}"
+        "no `{name}` (component {index}) gives H = {}: the nearest H found is {}, at {}",
+        Number(*.energy), Number(*.reached), Number(*.at)
     )]
     NoMomentum {
         /// The name of the momentum.
@@ -273,7 +311,10 @@ pub enum Error {
         at: f64,
     },
     /// No value of a coordinate was found where an event is 0.
-    #[error("`{event}` changes sign for no `{name}` (component {index}): it is {value} at {from}")]
+    #[error(
+        "`{event}` changes sign for no `{name}` (component {index}): it is {} at {}",
+        Number(*.value), Number(*.from)
+    )]
     NoCrossing {
         /// The name of the event.
         event: &'static str,
@@ -287,7 +328,7 @@ pub enum Error {
         value: f64,
     },
     /// Masses of bodies whose partial sums m_0 + … + m_i are not all positive and finite.
-    #[error("the masses of the bodies up to {body} add up to {sum}")]
+    #[error("the masses of the bodies up to {body} add up to {}", Number(*.sum))]
     Masses {
         /// The last body of the sum.
         body: usize,
@@ -349,6 +390,20 @@ impl core::fmt::Display for Within {
     }
 }
 
+/// A number in the fewest digits that read back to it, with an exponent where it is large or small.
+struct Number(f64);
+
+impl core::fmt::Display for Number {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        // Those that `{:?}` writes so; it writes whole numbers with `.0`.
+        let size = self.0.abs();
+        match size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size) {
+            true => write!(f, "{:e}", self.0),
+            false => write!(f, "{}", self.0),
+        }
+    }
+}
+
 /// Components: the first few of many, and the first of them that is not finite.
 struct Numbers<'a>(&'a [f64]);
 
@@ -370,13 +425,30 @@ impl core::fmt::Display for Numbers<'_> {
     }
 }
 
-/// The way to a start with values.
-struct Remedy<'a>(&'a Option<String>);
+/// `the derivative part of …`, where it is that.
+struct Part(bool);
+
+impl core::fmt::Display for Part {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(if self.0 {
+            "the derivative part of "
+        } else {
+            ""
+        })
+    }
+}
+
+/// The way to a start with values, and with derivative parts where they are missing.
+struct Remedy<'a>(&'a Option<Box<str>>, bool);
 
 impl core::fmt::Display for Remedy<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.0 {
             Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),
+            None if self.1 => write!(
+                f,
+                "start where H and its first and second derivatives are finite"
+            ),
             None => write!(f, "start where H and its first derivatives are finite"),
         }
     }

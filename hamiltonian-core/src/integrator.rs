@@ -21,6 +21,7 @@ use crate::scheme::{Entry, Scheme};
 use crate::state::{Carried, State};
 use crate::system::System;
 use crate::vector::Vector;
+use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -378,13 +379,13 @@ pub(crate) struct SystemText {
 
 impl SystemText {
     /// The first parameter that is NaN or infinite, with its value: `m[1] = NaN`.
-    fn parameter_without_value(&self) -> Option<String> {
+    fn parameter_without_value(&self) -> Option<Box<str>> {
         let mut lines = self.parameters.lines();
         let line = lines.find(|line| {
             let words = line.split(|c: char| !c.is_alphanumeric()).skip(1);
             words.into_iter().any(|word| word == "NaN" || word == "inf")
         });
-        line.map(String::from)
+        line.map(Box::from)
     }
 
     pub(crate) fn of<T: Real, S: System<T>>(system: &S, q: &S::Vector) -> Self {

@@ -10,7 +10,7 @@ use crate::map::{Cause, Clock, Map, Step};
 use crate::observe::{Between, Observer};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
-use crate::system::System;
+use crate::system::{System, clock};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::String;
@@ -75,6 +75,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S
         let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
+                clock: clock::<T, S>(),
                 target: t.to_f64(),
                 from: (now - step).to_f64(),
                 to: (now + step).to_f64(),
@@ -143,6 +144,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
         Err(Error::Solve {
             step: 1,
             lane: None,
+            clock: clock::<T, S>(),
             time: from.t.to_f64(),
             residual: missed,
             iterations: MOST,
@@ -164,6 +166,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
             } => Error::Solve {
                 step: 1,
                 lane,
+                clock: clock::<T, S>(),
                 time: from.t.to_f64(),
                 residual,
                 iterations,
@@ -175,6 +178,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
                     _ => None,
                 },
                 lane,
+                clock: clock::<T, S>(),
                 time: t.to_f64(),
                 q: numbers(&point.q),
                 p: numbers(&point.p),
@@ -243,7 +247,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// Makes steps of unknown duration until `t` is passed.
     fn past(&mut self, t: T) -> Result<State<S::Vector>, Error> {
         if !t.is_finite() {
-            return Err(Error::Unreachable { target: t.to_f64() });
+            return Err(Error::Unreachable {
+                clock: clock::<T, S>(),
+                target: t.to_f64(),
+            });
         }
         let is_forward = T::zero().lt(self.clock.interval).all();
         while !self.ended {
@@ -279,6 +286,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             (Some(before), after) => {
                 let made = self.steps - self.began;
                 Err(Error::OffGrid {
+                    clock: clock::<T, S>(),
                     target: t.to_f64(),
                     before: self.clock.at(made + before).to_f64(),
                     after: self.clock.at(made + after).to_f64(),
@@ -310,12 +318,16 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         let behind = count < made as f64;
         if behind {
             return Err(Error::Behind {
+                clock: clock::<T, S>(),
                 target: t.to_f64(),
                 now: self.clock.at(made).to_f64(),
             });
         }
         if !counted {
-            return Err(Error::Unreachable { target: t.to_f64() });
+            return Err(Error::Unreachable {
+                clock: clock::<T, S>(),
+                target: t.to_f64(),
+            });
         }
         let before = (count as u64).max(made);
         Ok((Some(before - made), before + 1 - made))

@@ -258,6 +258,11 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     fn field(&self, c: T) -> Self::Field;
 }
 
+/// The name of the time of a run: `t`, in another time the one that it has there.
+pub(crate) fn clock<T: Real, S: System<T>>() -> &'static str {
+    S::FICTITIOUS_TIME.unwrap_or("t")
+}
+
 /// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
 pub(crate) fn declared_energy<T: Real, S: System<T>>(
     prepared: &S::Prepared,

@@ -7,7 +7,7 @@ use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::observe::{Observer, View};
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, clock};
 use crate::vector::Vector;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
@@ -89,12 +89,13 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
         let is_due = |t: &V::Scalar| !comes_before(view.state.t, *t) || meets(view.state.t, *t);
         while let Some(t) = self.next.filter(is_due) {
             let is_behind = comes_before(t, before.t) && !meets(t, before.t);
-            if is_behind || !t.is_finite() {
-                return Err(Error::Far {
-                    target: t.to_f64(),
-                    from: before.t.to_f64(),
-                    to: (before.t + view.between.interval()).to_f64(),
-                });
+            let (clock, target) = (clock::<V::Scalar, S>(), t.to_f64());
+            if is_behind {
+                let now = before.t.to_f64();
+                return Err(Error::Behind { clock, target, now });
+            }
+            if !t.is_finite() {
+                return Err(Error::Unreachable { clock, target });
             }
             let state = match meets(t, view.state.t) {
                 true => view.state.clone(),

@@ -115,7 +115,9 @@ impl<S: Sample<f64>> Visitor<f64, S> for Parts {
         // Beyond a step, or no time at all.
         for t in [time + 1.01 * interval, time - 1.01 * interval, f64::NAN] {
             match run.state_at(t).unwrap_err() {
-                Error::Far { target, from, to } => {
+                Error::Far {
+                    target, from, to, ..
+                } => {
                     assert!(target.to_bits() == t.to_bits() && from < to, "{name:?}");
                     let reach = 2.0 * interval;
                     assert!((to - from - reach).abs() < 1e-15, "{name:?}");

@@ -422,7 +422,11 @@ fn outputs_at_times_are_those_of_the_run() {
     let mut behind = new().observe(at_times([-1.0, 1.0], Recorder::new()));
     assert!(matches!(
         behind.advance(1),
-        Err(Error::Far { target: -1.0, .. })
+        Err(Error::Behind {
+            clock: "t",
+            target: -1.0,
+            now: 0.0
+        })
     ));
     // An observer may end the run there.
     let mut run = new().observe(at_times(grid(), Until(0.5)));

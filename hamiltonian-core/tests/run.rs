@@ -117,6 +117,7 @@ fn advance_to_takes_whole_steps_or_none() {
     assert_eq!(
         run.advance_to(1.3).unwrap_err(),
         Error::OffGrid {
+            clock: "t",
             target: 1.3,
             before: 1.0,
             after: 1.5
@@ -125,6 +126,7 @@ fn advance_to_takes_whole_steps_or_none() {
     assert_eq!(
         run.advance_to(0.5).unwrap_err(),
         Error::Behind {
+            clock: "t",
             target: 0.5,
             now: 1.0,
         }
@@ -156,6 +158,7 @@ fn bad_starts_and_steps_are_refused() {
     assert_eq!(
         Integrator::new(&system, RungeKutta4, start, 0.1).unwrap_err(),
         Error::Start {
+            clock: "t",
             time: 2.0,
             q: vec![f64::INFINITY, 0.0],
             p: vec![0.0, 1.0]

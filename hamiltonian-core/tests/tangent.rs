@@ -244,6 +244,35 @@ fn rates_are_in_the_order_of_the_deviations() {
     assert!((two[0] + two[1]).abs() < 1e-12, "{two:?}");
 }
 
+/// H = p²/2 + q^(3/2): finite at q = 0, with a derivative that the product rule does not find there.
+#[derive(Debug, Clone)]
+struct Edge;
+
+impl Formula<1> for Edge {
+    const NAME: &'static str = "Edge";
+    const GROUPS: &'static [Group] = &[scalar("q", "p", 0)];
+    fn energy<T: Real>(&self, _: T, q: &[T; 1], p: &[T; 1]) -> T {
+        p[0] * p[0] * T::constant(0.5, 0.0) + q[0] * q[0].sqrt()
+    }
+}
+
+#[test]
+fn a_start_without_derivative_parts_is_refused() {
+    let start = || State::new([0.0], [1.0]);
+    let refused = Tangent::new(&Hand(Edge), RungeKutta4, start(), 0.1, 1).err();
+    assert_eq!(
+        refused.expect("it has no derivative").to_string(),
+        "the derivative part of H is NaN at the start t = 0, q = [0.0], p = [1.0]: start where H and its first \
+         and second derivatives are finite"
+    );
+    // The control: values themselves.
+    let refused = Integrator::new(&Hand(Edge), RungeKutta4, start(), 0.1).err();
+    assert_eq!(
+        refused.expect("it has no derivative").to_string(),
+        "∂H/∂q is NaN at the start t = 0, q = [0.0], p = [1.0]: start where H and its first derivatives are finite"
+    );
+}
+
 #[test]
 fn deviations_that_there_are_not_are_refused() {
     for (deviations, end) in [(0, "found 0"), (5, "found 5")] {

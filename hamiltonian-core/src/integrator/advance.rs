@@ -10,7 +10,7 @@ use crate::map::Cause;
 use crate::observe::{Observer, View};
 use crate::part::Part;
 use crate::state::{Carried, State};
-use crate::system::System;
+use crate::system::{System, clock};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
@@ -112,6 +112,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                 } => Error::Solve {
                     step,
                     lane,
+                    clock: clock::<T, S>(),
                     time: begin.to_f64(),
                     residual,
                     iterations,
@@ -123,6 +124,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                         _ => None,
                     },
                     lane,
+                    clock: clock::<T, S>(),
                     time: self.state.t.to_f64(),
                     q: numbers(&self.state.q),
                     p: numbers(&self.state.p),

@@ -7,7 +7,7 @@ use super::{SystemText, numbers};
 use crate::error::Error;
 use crate::output::names;
 use crate::state::State;
-use crate::system::{Dynamics, System, declared_energy};
+use crate::system::{Dynamics, System, clock, declared_energy};
 use crate::vector::Vector;
 use alloc::borrow::ToOwned;
 use alloc::format;
@@ -34,6 +34,7 @@ pub(crate) fn check_state<T: Real, S: System<T>>(
         return Ok(());
     }
     Err(Error::Start {
+        clock: clock::<T, S>(),
         time: state.t.to_f64(),
         q: numbers(&state.q),
         p: numbers(&state.p),
@@ -50,14 +51,26 @@ pub(super) fn check_values<T: Real, S: System<T>>(
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
     let bad = |name: String, value: T| {
         let lane = (!value.finite()).first()?;
+        let mut found = value.lane(lane);
+        let derivative = found.is_finite();
+        if derivative {
+            // The value is its first words.
+            value.write_words(&mut |word| {
+                if found.is_finite() {
+                    found = word;
+                }
+            });
+        }
         Some(Error::Values {
-            name,
-            value: value.lane(lane),
+            name: name.into(),
+            derivative,
+            value: found,
             lane: (T::LANES > 1).then_some(lane),
             parameter: SystemText::of(system, &start.q).parameter_without_value(),
+            clock: clock::<T, S>(),
             time: start.t.to_f64(),
-            q: numbers(&start.q),
-            p: numbers(&start.p),
+            q: numbers(&start.q).into(),
+            p: numbers(&start.p).into(),
         })
     };
     if let Some(error) = bad("H".to_owned(), h) {

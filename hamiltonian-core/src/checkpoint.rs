@@ -238,10 +238,22 @@ impl Memory {
     /// Reads that name.
     ///
     /// # Errors
-    /// [`CheckpointError::Other`] if it is another one.
+    /// [`CheckpointError::Other`] if it is another one, or no observer more was saved.
     pub fn expect(&mut self, name: &str) -> Result<(), Error> {
+        // Where nothing is left, fewer observers were saved.
+        match self.is_empty() {
+            true => Checkpoint::same("observer", "", name),
+            false => self.expect_text("observer", name),
+        }
+    }
+
+    /// Reads a text that must be `given`.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Other`] with `what` if it is another one.
+    pub(crate) fn expect_text(&mut self, what: &'static str, given: &str) -> Result<(), Error> {
         let saved = self.read_text()?;
-        Checkpoint::same("observer", &saved, name)
+        Checkpoint::same(what, &saved, given)
     }
 
     /// Reads a count that must be `given`.

@@ -14,6 +14,7 @@ use crate::system::{Dynamics, System};
 use crate::vector::Vector;
 use alloc::borrow::ToOwned;
 use alloc::collections::VecDeque;
+use alloc::format;
 use alloc::string::String;
 use alloc::sync::Arc;
 use alloc::vec::Vec;
@@ -104,6 +105,18 @@ impl<V: Vector> Event<V> {
             ends_after: Some(count),
             ..self
         }
+    }
+
+    /// Its name and the roots that count: a saved run goes on with the same alone. Where it ends the run may be
+    /// changed.
+    fn text(&self) -> String {
+        let direction = match self.slope {
+            0 => "",
+            1.. => ", rising",
+            _ => ", falling",
+        };
+        let period = self.period.map(|period| format!(", modulo {period:?}"));
+        format!("{}{direction}{}", self.name, period.unwrap_or_default())
     }
 
     /// The difference of two values, or of a value and 0, to the nearest of what is the same.
@@ -474,7 +487,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         to.begin("Events");
         to.count(self.tracks.len() as u64);
         for (event, track) in self.events.iter().zip(&self.tracks) {
-            to.text(&event.name);
+            to.text(&event.text());
             to.scalar(track.value);
             to.scalar(track.change);
             to.number(f64::from(track.side));
@@ -499,7 +512,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
         self.begin(view)?;
         from.expect_count("number of events", self.tracks.len())?;
         for (event, track) in self.events.iter().zip(&mut self.tracks) {
-            from.expect(&event.name)?;
+            from.expect_text("event", &event.text())?;
             track.value = from.read_scalar()?;
             track.change = from.read_scalar()?;
             track.side = from.read_number()? as i8;

@@ -4,10 +4,10 @@
 //! CSV. Invariant: a row is t, coordinates, momenta, observables, each in declaration order, a
 //! group of rank 2 body by body.
 
-use crate::checkpoint::Memory;
+use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::Error;
 use crate::observe::{Observer, View};
-use crate::system::{Group, System};
+use crate::system::{Group, System, clock};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::{String, ToString};
@@ -132,7 +132,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
                 .iter()
                 .map(|observable| observable.name.to_string()),
         );
-        let time = S::FICTITIOUS_TIME.unwrap_or("t");
+        let time = clock::<T, S>();
         let mut free = time.to_string();
         for number in 2.. {
             if !self.columns.contains(&free) {
@@ -187,7 +187,9 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
 
     fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Recorder")?;
-        self.energy = from.read_count()? != 0;
+        let column = |energy| if energy { "H" } else { "none" };
+        let saved = column(from.read_count()? != 0);
+        Checkpoint::same("column of the energy", saved, column(self.energy))?;
         self.columns = from.read_list(Memory::read_text)?;
         self.order = from.read_list(|from| Ok(from.read_count()? as usize))?;
         self.values = from.read_list(Memory::read_number)?;

@@ -208,6 +208,35 @@ fn another_run_is_refused() {
         .observe(Recorder::new());
     assert_eq!(other(run.advance(1)), Some("observer"));
     assert_eq!(run.steps(), 3);
+    // One more than was saved, which is no damage.
+    let mut run = Integrator::resume(&system, Strang, saved())
+        .unwrap()
+        .observe((EnergyDrift::new(), Recorder::new()));
+    assert_eq!(
+        run.advance(1).unwrap_err().to_string(),
+        "the saved run has another observer: saved `nothing`, given `Recorder`"
+    );
+    // Other columns, other roots.
+    let columns = [Recorder::new(), Recorder::new().with_energy()];
+    let what = "column of the energy";
+    assert_eq!(goes_on_with(columns.clone(), 0, 1), Some(what));
+    assert_eq!(goes_on_with(columns.clone(), 1, 0), Some(what));
+    assert_eq!(goes_on_with(columns, 1, 1), None);
+    let zero = || Event::of("zero", |state: &StateOf<Hand<Pendulum, 1>>| state.q[0]);
+    let events = [
+        zero(),
+        zero().rising(),
+        zero().falling(),
+        zero().modulo(6.0),
+        zero().ending_after(5),
+    ]
+    .map(|event| Events::new([event]));
+    for other in 1..4 {
+        assert_eq!(goes_on_with(events.clone(), 0, other), Some("event"));
+        assert_eq!(goes_on_with(events.clone(), other, other), None);
+    }
+    // It may end elsewhere.
+    assert_eq!(goes_on_with(events.clone(), 0, 4), None);
     // A system whose parameters are written tells them apart.
     let [one, two] = [1.0, 2.0].map(Spring);
     let run = Integrator::new(&one, RungeKutta4, State::new([0.3], [0.1]), 0.01).unwrap();
@@ -215,6 +244,20 @@ fn another_run_is_refused() {
     assert_eq!(other(found), Some("parameter"));
     let found = Integrator::resume(&one, RungeKutta4, run.checkpoint());
     assert_eq!(other(found), None);
+}
+
+/// The part in which observer `given` differs from the `saved` one, whose run it is to go on with.
+fn goes_on_with<O: Observer<f64, Hand<Pendulum, 1>> + Clone, const N: usize>(
+    observers: [O; N],
+    saved: usize,
+    given: usize,
+) -> Option<&'static str> {
+    let system = pendulum(true);
+    let start = State::new([0.3], [0.1]);
+    let run = Integrator::new(&system, Strang, start, 0.01).unwrap();
+    let run = run.observe(observers[saved].clone());
+    let again = Integrator::resume(&system, Strang, run.checkpoint()).unwrap();
+    other(again.observe(observers[given].clone()).advance(1))
 }
 
 /// The pendulum under a name with a parameter.

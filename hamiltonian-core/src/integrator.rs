@@ -120,7 +120,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
     /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Values`] when H or a
     /// derivative of it is not finite there; [`Error::Shell`] when the system is one in another time
-    /// and the start is off the shell H = 0 by more than a thousandth of the energies in it.
+    /// and the start is off the shell H = 0 by more than a thousandth of the energies in it; those of
+    /// [`Scheme::check`].
     pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
@@ -131,6 +132,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         check_state(system, &start)?;
         let prepared = system.prepare();
         check_values(system, &prepared, &start)?;
+        scheme.check(&prepared, &start)?;
         Ok(Self::begin(system, prepared, scheme, start, step))
     }
 
@@ -175,8 +177,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     /// every path: [`advance`](Integrator::advance), [`advance_to`](Integrator::advance_to),
     /// [`states`](Integrator::states).
     ///
-    /// Several observers are a tuple. An observer is given away and got back by
-    /// [`observer`](Integrator::observer), or lent as `&mut`.
+    /// Several observers are a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`: a run with an
+    /// observer has no second `observe`, and [`watch`](Integrator::watch) comes after it. An observer is
+    /// given away and got back by [`observer`](Integrator::observer), or lent as `&mut`.
     pub fn observe<O: Observer<T, S>>(mut self, mut observer: O) -> Integrator<T, S, R, O> {
         self.attach(&mut observer);
         self.with_observer(|()| observer)

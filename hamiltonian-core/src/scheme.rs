@@ -4,6 +4,7 @@
 //! carries. Invariant: what a scheme asks of a system is the bound of its implementation, so a wrong
 //! pairing is a compile error.
 
+use crate::error::Error;
 use crate::map::{Map, Step};
 use crate::state::{Carried, State};
 use crate::system::System;
@@ -96,6 +97,14 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
     /// Folds the step into the flows. This does not allocate.
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
+    /// An error where it cannot integrate this system from this state, as far as the bounds of the
+    /// implementation do not tell; the provided one knows of none.
+    ///
+    /// # Errors
+    /// [`Error::MonitorOfMomenta`].
+    fn check(&self, _: &S::Prepared, _: &State<S::Vector>) -> Result<(), Error> {
+        Ok(())
+    }
     /// The same after a step of `before`, which may have made other choices: the closing piece that
     /// [`Map::join`] absorbs is that of `before`. None where the two cannot be joined.
     #[inline(always)]

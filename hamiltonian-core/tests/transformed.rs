@@ -217,18 +217,18 @@ fn what_is_no_monitor_is_refused() {
     let refused = system.start::<f64, _>(&nowhere).expect_err("g = 0");
     assert_eq!(refused, Error::Monitor { value: 0.0 });
     let system = in_radius(true);
-    let start = system.start(&pericentre::<f64>(0.6)).expect("a good start");
-    let mut off = start.clone();
-    let mut run =
-        Integrator::new(&system, TransformedVerlet::default(), start, 0.1).expect("a good start");
-    let error = run
-        .advance(1)
-        .expect_err("a monitor of momenta")
-        .to_string();
-    assert!(
-        error.contains("monitor, which must not depend on momenta"),
-        "{error}"
-    );
+    let mut off = system.start(&pericentre::<f64>(0.6)).expect("a good start");
+    // At rest too, where ∂g/∂p is 0.
+    let rest = (system.start(&State::new([1.0, 0.0], [0.0, 0.0]))).expect("a good start");
+    let verlet = TransformedVerlet::default();
+    let scheme = "TransformedVerlet";
+    for start in [off.clone(), rest.clone()] {
+        let alone = Integrator::new(&system, verlet, start.clone(), 0.1).err();
+        assert_eq!(alone, Some(Error::MonitorOfMomenta { scheme }));
+        let composed = Integrator::new(&system, KahanLi6.of(verlet), start, 0.1).err();
+        assert_eq!(composed, Some(Error::MonitorOfMomenta { scheme }));
+    }
+    Integrator::new(&in_radius(false), verlet, rest, 0.1).expect("a monitor of coordinates");
     off.p.y[0] += 0.1;
     let refused =
         Integrator::new(&system, Gauss::<2>::default(), off, 0.1).expect_err("off the shell");
@@ -241,5 +241,38 @@ fn what_is_no_monitor_is_refused() {
             }
         ),
         "{refused}"
+    );
+}
+
+/// Errors call the time of a run by its name, and write large ones with an exponent.
+#[test]
+fn errors_name_the_time() {
+    let system = in_radius(false);
+    let start = system.start(&pericentre::<f64>(0.6)).expect("a good start");
+    let scheme = Gauss::<2>::default();
+    let mut run = Integrator::new(&system, scheme, start.clone(), 0.125).expect("a good start");
+    let message = |error: Option<Error>| error.expect("it is refused").to_string();
+    run.advance(2).expect("good steps");
+    assert_eq!(
+        message(run.advance_to(0.3).err()),
+        "s = 0.3 is no whole number of steps ahead: the nearest times are 0.25 and 0.375; `advance_until` goes to any \
+         time"
+    );
+    assert_eq!(
+        message(run.advance_until(-1e200).err()),
+        "s = -1e200 lies behind the run, which is at s = 0.25"
+    );
+    let beyond = message(run.advance_until(1e200).err());
+    assert!(
+        beyond.starts_with("s = 1e200 cannot be reached"),
+        "{beyond}"
+    );
+    let far = message(run.state_at(1e-7).err());
+    assert!(far.starts_with("s = 1e-7 is more than one step"), "{far}");
+    let mut run = Integrator::new(&system, scheme.at_most(1), start, 0.125).expect("a good start");
+    let unsolved = message(run.advance(1).err());
+    assert!(
+        unsolved.starts_with("step 1 from s = 0 was not solved"),
+        "{unsolved}"
     );
 }

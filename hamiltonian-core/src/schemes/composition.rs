@@ -6,6 +6,7 @@
 use super::iterate::{Contraction, iterate};
 use super::table::Weight;
 use super::tables::{Coefficients, general as tables};
+use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Cause, Either, Map, ScalarOf, Step};
 use crate::scheme::{Entry, Listed, OneStep, Scheme, Symmetric};
@@ -156,6 +157,9 @@ where
     M: OneStep + Scheme<T, S>,
 {
     type Map = Either<Composed<M::Map, STAGES, true>, Composed<M::Map, STAGES, false>>;
+    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+        self.stages[0].0.check(prepared, state)
+    }
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         let (last, weight) = &self.stages[STAGES - 1];
@@ -333,6 +337,9 @@ where
     M::Map: Map<Carried = Point<S::Vector>>,
 {
     type Map = Inverted<M::Map>;
+    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+        self.0.check(prepared, state)
+    }
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Inverted {
             back: self.0.prepare(prepared, Step::of(-step.h)),

@@ -3,6 +3,7 @@
 //! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric in the
 //! point and the density together, so no drift comes in that a fixed step would not have.
 
+use crate::error::Error;
 use crate::flow::{Scratch, VectorField};
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, OneStep, Scheme};
@@ -138,6 +139,9 @@ where
     G: Density<S::Vector>,
 {
     type Map = Pacing<T, S, M, G>;
+    fn check(&self, prepared: &S::Prepared, state: &State<S::Vector>) -> Result<(), Error> {
+        self.scheme.check(prepared, state)
+    }
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
         Pacing {
             prepared: prepared.clone(),

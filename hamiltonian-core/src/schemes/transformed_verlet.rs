@@ -4,6 +4,7 @@
 //! Invariant: one ∂V/∂q a step; implicit are two equations for a number each.
 
 use super::iterate::{Contraction, iterate};
+use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
@@ -115,6 +116,28 @@ where
     G: System<T, Vector = S::Vector> + Unforced + Autonomous,
 {
     type Map = VerletInNewTime<T, S::Prepared, G::Prepared>;
+    /// ∂g/∂p is 0 here and at momenta beside, since it may vanish at rest alone.
+    fn check(
+        &self,
+        prepared: &InNewTime<S::Prepared, G::Prepared>,
+        state: &State<WithTime<S::Vector>>,
+    ) -> Result<(), Error> {
+        let (q, mut p) = (&state.q.x, state.p.x.clone());
+        let mut slope = p.zeros_like();
+        for moved in [0.0, 1.0] {
+            for index in 0..p.len() {
+                // Beside zeros of differences too.
+                let by = moved * (1.0 + index as f64).sqrt();
+                *p.component_mut(index) += T::constant(by, 0.0);
+            }
+            prepared.monitor.gradient_p(T::zero(), q, &p, &mut slope);
+            if slope.components().any(|x| x.magnitude() > 0.0) {
+                let scheme = self.entry().name;
+                return Err(Error::MonitorOfMomenta { scheme });
+            }
+        }
+        Ok(())
+    }
     fn prepare(&self, prepared: &InNewTime<S::Prepared, G::Prepared>, step: Step<T>) -> Self::Map {
         VerletInNewTime {
             dynamics: prepared.clone(),

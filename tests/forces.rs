@@ -4,7 +4,7 @@
 use crate::allocator::allocations;
 use crate::common::order::slope;
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_split};
+use hamiltonian::schemes::{Visitor, visit_any, visit_implicit, visit_separable, visit_split};
 use hamiltonian::{DoubleDouble, Scheme, Separable, Split, hamiltonian};
 
 hamiltonian! {
@@ -170,9 +170,10 @@ where
     S: Separable<D> + Split<D>,
 {
     visit_any(&mut slopes);
+    visit_implicit(&mut slopes);
     visit_separable(&mut slopes);
     visit_split(&mut slopes);
-    assert!(slopes.measured >= 7);
+    assert!(slopes.measured >= 11);
 }
 
 fn at(q: f64, p: f64) -> State<hamiltonian::private::SVector<D, 1>> {

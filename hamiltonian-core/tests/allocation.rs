@@ -59,6 +59,7 @@ fn no_step_allocates() {
     visit_separable::<f64, _>(&mut pendulum);
     visit_split::<f64, _>(&mut pendulum);
     visit_implicit::<f64, _>(&mut pendulum);
+    visit_energy::<f64, _>(&mut pendulum);
     visit_doubled::<f64, _>(&mut pendulum);
     visit_compensated::<f64, _>(&mut pendulum);
     Visitor::<f64, _>::visit(&mut chain, Variational::<1, 2>::lobatto());

@@ -48,7 +48,7 @@ macro_rules! catalogue {
     (any { $($any:expr,)+ } unforced { $($(@$unforced_kind:ident)? $unforced:expr,)+ }
      split { $($split:expr,)+ } exact { $($exact:expr,)+ }
      separable { $($separable:expr,)+ } nystrom { $($nystrom:expr,)+ } quadratic { $($quadratic:expr,)+ }
-     implicit { $($implicit:expr,)+ } doubled { $($(@$doubled_kind:ident)? $doubled:expr,)+ }
+     implicit { $($implicit:expr,)+ } energy { $($energy:expr,)+ } doubled { $($(@$doubled_kind:ident)? $doubled:expr,)+ }
      compensated { $($compensated:expr,)+ } transformed { $($transformed:expr,)+ }) => {
         /// The entries of all schemes, those for any H first.
         ///
@@ -59,7 +59,7 @@ macro_rules! catalogue {
         /// ```
         pub fn catalogue() -> impl Iterator<Item = Entry> {
             [$($unforced.entry(),)+ $($any.entry(),)+ $($split.entry(),)+ $($exact.entry(),)+ $($separable.entry(),)+
-                $($nystrom.entry(),)+ $($quadratic.entry(),)+ $($implicit.entry(),)+ $($doubled.entry(),)+
+                $($nystrom.entry(),)+ $($quadratic.entry(),)+ $($implicit.entry(),)+ $($energy.entry(),)+ $($doubled.entry(),)+
                 $($compensated.entry(),)+ $($transformed.entry(),)+]
                 .into_iter()
         }
@@ -94,9 +94,14 @@ macro_rules! catalogue {
             $(visit!(visitor, $nystrom);)+
         }
 
-        /// Visits the schemes of higher order that solve equations.
-        pub fn visit_implicit<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+        /// Visits the schemes of the stages of a quadrature, which serve any H, with forces.
+        pub fn visit_implicit<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $implicit);)+
+        }
+
+        /// Visits the schemes that preserve H; they ask for no forces.
+        pub fn visit_energy<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
+            $(visit!(visitor, $energy);)+
         }
 
         /// Visits the schemes by tables on two copies.
@@ -190,13 +195,15 @@ implicit {
     Variational::<1, 2>::lobatto(),
     Variational::<2, 2>::lobatto(),
     MomentumVariational::<2>::default(),
+}
+energy {
     DiscreteGradient::default(),
-    Semiexplicit::<Strang>::default(),
 }
 doubled {
     Tao::default(),
     @carries Mixed::<Strang>::default(),
     @carries MidpointProjected::<Strang>::default(),
+    Semiexplicit::<Strang>::default(),
 }
 compensated {
     Compensated(Strang),

@@ -89,9 +89,9 @@ mod transformed_verlet;
 mod catalogue;
 
 pub use catalogue::{
-    Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_exact, visit_implicit,
-    visit_nystrom, visit_quadratic, visit_separable, visit_split, visit_transformed,
-    visit_unforced,
+    Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
+    visit_implicit, visit_nystrom, visit_quadratic, visit_separable, visit_split,
+    visit_transformed, visit_unforced,
 };
 pub use compensated::{Carrying, Compensated};
 pub use composition::{Adjoint, Composed, Composition, Inverted, InvertedWork};

@@ -92,6 +92,7 @@ where
     visit_any::<T, Hand<Swaying, 1>>(&mut walk);
     visit_unforced::<T, Hand<Swaying, 1>>(&mut walk);
     visit_implicit::<T, Hand<Swaying, 1>>(&mut walk);
+    visit_energy::<T, Hand<Swaying, 1>>(&mut walk);
     visit_doubled::<T, Hand<Swaying, 1>>(&mut walk);
     visit_split::<T, Hand<Pumped, 1>>(&mut walk);
     visit_exact::<T, Hand<Pumped, 1>>(&mut walk);

@@ -34,7 +34,8 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the H of another system of
 /// the same shape ([`new`](TimeTransformed::new)), which brings the derivatives. A definition whose H
 /// depends on no momentum is refused, so a g(q) is a monitor, or a [`System`] written by hand. In a
-/// `hamiltonian!` definition `dt = g*ds` says the same for one g, and H and g may depend on t there.
+/// `hamiltonian!` definition `dt = g*ds` says the same for one g, and H and g may depend on t there; so may a
+/// force act, with which a system is refused here.
 ///
 /// A step that is symplectic for K is so in (q, t, p, p_t):
 /// [`TransformedVerlet`](crate::schemes::TransformedVerlet) for H = ½pᵀM⁻¹p + V(q) and g(q), with its

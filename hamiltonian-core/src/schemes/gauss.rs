@@ -12,7 +12,8 @@ use crate::system::{Dynamics, System};
 use core::fmt;
 use hamiltonian_lanes::Real;
 
-/// Gauss collocation with `S` stages: order 2S, symplectic for every H, time-reversible.
+/// Gauss collocation with `S` stages: order 2S, symplectic for every H, time-reversible. The number of stages is
+/// always written, `Gauss::<2>::default()`.
 ///
 /// ```text
 /// Fᵢ = J∇H(z[n] + h Σ aᵢⱼ Fⱼ, t[n] + cᵢh);   z[n+1] = z[n] + h Σ bᵢ Fᵢ

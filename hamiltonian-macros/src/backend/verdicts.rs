@@ -81,7 +81,9 @@ pub fn verdicts(
                     of(model)
                 ),
                 label: "needs a system without a force".into(),
-                note: FORCED.into(),
+                note: format!(
+                    "{FORCED}; `dt = …*ds` in the definition takes it along into another time"
+                ),
             }),
         },
         exact,

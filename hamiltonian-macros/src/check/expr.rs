@@ -463,12 +463,19 @@ impl Checker<'_> {
 
     fn vector(&mut self, raw: ExprId, items: &[ExprId], frame: &Frame) -> Option<NodeId> {
         let values = self.operands(items, frame, Type::is_scalar, |checker, item, ty| {
-            let name = checker.name_of(item).unwrap_or("a");
             let message = format!(
                 "the components of a vector are scalars, but this is {}",
                 checker.type_shown(ty)
             );
-            let help = format!("write each component: `[{name}[0], {name}[1], …]`");
+            let help = match checker.ast.nodes[item.0 as usize].kind {
+                ExprKind::Vector(_) => {
+                    "declare a matrix as a parameter: `M: [2][2] = [[1.0, 2.0], [3.0, 4.0]]`".into()
+                }
+                _ => {
+                    let name = checker.name_of(item).unwrap_or("a");
+                    format!("write each component: `[{name}[0], {name}[1], …]`")
+                }
+            };
             (message, help)
         })?;
         let ty = Type::Vector(Extent::Literal(values.len() as u64));

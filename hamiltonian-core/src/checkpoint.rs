@@ -240,7 +240,7 @@ impl Memory {
     /// # Errors
     /// [`CheckpointError::Other`] if it is another one, or no observer more was saved.
     pub fn expect(&mut self, name: &str) -> Result<(), Error> {
-        // Where nothing is left, fewer observers were saved.
+        // Fewer observers were saved if nothing is left.
         match self.is_empty() {
             true => Checkpoint::same("observer", "", name),
             false => self.expect_text("observer", name),

@@ -15,7 +15,7 @@ use hamiltonian_symbolic::structure::{Coupling, Structure, kick_beside};
 const FORCED: &str = "where H is split, `Strang` and its compositions integrate a force; \
     `ImplicitMidpoint` and its compositions, `Gauss`, `Variational` and `RungeKutta4` take any H with any force";
 
-/// What keeps a system from being a kick beside a piece at most quadratic in the momenta.
+/// The obstacle to a system being a kick beside a piece at most quadratic in the momenta.
 enum Obstacle {
     H(String),
     Force(&'static str),

@@ -587,7 +587,7 @@ impl Checker<'_> {
     }
 }
 
-/// What makes a number of a comparison.
+/// The remedy for a comparison in the place of a number.
 fn choice(op: &str) -> String {
     format!("write `if a {op} b {{ … }} else {{ … }}`")
 }

@@ -23,7 +23,7 @@ impl Checker<'_> {
         let symbol = self.ast.scopes[scope.0 as usize].symbol;
         self.loop_name_is_new(raw, scope, symbol, frame);
         let bounds_known = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
-        // Where that fails there is no loop to reason about, but the name is known.
+        // If that fails there is no loop to reason about, but the name is known.
         self.scope_loops[scope.0 as usize] = None;
         let (Some(lower), Some(upper)) = bounds_known else {
             return;

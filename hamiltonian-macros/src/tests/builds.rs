@@ -184,7 +184,7 @@ fn elements_named_one_by_one_cost_what_scalars_cost() {
     }
 }
 
-/// What rustc reads grows with H: past `LARGE` nodes the gradient stands in for the functions
+/// The code grows with H: past `LARGE` nodes the gradient stands in for the functions
 /// that it is made of, and every one is still there.
 #[test]
 fn a_large_h_is_written_out_fewer_times() {

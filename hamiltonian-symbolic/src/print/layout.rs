@@ -55,7 +55,7 @@ pub(super) enum Piece {
     Close,
 }
 
-/// What one notation writes in its own way: words, and the parts that stand in another order.
+/// The differences of a notation: its words, and the parts that it writes in another order.
 #[derive(Debug)]
 pub(super) struct Style {
     pub(super) pi: &'static str,

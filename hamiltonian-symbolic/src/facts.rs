@@ -1,95 +1,121 @@
 //! Regularity of expressions: one pass over the arena that proofs read.
 //!
-//! Input: roots. Output: for each node below them its regularity as a function of what moves
-//! (coordinates, momenta, time), for all parameters and sizes. Functions say their part in the
-//! operation table; signs are facts of the arena itself ([`Dag::is_nonnegative`]).
+//! Input: roots, and what is known of their orbits ([`Given`]). Output: for each node below them its
+//! regularity as a function of what moves (coordinates, momenta, time), for all parameters and sizes.
+//! Functions say their part in the operation table; signs are facts of the arena itself
+//! ([`Dag::is_nonnegative`]).
 //!
-//! All statements are about points outside sets of two dimensions less than the whole, such as
-//! r = 0 in space: they separate nothing, and what is constant along the trajectories that miss
-//! them is so, by continuity, along the others.
+//! [`Facts::of`] makes its statements about points outside sets of two dimensions less than the
+//! whole, such as r = 0 in space. They separate nothing: under a flow that is continuous with its
+//! inverse, almost every trajectory misses them, and what is constant along these is constant along the
+//! others by continuity. On a shell, or under a force whose flow is not continuous, this argument
+//! fails: [`Facts::everywhere`] makes its statements about every point.
 //!
 //! Invariant: a flag is set only by a rule that holds at all such points.
 
+use crate::dag::bounds::is_nonnegative_product;
 use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};
 use crate::model::Model;
 use crate::op::{At, Break, Domain as Values, Far, Op, Range};
 use crate::print;
+use crate::rational::Rational;
 
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regular {
+    /// The same at every point of an orbit.
+    pub is_still: bool,
     /// Analytic, with a value at every point.
     pub is_analytic: bool,
     /// Continuous, with a value at every point.
     pub is_continuous: bool,
+    /// Locally Lipschitz, with a value at every point.
+    pub is_lipschitz: bool,
     /// A quotient of analytic functions.
     pub is_meromorphic: bool,
-    /// Analytic and of one value at every complex point near a real one, but for a set that
-    /// separates nothing: exp(1/q) is, ln q and |q| are not.
-    pub is_single_valued: bool,
     /// Continuous into the line that one point ∞ closes: 1/|q| is, |q|/q is not.
     pub is_projective: bool,
-    /// Never 0, and not near 0 either; or 0 everywhere.
-    pub is_nonzero: bool,
+    /// Never 0, and not near 0 at any point, whatever the parameters.
+    pub has_no_zero: bool,
+    /// For each choice of the parameters: never 0 as above, or 0 everywhere.
+    pub has_no_moving_zero: bool,
 }
 
 impl Regular {
-    /// An expression that does not move.
+    /// An expression that does not move. A parameter may be 0.
     const STILL: Regular = Regular {
+        is_still: true,
         is_analytic: true,
         is_continuous: true,
+        is_lipschitz: true,
         is_meromorphic: true,
-        is_single_valued: true,
         is_projective: true,
-        is_nonzero: true,
+        has_no_zero: false,
+        has_no_moving_zero: true,
     };
     /// A coordinate.
     const PLAIN: Regular = Regular {
-        is_nonzero: false,
+        is_still: false,
+        has_no_moving_zero: false,
         ..Regular::STILL
     };
     /// Nothing is known.
     const UNKNOWN: Regular = Regular {
+        is_still: false,
         is_analytic: false,
         is_continuous: false,
+        is_lipschitz: false,
         is_meromorphic: false,
-        is_single_valued: false,
         is_projective: false,
-        is_nonzero: false,
+        has_no_zero: false,
+        has_no_moving_zero: false,
+    };
+    /// What is neutral among the properties that all of some nodes have.
+    const ALL: Regular = Regular {
+        has_no_zero: true,
+        ..Regular::STILL
     };
 
     /// The properties that both have.
     #[must_use]
     pub fn and(self, other: Regular) -> Regular {
         Regular {
+            is_still: self.is_still && other.is_still,
             is_analytic: self.is_analytic && other.is_analytic,
             is_continuous: self.is_continuous && other.is_continuous,
+            is_lipschitz: self.is_lipschitz && other.is_lipschitz,
             is_meromorphic: self.is_meromorphic && other.is_meromorphic,
-            is_single_valued: self.is_single_valued && other.is_single_valued,
             is_projective: self.is_projective && other.is_projective,
-            is_nonzero: self.is_nonzero && other.is_nonzero,
+            has_no_zero: self.has_no_zero && other.has_no_zero,
+            has_no_moving_zero: self.has_no_moving_zero && other.has_no_moving_zero,
         }
     }
 
-    /// The flags with those that follow from them.
-    fn closed(mut self) -> Regular {
+    /// The flags with those that follow from them. A quotient of analytic functions is continuous into
+    /// the closed line but for 0/0, a set of two dimensions less.
+    fn closed(mut self, points: Points) -> Regular {
         self.is_continuous |= self.is_analytic;
+        self.is_lipschitz |= self.is_analytic;
         self.is_meromorphic |= self.is_analytic;
-        self.is_single_valued |= self.is_meromorphic;
-        self.is_projective |= self.is_continuous || self.is_meromorphic;
+        self.is_projective |= self.is_continuous || self.is_meromorphic && points == Points::Most;
+        self.has_no_moving_zero |= self.has_no_zero || self.is_still;
         self
     }
 
-    /// The reciprocal.
-    fn recip(self) -> Regular {
+    /// The reciprocal. Where the expression is 0 for some parameters and everywhere, the reciprocal is
+    /// nowhere defined, and nothing is stated.
+    fn recip(self, points: Points) -> Regular {
+        let is_finite = self.has_no_moving_zero;
         Regular {
-            is_analytic: self.is_analytic && self.is_nonzero,
-            is_continuous: self.is_projective && self.is_nonzero,
-            is_nonzero: self.is_continuous,
+            is_analytic: self.is_analytic && is_finite,
+            is_continuous: self.is_projective && is_finite,
+            is_lipschitz: self.is_lipschitz && is_finite,
+            has_no_zero: self.is_continuous,
+            has_no_moving_zero: self.is_continuous,
             ..self
         }
-        .closed()
+        .closed(points)
     }
 }
 
@@ -102,37 +128,75 @@ pub struct Locus {
     pub x: Node,
     /// The second argument, or the first again.
     pub y: Node,
-    /// Whether something jumps there by itself, rather than grow beyond all bounds.
-    pub jumps: bool,
 }
 
-/// Conditions whose branches agree where they switch.
-pub type Meeting = Map<Node, ()>;
+/// The points that statements are about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Points {
+    /// Every point.
+    All,
+    /// The points outside sets of two dimensions less than the whole.
+    Most,
+}
+
+/// What is known of nodes beforehand.
+#[derive(Clone, Default, Debug)]
+pub struct Given {
+    /// Conditions whose branches agree where the two sides compared are equal.
+    pub meeting: Map<Node, ()>,
+    /// Expressions that are constant along each orbit.
+    pub constant: Map<Node, ()>,
+    /// Expressions that are not 0, nor near 0 at any point, wherever orbits come.
+    pub nonzero: Map<Node, ()>,
+}
 
 /// The regularity of the nodes below some roots.
 #[derive(Debug)]
 pub struct Facts {
     of: Map<Node, Regular>,
+    points: Points,
     /// The sets where something has a pole or jumps, in order of first use.
     pub loci: Vec<Locus>,
 }
 
 impl Facts {
-    /// The pass.
+    /// The pass, about all points but sets of two dimensions less.
     #[must_use]
-    pub fn of(dag: &Dag, roots: &[Node], meeting: &Meeting) -> Facts {
+    pub fn of(dag: &Dag, roots: &[Node], given: &Given) -> Facts {
+        Facts::about(Points::Most, dag, roots, given)
+    }
+
+    /// The pass, about every point.
+    #[must_use]
+    pub fn everywhere(dag: &Dag, roots: &[Node], given: &Given) -> Facts {
+        Facts::about(Points::All, dag, roots, given)
+    }
+
+    fn about(points: Points, dag: &Dag, roots: &[Node], given: &Given) -> Facts {
         let mut facts = Facts {
             of: Map::default(),
+            points,
             loci: Vec::new(),
         };
         for node in dag.reachable(roots) {
-            let regular = if dag.dependence(node).on(Dependence::MOVING) {
-                facts.moving(dag, node, meeting).closed()
-            } else {
-                Regular::STILL
-            };
-            facts.of.insert(node, regular);
+            let mut is_still = given.constant.contains_key(&node);
+            if !is_still && !is_moving_leaf(dag, node) {
+                is_still = true;
+                dag.for_children(node, |child| is_still &= facts.get(child).is_still);
+            }
+            let mut regular = facts.regular(dag, node, given);
+            if is_still {
+                regular = Regular {
+                    has_no_zero: regular.has_no_zero,
+                    ..Regular::STILL
+                };
+            }
+            regular.has_no_zero |= given.nonzero.contains_key(&node);
+            facts.of.insert(node, regular.closed(points));
         }
+        let Facts { of, loci, .. } = &mut facts;
+        let is_still = |node: Node| of.get(&node).is_some_and(|regular| regular.is_still);
+        loci.retain(|locus| !(is_still(locus.x) && is_still(locus.y)));
         facts
     }
 
@@ -142,20 +206,30 @@ impl Facts {
         self.of.get(&node).copied().unwrap_or(Regular::UNKNOWN)
     }
 
-    fn moving(&mut self, dag: &Dag, node: Node, meeting: &Meeting) -> Regular {
+    fn regular(&mut self, dag: &Dag, node: Node, given: &Given) -> Regular {
         match dag.kind(node) {
+            Kind::Constant(value) => Regular {
+                has_no_zero: !value.is_zero(),
+                ..Regular::STILL
+            },
+            Kind::Pi => Regular::ALL,
             Kind::Element(..) | Kind::Time => Regular::PLAIN,
             Kind::Sum(..) => self.sum(dag, node),
-            Kind::Product(_, factors) => self.product(dag, factors),
+            Kind::Product(k, factors) => {
+                let regular = self.product(dag, factors);
+                Regular {
+                    has_no_zero: regular.has_no_zero && !k.is_zero(),
+                    ..regular
+                }
+            }
             Kind::Call(op, x) => self.call(dag, *op, x),
             Kind::External(_, _, x) => {
                 // Functions in Rust are taken for analytic.
-                let all = x
-                    .iter()
-                    .fold(Regular::STILL, |all, x| all.and(self.get(*x)));
+                let all = x.iter().fold(Regular::ALL, |all, x| all.and(self.get(*x)));
                 Regular {
                     is_analytic: all.is_analytic,
                     is_continuous: all.is_continuous,
+                    is_lipschitz: all.is_lipschitz,
                     ..Regular::UNKNOWN
                 }
             }
@@ -163,27 +237,36 @@ impl Facts {
                 let body_is = self.get(*body);
                 let is_apart = || {
                     let place = self.meeting_place(dag, *body);
-                    place.is_some_and(|place| is_pair(dag, place))
+                    self.points == Points::Most && place.is_some_and(|place| is_pair(dag, place))
                 };
                 Regular {
                     is_projective: body_is.is_projective
-                        && (dag.is_nonnegative(*body) || is_apart()),
-                    is_nonzero: body_is.is_nonzero && dag.is_nonnegative(*body),
+                        && (body_is.is_continuous || dag.is_nonnegative(*body) || is_apart()),
+                    // The range may be empty.
+                    has_no_zero: false,
+                    has_no_moving_zero: body_is.has_no_moving_zero && dag.is_nonnegative(*body),
                     ..body_is
                 }
             }
             Kind::Select(condition, yes, no) => {
                 let both = self.get(*yes).and(self.get(*no));
-                if !dag.dependence(*condition).on(Dependence::MOVING) {
+                if self.get(*condition).is_still {
                     return both;
                 }
-                if !(meeting.contains_key(&node) && both.is_continuous) {
+                // Where the branches agree at a = b, and a and b are continuous, a path from a < b to
+                // a > b goes through points where they agree. Sides that jump need not be equal anywhere.
+                let mut sides = comparisons(dag, *condition).into_iter();
+                let sides_are_continuous =
+                    sides.all(|(a, b)| self.get(a).and(self.get(b)).is_continuous);
+                let is_joined = given.meeting.contains_key(&node) && sides_are_continuous;
+                if !(is_joined && both.is_continuous) {
                     self.switches(dag, *condition);
                     return Regular::UNKNOWN;
                 }
                 Regular {
                     is_continuous: true,
-                    is_nonzero: both.is_nonzero,
+                    is_lipschitz: both.is_lipschitz,
+                    has_no_zero: both.has_no_zero,
                     ..Regular::UNKNOWN
                 }
             }
@@ -193,17 +276,14 @@ impl Facts {
 
     /// The places where a condition switches.
     fn switches(&mut self, dag: &Dag, condition: Node) {
-        for node in dag.reachable(&[condition]) {
-            if let Kind::Compare(_, a, b) = dag.kind(node) {
-                self.note(dag, At::Equal, *a, *b, true);
-            }
+        for (a, b) in comparisons(dag, condition) {
+            self.note(At::Equal, a, b);
         }
     }
 
-    fn note(&mut self, dag: &Dag, at: At, x: Node, y: Node, jumps: bool) {
-        let is_moving = |n: Node| dag.dependence(n).on(Dependence::MOVING);
-        let locus = Locus { at, x, y, jumps };
-        if (is_moving(x) || is_moving(y)) && !self.loci.contains(&locus) {
+    fn note(&mut self, at: At, x: Node, y: Node) {
+        let locus = Locus { at, x, y };
+        if !self.loci.contains(&locus) {
             self.loci.push(locus);
         }
     }
@@ -213,7 +293,7 @@ impl Facts {
             return Regular::UNKNOWN;
         };
         let each = || terms.iter().map(|(_, term)| self.get(*term));
-        let all = each().fold(Regular::STILL, Regular::and);
+        let all = each().fold(Regular::ALL, Regular::and);
         // Finite terms and quotients add up; of other infinities there may be one, or any number of
         // the same sign.
         let infinite: Vec<usize> = (0..terms.len())
@@ -244,51 +324,70 @@ impl Facts {
         let are_apart = || {
             infinite.iter().enumerate().all(|(n, a)| {
                 let mut rest = infinite[n + 1..].iter();
-                rest.all(|b| have_nothing_in_common(dag, terms[*a].1, terms[*b].1))
+                rest.all(|b| self.meet_rarely(dag, terms[*a].1, terms[*b].1))
             })
         };
-        let are_apart = || are_apart() || places.is_some_and(|places| !has_pair_twice(places));
+        let are_apart = || {
+            self.points == Points::Most
+                && (are_apart() || places.is_some_and(|places| !has_pair_twice(places)))
+        };
         let is_projective =
             all.is_projective && (infinite.len() <= 1 || positive || negative || are_apart());
         let nodes: Vec<Node> = terms.iter().map(|(_, term)| *term).collect();
-        let is_nonzero =
-            dag.is_nonnegative(node) && (!c.is_zero() || self.are_nonzero_together(dag, &nodes));
+        let is_nonnegative = dag.is_nonnegative(node);
+        // Terms ≥ 0 are 0 together only; those that are 0 for some parameters are so everywhere.
+        let has_still_zeros = each().all(|term| term.has_no_moving_zero);
         Regular {
             is_projective,
-            is_nonzero,
+            has_no_zero: is_nonnegative && (!c.is_zero() || self.have_no_common_zero(dag, &nodes)),
+            has_no_moving_zero: is_nonnegative && has_still_zeros,
             ..all
         }
     }
 
-    /// Whether the common zeros of some expressions are nothing, or a set that separates nothing:
-    /// of one of them, or of two that have no coordinate, momentum or time in common.
-    fn are_nonzero_together(&self, dag: &Dag, nodes: &[Node]) -> bool {
-        let is_moving = |node: &Node| dag.dependence(*node).on(Dependence::MOVING);
-        // A parameter may be 0: it is no bound of a sum.
-        let mut bounds = nodes.iter().filter(|node| self.get(**node).is_nonzero);
-        bounds.any(is_moving)
+    /// Whether the common zeros of some expressions are nothing, or a set of two dimensions less
+    /// where such sets do not count: of two that have no coordinate, momentum or time in common.
+    fn have_no_common_zero(&self, dag: &Dag, nodes: &[Node]) -> bool {
+        nodes.iter().any(|node| self.get(*node).has_no_zero)
             || nodes.iter().enumerate().any(|(at, one)| {
                 let mut others = nodes[at + 1..].iter().filter(|n| varies(dag, **n));
-                varies(dag, *one) && others.any(|other| have_nothing_in_common(dag, *one, *other))
+                varies(dag, *one)
+                    && others.any(|other| {
+                        self.meet_rarely(dag, *one, *other)
+                            || self.points == Points::Most
+                                && (is_solved_beside(dag, *one, *other)
+                                    || is_solved_beside(dag, *other, *one))
+                    })
             })
+    }
+
+    /// Whether the zeros and poles of two expressions meet in sets that do not count.
+    fn meet_rarely(&self, dag: &Dag, a: Node, b: Node) -> bool {
+        self.points == Points::Most && have_nothing_in_common(dag, a, b)
     }
 
     fn product(&mut self, dag: &Dag, factors: &[(Node, i32)]) -> Regular {
         let mut each: Vec<(Node, Regular)> = Vec::with_capacity(factors.len());
         for &(base, n) in factors {
             let regular = self.get(base);
-            if n < 0 && !regular.is_nonzero {
-                self.note(dag, At::Zero, base, base, false);
+            if n < 0 && !regular.has_no_moving_zero {
+                self.note(At::Zero, base, base);
             }
-            each.push((base, if n < 0 { regular.recip() } else { regular }));
+            let power = if n < 0 {
+                regular.recip(self.points)
+            } else {
+                regular
+            };
+            each.push((base, power));
         }
-        let all = each.iter().fold(Regular::STILL, |all, (_, f)| all.and(*f));
-        // 0·∞ is decided among quotients only.
+        let all = each.iter().fold(Regular::ALL, |all, (_, f)| all.and(*f));
+        // 0·∞ is decided among quotients only. A factor that is 0 for some parameters is so on both
+        // sides of a place.
         let is_clear = |(a, f): &(Node, Regular), (b, g): &(Node, Regular)| {
             f.is_continuous
-                || g.is_nonzero
-                || f.is_meromorphic && g.is_meromorphic
-                || have_nothing_in_common(dag, *a, *b)
+                || g.has_no_moving_zero
+                || self.points == Points::Most && f.is_meromorphic && g.is_meromorphic
+                || self.meet_rarely(dag, *a, *b)
         };
         let is_clear = (0..each.len())
             .all(|a| (0..each.len()).all(|b| a == b || is_clear(&each[a], &each[b])));
@@ -300,55 +399,87 @@ impl Facts {
 
     fn call(&mut self, dag: &Dag, op: Op, x: &[Node]) -> Regular {
         let regularity = op.row().regularity;
-        let all = x
-            .iter()
-            .fold(Regular::STILL, |all, x| all.and(self.get(*x)));
+        let all = x.iter().fold(Regular::ALL, |all, x| all.and(self.get(*x)));
         let (first, y) = (self.get(x[0]), *x.last().unwrap_or(&x[0]));
         let misses = |at: At| match at {
-            At::Zero => first.is_nonzero,
+            At::Zero => first.has_no_moving_zero,
             At::MinusOne => dag.is_nonnegative(x[0]),
-            At::Origin => self.are_nonzero_together(dag, x),
-            At::Equal | At::One | At::Units | At::Cosine | At::Cut => false,
+            At::Origin => self.have_no_common_zero(dag, x),
+            // y = 0, x ≤ 0
+            At::Cut => first.has_no_zero && first.is_continuous,
+            At::Equal | At::One | At::Units | At::Cosine => false,
         };
         let jump = match regularity.breaks {
             Break::Jump(at) if !misses(at) => Some(at),
             _ => None,
         };
-        let pole = regularity.pole.filter(|at| !misses(*at));
+        // x^y is finite at x = 0 where y is no negative number.
+        let is_root = op == Op::Pow && self.get(y).is_still && dag.is_nonnegative(y);
+        let pole = regularity.pole.filter(|at| !misses(*at) && !is_root);
         let is_smooth = match regularity.breaks {
             Break::Nowhere => true,
             Break::Kink(at) | Break::Jump(at) => misses(at),
         };
-        // An argument of one sign comes to one end.
+        // An argument of one sign comes to one end, of which e^x has a finite one.
+        let is_decaying = matches!(op, Op::Exp | Op::ExpM1) && is_nonpositive(dag, x[0]);
         let is_closed = match regularity.far {
             Far::Infinite => true,
-            Far::Limits | Far::Mixed => dag.is_nonnegative(x[0]),
+            Far::Limits | Far::Mixed => dag.is_nonnegative(x[0]) || is_decaying,
             Far::Nothing => false,
         };
+        let is_limited = is_closed && regularity.far == Far::Limits || is_decaying;
         // Of x^y the base may be infinite, the exponent not.
         let is_bounded = op != Op::Pow || self.get(y).is_continuous;
-        let is_nonzero = match op {
-            Op::Sqrt | Op::Abs | Op::Cbrt => first.is_nonzero,
-            Op::Hypot => self.are_nonzero_together(dag, x),
-            _ => regularity.range == Range::Positive && (all.is_continuous || op == Op::Cosh),
+        let has_no_zero = match op {
+            Op::Sqrt | Op::Abs | Op::Cbrt => first.has_no_zero,
+            Op::Hypot => x.iter().any(|x| self.get(*x).has_no_zero) || misses(At::Origin),
+            // x^y, of finite x and y
+            Op::Pow => first.has_no_zero && all.is_continuous,
+            Op::Cosh => true,
+            _ => regularity.range == Range::Positive && all.is_continuous,
         };
+        let has_no_moving_zero =
+            matches!(op, Op::Sqrt | Op::Abs | Op::Cbrt) && first.has_no_moving_zero;
         if let Some(at) = jump {
-            self.note(dag, at, x[0], y, true);
+            self.note(at, x[0], y);
             return Regular::UNKNOWN;
         }
         if let Some(at) = pole {
-            self.note(dag, at, x[0], y, false);
+            self.note(at, x[0], y);
         }
-        let is_finite = pole.is_none()
-            && (all.is_continuous
-                || all.is_projective && is_closed && regularity.far == Far::Limits);
+        let is_finite = pole.is_none() && (all.is_continuous || all.is_projective && is_limited);
+        let is_gentle = is_smooth
+            || matches!(op, Op::Abs | Op::Min | Op::Max | Op::Hypot)
+            || op == Op::Sqrt && self.is_norm(dag, x[0]);
         Regular {
+            is_still: false,
             is_analytic: all.is_analytic && is_smooth && pole.is_none(),
             is_continuous: is_finite,
+            is_lipschitz: all.is_lipschitz && is_gentle && pole.is_none(),
             is_meromorphic: all.is_analytic && regularity.is_entire,
-            is_single_valued: all.is_single_valued && regularity.is_entire,
             is_projective: all.is_projective && is_bounded && (all.is_continuous || is_closed),
-            is_nonzero,
+            has_no_zero,
+            has_no_moving_zero,
+        }
+    }
+
+    /// Whether the root of an expression is a norm: of a sum of squares of what is Lipschitz.
+    fn is_norm(&self, dag: &Dag, square: Node) -> bool {
+        let is_square = |node: Node| match dag.kind(node) {
+            Kind::Product(k, factors) => {
+                let gentle =
+                    |(f, n): &(Node, i32)| n % 2 == 0 && *n > 0 && self.get(*f).is_lipschitz;
+                !k.is_negative() && factors.iter().all(gentle)
+            }
+            _ => false,
+        };
+        match dag.kind(square) {
+            Kind::Sum(c, terms) => {
+                let mut terms = terms.iter();
+                !c.is_negative() && terms.all(|(k, term)| !k.is_negative() && is_square(*term))
+            }
+            Kind::Reduce(_, body) => self.is_norm(dag, *body),
+            _ => is_square(square),
         }
     }
 
@@ -377,6 +508,28 @@ impl Facts {
             found = Some(place);
         }
         found
+    }
+}
+
+/// A coordinate, a momentum, the time.
+fn is_moving_leaf(dag: &Dag, node: Node) -> bool {
+    let is_leaf = matches!(dag.kind(node), Kind::Element(..) | Kind::Time);
+    is_leaf && dag.dependence(node).on(Dependence::MOVING)
+}
+
+/// Whether a sum or product is certainly ≤ 0.
+fn is_nonpositive(dag: &Dag, node: Node) -> bool {
+    match dag.kind(node) {
+        Kind::Sum(c, terms) => {
+            let is_nonpositive =
+                |(k, term): &(Rational, Node)| k.is_negative() && dag.is_nonnegative(*term);
+            (c.is_zero() || c.is_negative()) && terms.iter().all(is_nonpositive)
+        }
+        Kind::Product(k, factors) => {
+            let signs = factors.iter().map(|(f, n)| (dag.is_nonnegative(*f), *n));
+            k.is_negative() && is_nonnegative_product(signs)
+        }
+        _ => false,
     }
 }
 
@@ -439,6 +592,34 @@ fn varies(dag: &Dag, node: Node) -> bool {
     }
 }
 
+/// Whether one expression is 0 at one value of a coordinate or momentum that the other does not read,
+/// as x + cos t is beside y + sin t: where the other is 0, too, two dimensions are lost.
+fn is_solved_beside(dag: &Dag, one: Node, other: Node) -> bool {
+    let others = moving(dag, other);
+    let is_free = |leaf: Node| {
+        let own = moving(dag, leaf);
+        !own.iter()
+            .any(|own| others.iter().any(|other| may_be_same(*own, *other)))
+    };
+    let mut node = one;
+    while let Kind::Product(_, factors) = dag.kind(node)
+        && let [(factor, 1..)] = factors.as_slice()
+    {
+        node = *factor;
+    }
+    let Kind::Sum(_, terms) = dag.kind(node) else {
+        return false;
+    };
+    terms.iter().enumerate().any(|(at, (_, leaf))| {
+        let reads = |node: Node| dag.reachable(&[node]).binary_search(leaf).is_ok();
+        let mut rest = terms.iter().enumerate().filter(|(other, _)| *other != at);
+        // At the variables of loops, another leaf may be the same element.
+        let is_plain = matches!(dag.kind(*leaf), Kind::Element(Array::Phase(_), ..))
+            && dag.variables(*leaf) == 0;
+        is_plain && is_free(*leaf) && rest.all(|(_, (_, term))| !reads(*term))
+    })
+}
+
 /// A coordinate or momentum: its array, and its row where that is a number. Nothing is the time.
 type Leaf = Option<(Array, Option<i64>)>;
 
@@ -475,11 +656,25 @@ fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
         .collect()
 }
 
+/// The sides of the comparisons that a condition is made of.
+pub(crate) fn comparisons(dag: &Dag, condition: Node) -> Vec<(Node, Node)> {
+    let nodes = dag.reached(&[condition], |node, ahead| {
+        if matches!(dag.kind(node), Kind::And(..) | Kind::Or(..) | Kind::Not(_)) {
+            dag.for_children(node, |child| ahead.add(child));
+        }
+    });
+    let sides = nodes.into_iter().filter_map(|node| match dag.kind(node) {
+        Kind::Compare(_, a, b) => Some((*a, *b)),
+        _ => None,
+    });
+    sides.collect()
+}
+
 /// The conditions under which expressions have values, as text: "`q - a` is not 0".
 #[must_use]
 pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
     let dag = &model.dag;
-    let facts = Facts::of(dag, roots, &Meeting::default());
+    let facts = Facts::of(dag, roots, &Given::default());
     let mut found: Vec<String> = Vec::new();
     let mut note = |x: Node, is: &str| {
         let condition = format!("`{}` {is}", print::text(model, x));
@@ -492,7 +687,7 @@ pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
             Kind::Product(_, factors) => {
                 let below = factors.iter().filter(|(_, n)| *n < 0);
                 below
-                    .filter(|(base, _)| !facts.get(*base).is_nonzero)
+                    .filter(|(base, _)| !facts.get(*base).has_no_moving_zero)
                     .for_each(|(base, _)| note(*base, "is not 0"));
             }
             Kind::Call(op, x) => {

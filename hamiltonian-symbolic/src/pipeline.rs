@@ -73,8 +73,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
     if model.dag.has_too_many_loops() {
         return Err(Refusal::TooManyLoops);
     }
-    let wanted = prepared(&model.dag, &requests);
-    let images = shared_preparation(&mut model.dag, &wanted);
+    let (wanted, images) = preparation(&mut model.dag, &mut requests);
     let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.held);
     program.validate().map_err(internal)?;
     for (function, request) in program.functions.iter().zip(&requests) {
@@ -87,6 +86,28 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         }
     }
     Ok(program)
+}
+
+/// The expressions that are prepared, with the expressions they are computed by. One that sharing
+/// cancels to a number is replaced by it: numbers stand where they are used and are not handed on.
+fn preparation(dag: &mut Dag, requests: &mut [Request]) -> (Vec<Node>, Vec<Node>) {
+    loop {
+        let wanted = prepared(dag, requests);
+        let images = shared_preparation(dag, &wanted);
+        let is_number = |image: &Node| matches!(dag.kind(*image), Kind::Constant(_) | Kind::Pi);
+        let pairs = wanted.iter().copied().zip(images.iter().copied());
+        let numbers: Map<Node, Node> = pairs.filter(|(_, image)| is_number(image)).collect();
+        if numbers.is_empty() {
+            return (wanted, images);
+        }
+        for request in requests.iter_mut() {
+            let mut roots = request.roots();
+            for root in &mut roots {
+                *root = dag.substitute(*root, |_, node| numbers.get(&node).copied());
+            }
+            request.replace_roots(&roots);
+        }
+    }
 }
 
 /// The prepared expressions with shared parts, where that is less work.

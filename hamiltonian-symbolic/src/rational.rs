@@ -147,8 +147,21 @@ impl Rational {
                     None => Rational::from_big(self.big() + other.big()),
                 }
             }
-            _ => Rational::from_big(self.big() + other.big()),
+            _ => match self.integers(other) {
+                Some((a, b)) => Rational::from_big(BigRational::from_integer(a + b)),
+                None => Rational::from_big(self.big() + other.big()),
+            },
         }
+    }
+
+    /// Both as integers, if they are: these have no common divisor to look for.
+    fn integers(&self, other: &Rational) -> Option<(BigInt, BigInt)> {
+        let integer = |value: &Rational| match &value.0 {
+            Form::Small(n, 1) => Some(BigInt::from(*n)),
+            Form::Big(value) if value.denom().is_one() => Some(value.numer().clone()),
+            _ => None,
+        };
+        Some((integer(self)?, integer(other)?))
     }
 
     /// The product.
@@ -159,7 +172,10 @@ impl Rational {
                 i128::from(*a) * i128::from(*c),
                 i128::from(*b) * i128::from(*d),
             ),
-            _ => Rational::from_big(self.big() * other.big()),
+            _ => match self.integers(other) {
+                Some((a, b)) => Rational::from_big(BigRational::from_integer(a * b)),
+                None => Rational::from_big(self.big() * other.big()),
+            },
         }
     }
 
@@ -274,6 +290,14 @@ impl Rational {
             Form::Big(value) => value.is_integer(),
         }
     }
+    /// Whether the value is an odd integer.
+    #[must_use]
+    pub fn is_odd(&self) -> bool {
+        match &self.0 {
+            Form::Small(n, d) => *d == 1 && n % 2 != 0,
+            Form::Big(value) => value.is_integer() && value.numer().is_odd(),
+        }
+    }
     /// The number of bits of the longer of numerator and denominator, rounded up to 64.
     #[must_use]
     pub fn bits(&self) -> u64 {
@@ -284,6 +308,16 @@ impl Rational {
                 .bits()
                 .max(value.denom().bits())
                 .next_multiple_of(64),
+        }
+    }
+    /// The number of bits of the longer of numerator and denominator.
+    #[must_use]
+    pub fn length(&self) -> u64 {
+        match &self.0 {
+            Form::Small(n, d) => {
+                u64::from(64 - (n.unsigned_abs() | d.unsigned_abs()).leading_zeros())
+            }
+            Form::Big(value) => value.numer().bits().max(value.denom().bits()),
         }
     }
     /// Numerator and denominator where both fit `i64`.

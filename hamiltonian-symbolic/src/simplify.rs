@@ -298,8 +298,9 @@ impl Dag {
     /// Whether the n-th power of a product is the product of its factors' powers.
     fn is_taken_apart(&self, product: Node, factors: &[(Node, i32)], n: i32) -> bool {
         let is_small = |(_, m): &(Node, i32)| {
-            m.checked_mul(n)
-                .is_some_and(|power| n.abs() == 1 || power.abs() <= LARGEST_POWER)
+            m.checked_mul(n).is_some_and(|power| {
+                n.unsigned_abs() == 1 || power.unsigned_abs() <= LARGEST_POWER as u32
+            })
         };
         !self.is_sealed(product)
             && (factors.len() <= SHORT || n != 1)
@@ -362,7 +363,8 @@ impl Dag {
         }
         if let Some((n, d)) = self.as_constant(y).and_then(Rational::to_small)
             && let Some(n) = i32::try_from(n).ok()
-            && (n.abs() <= LARGEST_POWER || (d == 1 && self.as_constant(x).is_some()))
+            && (n.unsigned_abs() <= LARGEST_POWER as u32
+                || (d == 1 && self.as_constant(x).is_some()))
         {
             match d {
                 1 => return self.powi(x, n),
@@ -382,6 +384,22 @@ impl Dag {
                     }
                 }
             }
+        }
+        // A whole number past 2⁵³ need not be an `f64`, whose neighbours are even.
+        if let Some(exponent) = self.as_constant(y)
+            && exponent.is_integer()
+            && exponent.abs() > Rational::integer(1 << 53)
+            && !self.is_nonnegative(x)
+        {
+            let is_odd = exponent.is_odd();
+            let size = self.call(Op::Abs, &[x]);
+            if !is_odd {
+                return self.pow(size, y);
+            }
+            let minus = self.integer(-1);
+            let less = self.add(&[y, minus]);
+            let power = self.pow(size, less);
+            return self.mul(&[x, power]);
         }
         self.intern(Kind::Call(Op::Pow, vec![x, y]))
     }

@@ -13,8 +13,8 @@ type Scope = Map<Value, ()>;
 type Stored = Map<(Target, Index, Option<Index>), ()>;
 
 impl Program {
-    /// Every value is computed once and before its uses, and an element that is overwritten is stored
-    /// once.
+    /// Every value is computed once and before its uses, no number is handed on by name, and an element
+    /// that is overwritten is stored once.
     ///
     /// # Errors
     /// The first thing that is not so.
@@ -26,6 +26,11 @@ impl Program {
         let mut prepared = Scope::default();
         for value in &self.prepared {
             read(*value, &scope, || "what is handed on".to_owned())?;
+            if self.instruction(*value).is_number() {
+                return Err(format!(
+                    "{value} is handed on and is a number without a name"
+                ));
+            }
             prepared.insert(*value, ());
         }
         for function in &self.functions {

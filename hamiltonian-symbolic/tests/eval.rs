@@ -101,6 +101,9 @@ fn run_in_order<T: Real>(
         outputs: point.outputs.clone(),
         is_in_place: matches!(function.purpose, Purpose::Piece(_)),
         reversed: false,
+        has_trees: true,
+        strides: Map::default(),
+        iteration: 0,
     };
     for target in &function.cleared {
         for column in machine.outputs.get_mut(target).into_iter().flatten() {
@@ -115,6 +118,7 @@ fn run_in_order<T: Real>(
     machine.steps(&program.prepare);
     machine.steps(&function.coefficient);
     machine.reversed = reversed;
+    machine.has_trees = !machine.is_in_place;
     machine.steps(&function.evaluation);
     let results = function
         .results
@@ -136,7 +140,18 @@ struct Machine<'a, T: Real> {
     outputs: Map<Target, Vec<Vec<T>>>,
     is_in_place: bool,
     reversed: bool,
+    /// Whether sums of long loops are partial sums and a tree: not in the flows of pieces.
+    has_trees: bool,
+    /// The partial sums of the innermost loop under way, if it is long.
+    strides: Map<Value, [T; STRIDE]>,
+    /// The number of its iteration.
+    iteration: usize,
 }
+
+/// The least extent of a loop whose sums are trees.
+const LONG: i64 = 32;
+/// The number of their partial sums.
+const STRIDE: usize = 8;
 
 impl<T: Real> Machine<'_, T> {
     /// The columns an array's elements are read from.
@@ -167,8 +182,11 @@ impl<T: Real> Machine<'_, T> {
             match step {
                 Step::Let(value) => self.compute(*value),
                 Step::Accumulate(accumulator, term) => {
-                    let sum = self.number(*accumulator) + self.number(*term);
-                    self.numbers[accumulator.0 as usize] = sum;
+                    let term = self.number(*term);
+                    match self.strides.get_mut(accumulator) {
+                        Some(strides) => strides[self.iteration % STRIDE] += term,
+                        None => self.numbers[accumulator.0 as usize] += term,
+                    }
                 }
                 Step::Store(target, row, column, update) => {
                     let (row, column) = (
@@ -191,7 +209,11 @@ impl<T: Real> Machine<'_, T> {
                         self.numbers[accumulator.0 as usize] = T::zero();
                     }
                     let (start, end) = (self.affine(&l.start), self.affine(&l.end));
+                    if self.has_trees && end - start >= LONG {
+                        self.open(&l.body);
+                    }
                     for k in 0..(end - start).max(0) {
+                        self.iteration = k as usize;
                         let i = if self.reversed {
                             end - 1 - k
                         } else {
@@ -200,7 +222,24 @@ impl<T: Real> Machine<'_, T> {
                         self.variables.insert(l.domain, i);
                         self.steps(&l.body);
                     }
+                    for (sum, s) in std::mem::take(&mut self.strides) {
+                        let tree =
+                            ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+                        self.numbers[sum.0 as usize] += tree;
+                    }
                 }
+            }
+        }
+    }
+
+    /// Opens the partial sums of a loop, if it is an innermost one.
+    fn open(&mut self, body: &[Step]) {
+        if body.iter().any(|step| matches!(step, Step::Loop(_))) {
+            return;
+        }
+        for step in body {
+            if let Step::Accumulate(sum, _) = step {
+                self.strides.insert(*sum, [T::zero(); STRIDE]);
             }
         }
     }

@@ -177,3 +177,32 @@ fn as_many_loops_as_there_are_numbers_for() {
     let equations = hamilton_equations(&more).written(Notation::Text);
     assert_eq!(equations[0].1, "∂H/∂p[k]");
 }
+
+/// A bound on the size of a power is found before it is built, and an exponent is never rounded.
+#[test]
+fn powers_are_not_expanded() {
+    let verdict = |h: &str, claim: &str| {
+        let mut m = system("q; p", "", "", h);
+        let claim = parse(&mut m, claim);
+        is_invariant(&m, claim, None)
+    };
+    let undecided = verdict("p^2/2 + (1 + q)^1000", "p^2/2 + (1 + 2*q + q^2)^500");
+    assert!(
+        matches!(undecided, Verdict::Undecided { .. }),
+        "{undecided:?}"
+    );
+    let h = "(1 + q + p)^300";
+    assert_eq!(verdict(h, h), Verdict::Proven);
+    for power in ["-2147483648", "-2147483647", "9007199254740993"] {
+        let h = format!("p^2/2 + q^({power})");
+        assert_eq!(verdict(&h, &h), Verdict::Proven, "{power}");
+    }
+    let mut m = model("q; p", "", "");
+    for (power, value) in [
+        ("(-1)^9007199254740993", "-1"),
+        ("(-1)^9007199254740994", "1"),
+    ] {
+        let (power, value) = (parse(&mut m, power), parse(&mut m, value));
+        assert_eq!(power, value);
+    }
+}

@@ -8,6 +8,7 @@ mod eval;
 mod expressions;
 mod false_proofs;
 mod flows;
+mod judge;
 mod jumps;
 mod legendre;
 mod limits;

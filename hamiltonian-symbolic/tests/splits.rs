@@ -1,8 +1,9 @@
 //! Exact flows of pieces: that they are flows, of the right vector field, symplectic, and end
 //! where the orbit does.
 
-mod arrays;
-mod table;
+pub mod arrays;
+mod perturbed;
+pub mod table;
 
 use crate::common;
 use crate::eval::{Point, run};
@@ -14,7 +15,7 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
 use hamiltonian_symbolic::rational::Rational;
-use hamiltonian_symbolic::split::{NODES, Refusal, find};
+use hamiltonian_symbolic::split::{NODES, Refusal, exact_flow, find};
 use hamiltonian_symbolic::transform::check_split;
 use table::{FOUND, Found, REFUSED};
 
@@ -25,7 +26,7 @@ fn rows_take_their_patterns_and_flow() {
     assert!(failed.is_empty(), "{failed:#?}");
 }
 
-const CASES: &[Case] = &[
+pub const CASES: &[Case] = &[
     Case {
         signature: "f, th, ps; pf, pt, pp",
         parameters: "A",
@@ -272,6 +273,67 @@ const CASES: &[Case] = &[
         h: "p^2*pt^2/r^2",
         rows: "monomial",
     },
+    // Parameters of the two-term families, and those that may be 0.
+    Case {
+        signature: "q; p",
+        parameters: "a b c k",
+        h: "(a + b*cos(k*q) + c*sin(k*q))*p",
+        rows: "f(q)·p",
+    },
+    Case {
+        signature: "q; p",
+        parameters: "a b c k",
+        h: "(a + b*exp(k*q) + c*exp(-k*q))*p",
+        rows: "f(q)·p",
+    },
+    Case {
+        signature: "q; p",
+        parameters: "k",
+        h: "exp(k*q)*p",
+        rows: "f(q)·p",
+    },
+    Case {
+        signature: "q; p",
+        parameters: "k",
+        h: "sin(k*q)*p",
+        rows: "f(q)·p",
+    },
+    Case {
+        signature: "q; p",
+        parameters: "a b",
+        h: "cos(a*q + b*p)",
+        rows: "quadratic form",
+    },
+    Case {
+        signature: "q, x; p, y",
+        parameters: "a b",
+        h: "exp(a*x*q^2 + b*p)",
+        rows: "shear",
+    },
+    Case {
+        signature: "f; z",
+        parameters: "J",
+        h: "J*sqrt(1 - z^2)*cos(f)",
+        rows: "spin component",
+    },
+    Case {
+        signature: "r; p",
+        parameters: "l",
+        h: "p^2 + l/r^2",
+        rows: "free flight",
+    },
+    Case {
+        signature: "r, x; p, y",
+        parameters: "l",
+        h: "p^2 + (y^2 - l*x^2)/r^2",
+        rows: "free flight",
+    },
+    Case {
+        signature: "r, th, f; p, pt, pf",
+        parameters: "",
+        h: "p^2/2 + (pt^2 + pf^2/sin(th)^2)/(2*r^2)",
+        rows: "free flight",
+    },
     Case {
         signature: "q, u; p, v",
         parameters: "",
@@ -282,6 +344,7 @@ const CASES: &[Case] = &[
 
 #[test]
 fn systems_are_split_unaided() {
+    let mut others = Vec::new();
     for found in FOUND {
         let mut model = common::system(found.signature, "", found.parameters, found.h);
         let splitting = match find(&mut model) {
@@ -289,10 +352,17 @@ fn systems_are_split_unaided() {
             Err(refusal) => panic!("{}: {refusal:?}", found.h),
         };
         let names: Vec<&str> = splitting.pieces.iter().map(|p| p.name.as_str()).collect();
-        assert_eq!(names, found.pieces, "{}", found.h);
+        println!("{} {:?}", found.h, splitting.choice);
+        if names != found.pieces {
+            others.push((
+                names.iter().map(|n| n.to_string()).collect::<Vec<_>>(),
+                found.pieces,
+            ));
+        }
         let pieces: Vec<_> = splitting.pieces.iter().map(|p| p.h).collect();
         assert!(check_split(&mut model, &pieces).is_ok(), "{}", found.h);
     }
+    assert!(others.is_empty(), "{others:#?}");
 }
 
 #[test]
@@ -419,6 +489,73 @@ fn what_has_no_flow_is_refused_by_its_term() {
         }
     }
     assert!(others.is_empty(), "{others:#?}");
+}
+
+/// φ‴ = κφ′, {h, L} = 0 and other identities of derivatives hold on each side of a kink or a jump by
+/// itself; a flow that crosses it is none of theirs.
+#[test]
+fn no_row_crosses_a_kink_or_a_jump() {
+    const CROSSED: &[(&str, &str)] = &[
+        ("q; p", "(abs(q) + 1)*p"),
+        ("q; p", "abs(q)*(p + 1)"),
+        ("q; p", "max(q, 1)*p"),
+        ("q; p", "(q + min(q, 2))*p"),
+        ("q; p", "sqrt((q - 1)^2 + 0)*p"),
+        ("q; p", "(sqrt(q^2 + 2*q + 1) + 2)*p"),
+        ("q; p", "(sign(q) + 2)*p"),
+        ("q; p", "sign(q)*p"),
+        ("q; p", "abs(sin(q))*p"),
+        ("q; p", "(2 + sign(cos(q)))*sin(q)*p"),
+        ("q; p", "(atan(q) + atan(1/q) + 3)*p"),
+        ("q; p", "exp(-abs(q))*p"),
+        ("q; p", "q*(1 + sign(p)*p)"),
+        ("x, y; px, py", "(2 + sign(x))*(x*py - y*px)"),
+        ("x, y; px, py", "(2 + sign(x + px))*(x*py - y*px) + 0*px"),
+        ("x, y; px, py", "sqrt(x^2)/x*(x*py - y*px)"),
+        ("f; z", "sqrt(1 - z^2)*cos(f)*sign(sin(f))"),
+        ("q, x; p, y", "p*(q + 1) + (2 + sign(q))*y^2"),
+    ];
+    let mut taken = Vec::new();
+    for (signature, h) in CROSSED {
+        let mut model = common::model(signature, "", "");
+        let node = common::parse(&mut model, h);
+        if let Some(flow) = exact_flow(&mut model, node) {
+            taken.push((*h, flow.rows().to_vec()));
+        }
+    }
+    assert!(taken.is_empty(), "{taken:#?}");
+    // Nothing crosses a place where it rests, and what is constant crosses nothing.
+    const KEPT: &[(&str, &str)] = &[
+        ("q; p", "abs(q)*p"),
+        ("q; p", "q*abs(q)*p"),
+        ("q; p", "max(q, 0)*p"),
+        ("x, y; px, py", "abs(x*py - y*px) + 1/hypot(x, y)"),
+        ("x, y; px, py", "(x*py - y*px)*max(x^2 + y^2, 1)"),
+    ];
+    for (signature, h) in KEPT {
+        let mut model = common::model(signature, "", "");
+        let node = common::parse(&mut model, h);
+        assert!(exact_flow(&mut model, node).is_some(), "{h}");
+    }
+}
+
+/// Sharing may cancel a prepared expression to a number, which has no name to be handed on by.
+#[test]
+fn numbers_are_not_handed_on() {
+    for (signature, parameters, h) in [
+        ("q; p", "m w k", "p^2/(2*m) + w*q*p + k*q^2/2"),
+        ("q; p", "m g", "p^2/(2*m) - g*q*p/2 + q^4"),
+        ("x; u", "c d", "u + c*x*u + d*x*u"),
+    ] {
+        let mut model = common::system(signature, "", parameters, h);
+        model.pieces = find(&mut model).unwrap().pieces;
+        let mut wanted = vec![Purpose::EnergyAndGradient, Purpose::ParameterGradient];
+        wanted.extend((0..model.pieces.len()).map(|n| Purpose::Piece(n as u16)));
+        let program = derive(&mut model, &wanted).unwrap();
+        for value in &program.prepared {
+            assert!(!program.instruction(*value).is_number(), "{h}");
+        }
+    }
 }
 
 /// Whatever is asked, a search ends, and adds no more to the arena than it may (and what one step

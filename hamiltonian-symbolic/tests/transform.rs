@@ -78,6 +78,22 @@ fn polar_coordinates_give_the_textbook_hamiltonians() {
         ]
     );
     assert_becomes(free, "(p_r^2 + p_phi^2/r^2)/2");
+    // A second chart of the same kind has names with numbers.
+    let at = |group| Component { group, row: None };
+    let charts = [Chart::Polar([at(0), at(1)]), Chart::Polar([at(2), at(3)])];
+    let model = system(
+        "x, y, u, v; p_x, p_y, p_u, p_v",
+        "",
+        "",
+        "(p_x^2 + p_y^2 + p_u^2 + p_v^2)/2 - x*v",
+    );
+    let two = apply(&model, &charts).unwrap();
+    let names = groups(&two).into_iter().map(|(q, _)| q);
+    assert_eq!(names.collect::<Vec<_>>(), ["r", "phi", "r_2", "phi_2"]);
+    assert_becomes(
+        two,
+        "(p_r^2 + p_phi^2/r^2 + p_r_2^2 + p_phi_2^2/r_2^2)/2 - r*cos(phi)*r_2*sin(phi_2)",
+    );
     assert_becomes(polar("p_x^2 + p_y^2", ""), "p_r^2 + p_phi^2/r^2");
     assert_becomes(
         polar("x^2 + y^2 + p_x^2", ""),

@@ -62,6 +62,14 @@ fn faults_are_found() {
         "what is handed on reads _1 before it is computed",
     );
     faulty(
+        |p| {
+            p.instructions.push(Instruction::Constant(Rational::ZERO));
+            p.prepare = vec![Step::Let(Value(2))];
+            p.prepared = vec![Value(2)];
+        },
+        "_2 is handed on and is a number without a name",
+    );
+    faulty(
         |p| p.instructions[1] = Instruction::PairedCos(Value(0)),
         "_1 is the cosine of no sine in GradientQ",
     );

@@ -5,8 +5,10 @@
 //! the shell, if one is given), and across what may jump or has a pole, by rules alone; disproven
 //! comes with sizes and a point where the time derivative along the flow is not zero.
 
+mod branches;
 mod cross;
 mod lagrange;
+mod orbits;
 mod pair;
 mod shell;
 
@@ -22,7 +24,7 @@ use crate::normal_form::{
 };
 use crate::print;
 use crate::rational::Rational;
-use crate::structure::expand;
+use crate::structure::expand_within;
 
 /// The verdict on a claimed invariant.
 #[derive(Clone, PartialEq, Debug)]
@@ -52,14 +54,43 @@ pub enum Verdict {
         /// Where, and what does not decide it: a clause.
         why: String,
     },
+    /// The statement is about a shell that orbits leave.
+    NoShell {
+        /// Why they do: a clause.
+        why: String,
+    },
 }
 
 /// Whether an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
-/// `shell` the statement is about points with H = shell only.
+/// `shell` the statement is about points with H = shell only, which takes a constant shell and a
+/// conserved H.
 #[must_use]
 pub fn is_invariant(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
-    let verdict = judge(model, expression, shell);
-    crossed(model, expression, verdict)
+    if let Some(refused) = shell.and_then(|shell| left(model, shell)) {
+        return refused;
+    }
+    let (verdict, is_on_shell) = judge(model, expression, shell);
+    crossed(model, expression, verdict, is_on_shell)
+}
+
+/// Why orbits may leave a shell, if they may.
+fn left(model: &Model, shell: Node) -> Option<Verdict> {
+    let no_shell = |why: &str| {
+        let why = why.to_owned();
+        Some(Verdict::NoShell { why })
+    };
+    if model.dag.dependence(shell).on(Dependence::MOVING) {
+        return no_shell("its energy is no constant");
+    }
+    let h = model.h();
+    if model.force.is_empty() && !model.dag.dependence(h).on(Dependence::TIME) {
+        return None;
+    }
+    match judge(model, h, None).0 {
+        Verdict::Proven => None,
+        Verdict::Disproven { .. } => no_shell("H is not conserved"),
+        undecided => Some(undecided),
+    }
 }
 
 /// The same for a model that a Lagrangian became. `in_velocities` is the expression as it was
@@ -78,13 +109,13 @@ pub fn is_invariant_of_lagrangian(
     {
         Verdict::Proven
     } else {
-        judge(model, expression, None)
+        judge(model, expression, None).0
     };
-    crossed(model, expression, verdict)
+    crossed(model, expression, verdict, false)
 }
 
 /// The verdict, with what derivatives and points do not see.
-fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
+fn crossed(model: &Model, expression: Node, verdict: Verdict, is_on_shell: bool) -> Verdict {
     let h = model.h();
     let is_rust = |kind: &Kind| matches!(kind, Kind::External(..));
     let has_rust = model.dag.has(&[h, expression], is_rust);
@@ -95,49 +126,66 @@ fn crossed(model: &Model, expression: Node, verdict: Verdict) -> Verdict {
             why: "nothing is known of the functions in Rust in it".to_owned(),
         },
         Verdict::Proven => {
-            cross::find(model, expression, h).map_or(Verdict::Proven, |found| Verdict::Jumps {
-                part: found.part,
-                why: found.why,
+            cross::find(model, expression, h, is_on_shell).map_or(Verdict::Proven, |found| {
+                Verdict::Jumps {
+                    part: found.part,
+                    why: found.why,
+                }
             })
         }
         verdict => verdict,
     }
 }
 
-/// The verdict for functions in Rust of which nothing is known.
-fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
+/// The verdict for functions in Rust of which nothing is known, and whether it is about the shell
+/// only.
+fn judge(model: &Model, expression: Node, shell: Option<Node>) -> (Verdict, bool) {
     let mut model = model.clone();
     let h = model.h();
     let difference = shell.map(|e| model.dag.sub(h, e));
+    // Past the last number for a loop, loops may be taken for others.
+    if !model.dag.has_too_many_loops()
+        && let Some(rest) = orbits::without_energy(&mut model, expression, h)
+        && (!model.dag.dependence(rest).on(Dependence::MOVING) || {
+            let rate = derivative(&mut model, rest, h);
+            rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
+        })
+    {
+        return (Verdict::Proven, false);
+    }
     let general = derivative(&mut model, expression, h);
     // A proof for all points, and all sizes, is the common case and the cheapest.
     if let Some(residual) = general
         && normal_form::vanishes(&mut model.dag, residual, Scope::Densely)
     {
-        return Verdict::Proven;
+        return (Verdict::Proven, false);
     }
-    let mut text = general.map_or_else(
-        || "the bracket with H".to_owned(),
-        |node| readable(&mut model, node),
-    );
+    let is_on_shell = shell.is_some();
+    let mut text = "the bracket with H".to_owned();
+    if let Some(residual) = general {
+        match readable(&mut model, residual) {
+            Some(residual) => text = residual,
+            None => return (Verdict::Proven, false),
+        }
+    }
     if !model.dag.has_loops(&[h, expression]) && model.sizes.is_empty() {
-        return match general {
+        let verdict = match general {
             Some(residual) => decide(&mut model, residual, difference, &[h, expression], text),
             None => Verdict::Undecided {
                 residual: text,
                 why: indices(),
             },
         };
+        return (verdict, is_on_shell);
     }
     let mut why = match general {
         Some(residual) => normal_form::answer(&mut model.dag, residual, Scope::Densely).why(),
         None => indices(),
     };
     if !model.force.is_empty() {
-        return Verdict::Undecided {
-            residual: text,
-            why: "sizes cannot be tried: a force acts in a loop".to_owned(),
-        };
+        let why = "sizes cannot be tried: a force acts in a loop".to_owned();
+        let residual = text;
+        return (Verdict::Undecided { residual, why }, is_on_shell);
     }
     // Small sizes may refute; literal ones may also prove.
     let mut roots = vec![h, expression];
@@ -149,8 +197,10 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
         let Some(residual) = derivative(&mut small, images[1], images[0]) else {
             continue;
         };
-        if general.is_none() {
-            text = readable(&mut small, residual);
+        if general.is_none()
+            && let Some(residual) = readable(&mut small, residual)
+        {
+            text = residual;
         }
         let shell = images.get(2).copied();
         match decide(&mut small, residual, shell, &images[..2], text.clone()) {
@@ -160,21 +210,20 @@ fn judge(model: &Model, expression: Node, shell: Option<Node>) -> Verdict {
                 value,
             } => {
                 point.splice(0..0, named(&model, &sizes));
-                return Verdict::Disproven {
+                let verdict = Verdict::Disproven {
                     residual,
                     point,
                     value,
                 };
+                return (verdict, is_on_shell);
             }
-            Verdict::Proven if model.sizes.is_empty() => return Verdict::Proven,
+            Verdict::Proven if model.sizes.is_empty() => return (Verdict::Proven, is_on_shell),
             Verdict::Undecided { why: last, .. } if model.sizes.is_empty() => why = last,
             _ => {}
         }
     }
-    Verdict::Undecided {
-        residual: text,
-        why,
-    }
+    let residual = text;
+    (Verdict::Undecided { residual, why }, is_on_shell)
 }
 
 fn indices() -> String {
@@ -234,21 +283,27 @@ fn decide(
     }
 }
 
-/// The text of a residual: as it came, or multiplied out, whichever is shorter.
-fn readable(model: &mut Model, residual: Node) -> String {
+/// The text of a residual: as it came, or multiplied out, whichever is shorter. `None` where nothing is
+/// left of it.
+fn readable(model: &mut Model, residual: Node) -> Option<String> {
     let plain = print::text(model, residual);
-    let Some(terms) = expand(&mut model.dag, residual) else {
-        return plain;
+    // Of more terms the text is longer.
+    let most = plain.len() / 2 + 1;
+    let Some(terms) = expand_within(&mut model.dag, residual, most) else {
+        return Some(plain);
     };
     let mut operands = Vec::with_capacity(terms.len());
     for term in &terms {
         operands.push((Rational::ONE, term.node(&mut model.dag)));
     }
     let expanded = model.dag.linear(&Rational::ZERO, &operands);
+    if model.dag.is_zero(expanded) {
+        return None;
+    }
     let expanded = print::text(model, expanded);
-    if expanded.len() <= plain.len() {
+    Some(if expanded.len() <= plain.len() {
         expanded
     } else {
         plain
-    }
+    })
 }

@@ -2,12 +2,15 @@
 //!
 //! Input: a residual and the shell. Output: whether the residual vanishes on the shell, or a point
 //! of the shell where it does not. Invariant: a polynomial vanishes on the shell if, after
-//! multiplication with the leading coefficient in some momentum, it is a multiple of H − e.
+//! multiplication with the leading coefficient in some momentum, it is a multiple of H − e. Assumes a
+//! leading coefficient that is 0 nowhere where H has a value, for no parameters: on a part of the
+//! shell where it is 0, the residual may be anything.
 
 use crate::dag::{Array, Column, Dag, Kind, Node, Side};
 use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
+use crate::rational::Rational;
 
 /// Whether the residual vanishes where `shell` does.
 pub(super) fn vanishes(
@@ -21,8 +24,8 @@ pub(super) fn vanishes(
     if residual.is_zero() {
         return Ok(true);
     }
-    let shell = algebra.convert(dag, shell)?;
-    let shell = algebra.numerator(&shell)?;
+    let written = algebra.convert(dag, shell)?;
+    let shell = algebra.numerator(&written)?;
     // The momentum of lowest degree is eliminated; one is enough.
     let mut momenta: Vec<(i32, Atom)> = Vec::new();
     for atom in shell.atoms() {
@@ -39,6 +42,7 @@ pub(super) fn vanishes(
             && !leading.is_zero()
             && !algebra.is_mentioned(&shell, atom)
             && !algebra.is_mentioned(&residual, atom)
+            && is_never_zero(algebra, leading, &written)?
         {
             momenta.push((*degree, atom));
         }
@@ -48,6 +52,44 @@ pub(super) fn vanishes(
         return Ok(false);
     };
     Ok(remainder(algebra, &residual, &shell, atom)?.is_zero())
+}
+
+/// Whether a polynomial is a product of factors that are positive, or that H divides by: a number, a
+/// positive polynomial, what stands below a fraction line of H as it is `written`.
+fn is_never_zero(algebra: &mut Algebra, poly: &Poly, written: &Poly) -> Result<bool, Undecided> {
+    let below: Vec<Atom> = written
+        .terms()
+        .iter()
+        .flat_map(|(m, _)| &m.0)
+        .filter(|(_, n)| *n < 0)
+        .map(|(atom, _)| *atom)
+        .collect();
+    let (k, monomial, mut rest) = algebra.content(poly)?;
+    if k.is_zero() {
+        return Ok(false);
+    }
+    for &atom in &below {
+        // What H divides by, and a power of it in the normal form.
+        let entry = algebra.entry(atom);
+        let relation = entry.relation.as_ref().map(|(_, power)| power.as_ref());
+        let factor = match &entry.key {
+            Key::Divisor(divisor) => Some(divisor),
+            _ => relation,
+        };
+        if let Some(factor) = factor.cloned() {
+            while let Some(quotient) = algebra.quotient(&rest, &factor)? {
+                rest = quotient;
+            }
+        }
+    }
+    let is_positive = |poly: &Poly| poly.as_constant().is_some() || algebra.is_positive(poly);
+    Ok(
+        (is_positive(&rest) || is_positive(&rest.scale(&Rational::MINUS_ONE)))
+            && monomial
+                .0
+                .iter()
+                .all(|(atom, _)| algebra.entry(*atom).positive || below.contains(atom)),
+    )
 }
 
 /// The pseudo-remainder of the division by `shell` as polynomials in one atom.

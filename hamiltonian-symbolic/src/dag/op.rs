@@ -7,7 +7,7 @@
 
 use super::{Dag, Node};
 use crate::rational::Rational;
-use hamiltonian_lanes::Real;
+use hamiltonian_real::Real;
 
 /// The parity of a function.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

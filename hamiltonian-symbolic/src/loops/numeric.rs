@@ -387,6 +387,10 @@ impl Meaning for Numbers<'_> {
                 [x, y] => {
                     let (x, y) = (child(*x), child(*y));
                     if matches!(op, Op::Min | Op::Max) {
+                        // Emitted code keeps a NaN of either.
+                        if x.value.is_nan() || y.value.is_nan() {
+                            return exact(f64::NAN);
+                        }
                         let first = (*op == Op::Min) == (x.value <= y.value);
                         return if first { x } else { y };
                     }

@@ -114,8 +114,6 @@ pub(crate) struct Algebra {
     /// Whether something is read that need not have a value for the statement to have one, or, in
     /// statements about all points, that tells single points apart.
     pub(super) has_conditions: bool,
-    /// A leaf that is > 0.
-    positive: Option<Node>,
     /// The points at which statements are to hold.
     pub(super) scope: Scope,
     /// The rest of the budget.
@@ -135,17 +133,8 @@ impl Algebra {
             any_redefined: false,
             any_guarded: false,
             has_conditions: false,
-            positive: None,
             scope,
             budget,
-        }
-    }
-
-    /// An empty algebra in which a leaf is > 0.
-    pub(crate) fn beside(budget: Budget, scope: Scope, positive: Node) -> Algebra {
-        Algebra {
-            positive: Some(positive),
-            ..Algebra::new(budget, scope)
         }
     }
 
@@ -161,11 +150,7 @@ impl Algebra {
 
     /// The atom of a leaf.
     pub(crate) fn leaf(&mut self, dag: &Dag, node: Node) -> Atom {
-        let is_set = self.positive == Some(node);
-        let signs = (
-            is_set || dag.is_nonnegative(node),
-            is_set || *dag.kind(node) == Kind::Pi,
-        );
+        let signs = (dag.is_nonnegative(node), *dag.kind(node) == Kind::Pi);
         let own = (dag.dependence(node), dag.variables(node));
         self.atom(Key::Leaf(node), None, own, signs)
     }
@@ -350,7 +335,7 @@ impl Algebra {
 
     /// The rational and monomial factors that all terms share, and what is left: 1, or a
     /// polynomial of several terms without negative powers whose last term has the coefficient 1.
-    pub(super) fn content(&mut self, poly: &Poly) -> Result<(Rational, Monomial, Poly), Undecided> {
+    pub(crate) fn content(&mut self, poly: &Poly) -> Result<(Rational, Monomial, Poly), Undecided> {
         let mut rest = self.canonical(poly)?;
         if self.any_guarded && rest.terms().len() > 1 && Algebra::is_divided(&rest) {
             // 1 + [x > 0]/x is 1 at x = 0, of which a common denominator knows nothing.

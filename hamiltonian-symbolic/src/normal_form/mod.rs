@@ -21,7 +21,7 @@ mod reduce;
 mod symmetry;
 
 pub(crate) use atoms::{Algebra, Key, Scope};
-pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided};
+pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_power};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};

@@ -25,6 +25,12 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
+    /// Whether a number of terms, by a number of products, is within the budget.
+    fn allow(&self, terms: usize, products: usize) -> Result<(), Undecided> {
+        (terms <= self.terms && products <= self.products)
+            .then_some(())
+            .ok_or(Undecided)
+    }
     pub(super) fn charge(&mut self, products: usize) -> Result<(), Undecided> {
         self.products = self.products.checked_sub(products).ok_or(Undecided)?;
         Ok(())
@@ -236,11 +242,41 @@ impl Poly {
                 monomial.pow(power),
             ));
         }
+        if n > 1 {
+            self.allow_power(n, budget)?;
+        }
         let mut result = Poly::integer(1);
         for _ in 0..n {
             result = result.mul(self, budget)?;
         }
         Ok(result)
+    }
+    /// Whether the n-th power is within the budget: its terms, and the products that make it.
+    fn allow_power(&self, n: u32, budget: &Budget) -> Result<(), Undecided> {
+        // No two terms of a power have the same exponents.
+        let mut ranges: Map<Atom, (i64, i64)> = Map::default();
+        for (monomial, _) in &self.terms {
+            for &(atom, m) in &monomial.0 {
+                let (least, most) = ranges.entry(atom).or_default();
+                (*least, *most) = ((*least).min(m.into()), (*most).max(m.into()));
+            }
+        }
+        let lengths = ranges.values().map(|(least, most)| most.abs_diff(*least));
+        let lengths: Vec<u64> = lengths.collect();
+        let terms = terms_of_power(self.terms.len(), lengths.iter().copied(), n);
+        budget.allow(terms, 0)?;
+        // Numbers grow by the bits of the sum of coefficients.
+        let longest = self.terms.iter().map(|(_, k)| k.length()).max();
+        let bits = longest.unwrap_or(0) + u64::from(self.terms.len().max(1).ilog2());
+        let mut products = 0usize;
+        for m in 1..n {
+            let terms = terms_of_power(self.terms.len(), lengths.iter().copied(), m);
+            let words = (bits * u64::from(m) / 64) as usize;
+            let each = 1 + words * words;
+            products += terms.saturating_mul(self.terms.len()).saturating_mul(each);
+            budget.allow(1, products)?;
+        }
+        Ok(())
     }
     /// The atoms that occur, ascending.
     pub(crate) fn atoms(&self) -> Vec<Atom> {
@@ -279,6 +315,26 @@ impl Poly {
             })
             .collect()
     }
+}
+
+/// A bound of the number of terms of an n-th power: of a sum of so many terms, whose exponents have
+/// ranges of these lengths.
+pub(crate) fn terms_of_power(terms: usize, lengths: impl Iterator<Item = u64>, n: u32) -> usize {
+    // Exponents of the terms in each product: n of them, in any order.
+    let mut choices = 1usize;
+    for at in 1..terms.max(1) {
+        let more = choices.saturating_mul(n as usize + at);
+        if more == usize::MAX {
+            choices = more;
+            break;
+        }
+        choices = more / at;
+    }
+    let n = u64::from(n);
+    let exponents = lengths.fold(1u64, |all, length| {
+        all.saturating_mul(length.saturating_mul(n).saturating_add(1))
+    });
+    choices.min(usize::try_from(exponents).unwrap_or(usize::MAX))
 }
 
 /// A sum under construction.

@@ -211,6 +211,33 @@ impl Algebra {
             })
     }
 
+    /// The quotient, where a divisor that is no constant divides a polynomial. Neither has negative powers.
+    pub(crate) fn quotient(
+        &mut self,
+        dividend: &Poly,
+        divisor: &Poly,
+    ) -> Result<Option<Poly>, Undecided> {
+        let newest = |poly: &Poly| {
+            let terms = poly.terms().iter();
+            terms.max_by(|a, b| a.0.newest_first(&b.0)).cloned()
+        };
+        let (mut rest, mut quotient) = (dividend.clone(), Poly::default());
+        let Some((leading, c)) = newest(divisor).filter(|(leading, _)| !leading.is_one()) else {
+            return Ok(None);
+        };
+        let by = c.recip().ok_or(Undecided)?;
+        while let Some((monomial, k)) = newest(&rest) {
+            let Some(over) = monomial.over(&leading) else {
+                return Ok(None);
+            };
+            let term = Poly::term(k.mul(&by), over);
+            let product = self.mul(&term, divisor)?;
+            rest = rest.sub(&product);
+            quotient = quotient.add(&term);
+        }
+        Ok(Some(quotient))
+    }
+
     /// The polynomial with redefined atoms replaced.
     pub(super) fn resolved(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         if !self.any_redefined {

@@ -144,7 +144,8 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
     (!dag.has(&[body], is_loop)).then_some(Nest { loops, body })
 }
 
-/// All re-indexings of a nest, itself first.
+/// All re-indexings of a nest in which each loop that may be shifted has an element at its bare index:
+/// they are the same ones whichever of them the nest is.
 fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
     let nest = lower(dag, &nest).unwrap_or(nest);
     let nest = from_zero(dag, nest);
@@ -159,7 +160,31 @@ fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
             }
         }
     }
+    if found.iter().any(|nest| is_anchored(dag, nest)) {
+        found.retain(|nest| is_anchored(dag, nest));
+    }
     found
+}
+
+/// Whether each loop over 0..N that is read modulo N is read bare, too.
+fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
+    let nodes = dag.reachable(&[nest.body]);
+    let indices: Vec<&Index> = nodes
+        .iter()
+        .filter_map(|node| match dag.kind(*node) {
+            Kind::Element(_, row, column) => Some(std::iter::once(row).chain(column)),
+            _ => None,
+        })
+        .flatten()
+        .collect();
+    nest.loops.iter().all(|domain| {
+        let end = &dag.range(*domain).end;
+        let is_shifted = |index: &&Index| {
+            index.affine.factor(*domain) == 1 && index.modulo.as_ref() == Some(end)
+        };
+        let is_bare = |index: &&Index| index.affine == Affine::variable(*domain);
+        !indices.iter().any(is_shifted) || indices.iter().any(is_bare)
+    })
 }
 
 /// Σ_i Σ_{j>i} f(i, j) as Σ_i Σ_{j<i} f(j, i).

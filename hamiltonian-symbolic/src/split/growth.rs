@@ -23,6 +23,27 @@ pub(crate) struct Growth {
     pub(crate) c3: Node,
 }
 
+/// Σ zⁿ/(2n + 1) = artanh(√z)/√z for |z| below [`near_zero`], and arctan(√−z)/√−z.
+pub(crate) fn arctangent(space: &mut Space, z: Node) -> Node {
+    /// As many as |z| < 1/256 needs for 106 bits.
+    const TERMS: i64 = 13;
+    let dag = space.dag();
+    let mut sum = dag.constant(Rational::new(1, 2 * TERMS + 1));
+    for n in (0..TERMS).rev() {
+        let higher = dag.mul(&[z, sum]);
+        sum = dag.linear(&Rational::new(1, 2 * n + 1), &[(Rational::ONE, higher)]);
+    }
+    sum
+}
+
+/// Whether |z| < 1/256.
+pub(crate) fn near_zero(space: &mut Space, z: Node) -> Node {
+    let dag = space.dag();
+    let size = dag.call(Op::Abs, &[z]);
+    let bound = dag.constant(Rational::new(1, 256));
+    dag.less(size, bound)
+}
+
 /// As many terms of Σ zⁿ/(2n + k)! as |z| ≤ ½ needs for 106 bits.
 const TERMS: usize = 13;
 

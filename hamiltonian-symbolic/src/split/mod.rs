@@ -4,6 +4,7 @@
 //! that has no flow. Invariant: the pieces are proven to add up to H, and each has an exact flow: it
 //! is an instance of a row of [`ROWS`], or made of such by rules that are theorems.
 
+mod breaks;
 mod cover;
 mod growth;
 mod rank;

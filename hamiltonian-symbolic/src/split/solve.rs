@@ -23,6 +23,7 @@ pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     }
     let found = whole(space, h, s)
         .or_else(|| function(space, h, s))
+        .or_else(|| bare(space, h, s))
         .or_else(|| separated(space, h, s))
         .or_else(|| commuting(space, h, s));
     // Expressions made after the limits may hold anything.
@@ -43,7 +44,7 @@ pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
 }
 
 /// No conjugate pair meets: everything moves at a constant rate.
-fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
+pub(super) fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
     let mut motion = Motion::default();
     for bit in bits(space.set(h)) {
         let variable = space.variable(bit);
@@ -61,7 +62,15 @@ fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
 fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     ROWS.iter().find_map(|row| match row.solve {
         Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
-        Solve::Pair(_) | Solve::Exponential => None,
+        Solve::Bare(_) | Solve::Pair(_) | Solve::Exponential => None,
+    })
+}
+
+/// The rows that take all of h where it is no function of something smaller.
+fn bare(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    ROWS.iter().find_map(|row| match row.solve {
+        Solve::Bare(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
+        Solve::Whole(_) | Solve::Pair(_) | Solve::Exponential => None,
     })
 }
 
@@ -73,6 +82,7 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let rate = space.by_node(h, u);
     let time = space.dag().mul(&[s, rate]);
     let inner = whole(space, u, time)
+        .or_else(|| bare(space, u, time))
         .or_else(|| separated(space, u, time))
         .or_else(|| commuting(space, u, time))?;
     // The factor beside u is a constant of the motion only where u's flow leaves it alone.
@@ -200,7 +210,7 @@ fn row_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Optio
                 }
             }
             Solve::Exponential => {}
-            Solve::Whole(solve) => {
+            Solve::Whole(solve) | Solve::Bare(solve) => {
                 if let Some(motion) = solve(space, k, time) {
                     return Some(Flow::of(motion, row.name));
                 }
@@ -289,7 +299,9 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     const PARTS: usize = 9;
     /// The most terms.
     const TERMS: usize = 36;
-    let terms = terms(space, h);
+    let mut terms = terms(space, h);
+    // Parts grow term by term: their order must not be that in which H is written.
+    terms.sort_by_key(|term| pairs(space.set(*term)));
     if !(2..=TERMS).contains(&terms.len()) {
         return None;
     }
@@ -304,6 +316,11 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         all.motion = all.motion.then(space.dag(), &next.motion);
     }
     Some(all)
+}
+
+/// The number of pairs of which a set has a variable.
+fn pairs(set: Set) -> u32 {
+    ((set | set >> 1) & 0x5555_5555_5555_5555).count_ones()
 }
 
 /// The terms of a sum, and of sums in it; numbers are left out.
@@ -359,9 +376,7 @@ fn apart(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
 fn by_pairs(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
     let (mut single, mut joining) = (Vec::new(), Vec::new());
     for &term in terms {
-        let set = space.set(term);
-        let pairs = (set | set >> 1) & 0x5555_5555_5555_5555;
-        match pairs.count_ones() {
+        match pairs(space.set(term)) {
             0 | 1 => single.push(term),
             _ => joining.push(term),
         }

@@ -226,8 +226,14 @@ impl Space {
         }
         terms
     }
-    /// Whether {a, b} = 0 is proven.
+    /// Whether the flows of a and b are proven to commute: {a, b} = 0, and neither crosses a set where
+    /// the other is not smooth.
     pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
+        self.bracket(a, b).is_empty()
+            || self.brackets_vanish(a, b) && self.stays_smooth(a, b) && self.stays_smooth(b, a)
+    }
+    /// Whether {a, b} = 0 is proven wherever both have derivatives.
+    pub(crate) fn brackets_vanish(&mut self, a: Node, b: Node) -> bool {
         let terms = self.bracket(a, b);
         // Numbers of the derivatives first, which are made once for all brackets.
         let mut numbers = [Vec::new(), Vec::new()];

@@ -2,14 +2,16 @@
 //!
 //! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
 //! solved once, as a system of the few elements it names, which are proven to be different ones;
-//! terms of one site are exact in any order, terms that join sites are swept one way down and the
+//! iterations that are proven to commute are exact in any order, others are swept one way down and the
 //! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
+use super::solve::shear;
 use super::space::Space;
 use super::units::{Term, terms};
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::flow::Flow;
 use crate::index::{Affine, Domain, Index};
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
 use crate::print;
@@ -199,97 +201,138 @@ fn around(dag: &mut Dag, chain: &[Domain], body: Node) -> Node {
     loops.fold(body, |body, domain| dag.reduce(*domain, body))
 }
 
-/// Whether the rows of a body are different ones in every iteration, where a condition holds: a
-/// site alone, neighbours on a line or a ring, pairs j < i.
-fn are_distinct(dag: &mut Dag, chain: &[Domain], rows: &[Index]) -> Option<Option<Node>> {
-    let variable = |index: &Index| match index.affine.loops.as_slice() {
-        [(domain, 1)] if index.affine.sizes.is_empty() => Some((*domain, index.affine.constant)),
-        _ => None,
-    };
-    match (chain, rows) {
-        // Elements given by number are different where their numbers are.
-        ([], rows) => rows
-            .iter()
-            .all(|row| row.modulo.is_none() && row.affine.as_constant().is_some())
-            .then_some(None),
-        ([_], [row]) => variable(row).map(|_| None),
-        ([_], [a, b]) => {
-            let ((d, i), (e, j)) = (variable(a)?, variable(b)?);
-            if d != e || (i - j).abs() != 1 {
-                return None;
-            }
-            let modulo = a.modulo.clone().or_else(|| b.modulo.clone());
-            match (modulo, &a.modulo, &b.modulo) {
-                (None, ..) => Some(None),
-                (Some(n), x, y) => {
-                    let same = |m: &Option<Affine>| m.as_ref().is_none_or(|m| *m == n);
-                    if !same(x) || !same(y) {
-                        return None;
-                    }
-                    // On a ring of one the neighbour is the site itself.
-                    match n.as_constant() {
-                        Some(count) => (count > 1).then_some(None),
-                        None => {
-                            let (count, one) = (dag.affine(&n), dag.integer(1));
-                            Some(Some(dag.less(one, count)))
-                        }
-                    }
+/// The most rows of a body.
+const ROWS: usize = 4;
+
+/// Conditions under which the rows of a body are different ones in every iteration; `None` where that
+/// is not known.
+fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Option<Vec<Node>> {
+    if rows.len() > ROWS {
+        return None;
+    }
+    let mut conditions = Vec::new();
+    for (at, a) in rows.iter().enumerate() {
+        for b in &rows[..at] {
+            for condition in are_apart(dag, a, b)? {
+                if !conditions.contains(&condition) {
+                    conditions.push(condition);
                 }
             }
         }
-        ([outer, inner], [a, b]) => {
-            let is_pair = |i: Option<(Domain, i64)>, j: Option<(Domain, i64)>| {
-                i == Some((*outer, 0)) && j == Some((*inner, 0))
-            };
-            let plain = a.modulo.is_none() && b.modulo.is_none();
-            let pair = is_pair(variable(a), variable(b)) || is_pair(variable(b), variable(a));
-            let below = dag.range(*inner).end == Affine::variable(*outer);
-            (plain && pair && below).then_some(None)
-        }
-        _ => None,
     }
+    Some(conditions)
+}
+
+/// Conditions under which two rows differ in every iteration.
+fn are_apart(dag: &mut Dag, a: &Index, b: &Index) -> Option<Vec<Node>> {
+    let difference = a.affine.checked_plus(-1, &b.affine)?;
+    let count = match (&a.modulo, &b.modulo) {
+        (Some(a), Some(b)) if a != b => return None,
+        // A row that is not taken modulo n is below n or differs from all that are.
+        (Some(n), _) | (None, Some(n)) => Some(n.clone()),
+        (None, None) => None,
+    };
+    let Some(count) = count else {
+        let is_positive = |dag: &Dag, form: &Affine| {
+            let less = form.checked_plus(-1, &Affine::constant(1));
+            less.is_some_and(|less| dag.is_never_negative(&less))
+        };
+        let minus = Affine::constant(0).checked_plus(-1, &difference)?;
+        if is_positive(dag, &difference) || is_positive(dag, &minus) {
+            return Some(Vec::new());
+        }
+        if !difference.loops.is_empty() || difference.as_constant().is_some() {
+            return None;
+        }
+        let (apart, zero) = (dag.affine(&difference), dag.integer(0));
+        let (below, above) = (dag.less(apart, zero), dag.less(zero, apart));
+        return Some(vec![dag.or(below, above)]);
+    };
+    let distance = modulo(difference, &count)?.unsigned_abs();
+    if let Some(count) = count.as_constant() {
+        let count = u64::try_from(count).ok().filter(|count| *count > 0)?;
+        return (!distance.is_multiple_of(count)).then(Vec::new);
+    }
+    // On a ring of as many sites as a divisor of the distance the two are one.
+    if !(1..=64).contains(&distance) {
+        return None;
+    }
+    let sites = dag.affine(&count);
+    let divisors = (1..=distance).filter(|k| distance.is_multiple_of(*k));
+    let mut conditions = Vec::new();
+    for divisor in divisors {
+        let divisor_node = dag.integer(divisor as i64);
+        let more = dag.less(divisor_node, sites);
+        conditions.push(match divisor {
+            1 => more,
+            _ => {
+                let fewer = dag.less(sites, divisor_node);
+                dag.or(fewer, more)
+            }
+        });
+    }
+    Some(conditions)
+}
+
+/// A difference of indices up to multiples of a size; `None` where it varies.
+fn modulo(difference: Affine, count: &Affine) -> Option<i64> {
+    let mut rest = difference;
+    if let Some(&(size, k)) = count.sizes.first() {
+        let own = rest.factor_of_size(size);
+        if own % k != 0 {
+            return None;
+        }
+        rest = rest.checked_plus(-(own / k), count)?;
+    }
+    rest.as_constant()
 }
 
 /// The loops of flows that a body is; one, unless it `may_part`.
 fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<Vec<Piece>> {
-    let condition = are_distinct(&mut model.dag, &site.chain, &site.rows)?;
-    let (small, images) = scratch(model, body);
+    let conditions = are_distinct(&mut model.dag, &site.rows)?;
+    let (mut small, images) = scratch(model, body);
     let over = |dag: &mut Dag, root: Node, map: &Map<Node, Node>| {
         dag.substitute(root, |_, node| map.get(&node).copied())
     };
-    let mut small = small;
     let small_body = over(&mut small.dag, body, &images);
     let mut space = Space::new(&small, &[small_body])?;
     space.has_exponentials = false;
-    let found = match any_flow(&mut space, small_body) {
-        Some(flow) => vec![(small_body, ExactFlow::from(flow))],
+    // The flow of a part as a motion: among scalars a shear moves all at constant rates, in a loop it
+    // does so within one iteration.
+    let parts: Vec<(Node, Flow)> = match any_flow(&mut space, small_body) {
+        Some(flow) => vec![(small_body, flow)],
         None if may_part => {
             let parts = search(&mut space, small_body).ok()?.pieces.into_iter();
-            parts.map(|piece| (piece.h, piece.flow)).collect()
+            let c = space.dag().coefficient();
+            let motion = |piece: Piece| {
+                let flow = match piece.flow {
+                    ExactFlow::Closed(motion, rows) => Flow { motion, rows },
+                    ExactFlow::Linear => shear(&mut space, piece.h, c),
+                    ExactFlow::Exponential | ExactFlow::Loop { .. } => return None,
+                };
+                Some((piece.h, flow))
+            };
+            parts.map(motion).collect::<Option<_>>()?
         }
         None => return None,
     };
     model.dag = space.model.dag;
     let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
-    let mut pieces = Vec::with_capacity(found.len());
-    for (part, flow) in found {
+    let mut pieces = Vec::with_capacity(parts.len());
+    for (part, Flow { motion, rows }) in parts {
         let part = over(&mut model.dag, part, &back);
         let h = around(&mut model.dag, &site.chain, part);
-        let flow = match flow {
-            ExactFlow::Closed(motion, rows) => {
-                let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
-                motion.domain.splice(0..0, condition);
-                match site.chain.last() {
-                    Some(innermost) => ExactFlow::Loop {
-                        motion,
-                        rows,
-                        innermost: *innermost,
-                        merges: site.rows.len() == 1,
-                    },
-                    None => ExactFlow::Closed(motion, rows),
-                }
-            }
-            flow => flow,
+        let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
+        motion.domain.splice(0..0, conditions.iter().copied());
+        let flow = match site.chain.last() {
+            _ if is_linear(&columns(&model.dag, part)) => ExactFlow::Linear,
+            Some(innermost) => ExactFlow::Loop {
+                motion,
+                rows,
+                innermost: *innermost,
+                merges: commute(&model.dag, &site.chain, &site.rows, part),
+            },
+            None => ExactFlow::Closed(motion, rows),
         };
         pieces.push(Piece {
             h,
@@ -298,6 +341,26 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
         });
     }
     Some(pieces)
+}
+
+/// Whether the flows of any two iterations are proven to commute, whatever the sizes: each iteration has
+/// one site of its own, or iterations that share a site have the same body.
+fn commute(dag: &Dag, chain: &[Domain], rows: &[Index], body: Node) -> bool {
+    let ([domain], [row]) = (chain, rows) else {
+        return false;
+    };
+    if row.affine.factor(*domain) == 0 {
+        return false;
+    }
+    let is_own = |node: Node| match dag.kind(node) {
+        Kind::Variable(_) => false,
+        Kind::Element(_, index, column) => {
+            let is_free = |index: &Index| index.variables() == 0;
+            (index == row || is_free(index)) && column.as_ref().is_none_or(is_free)
+        }
+        _ => true,
+    };
+    row.modulo.is_none() || dag.reachable(&[body]).into_iter().all(is_own)
 }
 
 /// A system of scalars in which every element that a body names is one of its own, and the
@@ -327,7 +390,7 @@ fn scratch(model: &Model, body: Node) -> (Model, Map<Node, Node>) {
     for node in model.dag.reachable(&[body]) {
         let is_given = matches!(
             model.dag.kind(node),
-            Kind::Element(Array::Parameter(_), ..) | Kind::Variable(_)
+            Kind::Element(Array::Parameter(_), ..) | Kind::Variable(_) | Kind::Count(_)
         );
         if is_given {
             let number = small.parameters.len();

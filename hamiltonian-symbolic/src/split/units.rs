@@ -165,10 +165,22 @@ pub(super) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
                     source: term.source,
                 });
             }
-            _ => found.push(term),
+            _ => found.push(counted(dag, term)),
         }
     }
     found
+}
+
+/// A term without the inner loops whose variables it does not read: it stands there as often as they run.
+fn counted(dag: &mut Dag, mut term: Term) -> Term {
+    while let Some(&innermost) = term.chain.last()
+        && dag.variables(term.body) & 1 << innermost.0 == 0
+    {
+        term.chain.pop();
+        let count = dag.count(innermost);
+        term.body = dag.mul(&[count, term.body]);
+    }
+    term
 }
 
 /// A sum or a loop with the factor beside it, in which nothing moves; other expressions as they are.
@@ -247,9 +259,20 @@ fn out(space: &mut Space, node: Node) -> Option<Vec<Node>> {
     (loss(space, &parts, node) <= LOSS).then_some(parts)
 }
 
-/// Σ|parts|/|whole|, at a point.
+/// Σ|parts|/|whole|, the median of some points near and far: a whole that vanishes somewhere loses digits there
+/// in any form.
 fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
-    let sum: f64 = parts.iter().map(|part| space.value(*part).abs()).sum();
-    let loss = sum / space.value(whole).abs();
-    if loss.is_finite() { loss } else { 1.0 }
+    let set = space.set(whole);
+    let mut losses = Vec::new();
+    for step in [0.0, 1.0, 2.0, 4.0, 8.0] {
+        let point = space.point_off(&[(set, step)]);
+        let mut sum = 0.0;
+        for part in parts {
+            sum += space.value_at(*part, &point).abs();
+        }
+        let loss = sum / space.value_at(whole, &point).abs();
+        losses.extend(loss.is_finite().then_some(loss));
+    }
+    losses.sort_by(f64::total_cmp);
+    losses.get(losses.len() / 2).copied().unwrap_or(1.0)
 }

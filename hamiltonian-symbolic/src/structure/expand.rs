@@ -4,6 +4,7 @@
 //! appearance, factors in the order they were written in; like terms are one.
 
 use crate::dag::{Dag, Kind, Map, Node};
+use crate::normal_form;
 use crate::rational::Rational;
 use std::rc::Rc;
 
@@ -44,6 +45,11 @@ impl Term {
 /// The terms of a node multiplied out; `None` where there are more than 4096 of them.
 #[must_use]
 pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
+    expand_within(dag, root, MOST)
+}
+
+/// The terms of a node multiplied out; `None` where it, or a part of it, has more of them.
+pub(crate) fn expand_within(dag: &mut Dag, root: Node, most: usize) -> Option<Vec<Term>> {
     let mut expansions: Map<Node, Rc<Vec<Term>>> = Map::default();
     for node in spine(dag, root) {
         let kind = dag.kind(node).clone();
@@ -68,8 +74,11 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
                 for (child, n) in factors {
                     match expansions.get(&child) {
                         Some(terms) if n > 0 && terms.len() > 1 => {
+                            if n > 1 && terms_of_power(terms, n) > most {
+                                return None;
+                            }
                             for _ in 0..n {
-                                product = multiply(&product, terms)?;
+                                product = multiply(&product, terms, most)?;
                             }
                         }
                         Some(terms) if terms.len() == 1 => {
@@ -82,9 +91,9 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
                                 coefficient: power,
                                 factors: factors.collect::<Option<_>>()?,
                             };
-                            product = multiply(&product, &[term])?;
+                            product = multiply(&product, &[term], most)?;
                         }
-                        _ => product = multiply(&product, &[Term::power(child, n)])?,
+                        _ => product = multiply(&product, &[Term::power(child, n)], most)?,
                     }
                 }
                 product
@@ -110,7 +119,7 @@ pub fn expand(dag: &mut Dag, root: Node) -> Option<Vec<Term>> {
             }
             _ => vec![Term::power(node, 1)],
         };
-        if terms.len() > MOST {
+        if terms.len() > most {
             return None;
         }
         expansions.insert(node, Rc::new(terms));
@@ -145,8 +154,21 @@ pub(crate) fn times(factors: &[(Node, i32)], powers: &[(Node, i32)]) -> Option<V
     Some(product)
 }
 
-fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
-    if a.len().saturating_mul(b.len()) > 16 * MOST {
+/// A bound of the number of terms of the n-th power of a sum.
+fn terms_of_power(terms: &[Term], n: i32) -> usize {
+    let mut ranges: Map<Node, (i64, i64)> = Map::default();
+    for term in terms {
+        for &(node, m) in &term.factors {
+            let (least, most) = ranges.entry(node).or_default();
+            (*least, *most) = ((*least).min(m.into()), (*most).max(m.into()));
+        }
+    }
+    let lengths = ranges.values().map(|(least, most)| most.abs_diff(*least));
+    normal_form::terms_of_power(terms.len(), lengths, n.unsigned_abs())
+}
+
+fn multiply(a: &[Term], b: &[Term], most: usize) -> Option<Vec<Term>> {
+    if a.len().saturating_mul(b.len()) > 16 * most {
         return None;
     }
     let mut sum = Collected::default();
@@ -159,7 +181,7 @@ fn multiply(a: &[Term], b: &[Term]) -> Option<Vec<Term>> {
         }
     }
     let terms = sum.terms();
-    (terms.len() <= MOST).then_some(terms)
+    (terms.len() <= most).then_some(terms)
 }
 
 /// Like terms added up, in order of first appearance.

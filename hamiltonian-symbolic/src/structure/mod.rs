@@ -9,7 +9,7 @@ mod expand;
 mod quadratic;
 mod separate;
 
-pub(crate) use expand::{Collected, times};
+pub(crate) use expand::{Collected, expand_within, times};
 pub use expand::{Term, expand};
 pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;

@@ -72,6 +72,14 @@ impl Chart {
             Chart::Heliocentric(_) => "heliocentric",
         }
     }
+    /// Whether it replaces a group, or rows of it.
+    #[must_use]
+    pub fn replaces(&self, group: u16) -> bool {
+        match self.replaced() {
+            Replaced::Scalars(_, components) => components.iter().any(|c| c.group == group),
+            Replaced::Bodies(bodies) => bodies.group == group,
+        }
+    }
     pub(super) fn replaced(&self) -> Replaced<'_> {
         match self {
             Chart::Polar(components) => Replaced::Scalars(&POLAR, components),

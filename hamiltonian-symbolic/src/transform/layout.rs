@@ -100,6 +100,7 @@ impl Layout {
                 replaced.push(group);
             }
         }
+        let own = new_groups(model, charts);
         let mut groups: Vec<Group> = Vec::new();
         let mut kept = Vec::new();
         let mut firsts: Vec<Option<u16>> = vec![None; charts.len()];
@@ -110,10 +111,10 @@ impl Layout {
                 groups.push(group.clone());
                 continue;
             }
-            for (chart, first) in charts.iter().zip(&mut firsts) {
+            for ((chart, own), first) in charts.iter().zip(&own).zip(&mut firsts) {
                 if first.is_none() && members(chart).contains(&number) {
                     *first = Some(groups.len() as u16);
-                    groups.extend(new_groups(model, chart));
+                    groups.extend(own.iter().cloned());
                 }
             }
         }
@@ -123,8 +124,8 @@ impl Layout {
             .iter()
             .map(|(old, _)| model.groups[usize::from(*old)].clone())
             .collect();
-        for chart in charts {
-            for group in new_groups(model, chart) {
+        for (chart, own) in charts.iter().zip(&own) {
+            for group in own {
                 for name in [&group.coordinate, &group.momentum] {
                     if left.declares(name) {
                         return Err(Refusal::NameTaken {
@@ -133,7 +134,7 @@ impl Layout {
                         });
                     }
                 }
-                left.groups.push(group);
+                left.groups.push(group.clone());
             }
         }
         let places = charts
@@ -170,22 +171,35 @@ fn members(chart: &Chart) -> Vec<u16> {
     groups
 }
 
-fn new_groups(model: &Model, chart: &Chart) -> Vec<Group> {
-    match chart.replaced() {
-        Replaced::Scalars(formulas, _) => {
-            let scalar = |name: &&str| Group::scalar(*name, format!("p_{name}"));
-            formulas.new.iter().map(scalar).collect()
-        }
-        Replaced::Bodies(bodies) => {
-            let old = &model.groups[usize::from(bodies.group)];
-            vec![Group {
-                coordinate: format!("{}_{}", old.coordinate, chart.word()),
-                momentum: format!("{}_{}", old.momentum, chart.word()),
-                velocity: None,
-                shape: old.shape.clone(),
-            }]
-        }
+/// The groups of each chart. A name that an earlier chart introduces gets a number: `r`, then `r_2`.
+fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
+    let mut all: Vec<Vec<Group>> = Vec::with_capacity(charts.len());
+    for chart in charts {
+        let scalar = |name: &&str| {
+            let is_taken = |name: &str| all.iter().flatten().any(|g| g.coordinate == name);
+            let mut numbered = (2..).map(|number| format!("{name}_{number}"));
+            let name = match is_taken(name) {
+                true => numbered.find(|name| !is_taken(name)).unwrap_or_default(),
+                false => (*name).to_owned(),
+            };
+            let momentum = format!("p_{name}");
+            Group::scalar(name, momentum)
+        };
+        let own = match chart.replaced() {
+            Replaced::Scalars(formulas, _) => formulas.new.iter().map(scalar).collect(),
+            Replaced::Bodies(bodies) => {
+                let old = &model.groups[usize::from(bodies.group)];
+                vec![Group {
+                    coordinate: format!("{}_{}", old.coordinate, chart.word()),
+                    momentum: format!("{}_{}", old.momentum, chart.word()),
+                    velocity: None,
+                    shape: old.shape.clone(),
+                }]
+            }
+        };
+        all.push(own);
     }
+    all
 }
 
 /// The sets of variables of a chart whose first new group has the given number.

@@ -12,8 +12,8 @@ use crate::op::Op;
 use crate::rational::Rational;
 use crate::structure::{Collected, Term, expand, times};
 
-/// The most terms of all sums together that are multiplied out.
-const BUDGET: usize = 1 << 17;
+/// The most terms of all sums together that are multiplied out: of more operations a system is refused.
+const BUDGET: usize = 1 << 14;
 /// The largest power that is rewritten.
 const HIGHEST: i32 = 16;
 

@@ -10,15 +10,15 @@ use hamiltonian_symbolic::program::{Purpose, Target};
 use hamiltonian_symbolic::split::find;
 
 /// A system of arrays, and its pieces.
-struct Ring {
-    signature: &'static str,
-    parameters: &'static str,
-    h: &'static str,
+pub struct Ring {
+    pub signature: &'static str,
+    pub parameters: &'static str,
+    pub h: &'static str,
     pieces: &'static [&'static str],
     merges: &'static [bool],
 }
 
-const RINGS: &[Ring] = &[
+pub const RINGS: &[Ring] = &[
     Ring {
         signature: "q[n]; p[n]",
         parameters: "g",
@@ -82,6 +82,55 @@ const RINGS: &[Ring] = &[
         ],
         merges: &[false, false],
     },
+    // Shears between sites do not commute, however linear each of them is.
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 1..n) { q[i]*p[i - 1] }",
+        pieces: &["sum(i in 1..n) { q[i]*p[i - 1] }"],
+        merges: &[false],
+    },
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n) { q[i]^2*p[(i + 1) % n] }",
+        pieces: &["sum(i in 0..n) { q[i]^2*p[(i + 1) % n] }"],
+        merges: &[false],
+    },
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n, j in 0..i) { sin(q[i]*p[j]) }",
+        pieces: &["sum(i in 0..n) { sum(j in 0..i) { sin(q[i]*p[j]) } }"],
+        merges: &[false],
+    },
+    // Pairs the other way, and a ring as a chain with a closing bond.
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n, j in i + 1..n) { (q[i]*p[j] - q[j]*p[i])^2 }",
+        pieces: &["sum(i in 0..n) { sum(j in i + 1..n) { (q[i]*p[j] - q[j]*p[i])^2 } }"],
+        merges: &[false],
+    },
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2/4 } - sum(i in 0..n - 1) { q[i]*q[i + 1] + p[i]*p[i + 1] } - q[n - 1]*q[0] - p[n - 1]*p[0]",
+        pieces: &[
+            "sum(i in 0..n) { (q[i]^2 + p[i]^2)^2 }/4",
+            "-sum(i in 0..n - 1) { q[i]*q[i + 1] + p[i]*p[i + 1] }",
+            "-q[n - 1]*q[0] - p[n - 1]*p[0]",
+        ],
+        merges: &[true, false, true],
+    },
+    // Each site twice, by different terms.
+    Ring {
+        signature: "q[n]; p[n]",
+        parameters: "",
+        h: "sum(i in 1..2*n) { (q[i % n]^2 + i*p[i % n])^2/90 }",
+        pieces: &["sum(i in 1..2*n) { (q[i % n]^2 + i*p[i % n])^2 }/90"],
+        merges: &[false],
+    },
     Ring {
         signature: "q[n]; p[n]",
         parameters: "",
@@ -97,6 +146,7 @@ const RINGS: &[Ring] = &[
 #[test]
 fn arrays_are_split_into_loops_of_flows() {
     for ring in RINGS {
+        println!("{}", ring.h);
         let mut model = common::system(ring.signature, "n", ring.parameters, ring.h);
         let pieces = match find(&mut model) {
             Ok(splitting) => splitting.pieces,

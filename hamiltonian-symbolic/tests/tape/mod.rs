@@ -182,6 +182,7 @@ impl Real for Traced {
     type Mask = bool;
     type Size = f64;
     const LANES: u32 = 1;
+    hamiltonian_real::itself_in_lanes! {}
 
     fn constant(hi: f64, lo: f64) -> Traced {
         if lo == 0.0 {

@@ -32,7 +32,14 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
          c1 = c*ct + d*st; d1 = d*ct - c*st; f1 = sign(f)*hypot(d1, size/w); \
          x1 = x + atan2(f1*c - c1*f, c1*c + f1*f); p1 = 0 - w*d1/f1",
     )?;
+    // With Λ = 0 the turn is along a meridian, and goes through the poles.
+    names.read(
+        space.dag(),
+        "D = 2*a*s*p; along = pick(0 < size, x1, x + D); still = pick(0 < size, p1, p)",
+    )?;
     let mut motion = Motion::default();
+    let squared = space.dag().powi(root, 2);
+    let is_square = squared == lambda;
     if space.set(lambda) != 0 {
         // ∫a/sin²θ dt = Δ𝓕(χ; 1, √Λ/w)/2√Λ
         names.read(
@@ -41,16 +48,23 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
              less = d^2/((1 + k)) + c^2/(1 + k)",
         )?;
         names.read(space.dag(), SWEPT)?;
-        let squared = space.dag().powi(root, 2);
-        let time = match squared == lambda {
-            true => names.one(space.dag(), "sign(root)*angle/(2*root)")?,
-            false => names.one(space.dag(), "angle/(2*root)")?,
+        let time = match is_square {
+            // The flow of Λ has a factor √Λ, which takes this one away.
+            true => names.one(space.dag(), "sign(root)*pick(0 < size, angle, 0)/(2*root)")?,
+            false => names.one(
+                space.dag(),
+                "pick(0 < size, angle/(2*root), a*s*pick(0 < abs(D), sin(D)/D, 1)/(f*sin(x + D)))",
+            )?,
         };
         motion = flow(space, lambda, time)?.motion;
     }
-    let positive = names.one(space.dag(), "root^2")?;
-    motion.asks(space.dag(), positive);
-    motion.set(theta, names.get("x1")?);
-    motion.set(p, names.get("p1")?);
+    if !is_square && !space.dag().is_nonnegative(lambda) {
+        let zero = space.dag().integer(0);
+        let below = space.dag().less(lambda, zero);
+        let inside = space.dag().not(below);
+        motion.domain.push(inside);
+    }
+    motion.set(theta, names.get("along")?);
+    motion.set(p, names.get("still")?);
     Some(motion)
 }

@@ -6,6 +6,7 @@ use crate::dag::Node;
 use crate::flow::Motion;
 use crate::formula::Names;
 use crate::rational::Rational;
+use crate::split::growth::{arctangent, near_zero};
 use crate::split::solve::flow;
 use crate::split::space::{Space, differ};
 use crate::split::units::distributed;
@@ -23,14 +24,17 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     if space.dag().is_zero(lambda) {
         return None;
     }
+    let squared = space.dag().powi(root, 2);
+    let is_square = squared == lambda;
+    if !is_square && !space.dag().is_nonnegative(lambda) {
+        return of_either_sign(space, (r, p), lambda, names);
+    }
     names.read(
         space.dag(),
         "X = x + 2*a*s*p; Y = 2*a*s*root/x; side = sign(x); x1 = side*hypot(X, Y); \
          p1 = (x*p + 2*a*s*(p^2 + root^2/x^2))/x1; angle = atan2(side*Y, side*X)",
     )?;
     // ∫a/r² dt = angle/2√Λ, where Λ = 0: as/(rX).
-    let squared = space.dag().powi(root, 2);
-    let is_square = squared == lambda;
     let time = match is_square && space.set(lambda) != 0 && space.active(lambda).is_empty() {
         true => names.one(space.dag(), "angle/(2*root)")?,
         false => names.one(space.dag(), "pick(0 < l, angle/(2*root), a*s/(x*X))")?,
@@ -46,6 +50,48 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     let (turns, ahead) = (dag.less(zero, squared), dag.less(zero, ahead));
     let either = dag.or(turns, ahead);
     motion.domain.push(either);
+    Some(motion)
+}
+
+/// The same where Λ may be below 0: r₁² = X² + Λ(2as/r)², and the orbit ends at the centre.
+fn of_either_sign(
+    space: &mut Space,
+    (r, p): (Node, Node),
+    lambda: Node,
+    mut names: Names,
+) -> Option<Motion> {
+    names.read(
+        space.dag(),
+        "v = 2*a*s/x; X = x + v*x*p; side = sign(x); square = X^2 + l*v^2; x1 = side*sqrt(square); \
+         p1 = (x*p + v*(x*p^2 + l/x))/x1",
+    )?;
+    let mut motion = Motion::default();
+    if space.set(lambda) != 0 {
+        // ∫a/r² dt = arctan(√Λ·v/X)/2√Λ = v/2X·artanh(√z)/√z with z = −Λ(v/X)².
+        names.read(space.dag(), "u = v/X; z = 0 - l*u^2")?;
+        let z = names.get("z")?;
+        let series = arctangent(space, z);
+        names.set("T", series);
+        let small = near_zero(space, z);
+        let ahead = names.one(space.dag(), "0 < side*X")?;
+        let near = space.dag().and(small, ahead);
+        let far = names.one(
+            space.dag(),
+            "pick(0 < l, atan2(side*root*v, side*X)/(2*root), atanh(sqrt(0 - l)*u)/(2*sqrt(0 - l)))",
+        )?;
+        let series = names.one(space.dag(), "u*T/2")?;
+        let time = space.dag().select(near, series, far);
+        motion = flow(space, lambda, time)?.motion;
+    }
+    motion.set(r, names.get("x1")?);
+    motion.set(p, names.get("p1")?);
+    let (positive, turns, ahead) = (
+        names.one(space.dag(), "0 < square")?,
+        names.one(space.dag(), "0 < l")?,
+        names.one(space.dag(), "0 < side*X")?,
+    );
+    let either = space.dag().or(turns, ahead);
+    motion.domain.extend([positive, either]);
     Some(motion)
 }
 

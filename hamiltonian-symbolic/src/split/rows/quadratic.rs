@@ -98,7 +98,11 @@ fn coefficients(space: &mut Space, h: Node, set: Set, z: &[Node]) -> Option<(Mat
             .collect();
         let linear = space.dag().add(&products);
         let rest = space.dag().sub(slope, linear);
-        let rest = space.section(rest, set);
+        // What cancels is 0, and is not computed.
+        let rest = match space.section(rest, set) {
+            rest if space.is_zero(rest) => space.dag().integer(0),
+            rest => rest,
+        };
         g.push(rest);
         let twice = space.dag().scale(&Rational::new(1, 2), linear);
         let both = space.dag().add(&[twice, rest]);

@@ -1,7 +1,7 @@
 //! G(L, ρ², c) with L = x·p_y − y·p_x: a kick along the radius, then a turn by s·∂G/∂L.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: {h, L} = 0 and x·h_{p_x} + y·h_{p_y} = 0 are
-//! proven, so that the momenta stand in h through L alone.
+//! proven, so that the momenta stand in h through L alone; no orbit crosses a jump or a kink of h.
 
 use crate::dag::Node;
 use crate::flow::Motion;
@@ -19,7 +19,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let ((x, px), (y, py)) = (space.pairs[*a], space.pairs[*b]);
     let mut names = Names::of(&[("x", x), ("y", y), ("px", px), ("py", py), ("s", s)]);
     let l = names.one(space.dag(), "x*py - y*px")?;
-    if !space.commute(h, l) {
+    if !space.brackets_vanish(h, l) {
         return None;
     }
     for (name, leaf) in [("hx", x), ("hy", y), ("hpx", px), ("hpy", py)] {
@@ -27,7 +27,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         names.set(name, slope);
     }
     let radial = names.one(space.dag(), "x*hpx + y*hpy")?;
-    if !space.is_zero(radial) {
+    if !space.is_zero(radial) || !space.stays_smooth(h, h) {
         return None;
     }
     // ∂G/∂L: as it stands in h where that is plain, else by the angle that the point turns.

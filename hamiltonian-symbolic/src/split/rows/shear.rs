@@ -2,7 +2,8 @@
 //! along the way.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: h is proven to depend on x and y through
-//! K = y − A only; A is taken to be 0 at x = 0, the rest of it is in G.
+//! K = y − A only; A is taken to be 0 at x = 0, the rest of it is in G. Nothing is divided by a coefficient
+//! of y that may be 0 where K stands in h by itself.
 
 use super::Axes;
 use crate::dag::Node;
@@ -40,12 +41,65 @@ fn is_no_polynomial(space: &mut Space, slope: Node, axes: Axes) -> bool {
     sum.abs() > 1e-12 * size && size.is_finite()
 }
 
+/// β·y + B(x; c) with a β of parameters, which may be 0: y loses ∫B′(x + βt)dt, term by term.
+fn linear(
+    space: &mut Space,
+    axes: Axes,
+    h: Node,
+    (hx, beta): (Node, Node),
+    s: Node,
+) -> Option<Motion> {
+    if is_no_polynomial(space, hx, axes) {
+        return None;
+    }
+    let (x_set, y) = (space.set(axes.x), axes.y(space));
+    let y_set = space.set(y);
+    let mut motion = Motion::default();
+    let step = space.dag().mul(&[beta, s]);
+    motion.add(space.dag(), axes.x, step);
+    let swept = swept(space, hx, axes.x, beta, s)?;
+    let swept = space.dag().neg(swept);
+    let swept = axes.signed(space, swept);
+    motion.add(space.dag(), axes.leaf, swept);
+    let rest = space.set(h) & !(x_set | y_set);
+    for bit in super::super::space::bits(rest) {
+        let inert = space.variable(bit);
+        let slope = space.d(h, inert);
+        let kick = self::swept(space, slope, axes.x, beta, s)?;
+        space.push(&mut motion, bit, kick);
+    }
+    Some(motion)
+}
+
+/// ∫₀ˢf(x + βt)dt of a polynomial f of x: Σ f⁽ⁿ⁾(x)·βⁿsⁿ⁺¹/(n + 1)!
+fn swept(space: &mut Space, f: Node, x: Node, beta: Node, s: Node) -> Option<Node> {
+    let x_set = space.set(x);
+    let (mut derivative, mut weight) = (f, Rational::ONE);
+    let mut terms = Vec::new();
+    for n in 0..=DEGREE {
+        if space.set(derivative) & x_set != 0 && space.is_zero(derivative)
+            || space.dag().is_zero(derivative)
+        {
+            return Some(space.dag().add(&terms));
+        }
+        weight = weight.mul(&Rational::integer(i64::from(n) + 1).recip()?);
+        let factors = [(derivative, 1), (beta, n), (s, n + 1)];
+        let factors: Vec<(Node, i32)> = factors.into_iter().filter(|(_, n)| *n != 0).collect();
+        terms.push(space.dag().product(&weight, &factors));
+        derivative = space.d(derivative, x);
+    }
+    None
+}
+
 fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     let y = axes.y(space);
     let (x_set, y_set) = (space.set(axes.x), space.set(y));
     let (hx, hy) = (space.d(h, axes.x), axes.dy(space, h));
     if space.dag().is_zero(hy) {
         return None;
+    }
+    if space.set(hy) == 0 && space.dag().as_constant(hy).is_none() {
+        return linear(space, axes, h, (hx, hy), s);
     }
     let ratio = space.dag().div(hx, hy);
     let slope = space.dag().neg(ratio);

@@ -2,7 +2,7 @@
 //! (K, N/c, L) turns about its first axis at the rate c; the length C may depend on other variables.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: (N_l·K_L − N_L·K_l) = c²·L and C² = (K² + N²)/c² + L²
-//! free of l and L are proven; K keeps its sign, so that the angles are followed without branch cuts.
+//! free of l and L are proven; no orbit crosses a jump or a kink of K; K keeps its sign, so that the angles are followed without branch cuts.
 
 use super::Axes;
 use super::circle::SWEPT;
@@ -19,49 +19,81 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         return None;
     };
     let (q, p) = space.pairs[*pair];
+    // A factor that does not move is one of the time: it may be 0.
+    let (h, factor) = bare(space, h);
+    let s = space.dag().mul(&[factor, s]);
     for axes in Axes::both(q, p) {
         if let Some(motion) = component(space, axes, h, s, false) {
             return Some(motion);
         }
-        let Some(root) = square_root(space, h) else {
-            continue;
-        };
-        // h = κK²: K acts for the time 2κK·s.
-        let ratio = space.dag().product(&Rational::ONE, &[(h, 1), (root, -2)]);
-        let set = space.set(h);
-        let Some(k) = space.free(ratio, set) else {
-            continue;
-        };
-        let time = space
-            .dag()
-            .product(&Rational::integer(2), &[(k, 1), (root, 1), (s, 1)]);
-        if let Some(motion) = component(space, axes, root, time, true) {
-            return Some(motion);
+        for sign in [1, -1] {
+            let Some((root, k)) = square_root(space, h, sign) else {
+                continue;
+            };
+            // h = κK²: K acts for the time 2κK·s.
+            let time = space
+                .dag()
+                .product(&k.mul(&Rational::integer(2)), &[(root, 1), (s, 1)]);
+            if let Some(motion) = component(space, axes, root, time, true) {
+                return Some(motion);
+            }
         }
     }
     None
 }
 
-/// The root of a product, up to a constant: even powers halved, of the others the root.
-fn square_root(space: &mut Space, h: Node) -> Option<Node> {
+/// A product without the factors that do not move, and these.
+fn bare(space: &mut Space, h: Node) -> (Node, Node) {
+    let Kind::Product(c, factors) = space.dag().kind(h).clone() else {
+        return (h, space.dag().integer(1));
+    };
+    let is_still = |(node, _): &(Node, i32)| space.set(*node) == 0;
+    let (still, moving): (Vec<_>, Vec<_>) = factors.into_iter().partition(is_still);
     let dag = space.dag();
-    let Kind::Product(_, factors) = dag.kind(h).clone() else {
+    (
+        dag.product(&Rational::ONE, &moving),
+        dag.product(&c, &still),
+    )
+}
+
+/// K and κ with κK² a product: even powers halved, of the others times a sign the root.
+fn square_root(space: &mut Space, h: Node, sign: i64) -> Option<(Node, Rational)> {
+    let dag = space.dag();
+    let Kind::Product(mut k, factors) = dag.kind(h).clone() else {
         return None;
     };
-    let moving = crate::dag::Dependence::MOVING;
     let mut halves = Vec::new();
     for (node, n) in factors {
-        if !dag.dependence(node).on(moving) {
-            continue;
-        }
         if n % 2 == 0 {
             halves.push((node, n / 2));
         } else {
-            let root = dag.call(Op::Sqrt, &[node]);
+            let signed = dag.scale(&Rational::integer(sign), node);
+            let root = dag.call(Op::Sqrt, &[signed]);
             halves.push((root, n));
+            k = k.mul(&Rational::integer(sign));
         }
     }
-    Some(dag.product(&Rational::ONE, &halves))
+    Some((dag.product(&Rational::ONE, &halves), k))
+}
+
+/// Whether no orbit of K crosses a set where K is not smooth: K keeps its value, so that it does not
+/// reach the zeros of its factors.
+fn stays_smooth(space: &mut Space, k: Node) -> bool {
+    let factors = match space.dag().kind(k).clone() {
+        Kind::Product(_, factors) => factors,
+        _ => vec![(k, 1)],
+    };
+    let mut zeros = Vec::new();
+    for (base, n) in factors {
+        match *space.dag().kind(base) {
+            Kind::Call(Op::Sqrt | Op::Cbrt | Op::Abs, ref x) if n > 0 => zeros.push(x[0]),
+            _ if n > 0 => zeros.push(base),
+            _ => {}
+        }
+    }
+    let breaks = space.breaks(k).into_iter();
+    let mut others = breaks.filter(|(node, _)| !zeros.contains(node));
+    others.all(|(node, _)| space.brackets_vanish(node, k))
 }
 
 fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) -> Option<Motion> {
@@ -78,7 +110,7 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
     let n = space.d(k, l);
     let nl = space.d(n, l);
     let minus = space.dag().neg(k);
-    if !space.same(nl, minus) {
+    if !space.same(nl, minus) || !stays_smooth(space, k) {
         return None;
     }
     let (kl, nl_of) = (axes.dy(space, k), axes.dy(space, n));
@@ -94,7 +126,7 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
     let rate = names.one(space.dag(), "(0 - K*KL - NL*N)/L")?;
     let set = space.set(k);
     let rate = space.free(rate, set)?;
-    if space.sign(rate) == Some(0) || space.sign(rate) == Some(-1) {
+    if space.sign(rate) == Some(0) || space.sign(rate) == Some(-1) || space.value(rate) <= 0.0 {
         return None;
     }
     let c = super::root(space, rate);
@@ -131,8 +163,13 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
         }
     }
     if !is_squared {
-        let size = names.one(space.dag(), "K^2")?;
-        motion.asks(space.dag(), size);
+        // With K = 0 the angle rests until N changes its sign: there it jumps by half a turn.
+        let (size, same) = (
+            names.one(space.dag(), "0 < K^2")?,
+            names.one(space.dag(), "0 < N*N1")?,
+        );
+        let inside = space.dag().or(size, same);
+        motion.domain.push(inside);
     }
     Some(motion)
 }

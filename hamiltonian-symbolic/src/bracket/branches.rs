@@ -1,0 +1,198 @@
+//! Conditions: where both branches agree, and steps replaced by smooth functions.
+//!
+//! Input: expressions with conditions. Output: the conditions whose branches agree where they
+//! switch ([`known`]), an expression without its steps ([`smoothed`]). Invariant: agreement is an
+//! identity, proven by the normal form.
+
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
+use crate::facts::{Facts, Given, comparisons};
+use crate::model::Model;
+use crate::normal_form::{self, Scope};
+use crate::op::Op;
+use crate::rational::Rational;
+
+/// The function that stands for a step: no function of a definition has this number.
+pub(super) const STEP: u16 = u16::MAX;
+
+/// The conditions below some roots whose branches agree where they switch.
+pub(super) fn known(dag: &mut Dag, roots: &[Node]) -> Given {
+    let mut given = Given::default();
+    for node in dag.reachable(roots) {
+        if let Kind::Select(condition, yes, no) = *dag.kind(node)
+            && dag.dependence(condition).on(Dependence::MOVING)
+            && comparisons(dag, condition)
+                .into_iter()
+                .all(|(a, b)| agree(dag, (a, b), yes, no))
+        {
+            given.meeting.insert(node, ());
+        }
+    }
+    given
+}
+
+/// Whether two branches are the same wherever a = b.
+fn agree(dag: &mut Dag, (a, b): (Node, Node), yes: Node, no: Node) -> bool {
+    let difference = dag.sub(yes, no);
+    // A variable that a sum binds is not the one of the loop around.
+    let home = dag.deepest(dag.variables(a) | dag.variables(b));
+    let difference = dag.nested(difference, home);
+    let (apart, zero) = (dag.sub(a, b), dag.integer(0));
+    [(a, b), (b, a), (apart, zero)]
+        .into_iter()
+        .any(|(x, value)| {
+            solutions(dag, x, value).is_some_and(|solutions| {
+                solutions.into_iter().all(|images| {
+                    let image = |node: Node| {
+                        let mut images = images.iter();
+                        images.find(|(from, _)| *from == node).map(|(_, to)| *to)
+                    };
+                    let difference = dag.substitute(difference, |_, node| image(node));
+                    normal_form::vanishes(dag, difference, Scope::Everywhere)
+                })
+            })
+        })
+}
+
+/// What follows from x = value: for each of the cases, nodes with what they are equal to. `None`
+/// where nothing that moves is solved for.
+fn solutions(dag: &mut Dag, x: Node, value: Node) -> Option<Vec<Vec<(Node, Node)>>> {
+    let mut done = Vec::new();
+    let mut left = vec![(Vec::new(), x, value)];
+    while let Some((mut images, x, value)) = left.pop() {
+        if !dag.dependence(x).on(Dependence::MOVING) || reads(dag, value, x) {
+            return None;
+        }
+        images.push((x, value));
+        match dag.kind(x).clone() {
+            Kind::Call(Op::Abs, y) => {
+                let minus = dag.neg(value);
+                left.push((images.clone(), y[0], value));
+                left.push((images, y[0], minus));
+            }
+            Kind::Call(Op::Sqrt, y) => {
+                let square = dag.powi(value, 2);
+                left.push((images, y[0], square));
+            }
+            Kind::Product(k, factors) if factors.len() == 1 && factors[0].1 > 0 => {
+                let (base, mut power) = factors[0];
+                let by = dag.constant(k);
+                let mut root = dag.div(value, by);
+                let is_even = power % 2 == 0;
+                for (op, n) in [(Op::Sqrt, 2), (Op::Cbrt, 3)] {
+                    while power % n == 0 {
+                        root = dag.call(op, &[root]);
+                        power /= n;
+                    }
+                }
+                if power != 1 {
+                    done.push(images);
+                    continue;
+                }
+                if is_even && !dag.is_nonnegative(base) {
+                    let minus = dag.neg(root);
+                    left.push((images.clone(), base, minus));
+                }
+                left.push((images, base, root));
+            }
+            Kind::Sum(c, terms) => {
+                let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(..) | Kind::Time);
+                let is_moving = |n: Node| dag.dependence(n).on(Dependence::MOVING);
+                let solved = (0..terms.len()).find(|at| {
+                    let leaf = terms[*at].1;
+                    let mut others = terms.iter().enumerate().filter(|(other, _)| other != at);
+                    is_leaf(leaf)
+                        && is_moving(leaf)
+                        && !reads(dag, value, leaf)
+                        && others.all(|(_, (_, other))| !reads(dag, *other, leaf))
+                });
+                if let Some((at, by)) = solved.and_then(|at| Some((at, terms[at].0.recip()?))) {
+                    let mut rest: Vec<(Rational, Node)> = terms.clone();
+                    let (_, leaf) = rest.remove(at);
+                    let rest = dag.linear(&c, &rest);
+                    let distance = dag.sub(value, rest);
+                    images.push((leaf, dag.scale(&by, distance)));
+                }
+                done.push(images);
+            }
+            _ => done.push(images),
+        }
+    }
+    Some(done)
+}
+
+/// Whether a node stands in another one.
+fn reads(dag: &Dag, root: Node, node: Node) -> bool {
+    dag.reachable(&[root]).binary_search(&node).is_ok()
+}
+
+/// An expression with its steps replaced by an arbitrary smooth function of what is 0 there; `None`
+/// where it has none.
+pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<Node> {
+    let dag = &mut model.dag;
+    let facts = Facts::of(dag, &[root], given);
+    let is_step = |dag: &Dag, node: Node| {
+        let mut is_first = !facts.get(node).is_projective;
+        match dag.kind(node) {
+            Kind::Select(_, yes, no) => {
+                is_first &= facts.get(*yes).and(facts.get(*no)).is_projective;
+            }
+            Kind::Call(Op::Sign, x) => is_first &= facts.get(x[0]).is_projective,
+            _ => return false,
+        }
+        is_first
+    };
+    let mut has_steps = false;
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[root]) {
+        let image = match *dag.kind(node) {
+            Kind::Select(condition, yes, no) if is_step(dag, node) => {
+                has_steps = true;
+                let weight = weight(dag, condition);
+                let (yes, no) = (new[&yes], new[&no]);
+                let difference = dag.sub(yes, no);
+                let chosen = dag.mul(&[weight, difference]);
+                dag.add(&[no, chosen])
+            }
+            Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
+                has_steps = true;
+                let x = new[&x[0]];
+                dag.external(STEP, Part::Value, &[x])
+            }
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    has_steps.then(|| new[&root])
+}
+
+/// A condition as a number: 1 where it holds and 0 elsewhere, but for the functions in the places of its
+/// comparisons.
+fn weight(dag: &mut Dag, condition: Node) -> Node {
+    let one = dag.integer(1);
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[condition]) {
+        let image = match *dag.kind(node) {
+            Kind::Compare(_, a, b) => {
+                let apart = dag.sub(b, a);
+                dag.external(STEP, Part::Value, &[apart])
+            }
+            Kind::Not(a) => {
+                let a = new[&a];
+                dag.sub(one, a)
+            }
+            Kind::And(a, b) => {
+                let (a, b) = (new[&a], new[&b]);
+                dag.mul(&[a, b])
+            }
+            Kind::Or(a, b) => {
+                let (a, b) = (new[&a], new[&b]);
+                let both = dag.mul(&[a, b]);
+                let any = dag.add(&[a, b]);
+                dag.sub(any, both)
+            }
+            _ => node,
+        };
+        new.insert(node, image);
+    }
+    new[&condition]
+}

@@ -1,0 +1,86 @@
+//! The judge on the flows that are known: the cases of the rows, the pieces of the systems, the loops.
+
+use super::{Definition, Subject, Verdict, verdicts};
+use crate::common;
+use crate::splits::CASES;
+use crate::splits::arrays::RINGS;
+use crate::splits::table::FOUND;
+use crate::tree::Random;
+
+/// The wrong verdicts on definitions, with the number of right ones and the definitions whose flow is
+/// missing somewhere.
+pub fn wrong(
+    definitions: &[Definition],
+    subject: impl Fn(&Definition) -> Option<Subject>,
+    points: usize,
+    zeros: f64,
+) -> (Vec<String>, usize, Vec<String>) {
+    let (mut wrong, mut right, mut missing) = (Vec::new(), 0, Vec::new());
+    for definition in definitions {
+        let mut random = Random(definition.h.len() as u64 + 17 * definition.n as u64);
+        let Some(subject) = subject(definition) else {
+            continue;
+        };
+        let all = verdicts(&subject, points, zeros, &mut random);
+        right += all.iter().filter(|v| **v == Verdict::Right).count();
+        let mut gaps = Vec::new();
+        for verdict in &all {
+            if let Verdict::Missing(place) = verdict {
+                gaps.push(place);
+            }
+        }
+        if let Some(first) = gaps.first() {
+            let (gaps, n, h) = (gaps.len(), definition.n, &definition.h);
+            missing.push(format!("{gaps} of {}: {h} (n = {n}) at {first}", all.len()));
+        }
+        let first = all.into_iter().find_map(|verdict| match verdict {
+            Verdict::Wrong(why) => Some(why),
+            _ => None,
+        });
+        if let Some(why) = first {
+            wrong.push(format!("{} (n = {}): {why}", definition.h, definition.n));
+        }
+    }
+    (wrong, right, missing)
+}
+
+#[test]
+fn rows_end_where_orbits_do() {
+    let definitions: Vec<Definition> = CASES
+        .iter()
+        .map(|case| Definition::of(case.signature, case.parameters, case.h, 0))
+        .collect();
+    let points = common::cases(4, 200);
+    let (wrong, right, missing) = wrong(&definitions, Subject::whole, points, 0.04);
+    println!("{right} right; missing: {missing:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(right > 2 * CASES.len());
+}
+
+#[test]
+fn pieces_of_systems_end_where_orbits_do() {
+    let definitions: Vec<Definition> = FOUND
+        .iter()
+        .map(|found| Definition::of(found.signature, found.parameters, found.h, 0))
+        .collect();
+    let points = common::cases(1, 40);
+    let (wrong, right, missing) = wrong(&definitions, Subject::split, points, 0.04);
+    println!("{right} right; missing: {missing:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(right > FOUND.len());
+}
+
+#[test]
+fn loops_end_where_orbits_do() {
+    let mut definitions = Vec::new();
+    for ring in RINGS {
+        for n in 1..=4 {
+            definitions.push(Definition::of(ring.signature, ring.parameters, ring.h, n));
+        }
+    }
+    let points = common::cases(1, 40);
+    let (wrong, right, missing) = wrong(&definitions, Subject::split, points, 0.04);
+    println!("{right} right; missing: {missing:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(right > RINGS.len());
+}

@@ -18,16 +18,14 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Charge and mass 1 in the field of a dipole `mu` at the origin, along z.
@@ -187,9 +185,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let line = (-60..=60).map(|degrees| f64::from(degrees).to_radians().sin_cos());
     Figure {
-        title: "Trapped: one bounce in the plane that turns with the particle",
-        x: "distance from the axis",
-        y: "z",
+        title: "Trapped: one bounce in the plane that turns with the particle".into(),
+        x: "distance from the axis".into(),
+        y: "z".into(),
         equal: true,
         curves: vec![
             Curve {

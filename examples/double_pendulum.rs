@@ -8,15 +8,13 @@
 //! `target/double_pendulum/paths.svg`, the paths of their lower bobs.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::TAU;
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Two rods in a plane, one hanging from the other; angles from below.
@@ -128,9 +126,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     checks.compare("max |ΔH/H₀|", drift, 0.0, 1e-4);
 
     Figure {
-        title: "Two double pendulums that started 10⁻⁶ apart",
-        x: "x",
-        y: "y",
+        title: "Two double pendulums that started 10⁻⁶ apart".into(),
+        x: "x".into(),
+        y: "y".into(),
         equal: true,
         curves: paths
             .into_iter()

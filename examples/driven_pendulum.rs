@@ -10,15 +10,13 @@
 //! in a chaotic sea.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// A pendulum of mass 1 in the frame of its pivot, which is at height a·cos(ω t).
@@ -155,9 +153,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         });
     }
     Figure {
-        title: "A pendulum with a shaken pivot, seen once a period: l = g = 1, a = 0.3, ω = 6",
-        x: "θ",
-        y: "p",
+        title: "A pendulum with a shaken pivot, seen once a period: l = g = 1, a = 0.3, ω = 6"
+            .into(),
+        x: "θ".into(),
+        y: "p".into(),
         dots: true,
         range: Some(-14.0..18.0),
         curves,

@@ -10,15 +10,13 @@
 //! periods are that step. Look at `target/fput/modes.svg`, the report's figure 1.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::PI;
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// N particles between fixed walls; the springs' force is r + α r².
@@ -121,9 +119,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     Figure {
-        title: "The chain of Fermi, Pasta, Ulam and Tsingou: α = 1/4, 32 springs, δt² = 1/8",
-        x: "time in periods of mode 1",
-        y: "energy of a mode",
+        title: "The chain of Fermi, Pasta, Ulam and Tsingou: α = 1/4, 32 springs, δt² = 1/8".into(),
+        x: "time in periods of mode 1".into(),
+        y: "energy of a mode".into(),
         curves: of_1955.modes,
         ..Default::default()
     }

@@ -11,17 +11,15 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
-use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// The Hénon–Heiles system.
@@ -128,9 +126,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         });
     }
     Figure {
-        title: "Hénon and Heiles: crossings of x = 0 at H = 1/8",
-        x: "y",
-        y: "p_y",
+        title: "Hénon and Heiles: crossings of x = 0 at H = 1/8".into(),
+        x: "y".into(),
+        y: "p_y".into(),
         equal: true,
         dots: true,
         curves,

@@ -17,9 +17,9 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
-use plot::{Curve, Figure};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::path::Path;
 
@@ -27,8 +27,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Geodesics of the Kerr metric.
@@ -191,9 +189,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let horizon = 1.0 + (1.0 - a * a).sqrt();
     let half = (0..=60).map(|k| (f64::from(k) * TAU / 120.0).sin_cos());
     Figure {
-        title: "A geodesic round a black hole of spin 0.9, in the plane that turns with it",
-        x: "r sin θ",
-        y: "r cos θ",
+        title: "A geodesic round a black hole of spin 0.9, in the plane that turns with it".into(),
+        x: "r sin θ".into(),
+        y: "r cos θ".into(),
         equal: true,
         curves: vec![
             Curve {

@@ -9,15 +9,13 @@
 //! for the stars that were thrown out. Look at `target/nbody/eight.svg` and `target/nbody/collapse.svg`.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::PI;
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Point masses under Newtonian gravity, G = 1, softened at the distance `epsilon`.
@@ -83,9 +81,9 @@ fn eight(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
         checks.compare(what, monitor.drift.max_absolute(), 0.0, 1e-12);
     }
     Figure {
-        title: "The figure eight: the paths of three bodies in a third of a period",
-        x: "x",
-        y: "y",
+        title: "The figure eight: the paths of three bodies in a third of a period".into(),
+        x: "x".into(),
+        y: "y".into(),
         equal: true,
         curves: orbits
             .into_iter()
@@ -97,7 +95,8 @@ fn eight(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
             .collect(),
         ..Default::default()
     }
-    .write(Path::new("target/nbody/eight.svg"))
+    .write(Path::new("target/nbody/eight.svg"))?;
+    Ok(())
 }
 
 /// Numbers in [0, 1), the same in every run: G. Marsaglia, Journal of Statistical Software 8 (14),
@@ -172,9 +171,9 @@ fn collapse(n: usize, checks: &mut Checks) -> Result<(), Box<dyn std::error::Err
         1e-2,
     );
     Figure {
-        title: &format!("{n} stars fall together"),
-        x: "time",
-        y: "",
+        title: format!("{n} stars fall together"),
+        x: "time".into(),
+        y: "".into(),
         curves: vec![
             Curve {
                 name: "mean distance from the centre".into(),
@@ -187,5 +186,6 @@ fn collapse(n: usize, checks: &mut Checks) -> Result<(), Box<dyn std::error::Err
         ],
         ..Default::default()
     }
-    .write(Path::new("target/nbody/collapse.svg"))
+    .write(Path::new("target/nbody/collapse.svg"))?;
+    Ok(())
 }

@@ -15,8 +15,8 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::nalgebra::SVector;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -24,8 +24,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// A ring of N sites.
@@ -112,9 +110,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         checks.compare(format!("particles to t = {t}: change"), moved, 0.0, 1e-12);
     }
     Figure {
-        title: "A wave breaks up on a ring of 32 sites",
-        x: "site n",
-        y: "|ψ|²",
+        title: "A wave breaks up on a ring of 32 sites".into(),
+        x: "site n".into(),
+        y: "|ψ|²".into(),
         curves,
         ..Default::default()
     }

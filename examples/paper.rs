@@ -10,10 +10,10 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};
-use plot::{Curve, Figure};
 use std::fmt::{Display, Write as _};
 use std::path::Path;
 
@@ -21,8 +21,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// The paper's pendulum; the potential is zero where it hangs.
@@ -356,21 +354,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     std::fs::create_dir_all(folder)?;
     let (time, error) = ("time t", "relative energy error H/H(0) − 1");
     Figure {
-        title: "Figure 1: pendulum, Δt = 0.001",
-        x: time,
-        y: error,
+        title: "Figure 1: pendulum, Δt = 0.001".into(),
+        x: time.into(),
+        y: error.into(),
         curves: curves(&rows[..pendulum_rows], &AS_THE_PAPER),
         ..Default::default()
     }
-    .write(&folder.join("figure1.svg"))?;
+    .write(folder.join("figure1.svg"))?;
     Figure {
-        title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001",
-        x: time,
-        y: error,
+        title: "Figure 2: H = ½(q² + 1)(p² + 1), Δt = 0.001".into(),
+        x: time.into(),
+        y: error.into(),
         curves: curves(&short, &AS_THE_PAPER),
         ..Default::default()
     }
-    .write(&folder.join("figure2.svg"))?;
+    .write(folder.join("figure2.svg"))?;
     let beside = [
         ("29", "PSVM, (29)"),
         ("33", "scheme 2, (33)"),
@@ -378,14 +376,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("RungeKutta4", "Runge–Kutta 4 (not symplectic)"),
     ];
     Figure {
-        title: "Figure 3: the same system for longer: what the paper did not see",
-        x: time,
-        y: "|H/H(0) − 1|",
+        title: "Figure 3: the same system for longer: what the paper did not see".into(),
+        x: time.into(),
+        y: "|H/H(0) − 1|".into(),
         logarithmic: true,
         curves: curves(&long, &beside),
         ..Default::default()
     }
-    .write(&folder.join("figure3.svg"))?;
+    .write(folder.join("figure3.svg"))?;
 
     let mut checks = Checks::default();
     let relative = |name: &str| {

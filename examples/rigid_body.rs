@@ -13,16 +13,14 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::View;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// A body without forces: L is the spin along its third axis, G the whole spin.
@@ -133,9 +131,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     run.advance_to(60.0)?;
     drop(run);
     Figure {
-        title: "Kowalevski's top: its third axis, from above, to t = 60",
-        x: "sin θ sin φ",
-        y: "−sin θ cos φ",
+        title: "Kowalevski's top: its third axis, from above, to t = 60".into(),
+        x: "sin θ sin φ".into(),
+        y: "−sin θ cos φ".into(),
         equal: true,
         curves: vec![Curve {
             name: String::new(),

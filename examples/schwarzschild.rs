@@ -14,9 +14,9 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::View;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
-use plot::{Curve, Figure};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -24,8 +24,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Orbits round a black hole, in the pieces that the macro finds.
@@ -139,9 +137,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     Figure {
-        title: "Orbits from one place, from above: without and with a field",
-        x: "x",
-        y: "y",
+        title: "Orbits from one place, from above: without and with a field".into(),
+        x: "x".into(),
+        y: "y".into(),
         equal: true,
         curves: orbits,
         ..Default::default()

@@ -8,9 +8,9 @@
 //! 20 000 years (C. J. Cohen and E. C. Hubbard, Astronomical Journal 70, 10, 1965).
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use planets::{PLANETS, SUN, start};
-use plot::{Curve, Figure};
 use std::f64::consts::TAU;
 use std::path::Path;
 
@@ -18,8 +18,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/planets.rs"]
 mod planets;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Point masses under Newtonian gravity.
@@ -146,9 +144,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
     }
     Figure {
-        title: "Neptune and Pluto: the angle that would have to pass 0° for them to meet",
-        x: "time in years",
-        y: "3λ(Pluto) − 2λ(Neptune) − ϖ(Pluto) in degrees",
+        title: "Neptune and Pluto: the angle that would have to pass 0° for them to meet".into(),
+        x: "time in years".into(),
+        y: "3λ(Pluto) − 2λ(Neptune) − ϖ(Pluto) in degrees".into(),
         range: Some(0.0..360.0),
         curves: vec![Curve {
             name: String::new(),

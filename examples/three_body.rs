@@ -15,16 +15,14 @@
 
 use checks::Checks;
 use energy::{Contest, print_pieces};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// The circular restricted three-body problem in the plane. The frame turns; distances are in
@@ -155,9 +153,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .collect()
     };
     Figure {
-        title: "Arenstorf's orbit, in the frame turning with Earth and Moon",
-        x: "x",
-        y: "y",
+        title: "Arenstorf's orbit, in the frame turning with Earth and Moon".into(),
+        x: "x".into(),
+        y: "y".into(),
         equal: true,
         curves: vec![
             Curve {

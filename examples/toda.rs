@@ -9,14 +9,12 @@
 //! and neither has changed its shape.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::path::Path;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// A periodic Toda lattice of N particles.
@@ -165,9 +163,9 @@ fn two_hundred(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
     checks.compare("N = 200: max |ΔH/H₀|", drift.max_relative(), 0.0, 1e-6);
     checks.compare("N = 200: max |Δ total momentum|", momentum, 0.0, 1e-12);
     Figure {
-        title: "Two solitons on a Toda ring of 200",
-        x: "site i",
-        y: "force of bond i over its value at rest, − 1",
+        title: "Two solitons on a Toda ring of 200".into(),
+        x: "site i".into(),
+        y: "force of bond i over its value at rest, − 1".into(),
         curves: pictures,
         ..Default::default()
     }

@@ -12,8 +12,8 @@
 use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::View;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use plot::{Curve, Figure};
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
@@ -21,8 +21,6 @@ use std::path::Path;
 mod checks;
 #[path = "support/energy.rs"]
 mod energy;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Vortices of strengths Γ at (x, w/Γ).
@@ -128,9 +126,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     run.advance_to(40.0)?;
     drop(run);
     Figure {
-        title: "Four vortices to t = 40",
-        x: "x",
-        y: "y",
+        title: "Four vortices to t = 40".into(),
+        x: "x".into(),
+        y: "y".into(),
         equal: true,
         curves,
         ..Default::default()

@@ -23,8 +23,6 @@ mod checks;
 mod energy;
 #[path = "support/planets.rs"]
 mod planets;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Planets around a star, measured from it.

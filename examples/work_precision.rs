@@ -11,17 +11,15 @@
 //! falls with its order is checked.
 
 use checks::Checks;
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::{Exact, Scheme, Split, Unforced, hamiltonian};
-use plot::{Curve, Figure};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 use std::time::Instant;
 
 #[path = "support/checks.rs"]
 mod checks;
-#[path = "support/plot.rs"]
-mod plot;
 
 hamiltonian! {
     /// Stars in a galaxy, near its middle.
@@ -238,9 +236,9 @@ impl<'a, S: System<f64>> Race<'a, S> {
             };
             let path = format!("target/work_precision/{file}_{measure}.svg");
             Figure {
-                title: self.name,
-                x: "nanoseconds for a unit of time",
-                y: what,
+                title: self.name.into(),
+                x: "nanoseconds for a unit of time".into(),
+                y: what.into(),
                 logarithmic: true,
                 decades: true,
                 legend_right: true,

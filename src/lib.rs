@@ -35,7 +35,8 @@ pub use hamiltonian_core::*;
 #[doc(no_inline)]
 pub use hamiltonian_lanes as lanes;
 
-/// The linear algebra that vectors are stored in.
+/// The linear algebra that vectors are stored in. Norms and decompositions (`state.q.norm()`) need
+/// the feature `linear-algebra`; sums, products and `dot` do not.
 // Not in the root of the core, since the glob would put its pages among ours.
 #[doc(no_inline)]
 pub use hamiltonian_core::private::nalgebra;
@@ -92,14 +93,42 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
     ($($value:tt)*) => { $($value)* };
 }
 
-/// The language, construct by construct.
-#[doc = include_str!("../LANGUAGE.md")]
+/// The language, construct by construct: a chapter of the book.
+#[doc = include_str!("../book/src/language.md")]
 pub mod language {}
-
-/// Whole programs for frequent tasks.
-#[doc = include_str!("../RECIPES.md")]
-pub mod recipes {}
 
 #[doc = include_str!("../README.md")]
 #[cfg(doctest)]
 struct Readme;
+
+/// The chapters of the book, whose listings are programs that the tests compile and run.
+#[cfg(doctest)]
+mod book {
+    /// One chapter a type.
+    macro_rules! chapters {
+        ($($Name:ident $file:literal)*) => {
+            $(
+                #[doc = include_str!(concat!("../book/src/", $file))]
+                struct $Name;
+            )*
+        };
+    }
+    chapters! {
+        FirstSteps "first-steps.md"
+        Pendulum "tour/pendulum.md"
+        Chaos "tour/chaos.md"
+        Planets "tour/planets.md"
+        Lattices "tour/lattices.md"
+        Charges "tour/charges.md"
+        BlackHole "tour/black-hole.md"
+        Lagrangian "tour/lagrangian.md"
+        Sensitivities "tour/sensitivities.md"
+        Schemes "schemes.md"
+        ExactFlows "exact-flows.md"
+        Observers "observers.md"
+        Restart "restart.md"
+        Ensembles "ensembles.md"
+        Extending "extending.md"
+        Troubleshooting "troubleshooting.md"
+    }
+}

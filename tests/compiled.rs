@@ -123,7 +123,7 @@ macro_rules! list {
                     let [a, b, c] = at.parameters;
                     let system = $name { a, b, c };
                     let mut outputs = super::$kind(&system, at);
-                    let state = hamiltonian::State::new(super::numbers(at.q), super::numbers(at.p));
+                    let state = hamiltonian::State::over(super::numbers(at.q), super::numbers(at.p));
                     let state = state.at(super::Called(at.t));
                     let gradient = system.parameter_gradient(&state);
                     let values = [gradient.a, gradient.b, gradient.c];

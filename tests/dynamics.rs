@@ -148,7 +148,7 @@ fn sensitivities_to_parameters() {
         g: Dual::fixed(9.81),
         l: Dual::variable(2.0),
     };
-    let start = State::new([Dual::fixed(0.5)], [Dual::fixed(0.1)]);
+    let start = State::over([Dual::fixed(0.5)], [Dual::fixed(0.1)]);
     let mut run = Integrator::new(&swing, BlanesMoan6, start, Dual::fixed(1e-2)).unwrap();
     let theta = run.advance(300).unwrap().q[0];
     assert_eq!(theta.re, end(2.0));

@@ -177,7 +177,7 @@ where
 }
 
 fn at(q: f64, p: f64) -> State<hamiltonian::private::SVector<D, 1>> {
-    State::new([D::from(q)], [D::from(p)])
+    State::over([D::from(q)], [D::from(p)])
 }
 
 #[test]
@@ -190,9 +190,9 @@ fn orders_with_forces() {
     let (q, p) = ([0.3, -0.2, 0.9, 0.1], [0.4, 0.1, -0.5, 0.2]);
     all(Slopes::new(
         Chain::<4>::default(),
-        State::new(numbers(q), numbers(p)),
+        State::over(numbers(q), numbers(p)),
     ));
-    let start = State::new([0.9, -0.2].map(D::from), [0.4, 0.3].map(D::from));
+    let start = State::over([0.9, -0.2].map(D::from), [0.4, 0.3].map(D::from));
     let mut turning = Slopes::new(Turning::default(), start);
     turning.visit(Yoshida4);
     all(turning);
@@ -218,13 +218,13 @@ macro_rules! is_exact {
 /// Beside pieces of an H that is not separable the force is a piece of its own.
 #[test]
 fn a_force_is_a_piece_of_its_own() {
-    let small = |q: f64, p: f64| State::new([D::from(q)], [D::from(p)]);
+    let small = |q: f64, p: f64| State::over([D::from(q)], [D::from(p)]);
     let mut bound = Slopes::new(Bound::default(), small(0.3, 0.5));
     visit_split(&mut bound);
     bound.visit(Yoshida4);
     let mut windy = Slopes::new(Windy::default(), small(0.3, 0.5));
     visit_split(&mut windy);
-    let start = State::new([0.4, -0.3].map(D::from), [0.4, 0.3].map(D::from));
+    let start = State::over([0.4, -0.3].map(D::from), [0.4, 0.3].map(D::from));
     let mut top = Slopes::new(Top::default(), start);
     visit_split(&mut top);
     top.visit(Yoshida4);

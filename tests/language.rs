@@ -223,7 +223,7 @@ where
             dp[at - N].eps = 1.0;
             gradient.p[at - N]
         };
-        let state = State::new(dq, dp).at(Dual::fixed(t));
+        let state = State::over(dq, dp).at(Dual::fixed(t));
         close(System::<Dual<f64>>::energy(system, &state).eps, expected);
         let derivative = System::<Dual<f64>>::gradient(system, &state);
         let (mut vq, mut vp) = ([0.0; N], [0.0; N]);

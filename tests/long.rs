@@ -50,7 +50,7 @@ fn pieces_make_the_whole() {
             eps: f64::from(u8::from(k == at)),
             ..Dual::fixed(value)
         };
-        let state = State::new([lift(0, x), lift(1, y)], [lift(2, u), lift(3, v)]);
+        let state = State::over([lift(0, x), lift(1, y)], [lift(2, u), lift(3, v)]);
         waves.energy(&state).eps
     };
     close(gradient.q[0], dual(0));

@@ -10,6 +10,7 @@ pub mod arrays;
 pub mod brackets;
 mod budgets;
 mod cargo;
+mod circles;
 mod common;
 pub mod compiled;
 mod compositions;
@@ -31,12 +32,19 @@ pub mod language;
 mod layout;
 mod limits;
 pub mod long;
+mod loops;
 mod nystrom;
 pub mod order;
 pub mod paper;
 pub mod planets;
+mod processed;
+pub mod readme;
 pub mod sizes;
 pub mod splits;
+mod stages;
+#[allow(dead_code)]
+#[path = "../hamiltonian-symbolic/tests/common/mod.rs"]
+mod symbolic;
 pub mod systems;
 #[allow(dead_code, unused_imports)]
 #[path = "../hamiltonian-symbolic/tests/tree/mod.rs"]

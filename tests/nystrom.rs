@@ -88,7 +88,7 @@ fn order_is_kept_under_a_force_without_momenta() {
         steps: u64,
     ) -> StateOf<Pushed, DoubleDouble> {
         let numbers = |v: [f64; 2]| v.map(DoubleDouble::from);
-        let start = State::new(numbers([0.7, -0.4]), numbers([0.3, 0.8]));
+        let start = State::over(numbers([0.7, -0.4]), numbers([0.3, 0.8]));
         let h = DoubleDouble::from(2.0 / steps as f64);
         let run = Integrator::new(&Pushed::default(), scheme, start, h);
         let end = run.expect("a good start").advance(steps).cloned();

@@ -1,5 +1,5 @@
 //! The paper's schemes on the paper's systems, against values found twice by independent
-//! programs, and what the README says is wrong in the paper, number by number. What the paper
+//! programs, and what the book says is wrong in the paper, number by number. What the paper
 //! prints depends on a run length and a zero of V it does not give.
 
 // Check values stand as they were computed, with more digits than a double holds.
@@ -23,12 +23,14 @@ fn on_paper34() -> State<One> {
     State::new([-3.0], [0.0])
 }
 
-/// That the README says so.
+/// That the book says so.
 #[track_caller]
-fn readme_says(claim: &str) {
-    let words: Vec<_> = include_str!("../README.md").split_whitespace().collect();
+fn book_says(claim: &str) {
+    let words: Vec<_> = include_str!("../book/src/paper.md")
+        .split_whitespace()
+        .collect();
     let text = words.join(" ");
-    assert!(text.contains(claim), "the README does not say: {claim}");
+    assert!(text.contains(claim), "the book does not say: {claim}");
 }
 
 /// max |ΔH/H₀| over every step up to `t`.
@@ -59,8 +61,8 @@ fn drift_of_29_on_the_pendulum() {
 /// (29) does not hold on (34): the copies part.
 #[test]
 fn copies_of_29_part_on_34() {
-    readme_says("at h = 1e-3 by 7e-5, 2.5e-3, 9.6e-2, 2.7 at t = 1, 2, 3, 4");
-    readme_says("max |ΔH/H₀| grows to 0.0024 %, 0.13 %, 6 %, 158 %");
+    book_says("at h = 1e-3 by 7e-5, 2.5e-3, 9.6e-2 and 2.7 at t = 1, 2, 3 and 4");
+    book_says("max |ΔH/H₀| grows to 0.0024 %, 0.13 %, 6 % and 158 %");
     let system = Paper34::default();
     let run = Integrator::new(&system, Pihajoki::default(), on_paper34(), 1e-3).unwrap();
     let mut run = run.observe(EnergyDrift::new());
@@ -82,7 +84,7 @@ fn copies_of_29_part_on_34() {
 /// (33) with a half-step Euler start is (29): its points are the copy (q̃, p).
 #[test]
 fn scheme_33_with_half_euler_start_is_29() {
-    readme_says("equals (29)'s copy (q̃, p) to 1e-12 over 2000 steps");
+    book_says("equals the copy (q̃, p) of (29) to 1e-12 over 2000 steps");
     let system = Paper34::default();
     let scheme = IntersectingSubTrajectories {
         start: Start::HalfEuler,
@@ -107,7 +109,7 @@ fn scheme_33_with_half_euler_start_is_29() {
 /// On separable systems (29) is drift–kick–drift and (30) kick–drift–kick, bit for bit.
 #[test]
 fn pihajoki_on_separable_systems_is_stormer_verlet() {
-    readme_says("where it is Störmer–Verlet bit for bit");
+    book_says("it is Störmer–Verlet bit for bit");
     fn same<S: Separable<f64> + Unforced>(system: &S, q: &[f64], p: &[f64], h: f64) {
         let numbers = |v: &[f64]| v.to_vec();
         let start = state(system, 0.0, numbers(q), numbers(p));
@@ -138,8 +140,8 @@ fn pihajoki_on_separable_systems_is_stormer_verlet() {
 /// The paper's start makes the large oscillation of its figure 1, not its schemes.
 #[test]
 fn starts_of_33_on_the_pendulum() {
-    readme_says("to t = 50, the largest energy error of (33) falls from 1.98e-2 % to 2.2e-5 %");
-    readme_says("stays at 5.0e-7 % to t = 10⁴ with a second-order one");
+    book_says("to t = 50, the largest energy error of (33) falls from 1.98e-2 % to 2.2e-5 %");
+    book_says("stays at 5.0e-7 % to t = 10⁴ with a start of second order");
     let system = Pendulum::default();
     let at = |start, t| {
         let scheme = IntersectingSubTrajectories { start };
@@ -147,10 +149,10 @@ fn starts_of_33_on_the_pendulum() {
     };
     let equal = at(Start::Equal, 50.0);
     assert_digits("equal, T = 50", equal, 1.977e-4, 4);
-    assert_digits("equal, T = 50, README", equal, 1.98e-4, 3);
+    assert_digits("equal, T = 50, book", equal, 1.98e-4, 3);
     let half_euler = at(Start::HalfEuler, 50.0);
     assert_digits("half-Euler, T = 50", half_euler, 2.19e-7, 3);
-    assert_digits("half-Euler, T = 50, README", half_euler, 2.2e-7, 2);
+    assert_digits("half-Euler, T = 50, book", half_euler, 2.2e-7, 2);
     assert_digits("ratio, T = 50", equal / half_euler, 901.0, 3);
     // The error of the half-Euler start grows linearly.
     let ratio = |t| at(Start::Equal, t) / at(Start::HalfEuler, t);
@@ -159,7 +161,7 @@ fn starts_of_33_on_the_pendulum() {
     for t in [50.0, 1e4] {
         let second = at(Start::SecondOrder, t);
         assert_digits("second order", second, 4.96e-9, 3);
-        assert_digits("second order, README", second, 5.0e-9, 2);
+        assert_digits("second order, book", second, 5.0e-9, 2);
         assert_digits("ratio", equal / second, 40_000.0, 1);
     }
 }
@@ -167,7 +169,7 @@ fn starts_of_33_on_the_pendulum() {
 /// (26) with half the step is (33), and its true time is what the state says.
 #[test]
 fn scheme_26_advances_two_steps() {
-    readme_says("a step of (26) is 2h");
+    book_says("a step of (26) is 2h");
     let system = Pendulum::default();
     let scheme = ConsecutiveSubTrajectories::default();
     let mut consecutive = Integrator::new(&system, scheme, on_pendulum(), 5e-4).unwrap();

@@ -237,7 +237,7 @@ fn exponent_of_henon_heiles() {
         .map(|_| {
             let mut number = |x: f64| Dual::new(x + displacement(), displacement());
             (
-                State::new([number(0.0), number(-0.25)], [number(0.42081), number(0.0)]),
+                State::over([number(0.0), number(-0.25)], [number(0.42081), number(0.0)]),
                 0.0,
             )
         })

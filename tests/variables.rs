@@ -125,7 +125,7 @@ fn forces_are_carried() {
     let there = power(polar.force(&new).into(), polar.gradient(&new).p.into());
     close(here, there);
     // And to the momenta by the derivative of the map.
-    let pushed = polar.from_declared(&State::new(
+    let pushed = polar.from_declared(&State::over(
         [Dual::fixed(0.7), Dual::fixed(-0.4)],
         [Dual::new(0.3, f[0]), Dual::new(1.1, f[1])],
     ));
@@ -235,7 +235,7 @@ fn gradients_of_events() {
             p[k - 2].eps = 1.0;
             gradient.p[k - 2]
         };
-        close(polar.crossing(&State::new(q, p)).eps, expected);
+        close(polar.crossing(&State::over(q, p)).eps, expected);
     }
 }
 
@@ -443,7 +443,7 @@ fn starts() {
     );
     close(p_t.unwrap().p[2], 0.5);
     // And over duals the start carries its derivatives: p_y ∂p_y/∂E = 1.
-    let guess = State::new(
+    let guess = State::over(
         [Dual::fixed(0.4), Dual::fixed(0.0), Dual::fixed(0.0)],
         [Dual::fixed(0.0), Dual::fixed(1.5), Dual::new(0.5, -1.0)],
     );

@@ -1,7 +1,7 @@
 //! Conservation of H by schemes, side by side: the largest |H − H(0)| since the last point of a curve,
 //! against time, both axes logarithmic.
 
-use super::plot::{Curve, Figure};
+use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
 use hamiltonian::{Scheme, Split, Unforced, View};
 use std::fmt::Display;
@@ -104,9 +104,9 @@ impl<'a, S: System<f64>> Contest<'a, S> {
     /// Draws all runs.
     pub fn draw(self, title: &str, path: &str) -> Result<(), Box<dyn std::error::Error>> {
         Figure {
-            title,
-            x: "time t",
-            y: "|H − H(0)|",
+            title: title.into(),
+            x: "time t".into(),
+            y: "|H − H(0)|".into(),
             logarithmic: true,
             decades: true,
             curves: self.curves,

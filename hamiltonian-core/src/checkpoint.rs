@@ -49,7 +49,8 @@ pub struct Checkpoint {
     pub(crate) scheme: String,
     /// The type of the numbers.
     pub(crate) scalar: String,
-    /// Steps, the step at which the clock began, whether an observer ended the run.
+    /// Steps, the step at which the clock began, whether an observer ended the run (1) with how it is
+    /// computed: fused (2), without lanes (4).
     pub(crate) counts: [u64; 3],
     /// The time at which the clock began, the step, then all that is carried.
     pub(crate) numbers: Memory,
@@ -58,7 +59,9 @@ pub struct Checkpoint {
 }
 
 const MAGIC: &[u8; 8] = b"HAMILTON";
-const VERSION: u64 = 1;
+/// 2: implicit schemes with stages add them up in another order, sums of 32 terms or more are trees, and a
+/// run says how it is computed.
+const VERSION: u64 = 2;
 
 impl Checkpoint {
     /// The number of steps made.
@@ -93,7 +96,8 @@ impl Checkpoint {
     /// From the bytes of its file.
     ///
     /// # Errors
-    /// [`CheckpointError::Foreign`], [`CheckpointError::Newer`], [`CheckpointError::Damaged`].
+    /// [`CheckpointError::Foreign`], [`CheckpointError::Newer`], [`CheckpointError::Older`],
+    /// [`CheckpointError::Damaged`].
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let damaged = |reason| Error::from(CheckpointError::Damaged { reason });
         let Some(rest) = bytes.strip_prefix(MAGIC) else {
@@ -109,6 +113,13 @@ impl Checkpoint {
         };
         if *version > VERSION {
             return Err(CheckpointError::Newer {
+                found: *version,
+                known: VERSION,
+            }
+            .into());
+        }
+        if *version < VERSION {
+            return Err(CheckpointError::Older {
                 found: *version,
                 known: VERSION,
             }
@@ -193,7 +204,7 @@ impl Checkpoint {
 }
 
 /// The first line that differs, of each text; None where they are the same.
-fn differing<'a>(saved: &'a str, given: &'a str) -> Option<(&'a str, &'a str)> {
+pub(crate) fn differing<'a>(saved: &'a str, given: &'a str) -> Option<(&'a str, &'a str)> {
     let (mut saved, mut given) = (saved.lines(), given.lines());
     loop {
         match (saved.next(), given.next()) {
@@ -245,6 +256,16 @@ impl Memory {
             true => Checkpoint::same("observer", "", name),
             false => self.expect_text("observer", name),
         }
+    }
+
+    /// Refuses what no observer has read: one that was saved is missing.
+    pub(crate) fn refuse_rest(&self) -> Result<(), Error> {
+        if self.is_empty() {
+            return Ok(());
+        }
+        let name = self.clone().read_text()?;
+        let saved = if name.is_empty() { "a closure" } else { &name };
+        Checkpoint::same("observer", saved, "")
     }
 
     /// Reads a text that must be `given`.

@@ -3,6 +3,10 @@
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
 
+use crate::shard::ShardError;
+#[cfg(feature = "std")]
+use crate::store::StoreError;
+use crate::table::TableError;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -266,9 +270,67 @@ pub enum Error {
         /// Why it cannot.
         reason: &'static str,
     },
+    /// An error of one member of an ensemble.
+    #[error("member {index}: {error}")]
+    Member {
+        /// Its index.
+        index: usize,
+        /// Its error.
+        error: Box<Error>,
+    },
+    /// An ensemble or a sweep of no members.
+    #[error("an ensemble has at least one member, found 0")]
+    NoMembers,
+    /// A member with run-time sizes other than those of the first.
+    #[error(
+        "`{system}` has other sizes than in member 0: members of one ensemble have the same sizes"
+    )]
+    OtherSizes {
+        /// The system.
+        system: &'static str,
+    },
+    /// The error of a member before its ensemble was saved.
+    #[error("{message} (before the ensemble was saved)")]
+    Before {
+        /// Its message.
+        message: String,
+    },
+    /// A sweep was cancelled.
+    #[error("the sweep was cancelled after {done} of {of} members")]
+    Cancelled {
+        /// The number of members that were done.
+        done: usize,
+        /// The number of members to be done.
+        of: usize,
+    },
+    /// A closure panicked.
+    #[error("a closure panicked: {message}")]
+    Panicked {
+        /// The message of the panic.
+        message: String,
+    },
     /// A saved run that cannot be read, or does not fit.
     #[error("{0}")]
     Checkpoint(#[from] CheckpointError),
+    /// A column that there is not, or a row that does not fit.
+    #[error("{0}")]
+    Table(#[from] TableError),
+    /// A part of a sweep that does not exist, or cannot be found out.
+    #[error("{0}")]
+    Shard(#[from] ShardError),
+    /// A store that cannot be written or read, or is that of another sweep.
+    #[cfg(feature = "std")]
+    #[error("{0}")]
+    Store(#[from] StoreError),
+    /// A file or another writer failed.
+    #[cfg(feature = "std")]
+    #[error("{message}")]
+    Io {
+        /// The kind of the failure.
+        kind: std::io::ErrorKind,
+        /// The system's message.
+        message: String,
+    },
     /// An index of a component that there is not.
     #[error("there is no component {index}: there are {count}")]
     Component {
@@ -337,6 +399,17 @@ pub enum Error {
     },
 }
 
+#[cfg(feature = "std")]
+impl From<std::io::Error> for Error {
+    /// The kind and the message, which are what two errors are compared by.
+    fn from(error: std::io::Error) -> Self {
+        Error::Io {
+            kind: error.kind(),
+            message: alloc::format!("{error}"),
+        }
+    }
+}
+
 /// Why a saved run cannot be read or gone on with.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -358,6 +431,17 @@ pub enum CheckpointError {
         /// The version of the file.
         found: u64,
         /// The newest version that can be read.
+        known: u64,
+    },
+    /// It was saved by an older version of this library, whose steps have other bits.
+    #[error(
+        "the run was saved in format {found}, this version reads format {known} alone, since its steps \
+         have other bits: go on with the version that saved it, or begin a new run from its last state"
+    )]
+    Older {
+        /// The version of the file.
+        found: u64,
+        /// The version that can be read.
         known: u64,
     },
     /// The bytes are not those that were written.

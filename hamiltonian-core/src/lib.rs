@@ -48,9 +48,15 @@ mod events;
 mod observe;
 mod observed;
 mod output;
+#[cfg(feature = "plot")]
+pub mod plot;
 #[cfg(feature = "progress")]
 mod progress;
 mod root;
+mod shard;
+#[cfg(feature = "std")]
+mod store;
+mod table;
 mod tangent;
 mod times;
 mod transformed;
@@ -60,6 +66,12 @@ mod resume;
 
 mod any;
 
+pub mod gather;
+
+mod ensemble;
+
+mod loops;
+
 pub mod start;
 
 pub mod coordinates;
@@ -67,6 +79,7 @@ pub mod coordinates;
 mod derivatives;
 
 mod error;
+mod failed;
 
 mod reach;
 
@@ -76,14 +89,17 @@ pub mod private;
 pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
 pub use derivatives::{WrongDerivative, check_derivatives};
+pub use ensemble::{End, Ensemble, Ensembles, Member, Record, Row, Status, Sweep};
 pub use error::{CheckpointError, Error};
 pub use events::{Event, Events, Located};
 pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorField};
+pub use gather::{Gather, InLanes, Kept};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
-pub use integrator::{Integrator, MapOf, Run, States};
+pub use integrator::{ErrorEstimate, Integrator, MapOf, Run, States};
 pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
 pub use observe::{
-    Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Verdict, View, Watch, every, watch,
+    Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Unobserved, Verdict, View, Watch,
+    every, watch,
 };
 pub use observed::{FieldObserved, Observed, ReadyObserved};
 pub use output::Recorder;
@@ -91,14 +107,16 @@ pub use output::Recorder;
 pub use progress::Progress;
 pub use push::{Both, Coupled, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
-pub use state::{Carried, Gradient, Pair, Point, State};
+pub use shard::{Shard, ShardError};
+pub use state::{Carried, Gradient, Pair, Plain, Point, State};
+#[cfg(feature = "std")]
+pub use store::{Attribute, ChunkData, Completeness, Layout, Rows, Store, StoreError};
 pub use system::{
-    Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
+    Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
 };
-#[cfg(feature = "std")]
-pub use tangent::multipliers;
-pub use tangent::{Tangent, monodromy, symplectic_defect};
+pub use table::{Table, TableError};
+pub use tangent::{Tangent, monodromy, multipliers, symplectic_defect};
 pub use times::{AtTimes, at_times};
 pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};
 pub use vector::{IntoVector, Vector, shape};
@@ -113,20 +131,21 @@ pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 pub mod prelude {
     pub use crate::{Observer as _, System as _};
 
-    #[cfg(feature = "std")]
-    pub use crate::multipliers;
     pub use crate::schemes::{
-        Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6,
-        Compensated, Composition, ConsecutiveSubTrajectories, Density, DiscreteGradient, Gauss,
-        GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8,
-        McLachlan8, MidpointProjected, Mixed, MomentumVariational, Paced, Pihajoki, RungeKutta4,
-        Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,
-        Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao,
-        TransformedVerlet, TwoStepMidpoint, Variational, Yoshida4, Yoshida6,
+        Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4,
+        BlanesMoan6, Compensated, Composition, ConsecutiveSubTrajectories, Density,
+        DiscreteGradient, Gauss, GaussNystrom, ImplicitMidpoint, IntersectingSubTrajectories,
+        KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed, MomentumVariational, Paced,
+        Pihajoki, Processed, Processed4, Processed6, RungeKutta4, Ruth3, Saba2, Saba3, Saba4,
+        Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start,
+        StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint,
+        Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17,
+        Yoshida4, Yoshida6,
     };
     pub use crate::{
-        AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Error, Event, Events, Gradient,
-        Integrator, Monitors, Observer, Real, Recorder, Run, Split, State, StateOf, System,
-        Tangent, TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
+        AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error, Event,
+        Events, Gradient, Integrator, Member, Monitors, Observer, Real, Recorder, Run, Shard,
+        Split, State, StateOf, Status, Sweep, System, Tangent, TimeTransformed, at_times, every,
+        monodromy, symplectic_defect, watch,
     };
 }

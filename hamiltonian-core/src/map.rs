@@ -153,6 +153,13 @@ pub struct Clock<T> {
 }
 
 impl<T: Real> Clock<T> {
+    /// The clock of one step.
+    #[inline(always)]
+    pub(crate) fn between(start: T, end: T) -> Self {
+        let interval = end - start;
+        Clock { start, interval }
+    }
+
     /// The time after `made` steps.
     ///
     /// Pure, so that it vanishes where a system does not look at the time; exact in the number

@@ -5,6 +5,7 @@
 //! changes no bit of the run.
 
 use crate::checkpoint::Memory;
+use crate::ensemble::{Follower, Quantity};
 use crate::error::Error;
 use crate::state::State;
 use crate::system::{Dynamics, ObservableKind, System, declared_energy};
@@ -83,6 +84,12 @@ pub trait Observer<T: Real, S: System<T>> {
     }
     /// Shows it a state whose step number is a multiple of its interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
+    /// Visits what it follows, if that is the drift of functions of the state and nothing else, seen after
+    /// every so many steps: ensembles then follow it in lanes.
+    #[doc(hidden)]
+    fn follow(&mut self, _: &mut Follower<T>) -> bool {
+        false
+    }
     /// Writes what it remembers. An observer that remembers nothing writes its name alone.
     fn save(&self, to: &mut Memory) {
         to.begin("");
@@ -104,6 +111,17 @@ pub trait Observer<T: Real, S: System<T>> {
         Ok(None)
     }
 }
+
+/// The observer of a run that has none, `()`: only such a run takes one.
+#[diagnostic::on_unimplemented(
+    message = "this run has an observer: `{Self}`",
+    label = "a run takes one observer",
+    note = "pass several as a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`",
+    note = "attach closures after it, `.watch(steps, |view| …)`"
+)]
+pub trait Unobserved {}
+
+impl Unobserved for () {}
 
 /// The value a watching closure returns: nothing, or whether the run goes on.
 pub trait Verdict {
@@ -211,6 +229,9 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         self.inner.end()
     }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        self.inner.follow(with)
+    }
 }
 
 impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut O {
@@ -232,6 +253,9 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         (**self).end()
     }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        (**self).follow(with)
+    }
 }
 
 impl<T: Real, S: System<T>> Observer<T, S> for () {
@@ -244,6 +268,9 @@ impl<T: Real, S: System<T>> Observer<T, S> for () {
     fn save(&self, _: &mut Memory) {}
     fn restore(&mut self, _: &View<'_, T, S>, _: &mut Memory) -> Result<(), Error> {
         Ok(())
+    }
+    fn follow(&mut self, _: &mut Follower<T>) -> bool {
+        true
     }
 }
 
@@ -294,6 +321,14 @@ macro_rules! tuple {
                 $(end = end.or(self.$index.end()?);)+
                 Ok(end)
             }
+            fn follow(&mut self, with: &mut Follower<T>) -> bool {
+                let interval = <Self as Observer<T, S>>::interval(self);
+                let same = |of: u64| of == interval || of == u64::MAX;
+                $(if !same(self.$index.interval()) || !self.$index.follow(with) {
+                    return false;
+                })+
+                true
+            }
         }
     };
 }
@@ -310,15 +345,15 @@ tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 /// Differences are taken in the run's scalar, then rounded to `f64`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Deviation<T> {
-    start: T,
-    count: u64,
-    max: f64,
-    sum_of_sizes: f64,
-    sum: f64,
+    pub(crate) start: T,
+    pub(crate) count: u64,
+    pub(crate) max: f64,
+    pub(crate) sum_of_sizes: f64,
+    pub(crate) sum: f64,
 }
 
 impl<T: Real> Deviation<T> {
-    fn new(start: T) -> Self {
+    pub(crate) fn new(start: T) -> Self {
         Deviation {
             start,
             count: 0,
@@ -399,6 +434,18 @@ impl<T: Real> Deviation<T> {
     }
 }
 
+/// Fails to compile over packs of lanes: what an observer makes of one trajectory would be that of lane 0.
+#[inline(always)]
+pub(crate) fn one_trajectory<T: Real>() {
+    const {
+        assert!(
+            T::LANES == 1,
+            "this observer follows one trajectory, and a pack holds several: an `Ensemble` has an observer \
+             for each of its members"
+        );
+    }
+}
+
 /// The drift of H, see [`Deviation`]; in another time, `dt = g*ds`, that of the declared H.
 ///
 /// For a system that depends on time H is no invariant, and this is no error.
@@ -440,6 +487,7 @@ impl<T: Real> EnergyDrift<T> {
 
 impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
         self.drift = None;
         <Self as Observer<T, S>>::observe(self, view)
     }
@@ -456,6 +504,10 @@ impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
         if let Some(drift) = &self.drift {
             drift.save(to);
         }
+    }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        with.drift(Quantity::Energy, &mut self.drift);
+        true
     }
     fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("EnergyDrift")?;
@@ -508,6 +560,7 @@ impl<T: Real> Monitors<T> {
 
 impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
         self.monitors = (0..)
             .zip(S::OBSERVABLES)
             .map(|(index, observable)| Monitor {
@@ -530,6 +583,22 @@ impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
         for monitor in &self.monitors {
             monitor.drift.save(to);
         }
+    }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        for (index, observable) in S::OBSERVABLES.iter().enumerate() {
+            let mut drift = self.monitors.get(index).map(|one| one.drift.clone());
+            with.drift(Quantity::Observable(index), &mut drift);
+            let Some(drift) = drift else { continue };
+            match self.monitors.get_mut(index) {
+                Some(monitor) => monitor.drift = drift,
+                None => self.monitors.push(Monitor {
+                    name: observable.name,
+                    kind: observable.kind,
+                    drift,
+                }),
+            }
+        }
+        true
     }
     fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Monitors")?;

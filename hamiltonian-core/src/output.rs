@@ -1,26 +1,30 @@
 //! Trajectories as tables.
 //!
-//! Input: states of a run. Output: [`Recorder`], rows of numbers under the declared names, and
-//! CSV. Invariant: a row is t, coordinates, momenta, observables, each in declaration order, a
-//! group of rank 2 body by body.
+//! Input: states of a run. Output: [`Recorder`], a [`Table`] under the declared names. Invariant: a
+//! row is t, coordinates, momenta, observables, each in declaration order, a group of rank 2 body by
+//! body, or the columns selected, in their order.
 
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::Error;
-use crate::observe::{Observer, View};
+use crate::observe::{Observer, View, one_trajectory};
+use crate::state::State;
 use crate::system::{Group, System, clock};
+use crate::table::{Table, TableError, wrapped};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Deref};
 use hamiltonian_lanes::Real;
 
 /// Records t, coordinates, momenta, observables and on request H, rounded to `f64`.
 ///
 /// Columns have the declared names: `t`, then `q`, `q[3]` or `q[3][1]` for each coordinate, the
-/// momenta likewise, then the observables, then `H`. In another time, `dt = g*ds`, the first column is
-/// `s`, t is the last coordinate, and `H` is the declared one. Where a variable has the name `t` or `s`,
-/// the first column is `t_2` or `s_2`.
+/// momenta likewise, then the observables, then `H`. [`Recorder::of`] selects some of them. In another
+/// time, `dt = g*ds`, the first column is `s`, t is the last coordinate, and `H` is the declared one. If
+/// a variable has the name `t` or `s`, the first column is `t_2` or `s_2`.
+///
+/// A recorder is read as its [`Table`], which also writes files:
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -37,23 +41,71 @@ use hamiltonian_lanes::Real;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recorder {
     capacity: usize,
-    columns: Vec<String>,
-    /// For each coordinate of a row, its flat index.
-    order: Vec<usize>,
+    /// The columns selected; all if there is no selection.
+    selected: Option<Vec<String>>,
+    /// The columns whose angles are wrapped.
+    angles: Vec<String>,
     energy: bool,
-    values: Vec<f64>,
+    /// For each column its source.
+    sources: Vec<Source>,
+    table: Table,
+    failure: Option<Error>,
+}
+
+/// The source of a column, and whether its values are angles to be wrapped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Source {
+    value: Value,
+    angle: bool,
+}
+
+/// A number of a state; components by their flat index.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Value {
+    Time,
+    Coordinate(usize),
+    Momentum(usize),
+    Observable(usize),
+    Energy,
 }
 
 impl Recorder {
-    /// A recorder that grows as it records.
+    /// Creates a recorder of all columns that grows as it records.
     pub fn new() -> Self {
         Recorder::default()
     }
 
-    /// A recorder with room for so many rows, which it takes when it is attached.
+    /// Creates a recorder with room for so many rows, allocated when it is attached.
     pub fn with_capacity(rows: usize) -> Self {
         Recorder {
             capacity: rows,
+            ..Recorder::default()
+        }
+    }
+
+    /// Creates a recorder of the columns of these names, in this order: `t`, `H`, coordinates, momenta
+    /// and observables. The name of an array selects all its elements. If there is no such column, the
+    /// run returns [`TableError::Unknown`] at its first step.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{Integrator, Recorder, State, schemes::StormerVerlet};
+    ///
+    /// let start = || State::new([1.0], [0.0]);
+    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start(), 0.5)?
+    ///     .observe(Recorder::of(["H", "q"]));
+    /// run.advance(1)?;
+    /// assert_eq!(run.observer().row(0), Some(&[0.5, 1.0][..]));
+    ///
+    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start(), 0.5)?
+    ///     .observe(Recorder::of(["Q"]));
+    /// let error = run.advance(1).unwrap_err();
+    /// assert_eq!(error.to_string(), "there is no column `Q`\nhelp: did you mean `q`?");
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    pub fn of<N: Into<String>>(columns: impl IntoIterator<Item = N>) -> Self {
+        Recorder {
+            selected: Some(columns.into_iter().map(Into::into).collect()),
             ..Recorder::default()
         }
     }
@@ -67,134 +119,181 @@ impl Recorder {
         }
     }
 
-    /// The names of the columns; none before it is attached.
-    pub fn columns(&self) -> &[String] {
-        &self.columns
+    /// The same recorder with the angles of a column, or of all elements of an array, wrapped into
+    /// (−π, π]. If it records no such column, the run returns [`TableError::Unknown`].
+    #[must_use]
+    pub fn wrap(mut self, column: impl Into<String>) -> Self {
+        self.angles.push(column.into());
+        self
     }
 
-    /// The number of rows.
-    pub fn rows(&self) -> usize {
-        self.values
-            .len()
-            .checked_div(self.columns.len())
-            .unwrap_or(0)
+    /// The table recorded.
+    pub fn into_table(self) -> Table {
+        self.table
     }
 
-    /// Row `index`, in the order of [`Recorder::columns`].
-    pub fn row(&self, index: usize) -> Option<&[f64]> {
-        self.values
-            .chunks_exact(self.columns.len().max(1))
-            .nth(index)
-    }
-
-    /// All rows, in the order of time.
-    pub fn iter(&self) -> impl Iterator<Item = &[f64]> {
-        self.values.chunks_exact(self.columns.len().max(1))
-    }
-
-    /// The column of that name.
-    pub fn column(&self, name: &str) -> Option<impl Iterator<Item = f64>> {
-        let index = self.columns.iter().position(|column| column == name)?;
-        Some(self.iter().map(move |row| row[index]))
-    }
-
-    /// Writes a header and the rows as comma-separated values, each number in the fewest digits
-    /// that read back to the same bits.
-    ///
-    /// # Errors
-    /// Those of the writer.
-    #[cfg(feature = "std")]
-    pub fn write_csv(&self, mut to: impl std::io::Write) -> std::io::Result<()> {
-        // A name has a comma in it in no case: names are identifiers and indices.
-        writeln!(to, "{}", self.columns.join(","))?;
-        for row in self.iter() {
-            for (index, value) in row.iter().enumerate() {
-                let comma = if index == 0 { "" } else { "," };
-                write!(to, "{comma}{value:?}")?;
+    /// The table without rows and the sources of its columns.
+    fn layout<T: Real, S: System<T>>(&self, q: &S::Vector) -> Result<(Table, Vec<Source>), Error> {
+        let mut all = all_columns::<T, S>(q);
+        let energy = ("H".to_string(), Value::Energy);
+        let chosen: Vec<(String, Value)> = match &self.selected {
+            None => {
+                all.extend(self.energy.then_some(energy));
+                all
             }
-            writeln!(to)?;
+            Some(selected) => {
+                // A variable `H` would stand before the energy, as it does in a full table.
+                all.push(energy);
+                let names: Vec<String> = all.iter().map(|(name, _)| name.clone()).collect();
+                let mut chosen = Vec::new();
+                for name in selected {
+                    for at in columns_of(name, &names)? {
+                        chosen.push(all[at].clone());
+                    }
+                }
+                if self.energy && !chosen.iter().any(|(_, value)| *value == Value::Energy) {
+                    chosen.extend(all.pop());
+                }
+                chosen
+            }
+        };
+        let (names, values): (Vec<String>, Vec<Value>) = chosen.into_iter().unzip();
+        let mut sources: Vec<Source> = (values.into_iter())
+            .map(|value| Source {
+                value,
+                angle: false,
+            })
+            .collect();
+        for name in &self.angles {
+            for at in columns_of(name, &names)? {
+                sources[at].angle = true;
+            }
         }
-        to.flush()
+        Ok((Table::new(names)?, sources))
+    }
+}
+
+/// The places of the column of that name, or of all elements of the array of that name.
+fn columns_of(name: &str, known: &[String]) -> Result<Vec<usize>, Error> {
+    let position =
+        |is: &dyn Fn(&String) -> bool| (0..known.len()).filter(|at| is(&known[*at])).collect();
+    let mut places: Vec<usize> = position(&|column| column == name);
+    places.truncate(1);
+    if places.is_empty() {
+        let element =
+            |column: &String| (column.strip_prefix(name)).is_some_and(|rest| rest.starts_with('['));
+        places = position(&element);
+    }
+    match places.is_empty() {
+        true => Err(TableError::unknown(name, known).into()),
+        false => Ok(places),
+    }
+}
+
+/// All columns but H with their sources: time, coordinates, momenta, observables.
+fn all_columns<T: Real, S: System<T>>(q: &S::Vector) -> Vec<(String, Value)> {
+    let names = names(S::GROUPS, q);
+    let mut all = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
+    for name in &names {
+        all.push((
+            name.of(name.group.coordinate),
+            Value::Coordinate(name.index),
+        ));
+    }
+    for name in &names {
+        all.push((name.of(name.group.momentum), Value::Momentum(name.index)));
+    }
+    for (index, observable) in S::OBSERVABLES.iter().enumerate() {
+        all.push((observable.name.to_string(), Value::Observable(index)));
+    }
+    let time = clock::<T, S>();
+    let mut free = time.to_string();
+    for number in 2.. {
+        if all.iter().all(|(name, _)| *name != free) {
+            break;
+        }
+        free = format!("{time}_{number}");
+    }
+    all.insert(0, (free, Value::Time));
+    all
+}
+
+impl Deref for Recorder {
+    type Target = Table;
+
+    /// The table, without columns before the recorder is attached.
+    fn deref(&self) -> &Table {
+        &self.table
     }
 }
 
 impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        let names = names(S::GROUPS, &view.state.q);
-        self.order = names.iter().map(|name| name.index).collect();
-        self.columns = Vec::with_capacity(2 + 2 * names.len() + S::OBSERVABLES.len());
-        self.columns
-            .extend(names.iter().map(|name| name.of(name.group.coordinate)));
-        self.columns
-            .extend(names.iter().map(|name| name.of(name.group.momentum)));
-        self.columns.extend(
-            S::OBSERVABLES
-                .iter()
-                .map(|observable| observable.name.to_string()),
-        );
-        let time = clock::<T, S>();
-        let mut free = time.to_string();
-        for number in 2.. {
-            if !self.columns.contains(&free) {
-                break;
+        one_trajectory::<T>();
+        match self.layout::<T, S>(&view.state.q) {
+            Ok((table, sources)) => (self.table, self.sources) = (table, sources),
+            Err(error) => {
+                self.failure = Some(error);
+                return ControlFlow::Break(());
             }
-            free = format!("{time}_{number}");
         }
-        self.columns.insert(0, free);
-        if self.energy {
-            self.columns.push("H".to_string());
-        }
-        self.values = Vec::with_capacity(self.capacity.saturating_mul(self.columns.len()));
+        self.failure = None;
+        self.table.reserve(self.capacity);
         <Self as Observer<T, S>>::observe(self, view)
     }
 
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        self.values.push(view.state.t.to_f64());
-        self.values.extend(
-            self.order
-                .iter()
-                .map(|i| view.state.q.component(*i).to_f64()),
-        );
-        self.values.extend(
-            self.order
-                .iter()
-                .map(|i| view.state.p.component(*i).to_f64()),
-        );
-        self.values
-            .extend((0..S::OBSERVABLES.len()).map(|i| view.observable(i).to_f64()));
-        if self.energy {
-            self.values.push(view.energy().to_f64());
+        for source in &self.sources {
+            let value = match source.value {
+                Value::Time => view.state.t,
+                Value::Coordinate(index) => view.state.q.component(index),
+                Value::Momentum(index) => view.state.p.component(index),
+                Value::Observable(index) => view.observable(index),
+                Value::Energy => view.energy(),
+            };
+            let value = value.to_f64();
+            self.table
+                .push_value(if source.angle { wrapped(value) } else { value });
         }
         ControlFlow::Continue(())
     }
 
     fn save(&self, to: &mut Memory) {
         to.begin("Recorder");
-        to.count(u64::from(self.energy));
-        to.count(self.columns.len() as u64);
-        for column in &self.columns {
-            to.text(column);
-        }
-        to.count(self.order.len() as u64);
-        for index in &self.order {
-            to.count(*index as u64);
-        }
-        to.count(self.values.len() as u64);
-        for value in &self.values {
+        to.text(&described(&self.table, &self.sources));
+        to.count(self.table.values().len() as u64);
+        for value in self.table.values() {
             to.number(*value);
         }
     }
 
-    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+    fn restore(&mut self, view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("Recorder")?;
-        let column = |energy| if energy { "H" } else { "none" };
-        let saved = column(from.read_count()? != 0);
-        Checkpoint::same("column of the energy", saved, column(self.energy))?;
-        self.columns = from.read_list(Memory::read_text)?;
-        self.order = from.read_list(|from| Ok(from.read_count()? as usize))?;
-        self.values = from.read_list(Memory::read_number)?;
+        (self.table, self.sources) = self.layout::<T, S>(&view.state.q)?;
+        let saved = from.read_text()?;
+        // An observer at given times attaches it later.
+        if !saved.is_empty() {
+            let given = described(&self.table, &self.sources);
+            Checkpoint::same("list of columns", &saved, &given)?;
+        }
+        self.table.set_values(from.read_list(Memory::read_number)?);
         Ok(())
     }
+
+    fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
+        self.failure.clone().map_or(Ok(None), Err)
+    }
+}
+
+/// The columns on one line, by which a saved recorder is recognised.
+fn described(table: &Table, sources: &[Source]) -> String {
+    let mut text = String::new();
+    for (name, source) in table.columns().iter().zip(sources) {
+        let comma = if text.is_empty() { "" } else { ", " };
+        let angle = if source.angle { " (wrapped)" } else { "" };
+        text.push_str(&format!("{comma}{name}{angle}"));
+    }
+    text
 }
 
 /// One component of a group.

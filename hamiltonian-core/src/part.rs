@@ -4,9 +4,10 @@
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
 use crate::error::Error;
+use crate::failed::Failed;
 use crate::flow::Scratch;
 use crate::integrator::{Integrator, MapOf, numbers};
-use crate::map::{Cause, Clock, Map, Step};
+use crate::map::{Clock, Map, Step};
 use crate::observe::{Between, Observer};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
@@ -159,31 +160,59 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
         let bad = !carried.finite();
         let lane = (T::LANES > 1).then(|| bad.first().unwrap_or(0));
         let point = carried.point();
-        match cause {
-            Cause::Unsolved {
-                residual,
-                iterations,
-            } => Error::Solve {
-                step: 1,
-                lane,
-                clock: clock::<T, S>(),
-                time: from.t.to_f64(),
-                residual,
-                iterations,
-            },
-            Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
-                step: 1,
-                piece: match cause {
-                    Cause::Piece(name) => Some(name),
-                    _ => None,
-                },
-                lane,
-                clock: clock::<T, S>(),
-                time: t.to_f64(),
-                q: numbers(&point.q),
-                p: numbers(&point.p),
-            },
+        let failed = Failed {
+            step: 1,
+            lane,
+            clock: clock::<T, S>(),
+            begin: from.t.to_f64(),
+            end: t.to_f64(),
+            q: numbers(&point.q),
+            p: numbers(&point.p),
+        };
+        failed.because(cause)
+    }
+}
+
+impl<T: Real> Clock<T> {
+    /// The number of steps to `t` after `made`: (none, that number), or where none leads there the numbers
+    /// before and after it. `clock` is the name of the time.
+    pub(crate) fn whole_steps(
+        &self,
+        made: u64,
+        t: T,
+        clock: &'static str,
+    ) -> Result<(Option<u64>, u64), Error> {
+        /// Numbers of steps up to here are exact in `f64`.
+        const MOST: f64 = (1_u64 << 53) as f64;
+        let count = ((t - self.start) / self.interval).to_f64();
+        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
+        let reached = self.at(nearest);
+        // t, the start and the interval are each off by half an ulp at most, and so are the
+        // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
+        // user, whatever the scalar.
+        let size = t.magnitude() + self.start.magnitude() + (reached - self.start).magnitude();
+        let rounding = T::epsilon().max(f64::EPSILON) * size;
+        let counted = t.is_finite() && count < MOST;
+        let meets = counted && (reached - t).magnitude() <= rounding;
+        if meets && nearest >= made {
+            return Ok((None, nearest - made));
         }
+        let behind = count < made as f64;
+        if behind {
+            return Err(Error::Behind {
+                clock,
+                target: t.to_f64(),
+                now: self.at(made).to_f64(),
+            });
+        }
+        if !counted {
+            return Err(Error::Unreachable {
+                clock,
+                target: t.to_f64(),
+            });
+        }
+        let before = (count as u64).max(made);
+        Ok((Some(before - made), before + 1 - made))
     }
 }
 
@@ -295,42 +324,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         }
     }
 
-    /// The number of steps to `t`: (none, that number), or where none leads there the numbers before and
-    /// after it.
+    /// The number of steps to `t`, as in [`Clock::whole_steps`].
     fn whole_steps(&self, t: T) -> Result<(Option<u64>, u64), Error> {
-        /// Numbers of steps up to here are exact in `f64`.
-        const MOST: f64 = (1_u64 << 53) as f64;
-        let made = self.steps - self.began;
-        let count = ((t - self.clock.start) / self.clock.interval).to_f64();
-        let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
-        let reached = self.clock.at(nearest);
-        // t, the start and the interval are each off by half an ulp at most, and so are the
-        // product and the sum in `at`; decimal steps such as 0.001 are rounded to f64 by the
-        // user, whatever the scalar.
-        let size =
-            t.magnitude() + self.clock.start.magnitude() + (reached - self.clock.start).magnitude();
-        let rounding = T::epsilon().max(f64::EPSILON) * size;
-        let counted = t.is_finite() && count < MOST;
-        let meets = counted && (reached - t).magnitude() <= rounding;
-        if meets && nearest >= made {
-            return Ok((None, nearest - made));
-        }
-        let behind = count < made as f64;
-        if behind {
-            return Err(Error::Behind {
-                clock: clock::<T, S>(),
-                target: t.to_f64(),
-                now: self.clock.at(made).to_f64(),
-            });
-        }
-        if !counted {
-            return Err(Error::Unreachable {
-                clock: clock::<T, S>(),
-                target: t.to_f64(),
-            });
-        }
-        let before = (count as u64).max(made);
-        Ok((Some(before - made), before + 1 - made))
+        self.clock
+            .whole_steps(self.steps - self.began, t, clock::<T, S>())
     }
 
     /// The states at the given times, in the order of the run, independent of the step; until an

@@ -11,7 +11,7 @@ pub extern crate alloc;
 pub use alloc::sync::Arc;
 pub use core;
 
-pub use hamiltonian_lanes::{Lift, Mask, Real};
+pub use hamiltonian_lanes::{Lift, Mask, Pack, Real};
 pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
@@ -19,13 +19,15 @@ pub use nalgebra::{
 pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
+pub use crate::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
+pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
 pub use crate::system::{
-    Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
+    Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
 };
 pub use crate::vector::{IntoVector, Vector};
@@ -83,6 +85,12 @@ pub fn check_parameter<T: Real>(
             name: element(name, rank, i, j),
         }),
     }
+}
+
+/// Whether the same conditions hold in both.
+pub fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N]) -> bool {
+    let same = |k: usize| ((these[k] & those[k]) | (!these[k] & !those[k])).all();
+    (0..N).all(same)
 }
 
 /// The `C` columns, of `rows` elements each, of a column-major array.

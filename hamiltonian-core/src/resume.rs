@@ -11,10 +11,17 @@ use crate::observe::Observer;
 use crate::part::Recipe;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{Arithmetic, Dynamics, System};
 use crate::vector::Vector;
 use alloc::borrow::ToOwned;
 use hamiltonian_lanes::Real;
+
+/// An observer ended the run.
+const ENDED: u64 = 1;
+/// Products fuse in lanes.
+const FUSED: u64 = 2;
+/// Lanes are not used.
+const SCALAR: u64 = 4;
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// The run and the memory of its observers, to be saved. Closures remember nothing.
@@ -26,6 +33,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         for component in self.carried.components() {
             numbers.scalar(component);
         }
+        let Arithmetic { lanes, fused } = self.prepared.arithmetic();
+        let flags = [(self.ended, ENDED), (fused, FUSED), (!lanes, SCALAR)];
+        let flags = flags.map(|(set, flag)| if set { flag } else { 0 });
+        let flags = flags.iter().sum();
         let mut observers = Memory::default();
         self.observer.save(&mut observers);
         Checkpoint {
@@ -33,16 +44,47 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             parameters: self.system.parameters.clone(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
-            counts: [self.steps, self.began, u64::from(self.ended)],
+            counts: [self.steps, self.began, flags],
             numbers,
             observers,
         }
     }
 }
 
+#[cfg(feature = "std")]
+impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
+    /// The same run, saved to `path` after every `steps` steps (0 counts as 1), counted from its start:
+    /// when observers have been shown the state there. A file is replaced when the new one is whole.
+    ///
+    /// ```
+    #[doc = include_str!("doc/oscillator.md")]
+    /// use hamiltonian_core::{Checkpoint, Integrator, State, schemes::StormerVerlet};
+    ///
+    /// let path = std::env::temp_dir().join("oscillator.saved");
+    /// let scheme = StormerVerlet::default();
+    /// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?
+    ///     .checkpoint_every(1_000, &path);
+    /// run.advance(2_500)?;
+    ///
+    /// let mut again = Integrator::resume(&Oscillator, scheme, Checkpoint::load(&path)?)?;
+    /// assert_eq!(again.steps(), 2_000);
+    /// assert_eq!(again.advance(500)?, run.state());
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// None here. If the file cannot be written, [`advance`](Integrator::advance) returns
+    /// [`CheckpointError::File`] after the step, and the run can go on.
+    #[must_use]
+    pub fn checkpoint_every(mut self, steps: u64, path: impl AsRef<std::path::Path>) -> Self {
+        self.saving = Some((steps.max(1), path.as_ref().to_path_buf()));
+        self
+    }
+}
+
 impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
     /// The run that was saved: it goes on with the same bits, in another process too (of the same
-    /// binary, on the same kind of processor). Its observers are attached again in the same order,
+    /// binary, and if it is [`fused`](Integrator::fused) on the same kind of processor). Its observers are attached again in the same order,
     /// by [`observe`](Integrator::observe) and [`watch`](Integrator::watch), and remember what they
     /// saw; with another observer in a place [`advance`](Integrator::advance) returns an error.
     ///
@@ -106,7 +148,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         for index in 0..run.carried.len() {
             *run.carried.component_mut(index) = numbers.read_scalar()?;
         }
-        let [steps, began, ended] = checkpoint.counts;
+        let [steps, began, flags] = checkpoint.counts;
         if !numbers.is_empty() || began > steps {
             return Err(CheckpointError::Damaged {
                 reason: "the numbers do not fit",
@@ -117,8 +159,12 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
             start,
             interval: run.clock.interval,
         };
+        let mut run = run.computed(Arithmetic {
+            lanes: flags & SCALAR == 0,
+            fused: flags & FUSED != 0,
+        });
         run.restore(clock, began, steps);
-        run.ended = ended != 0;
+        run.ended = flags & ENDED != 0;
         run.memory = checkpoint.observers;
         Ok(run)
     }

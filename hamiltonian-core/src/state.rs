@@ -4,7 +4,9 @@
 //! [`Gradient`]. Invariant: coordinates and momenta have one type; that they have one shape too
 //! is checked where a run begins.
 
+use crate::error::Error;
 use crate::vector::{IntoVector, Vector};
+use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
 /// Time, coordinates and momenta.
@@ -19,6 +21,9 @@ use hamiltonian_lanes::Real;
 /// let bodies = State::new([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]], [[0.0; 3]; 2]);
 /// assert_eq!(bodies.q[(1, 0)], -1.0);
 /// ```
+///
+/// Numbers are stored as [`Vector`] says, matrices column after column. [`to_vec`](State::to_vec),
+/// [`write_to`](State::write_to) and [`from_slice`](State::from_slice) have the order of the declaration.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State<V: Vector> {
     /// Time.
@@ -29,11 +34,31 @@ pub struct State<V: Vector> {
     pub p: V,
 }
 
-impl<V: Vector> State<V> {
-    /// The state (q, p) at t = 0.
+impl<V: Vector<Scalar: Plain>> State<V> {
+    /// Creates the state (q, p) at t = 0, over `f64`.
     ///
-    /// Arrays, arrays of rows, `Vec`s and nalgebra's vectors are taken; see [`IntoVector`].
+    /// Arrays, arrays of rows, `Vec`s and nalgebra's vectors are taken; see [`IntoVector`]. Over other
+    /// scalars, and in code that is generic over them, it is [`State::over`].
     pub fn new<M, A: IntoVector<M, Vector = V>>(q: A, p: A) -> Self {
+        State::over(q, p)
+    }
+}
+
+impl<V: Vector> State<V> {
+    /// Creates the state (q, p) at t = 0 over any scalar.
+    ///
+    /// ```
+    /// use hamiltonian_core::{Dual, Real, State};
+    ///
+    /// let varied = State::over([Dual::variable(0.7)], [Dual::fixed(0.0)]);
+    /// assert_eq!(varied.q[0].eps, 1.0);
+    ///
+    /// fn at_rest<T: Real>(angle: T) -> T {
+    ///     State::over([angle], [T::zero()]).q[0]
+    /// }
+    /// assert_eq!(at_rest(0.5), 0.5);
+    /// ```
+    pub fn over<M, A: IntoVector<M, Vector = V>>(q: A, p: A) -> Self {
         State {
             t: V::Scalar::zero(),
             q: q.into_vector(),
@@ -47,6 +72,35 @@ impl<V: Vector> State<V> {
         self.t = t;
         self
     }
+}
+
+/// Whether a slice has as many elements as a state.
+fn has_length(expected: usize, found: usize) -> Result<(), Error> {
+    match expected == found {
+        true => Ok(()),
+        false => Err(Error::Shape {
+            name: "state",
+            expected,
+            found,
+        }),
+    }
+}
+
+/// The scalar of [`State::new`]: `f64` and nothing else.
+///
+/// It has one implementation, by which rustc finds the type of numbers that nothing else gives a type.
+#[diagnostic::on_unimplemented(
+    message = "`State::new` takes numbers of type `f64`, found `{Self}`",
+    label = "expected `f64` here",
+    note = "over another scalar, and in code that is generic over scalars, write `State::over(q, p)`"
+)]
+pub trait Plain: Real + sealed::Sealed {}
+
+impl Plain for f64 {}
+
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for f64 {}
 }
 
 /// Coordinates and momenta without a time, as a scheme carries them from step to step.
@@ -71,6 +125,14 @@ pub struct Pair<X: Vector, Y: Vector<Scalar = X::Scalar>> {
 
 impl<V: Vector> Vector for Point<V> {
     type Scalar = V::Scalar;
+    type Over<U: Real> = Point<V::Over<U>>;
+    #[inline(always)]
+    fn zeros_over<U: Real>(&self) -> Point<V::Over<U>> {
+        Point {
+            q: self.q.zeros_over(),
+            p: self.p.zeros_over(),
+        }
+    }
     const PARTS: usize = 2 * V::PARTS;
     #[inline(always)]
     fn part(&self, k: usize) -> &[V::Scalar] {
@@ -105,6 +167,14 @@ impl<V: Vector> Vector for Point<V> {
 
 impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
     type Scalar = X::Scalar;
+    type Over<U: Real> = Pair<X::Over<U>, Y::Over<U>>;
+    #[inline(always)]
+    fn zeros_over<U: Real>(&self) -> Pair<X::Over<U>, Y::Over<U>> {
+        Pair {
+            x: self.x.zeros_over(),
+            y: self.y.zeros_over(),
+        }
+    }
     const PARTS: usize = X::PARTS + Y::PARTS;
     #[inline(always)]
     fn part(&self, k: usize) -> &[X::Scalar] {
@@ -137,7 +207,83 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
     }
 }
 
+/// The places of the elements of a vector in the order of the declaration: group after group, each row
+/// after row. A part is stored column after column.
+fn places<V: Vector>(vector: &V) -> impl Iterator<Item = (usize, usize)> {
+    (0..V::PARTS).flat_map(|k| {
+        let columns = vector.columns(k).max(1);
+        let rows = vector.part(k).len() / columns;
+        (0..rows * columns).map(move |at| (k, at / columns + rows * (at % columns)))
+    })
+}
+
 impl<V: Vector> State<V> {
+    /// Coordinates, then momenta, each in the order of the declaration: `q[0][0], q[0][1], …, q[1][0], …`,
+    /// group after group. The time is left out.
+    ///
+    /// Storage has another order, column after column: see [`Vector`].
+    ///
+    /// ```
+    /// use hamiltonian_core::State;
+    /// let bodies = State::new([[1.0, 2.0], [3.0, 4.0]], [[0.0; 2]; 2]);
+    /// assert_eq!(bodies.to_vec()[..4], [1.0, 2.0, 3.0, 4.0]);
+    /// assert_eq!(bodies.q.as_slice(), [1.0, 3.0, 2.0, 4.0]);
+    /// ```
+    #[must_use]
+    pub fn to_vec(&self) -> Vec<V::Scalar> {
+        let elements = |vector: &'_ V| -> Vec<V::Scalar> {
+            places(vector).map(|(k, at)| vector.part(k)[at]).collect()
+        };
+        let mut all = elements(&self.q);
+        all.extend(elements(&self.p));
+        all
+    }
+
+    /// [`to_vec`](State::to_vec) into a slice, without allocating.
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the slice has another number of elements.
+    pub fn write_to(&self, into: &mut [V::Scalar]) -> Result<(), Error> {
+        let expected = self.q.len() + self.p.len();
+        has_length(expected, into.len())?;
+        let mut into = into.iter_mut();
+        for vector in [&self.q, &self.p] {
+            for ((k, at), to) in places(vector).zip(&mut into) {
+                *to = vector.part(k)[at];
+            }
+        }
+        Ok(())
+    }
+
+    /// The state at t = 0 with these coordinates, then momenta, in the order of [`to_vec`](State::to_vec).
+    /// The shape is that of a vector of the system, as `zeros` makes it.
+    ///
+    /// ```
+    /// use hamiltonian_core::State;
+    /// let bodies = State::new([[1.0, 2.0], [3.0, 4.0]], [[5.0, 6.0]; 2]);
+    /// assert_eq!(State::from_slice(&bodies.q, &bodies.to_vec())?, bodies);
+    /// assert!(State::from_slice(&bodies.q, &[1.0; 7]).is_err());
+    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Shape`] if the slice has another number of elements.
+    pub fn from_slice(shape: &V, values: &[V::Scalar]) -> Result<Self, Error> {
+        has_length(2 * shape.len(), values.len())?;
+        let mut state = State {
+            t: V::Scalar::zero(),
+            q: shape.zeros_like(),
+            p: shape.zeros_like(),
+        };
+        let mut values = values.iter();
+        for vector in [&mut state.q, &mut state.p] {
+            for ((k, at), value) in places(shape).zip(&mut values) {
+                vector.part_mut(k)[at] = *value;
+            }
+        }
+        Ok(state)
+    }
+
     /// The point without its time.
     pub fn point(&self) -> Point<V> {
         Point {

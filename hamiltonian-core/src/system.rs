@@ -8,6 +8,7 @@
 
 use crate::error::Error;
 use crate::flow::{Piece, Pieces, VectorField};
+use crate::gather::{InLanes, Kept};
 use crate::state::{Gradient, Point, State};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Dual, Real};
@@ -191,10 +192,31 @@ pub trait System<T: Real> {
     }
 }
 
+/// How a single run is computed: [`Integrator::lanes`](crate::Integrator::lanes) and
+/// [`Integrator::fused`](crate::Integrator::fused) choose it. A prepared system carries it to the maps and
+/// flows that are made of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Arithmetic {
+    /// Whether stages use the lanes of the CPU's registers; the bits are the same without.
+    pub lanes: bool,
+    /// Whether products fuse with sums in those lanes, on CPUs that can: other bits there than elsewhere.
+    pub fused: bool,
+}
+
+impl Default for Arithmetic {
+    /// In lanes, unfused.
+    fn default() -> Self {
+        Arithmetic {
+            lanes: true,
+            fused: false,
+        }
+    }
+}
+
 /// A prepared system: H and its derivatives at (t, q, p).
 ///
 /// Output vectors have the system's shape and are overwritten.
-pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
+pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     /// Coordinates and momenta.
     type Vector: Vector<Scalar = T>;
     /// J∇H, with the force where there is one, scaled by a step coefficient.
@@ -256,6 +278,33 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug {
     /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared
     /// constants.
     fn field(&self, c: T) -> Self::Field;
+
+    /// How work on this system is computed; a field of emitted systems. The provided method, for systems
+    /// written by hand, returns the default.
+    #[inline(always)]
+    fn arithmetic(&self) -> Arithmetic {
+        Arithmetic::default()
+    }
+    /// Sets [`arithmetic`](Dynamics::arithmetic), also that of the fields and flows that are made of this
+    /// system from now on. The provided method does nothing.
+    fn set_arithmetic(&mut self, _: Arithmetic) {}
+
+    /// Runs a kernel with this system in all lanes of a pack, on the best level of this CPU. The provided
+    /// method, for systems written by hand, hands the kernel back: they stay scalar. With [`Gather`] it is
+    /// [`gather::in_lanes`](crate::gather::in_lanes)`(self, kept, kernel)`. `kept` is memory of the caller's.
+    ///
+    /// # Errors
+    /// The kernel, if there are no lanes for this scalar or this system.
+    ///
+    /// [`Gather`]: crate::Gather
+    #[inline(always)]
+    fn in_lanes<K: InLanes<T, Self::Vector>>(
+        &self,
+        _kept: &mut Kept,
+        kernel: K,
+    ) -> Result<K::Output, K> {
+        Err(kernel)
+    }
 }
 
 /// The name of the time of a run: `t`, in another time the one that it has there.
@@ -264,6 +313,7 @@ pub(crate) fn clock<T: Real, S: System<T>>() -> &'static str {
 }
 
 /// The declared H at a state: in another time, where H = g·(h + p_t), it is h, with g = ∂H/∂p_t.
+#[inline(always)]
 pub(crate) fn declared_energy<T: Real, S: System<T>>(
     prepared: &S::Prepared,
     state: &State<S::Vector>,

@@ -5,6 +5,8 @@
 //! derivatives of the scheme's map (runs over [`Dual`]s), not solutions of other equations; taking
 //! other deviations of the same span changes no bit of the orbit.
 
+mod eigenvalues;
+
 use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
 use crate::scheme::Scheme;
@@ -381,7 +383,6 @@ pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
 /// let turn = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
 /// assert!(multipliers(&turn).iter().all(|mu| mu.re == 0.0 && mu.im.abs() == 1.0));
 /// ```
-#[cfg(feature = "std")]
 pub fn multipliers(matrix: &DMatrix<f64>) -> Vec<nalgebra::Complex<f64>> {
-    matrix.complex_eigenvalues().iter().copied().collect()
+    eigenvalues::eigenvalues(matrix)
 }

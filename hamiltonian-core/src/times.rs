@@ -5,7 +5,7 @@
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Observer, View};
+use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
 use crate::system::{System, clock};
 use crate::vector::Vector;
@@ -149,6 +149,7 @@ where
     O: Observer<T, S>,
 {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
         self.next = self.times.next();
         self.go(view, view.state.clone())
     }

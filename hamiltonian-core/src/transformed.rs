@@ -6,12 +6,14 @@
 
 use crate::error::Error;
 use crate::flow::VectorField;
+use crate::gather::Gather;
 use crate::observed::Observed;
 use crate::state::{Pair, State};
-use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced};
+use crate::system::{Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced};
 use crate::vector::{Vector, dot};
+use alloc::vec::Vec;
 use core::fmt;
-use hamiltonian_lanes::{Mask, Real};
+use hamiltonian_lanes::{Mask, Pack, Real};
 use nalgebra::SVector;
 
 /// Coordinates and the time t, or momenta and that of the time, p_t.
@@ -50,7 +52,6 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// ```
 #[doc = include_str!("doc/oscillator_any.md")]
 /// # impl hamiltonian_core::Autonomous for Oscillator {}
-/// # impl Unforced for Oscillator {}
 /// use hamiltonian_core::{Integrator, State, TimeTransformed, schemes::Gauss};
 ///
 /// // The oscillator as its own monitor: g = q²/2, dt = q²/2 ds.
@@ -295,11 +296,43 @@ where
     fn observable(&self, index: usize, _: T, q: &Self::Vector, p: &Self::Vector) -> T {
         self.system.observable(index, q.y[0], &q.x, &p.x)
     }
+    fn arithmetic(&self) -> Arithmetic {
+        self.system.arithmetic()
+    }
+    fn set_arithmetic(&mut self, arithmetic: Arithmetic) {
+        self.system.set_arithmetic(arithmetic);
+        self.monitor.set_arithmetic(arithmetic);
+    }
     fn field(&self, c: T) -> Self::Field {
         FieldInNewTime {
             dynamics: self.clone(),
             c,
         }
+    }
+}
+
+impl<T, P, G> Gather<T> for InNewTime<P, G>
+where
+    T: Real,
+    P: Gather<T>,
+    G: Gather<T, Vector = P::Vector>,
+{
+    type Over<U: Real> = InNewTime<P::Over<U>, G::Over<U>>;
+
+    #[inline(always)]
+    fn gather<L: Pack>(members: &[&Self]) -> InNewTime<P::Over<T::Over<L>>, G::Over<T::Over<L>>> {
+        let systems: Vec<&P> = members.iter().map(|one| &one.system).collect();
+        let monitors: Vec<&G> = members.iter().map(|one| &one.monitor).collect();
+        InNewTime {
+            system: P::gather::<L>(&systems),
+            monitor: G::gather::<L>(&monitors),
+        }
+    }
+    fn fits(&self, other: &Self) -> bool {
+        self.system.fits(&other.system) && self.monitor.fits(&other.monitor)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.system.equals(&other.system) && self.monitor.equals(&other.monitor)
     }
 }
 

@@ -12,19 +12,29 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 ///
 /// `[N]` is `SVector<T, N>`, `[N][3]` the N×3 column-major matrix (component `c` of body `i` at
 /// `i + N·c`), run-time sizes `DVector` and `OMatrix<T, Dyn, Const<3>>`; coordinates of mixed
-/// shape are a generated struct with one part per group.
+/// shape are a generated struct with one part per group. This is the order of `as_slice`, of the parts
+/// and of the flat index. [`State::to_vec`](crate::State::to_vec) and its kin have the order of the
+/// declaration instead, row after row.
 ///
 /// The provided methods are the whole linear algebra a scheme needs. They are loops over the
 /// parts; the flat index runs through part 0, then part 1, and so on.
 pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The scalar of every component.
     type Scalar: Real;
+    /// The same shape over another scalar.
+    type Over<U: Real>: Vector<Scalar = U>;
+    /// The zero vector of this shape over another scalar.
+    fn zeros_over<U: Real>(&self) -> Self::Over<U>;
     /// The number of contiguous parts (1 except for mixed shapes).
     const PARTS: usize;
     /// Part `k < PARTS` as a slice.
     fn part(&self, k: usize) -> &[Self::Scalar];
     /// Part `k < PARTS` as a mutable slice.
     fn part_mut(&mut self, k: usize) -> &mut [Self::Scalar];
+    /// The number of columns of part `k < PARTS`: the last extent of an array of rank 2, else 1.
+    fn columns(&self, _k: usize) -> usize {
+        1
+    }
     /// The same shape, all zero.
     fn zeros_like(&self) -> Self;
     /// Moves the value out without allocating. The rest is a valid vector, of no certain shape or
@@ -253,7 +263,15 @@ fn larger(a: f64, b: f64) -> f64 {
 
 impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
     type Scalar = T;
+    type Over<U: Real> = SMatrix<U, R, C>;
+    #[inline(always)]
+    fn zeros_over<U: Real>(&self) -> SMatrix<U, R, C> {
+        SMatrix::from_element(U::zero())
+    }
     const PARTS: usize = 1;
+    fn columns(&self, _: usize) -> usize {
+        C
+    }
     #[inline(always)]
     fn part(&self, _: usize) -> &[T] {
         self.as_slice()
@@ -274,7 +292,14 @@ impl<T: Real, const R: usize, const C: usize> Vector for SMatrix<T, R, C> {
 
 impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     type Scalar = T;
+    type Over<U: Real> = OMatrix<U, Dyn, Const<C>>;
+    fn zeros_over<U: Real>(&self) -> OMatrix<U, Dyn, Const<C>> {
+        OMatrix::from_element_generic(Dyn(self.nrows()), Const, U::zero())
+    }
     const PARTS: usize = 1;
+    fn columns(&self, _: usize) -> usize {
+        C
+    }
     #[inline(always)]
     fn part(&self, _: usize) -> &[T] {
         self.as_slice()
@@ -294,14 +319,43 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     }
 }
 
+impl<T: Real> Vector for OMatrix<T, Dyn, Dyn> {
+    type Scalar = T;
+    type Over<U: Real> = OMatrix<U, Dyn, Dyn>;
+    fn zeros_over<U: Real>(&self) -> OMatrix<U, Dyn, Dyn> {
+        OMatrix::from_element_generic(Dyn(self.nrows()), Dyn(self.ncols()), U::zero())
+    }
+    const PARTS: usize = 1;
+    fn columns(&self, _: usize) -> usize {
+        self.ncols()
+    }
+    #[inline(always)]
+    fn part(&self, _: usize) -> &[T] {
+        self.as_slice()
+    }
+    #[inline(always)]
+    fn part_mut(&mut self, _: usize) -> &mut [T] {
+        self.as_mut_slice()
+    }
+    fn zeros_like(&self) -> Self {
+        self.zeros_over()
+    }
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        let none = Matrix::from_data(VecStorage::new(Dyn(0), Dyn(0), Vec::new()));
+        core::mem::replace(self, none)
+    }
+}
+
 /// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
 /// by copy. `M` only tells these cases apart and is always inferred.
 #[diagnostic::on_unimplemented(
-    message = "`{Self}` is no list of numbers",
-    label = "expected a list of numbers",
+    message = "`{Self}` is no list of real numbers",
+    label = "expected a list of real numbers",
+    note = "write `1.0` instead of `1`: whole numbers are not converted",
     note = "write `[1.0]` for one coordinate, `[x, y]` for several, `[[x, y, z], …]` for bodies, a `Vec` of either where the size is set at run time",
     note = "`new` takes the sizes, then the parameters without a default, in the order of their declaration"
 )]

@@ -100,7 +100,9 @@ fn a_changed_step_is_saved() {
 
     let mut ended = run.watch(1, |_| core::ops::ControlFlow::Break(()));
     ended.advance(3).unwrap();
-    let mut again = Integrator::resume(&system, Strang, ended.checkpoint()).unwrap();
+    let mut again = Integrator::resume(&system, Strang, ended.checkpoint())
+        .unwrap()
+        .watch(1, |_| {});
     let steps = again.steps();
     again.advance(3).unwrap();
     assert!(again.has_ended() && again.steps() == steps);
@@ -133,10 +135,7 @@ fn damage_is_found_wherever_it_is() {
             let error = refused(&bad);
             let right = match place {
                 0..8 => matches!(error, CheckpointError::Foreign),
-                8..16 => matches!(
-                    error,
-                    CheckpointError::Newer { .. } | CheckpointError::Damaged { .. }
-                ),
+                8..16 => matches!(error, CheckpointError::Newer { .. }),
                 _ => matches!(error, CheckpointError::Damaged { .. }),
             };
             assert!(right, "byte {place} ^ {flip}: {error:?}");
@@ -154,10 +153,17 @@ fn damage_is_found_wherever_it_is() {
     assert!(matches!(refused(&longer), CheckpointError::Damaged { .. }));
     assert_eq!(refused(b"no saved run at all"), CheckpointError::Foreign);
     let mut newer = bytes.clone();
-    newer[8] = 2;
+    newer[8] = 3;
     let error = refused(&newer);
-    assert_eq!(error, CheckpointError::Newer { found: 2, known: 1 });
+    assert_eq!(error, CheckpointError::Newer { found: 3, known: 2 });
     assert!(error.to_string().contains("update"), "{error}");
+    newer[8] = 1;
+    let error = refused(&newer);
+    assert_eq!(error, CheckpointError::Older { found: 1, known: 2 });
+    assert!(
+        error.to_string().contains("the version that saved it"),
+        "{error}"
+    );
 }
 
 /// The part of the run that is another one, or None.
@@ -217,11 +223,18 @@ fn another_run_is_refused() {
         "the saved run has another observer: saved `nothing`, given `Recorder`"
     );
     // Other columns, other roots.
-    let columns = [Recorder::new(), Recorder::new().with_energy()];
-    let what = "column of the energy";
-    assert_eq!(goes_on_with(columns.clone(), 0, 1), Some(what));
-    assert_eq!(goes_on_with(columns.clone(), 1, 0), Some(what));
-    assert_eq!(goes_on_with(columns, 1, 1), None);
+    let columns = [
+        Recorder::new(),
+        Recorder::new().with_energy(),
+        Recorder::of(["t", "theta"]),
+        Recorder::new().wrap("theta"),
+    ];
+    let what = "list of columns";
+    for other in 1..4 {
+        assert_eq!(goes_on_with(columns.clone(), 0, other), Some(what));
+        assert_eq!(goes_on_with(columns.clone(), other, 0), Some(what));
+        assert_eq!(goes_on_with(columns.clone(), other, other), None);
+    }
     let zero = || Event::of("zero", |state: &StateOf<Hand<Pendulum, 1>>| state.q[0]);
     let events = [
         zero(),
@@ -305,6 +318,82 @@ fn files_that_cannot_be_read_or_written() {
     let again = Checkpoint::load(&there);
     std::fs::remove_file(&there).unwrap();
     assert_eq!(again.unwrap(), saved);
+}
+
+/// The run with observers that were saved, one of them missing.
+#[test]
+fn fewer_observers_than_were_saved_are_refused() {
+    let system = pendulum(true);
+    let start = || State::new([0.7], [0.1]);
+    let mut run = Integrator::new(&system, Strang, start(), 0.01)
+        .unwrap()
+        .observe((EnergyDrift::new(), Recorder::new()))
+        .watch(1, |_| {});
+    run.advance(5).unwrap();
+    let saved = || Integrator::resume(&system, Strang, run.checkpoint()).unwrap();
+    let refused = |outcome: Result<_, Error>, name: &str| {
+        let error = outcome.map(|_: u64| ()).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            format!("the saved run has another observer: saved `{name}`, given `nothing`")
+        );
+    };
+    let mut none = saved();
+    refused(none.advance(1).map(|_| 0), "EnergyDrift");
+    assert_eq!(none.steps(), 5);
+    let mut one = saved().observe(EnergyDrift::new());
+    refused(one.advance(1).map(|_| 0), "Recorder");
+    refused(one.states(1).next().unwrap().map(|_| 0), "Recorder");
+    let mut two = saved().observe((EnergyDrift::new(), Recorder::new()));
+    refused(two.advance(1).map(|_| 0), "a closure");
+    let observers = (EnergyDrift::new(), Recorder::new());
+    saved()
+        .observe(observers)
+        .watch(1, |_| {})
+        .advance(1)
+        .unwrap();
+}
+
+#[test]
+fn a_run_saves_itself_and_is_not_changed_by_it() {
+    let system = pendulum(true);
+    let start = || State::new([0.7], [0.1]);
+    let observers = || (EnergyDrift::new(), every(3, Recorder::new()));
+    let new = || Integrator::new(&system, BlanesMoan4, start(), 0.01).unwrap();
+    let folder = std::env::temp_dir().join(format!("hamiltonian-every-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("run.saved");
+    let mut plain = new().observe(observers());
+    let mut saving = new().checkpoint_every(7, &path).observe(observers());
+    let mut seen = Vec::new();
+    for _ in 0..10 {
+        plain.advance(5).unwrap();
+        saving.advance(5).unwrap();
+        seen.push(Checkpoint::load(&path).map_or(0, |saved| saved.steps()));
+    }
+    assert_eq!(seen, [0, 7, 14, 14, 21, 28, 35, 35, 42, 49]);
+    assert_eq!(saving.checkpoint(), plain.checkpoint());
+    let saved = Checkpoint::load(&path).unwrap();
+    let mut again = Integrator::resume(&system, BlanesMoan4, saved)
+        .unwrap()
+        .observe(observers());
+    again.advance(1).unwrap();
+    assert_eq!(again.checkpoint(), plain.checkpoint());
+    // A clone does not write over the file of the run it was made from.
+    saving.clone().advance(7).unwrap();
+    assert_eq!(Checkpoint::load(&path).unwrap().steps(), 49);
+    // A file that cannot be written: the run stands after the step and goes on.
+    let nowhere = folder.join("missing").join("run.saved");
+    let mut failing = new().checkpoint_every(4, &nowhere).observe(observers());
+    let error = failing.advance(6).unwrap_err();
+    assert!(matches!(
+        error,
+        Error::Checkpoint(CheckpointError::File { .. })
+    ));
+    assert_eq!(failing.steps(), 4);
+    failing.advance(3).unwrap();
+    assert_eq!(failing.steps(), 7);
+    std::fs::remove_dir_all(&folder).unwrap();
 }
 
 #[cfg(unix)]

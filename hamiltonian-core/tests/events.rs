@@ -333,7 +333,7 @@ fn events_run_backwards_and_in_double_doubles() {
     assert_times(run.observer(), &[(0, false, -0.3)]);
 
     let number = |x: f64| DoubleDouble::from(x);
-    let start = State::new([number(0.1), number(-0.25)], [number(0.42), number(0.1)]);
+    let start = State::over([number(0.1), number(-0.25)], [number(0.42), number(0.1)]);
     let x = Event::of("x", |state: &State<SVector<DoubleDouble, 2>>| state.q[0]);
     let mut run = Integrator::new(&Hand(HenonHeiles), BlanesMoan4, start, number(0.1))
         .unwrap()

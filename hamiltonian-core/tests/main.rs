@@ -5,18 +5,25 @@ mod between;
 mod checkpoint;
 mod common;
 mod composition;
+mod estimate;
 mod events;
 mod exponential;
 mod lanes;
 mod observers;
 mod own;
+#[cfg(feature = "plot")]
+mod plot;
 mod preserving;
+mod processed;
 #[cfg(feature = "progress")]
 mod progress;
 mod reach;
 mod run;
 mod schemes;
+mod shard;
 mod start;
+mod store;
+mod table;
 mod tables;
 mod tangent;
 mod transformed;

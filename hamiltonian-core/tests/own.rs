@@ -1,4 +1,4 @@
-//! Schemes that a user adds: the two of `RECIPES.md`, to the letter, with their orders.
+//! Schemes that a user adds: the two of `book/src/extending.md`, to the letter, with their orders.
 
 use crate::common::systems::*;
 use crate::composition::{is, slope};
@@ -137,7 +137,7 @@ fn the_recipes_show_them() {
         let text = std::fs::read_to_string(&path).expect("it is there");
         text.replace('\r', "")
     };
-    let (here, document) = (read("tests/own.rs"), read("../RECIPES.md"));
+    let (here, document) = (read("tests/own.rs"), read("../book/src/extending.md"));
     for name in ["A one-step scheme", "A table"] {
         let after = here.split_once(&format!("// {name}.\n")).expect("begins").1;
         let lines = after

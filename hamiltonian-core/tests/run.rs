@@ -313,7 +313,7 @@ fn limits_of_iterations_are_kept() {
 #[test]
 fn any_scalar() {
     fn run<T: Real>() -> f64 {
-        let start = State::new([T::constant(0.7, 0.0)], [T::zero()]);
+        let start = State::over([T::constant(0.7, 0.0)], [T::zero()]);
         let h = T::constant(0.0625, 0.0);
         let mut run =
             Integrator::new(&pendulum(false), StormerVerlet::default(), start, h).unwrap();

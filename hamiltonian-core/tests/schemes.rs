@@ -82,8 +82,7 @@ impl<S: Sample<DoubleDouble>> Visitor<DoubleDouble, S> for Orders {
     fn visit<M: Scheme<DoubleDouble, S>>(&mut self, scheme: M) {
         let steps = match scheme.entry().order {
             0..=4 => 32,
-            5..=6 => 16,
-            7..=8 => 8,
+            5..=8 => 16,
             _ => 4,
         };
         let off = off_order(&S::sample(), &scheme, &S::begin(), 2.0, steps);

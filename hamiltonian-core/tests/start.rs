@@ -72,7 +72,7 @@ fn schwarzschild(beta: f64) -> Hand<Schwarzschild, 2> {
 
 fn guess<T: Real>(p_theta: f64) -> State<<Hand<Schwarzschild, 2> as System<T>>::Vector> {
     let half_pi = T::constant(core::f64::consts::FRAC_PI_2, 6.123233995736766e-17);
-    State::new([number(11.0), half_pi], [T::zero(), number(p_theta)])
+    State::over([number(11.0), half_pi], [T::zero(), number(p_theta)])
 }
 
 const MINUS_HALF: f64 = -0.5;
@@ -439,7 +439,7 @@ fn maps_of_bodies_are_canonical() {
             .map(|at| {
                 let mut x = [0.3, -1.1, 0.8, 0.2, 0.9, -0.4].map(Dual::fixed);
                 x[at].eps = 1.0;
-                let state = State::new([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
+                let state = State::over([x[0], x[1], x[2]], [x[3], x[4], x[5]]);
                 let image = map(&state, &masses);
                 image
                     .q

@@ -3,6 +3,7 @@
 use crate::common::systems::*;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use hamiltonian_core::prelude::*;
+use hamiltonian_core::private::nalgebra::{Complex, DMatrix};
 use hamiltonian_core::private::{Group, SVector};
 use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian_core::{Scheme, Vector, multipliers};
@@ -171,6 +172,52 @@ fn monodromy_is_that_of_closed_forms() {
             "{found:?}"
         );
     }
+}
+
+/// The largest distance of one of `expected` to the nearest of `found` that is not yet another's.
+fn distance(expected: &[Complex<f64>], mut found: Vec<Complex<f64>>) -> f64 {
+    assert_eq!(expected.len(), found.len());
+    expected.iter().fold(0.0, |worst: f64, mu| {
+        let off = |k: &usize| (found[*k] - mu).norm();
+        let nearest = (0..found.len()).min_by(|a, b| off(a).total_cmp(&off(b)));
+        let nearest = nearest.expect("as many are found");
+        let off = off(&nearest);
+        found.swap_remove(nearest);
+        worst.max(off)
+    })
+}
+
+#[test]
+fn multipliers_are_the_eigenvalues() {
+    let mut bits = 7_u64;
+    let mut random = || {
+        bits = bits.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+        (bits >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    assert!(multipliers(&DMatrix::zeros(0, 0)).is_empty());
+    for n in 1..=20 {
+        let matrix = DMatrix::from_fn(n, n, |_, _| random());
+        let expected: Vec<_> = matrix.complex_eigenvalues().iter().copied().collect();
+        let off = distance(&expected, multipliers(&matrix));
+        assert!(off < 1e-12, "{n}: {off:e}");
+        // A wrong eigenvalue is seen.
+        let off = distance(&expected, multipliers(&(matrix * 1.001)));
+        assert!(off > 1e-5, "{n}: {off:e}");
+    }
+    // Roots of unity, whose shifts go round in a circle: the companion of xⁿ − 1.
+    for n in 3..=12 {
+        let matrix = DMatrix::from_fn(n, n, |i, j| f64::from(u8::from(i == (j + 1) % n)));
+        let turn = |k: usize| (TAU * k as f64 / n as f64).sin_cos();
+        let expected: Vec<_> = (0..n).map(turn).map(|(y, x)| Complex::new(x, y)).collect();
+        let off = distance(&expected, multipliers(&matrix));
+        assert!(off < 1e-14, "{n}: {off:e}");
+    }
+    // A real pair whose smaller number the sum of both would lose.
+    let matrix = DMatrix::from_row_slice(2, 2, &[1e9, 1.0, 0.0, 1e-9]);
+    let expected = [Complex::new(1e9, 0.0), Complex::new(1e-9, 0.0)];
+    assert_eq!(multipliers(&matrix), expected);
+    let found = multipliers(&DMatrix::from_element(3, 3, f64::NAN));
+    assert!(found.iter().all(|mu| mu.re.is_nan()), "{found:?}");
 }
 
 #[test]

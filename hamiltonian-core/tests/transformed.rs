@@ -43,7 +43,7 @@ pub fn in_radius(with_momentum: bool) -> InRadius {
 pub fn pericentre<T: Real>(e: f64) -> State<SVector<T, 2>> {
     let number = |x: f64| T::constant(x, 0.0);
     let speed = (number(1.0 + e) / number(1.0 - e)).sqrt();
-    State::new([number(1.0 - e), T::zero()], [T::zero(), speed])
+    State::over([number(1.0 - e), T::zero()], [T::zero(), speed])
 }
 
 /// The largest |H + ½| of each tenth of a run.

@@ -1,10 +1,9 @@
-//! The scalars of `hamiltonian`, with which schemes and emitted programs compute.
+//! The wide scalars of `hamiltonian`: packs of lanes, the levels of CPUs, double-doubles.
 //!
-//! Input: numbers of the caller. Output: [`Real`], the arithmetic everything is generic over, for
-//! `f64`, `f32`, [`Dual`] numbers (exact derivatives, nested for higher orders), [`DoubleDouble`]
-//! (about 106 bits) and packs of lanes; the levels of CPUs that packs belong to. Invariant: a scalar
-//! is a value of fixed size without heap memory, and every operation is total: NaN and infinities,
-//! never a panic.
+//! Input: the scalars of `hamiltonian-real`, which are re-exported here. Output: [`Real`] for
+//! [`DoubleDouble`] (about 106 bits) and for packs of lanes, and the levels of CPUs that packs belong
+//! to. Invariant: a scalar is a value of fixed size without heap memory, and every operation is
+//! total: NaN and infinities, never a panic.
 //!
 //! # Scalars and levels
 //! | scalar | lanes | `fma` | where it comes from |
@@ -13,6 +12,7 @@
 //! | [`Level::Scalar`] | 1 | as the level's packs | a [`Kernel`]'s level |
 //! | [`Level::Pack`] | 2, 4 or 8 | one rounding on Neon, Avx2, Avx512 | the same: one register |
 //! | [`Level::Wide`] | 8, 16, 24 or 80 | the same | the same: registers in lock-step |
+//! | [`Level::Eight`] | 8 | the same | the same: as many registers as it takes |
 //! | [`W<P, K>`](W) | `K` × those of `P` | as `P` | any pack, `f64` too |
 //! | [`Nf<P>`](Nf) | those of `P` | two roundings: the bits of `f64` | any pack |
 //!
@@ -20,41 +20,44 @@
 //! [`dispatch_at_most`] hides features. [`Cpu`] lists the levels. Without the feature `std` nobody
 //! asks the CPU: the best level is that of the target the crate is compiled for.
 //!
+//! A sine over a pack, on the best level this CPU has:
 //! ```
-//! use hamiltonian_lanes::{DoubleDouble, Dual, Real};
+//! use hamiltonian_lanes::{Kernel, Level, Pack, Real, dispatch};
 //!
-//! fn energy<T: Real>(q: T, p: T) -> T {
-//!     p * p / T::constant(2.0, 0.0) - q.cos()
+//! struct Sines<'a>(&'a mut [f64]);
+//!
+//! impl Kernel for Sines<'_> {
+//!     type Output = ();
+//!     #[inline(always)]
+//!     fn run<L: Level>(self) {
+//!         for part in self.0.chunks_mut(L::Pack::LANES as usize) {
+//!             L::Pack::load(part, 0.0).sin().store(part);
+//!         }
+//!     }
 //! }
 //!
-//! assert_eq!(energy(0.0, 2.0), 1.0);
-//! // ∂H/∂p at (q, p) = (0, 2)
-//! assert_eq!(energy(Dual::fixed(0.0), Dual::variable(2.0)).eps, 2.0);
-//! // The same in 32 digits.
-//! assert_eq!(energy(DoubleDouble::from(0.0), DoubleDouble::from(2.0)).to_f64(), 1.0);
+//! let mut angles = [0.0, 0.5, 1.0, 1.5, 2.0];
+//! dispatch(Sines(&mut angles));
+//! assert!((angles[4] - 0.9092974268256817).abs() < 1e-15);
+//! ```
+//!
+//! About 32 digits from a double-double, by the same generic code as `f64`:
+//! ```
+//! use hamiltonian_lanes::{DoubleDouble, Real};
+//!
+//! let root = DoubleDouble::from(2.0).sqrt();
+//! assert_eq!(root.to_string(), "1.4142135623730950488016887242097");
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 #![deny(unsafe_code)]
 
-mod real;
-
-mod elementary;
-mod float;
-mod word;
-
-mod kepler;
-
 mod double_double;
-mod dual;
 
 #[allow(unsafe_code)]
 mod level;
-mod pack;
-
-mod lift;
 
 pub use double_double::{DoubleDouble, ParseDoubleDoubleError};
-pub use dual::Dual;
-pub use level::{Cpu, Kernel, Level, dispatch, dispatch_at_most};
-pub use pack::{Nf, Pack, W};
-pub use real::{Lift, Mask, Real};
+pub use hamiltonian_real::{Dual, Lift, Mask, Pack, Real, itself_in_lanes};
+pub use level::{
+    Base, Cpu, Kernel, KernelAt, Level, Nf, OnEveryLevel, W, dispatch, dispatch_at_most,
+};

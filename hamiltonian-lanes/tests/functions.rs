@@ -9,3 +9,4 @@ mod bits;
 mod points;
 mod shape;
 mod special;
+mod subnormal;

@@ -1,7 +1,7 @@
 //! Packs of every level this machine has, lane by lane against `f64`.
 
 use hamiltonian_lanes::{
-    Cpu, Dual, Kernel, Level, Lift, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
+    Base, Cpu, Dual, Kernel, Level, Lift, Mask, Nf, Pack, Real, W, dispatch, dispatch_at_most,
 };
 
 /// Runs `$check::<P>()` for the packs `P` that are listed, on every level.
@@ -243,7 +243,7 @@ fn slices_of_any_length_are_loaded_and_stored() {
     on_every_level!(remainders_are_padded);
 }
 
-fn sizes_are_told_lane_by_lane<P: Pack>() {
+fn sizes_are_told_lane_by_lane<P: Base>() {
     for round in 0..100 {
         let x = numbers::<P>(round * 200);
         let pack = P::load(&x, 0.0);

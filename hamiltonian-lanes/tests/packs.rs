@@ -125,6 +125,7 @@ impl Real for Pack {
     type Mask = Flags;
     type Size = Self;
     const LANES: u32 = LANES as u32;
+    hamiltonian_lanes::itself_in_lanes! {}
 
     fn constant(hi: f64, lo: f64) -> Self {
         Self([f64::constant(hi, lo); LANES])

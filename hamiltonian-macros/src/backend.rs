@@ -6,7 +6,7 @@
 
 mod blame;
 mod docs;
-mod proofs;
+pub mod proofs;
 mod splits;
 mod surface;
 mod variables;

@@ -9,6 +9,7 @@ mod limits;
 mod nests;
 mod precedence;
 mod stub;
+mod truths;
 
 use crate::ast::Ast;
 use crate::checked::Checked;

@@ -125,6 +125,7 @@ impl<const COUNTS: bool> Real for Called<COUNTS> {
     type Mask = bool;
     type Size = f64;
     const LANES: u32 = 1;
+    hamiltonian::lanes::itself_in_lanes! {}
 
     fn constant(hi: f64, lo: f64) -> Self {
         Self(f64::constant(hi, lo))

@@ -1,11 +1,8 @@
 //! Tests that every exact flow passes as it is emitted.
 
-#[allow(dead_code)]
-#[path = "../../hamiltonian-symbolic/tests/common/mod.rs"]
-mod text;
-
 use crate::common::geometry::{defect, one_point};
 use crate::eval::{self, run};
+use crate::symbolic as text;
 use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Scratch, Split, System, Vector};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::model::{Group, Model, Shape};

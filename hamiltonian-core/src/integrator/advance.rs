@@ -6,7 +6,7 @@
 
 use super::{Integrator, MapOf, numbers};
 use crate::error::Error;
-use crate::map::Cause;
+use crate::failed::Failed;
 use crate::observe::{Observer, View};
 use crate::part::Part;
 use crate::state::{Carried, State};
@@ -18,23 +18,30 @@ use hamiltonian_lanes::{Mask, Real};
 /// quick, enough that the check costs nothing.
 const BLOCK: u64 = 1024;
 
+/// The first multiple of `interval` after `steps`.
+fn next_multiple(steps: u64, interval: u64) -> u64 {
+    (steps / interval)
+        .saturating_add(1)
+        .saturating_mul(interval)
+}
+
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
     /// Makes `n` steps and returns the state after them; fewer where an observer ends the run.
     ///
     /// # Errors
     /// [`Error::NotFinite`], [`Error::Solve`]. The run then stands at the last good state and
-    /// can be asked for it.
+    /// can be asked for it. For a run that was saved, [`Error::Checkpoint`] if its observers are not
+    /// those that were saved.
     pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
         if let Some(error) = &self.refused {
             return Err(error.clone());
         }
+        self.memory.refuse_rest()?;
         let end = self.steps.saturating_add(n);
         let interval = self.observer.interval().max(1);
         while self.steps < end && !self.ended {
-            let due = (self.steps / interval)
-                .saturating_add(1)
-                .saturating_mul(interval);
-            self.run_to(due.min(end))?;
+            let due = next_multiple(self.steps, interval);
+            self.run_to(due.min(end).min(self.next_save()))?;
             if self.steps == due {
                 let part = Part {
                     prepared: &self.prepared,
@@ -58,8 +65,29 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
                     }
                 }
             }
+            self.save_if_due()?;
         }
         Ok(&self.state)
+    }
+
+    /// The number of the step after which the run is saved next.
+    fn next_save(&self) -> u64 {
+        #[cfg(feature = "std")]
+        if let Some((every, _)) = &self.saving {
+            return next_multiple(self.steps, *every);
+        }
+        u64::MAX
+    }
+
+    /// Saves the run if this step is one at which it is saved.
+    fn save_if_due(&self) -> Result<(), Error> {
+        #[cfg(feature = "std")]
+        if let Some((every, path)) = &self.saving
+            && self.steps.is_multiple_of(*every)
+        {
+            self.checkpoint().save(path)?;
+        }
+        Ok(())
     }
 
     /// Steps to `stop`, leaves the synchronised state there.
@@ -78,10 +106,16 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// loop over steps is compiled.
     #[inline(never)]
     fn makes(&mut self, n: u64) -> bool {
-        self.snapshot.copy_from(&self.carried);
-        let made = self.steps - self.began;
-        (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
-        self.arrives(self.steps + n)
+        // In a function of the level of a pack: here its instructions would be calls.
+        T::out_of_line(
+            #[inline(always)]
+            || {
+                self.snapshot.copy_from(&self.carried);
+                let made = self.steps - self.began;
+                (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
+                self.arrives(self.steps + n)
+            },
+        )
     }
 
     /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
@@ -104,32 +138,16 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             let cause = self
                 .map
                 .explain(begin, end, made == 0, &mut self.carried, &mut self.work);
-            let step = self.steps + 1;
-            let error = match cause {
-                Cause::Unsolved {
-                    residual,
-                    iterations,
-                } => Error::Solve {
-                    step,
-                    lane,
-                    clock: clock::<T, S>(),
-                    time: begin.to_f64(),
-                    residual,
-                    iterations,
-                },
-                Cause::Overflow | Cause::Piece(_) => Error::NotFinite {
-                    step,
-                    piece: match cause {
-                        Cause::Piece(name) => Some(name),
-                        _ => None,
-                    },
-                    lane,
-                    clock: clock::<T, S>(),
-                    time: self.state.t.to_f64(),
-                    q: numbers(&self.state.q),
-                    p: numbers(&self.state.p),
-                },
+            let failed = Failed {
+                step: self.steps + 1,
+                lane,
+                clock: clock::<T, S>(),
+                begin: begin.to_f64(),
+                end: self.state.t.to_f64(),
+                q: numbers(&self.state.q),
+                p: numbers(&self.state.p),
             };
+            let error = failed.because(cause);
             self.carried.copy_from(&self.snapshot);
             self.arrives(self.steps);
             return error;
@@ -149,6 +167,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     }
 
     /// Writes the state after `made` steps, which the map has made; whether all is finite.
+    #[inline(always)]
     pub(super) fn arrives(&mut self, steps: u64) -> bool {
         let made = steps - self.began;
         let t = self.clock.at(made);

@@ -15,7 +15,7 @@ use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
 /// An error for a step that is no step.
-pub(super) fn check_step<T: Real>(step: T) -> Result<(), Error> {
+pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
     if step.is_finite() && !step.equals(T::zero()).any() {
         return Ok(());
     }
@@ -41,8 +41,19 @@ pub(crate) fn check_state<T: Real, S: System<T>>(
     })
 }
 
+/// The prepared system of a run from a start, or an error for a start that is no start.
+pub(crate) fn check_start<T: Real, S: System<T>>(
+    system: &S,
+    start: &State<S::Vector>,
+) -> Result<S::Prepared, Error> {
+    check_state(system, start)?;
+    let prepared = system.prepare();
+    check_values(system, &prepared, start)?;
+    Ok(prepared)
+}
+
 /// An error where H or a first derivative of it is not finite, and off the shell where there is one.
-pub(super) fn check_values<T: Real, S: System<T>>(
+fn check_values<T: Real, S: System<T>>(
     system: &S,
     prepared: &S::Prepared,
     start: &State<S::Vector>,

@@ -5,13 +5,14 @@
 //! tests, which iterate over it; a scheme that is not in it is not in the library.
 
 use super::{
-    Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, Compensated,
-    ConsecutiveSubTrajectories, DiscreteGradient, Gauss, GaussNystrom, ImplicitMidpoint,
-    IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8, MidpointProjected, Mixed,
-    MomentumVariational, Pihajoki, RungeKutta4, Ruth3, Saba2, Saba3, Saba4, Semiexplicit,
-    SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b, Srkn11b, Srkn14a, Start, StormerVerlet,
-    Strang, Suzuki4, SymplecticEuler, Tao, TransformedVerlet, TwoStepMidpoint, Variational,
-    Yoshida4, Yoshida6,
+    Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4, BlanesMoan6,
+    Compensated, ConsecutiveSubTrajectories, DiscreteGradient, Gauss, GaussNystrom,
+    ImplicitMidpoint, IntersectingSubTrajectories, KahanLi6, KahanLi8, McLachlan8,
+    MidpointProjected, Mixed, MomentumVariational, Pihajoki, Processed4, Processed6, RungeKutta4,
+    Ruth3, Saba2, Saba3, Saba4, Semiexplicit, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,
+    Srkn11b, Srkn14a, Start, StormerVerlet, Strang, Suzuki4, SymplecticEuler, Tao,
+    TransformedVerlet, TwoStepMidpoint, Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7,
+    WisdomHolman11, WisdomHolman17, Yoshida4, Yoshida6,
 };
 use crate::scheme::{Entry, Listed, OneStep, Scheme};
 use crate::system::{
@@ -174,6 +175,14 @@ exact {
     Aba104,
     Aba864,
     Aba1064,
+    Processed4::default(),
+    Processed6::default(),
+    BlanesCasasMurua8::default(),
+    WisdomHolman3::default(),
+    WisdomHolman5::default(),
+    WisdomHolman7::default(),
+    WisdomHolman11::default(),
+    WisdomHolman17::default(),
 }
 separable {
     SymplecticEuler::KickDrift,

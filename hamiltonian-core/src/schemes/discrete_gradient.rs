@@ -153,7 +153,7 @@ pub struct EnergyWork<V: Vector> {
 }
 
 impl<T: Real, P: Dynamics<T>> EnergyKeeping<T, P> {
-    #[inline]
+    #[inline(always)]
     fn solve(
         &self,
         t: T,

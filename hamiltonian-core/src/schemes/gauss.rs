@@ -20,9 +20,12 @@ use hamiltonian_lanes::Real;
 /// ```
 ///
 /// with Gauss' nodes c, weights b and aᵢⱼ = ∫₀^cᵢ ℓⱼ, for any S, from [`Collocation`]. Solved by
-/// fixed-point iteration from the slopes of the step before, extrapolated, until the change of the
-/// iterate is zero or stops shrinking; where that fails, as for steps longer than the fastest motion,
-/// by Newton's method with the Hessian of H (up to 256 unknowns: all components of all stages). aᵢⱼ
+/// fixed-point iteration from the slopes of the step before, extrapolated, until the next change of the
+/// slopes would be lost in their rounding, or the change is rounding and stops shrinking; if that fails, for
+/// example for steps longer than the fastest motion, by Newton's method with the Hessian of H (up to 256
+/// unknowns: all components of all stages). From four stages on, the stages of a run over `f64` or
+/// [`Dual`](crate::Dual) lie in the lanes of the CPU's registers, with the same bits
+/// ([`Integrator::lanes`](crate::Integrator::lanes), [`Integrator::fused`](crate::Integrator::fused)). aᵢⱼ
 /// enters as bⱼμᵢⱼ with μᵢⱼ + μⱼᵢ = 1 exactly, so that dq∧dp
 /// and quadratic invariants drift by rounding alone, and the low words that rounding takes from
 /// `z[n+1]` are carried to the next step (compensated summation). A force is part of the vector field. With one

@@ -28,6 +28,15 @@ pub struct Outcome<T: Real> {
 }
 
 impl<T: Real> Outcome<T> {
+    /// No lane is solved.
+    pub(super) fn unsolved() -> Self {
+        Outcome {
+            solved: T::Mask::splat(false),
+            residual: T::Size::zero(),
+            iterations: 0,
+        }
+    }
+
     /// That it was not solved, with the residual of the first lane that was not.
     pub fn cause(&self) -> Cause {
         let lane = (!self.solved).first().unwrap_or(0);

@@ -14,6 +14,8 @@
 //! | [`BlanesCasasEscorihuela8`] | | 8 | `Nystrom` | dq∧dp | 19 kicks |
 //! | [`Saba2`] … [`Saba4`] | | (4, 2) … (8, 2) | `Split`, small second piece | dq∧dp | 2 … 4 stages |
 //! | [`Aba104`], [`Aba864`], [`Aba1064`] | | as named | `Split`, small second piece | dq∧dp | 7, 7, 8 stages |
+//! | [`Processed4`], [`Processed6`], [`BlanesCasasMurua8`] | | 4, 6, 8 | `Split` | dq∧dp | 5, 8, 13 stages; a processor of 12, 24, 20 where the state is seen |
+//! | [`WisdomHolman3`] … [`WisdomHolman17`] | | (4, 2) … (18, 2) | `Split`, small second piece | dq∧dp | 1 stage; a processor of 2 … 16 where the state is seen |
 //! | [`Compensated`] | | its table's | `Separable` | dq∧dp | its table's, and low words |
 //! | [`Pihajoki`] | (29), (30) | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 2 gradients |
 //! | [`Mixed`] | | its table's | no forces | nothing | its table's on the copies |
@@ -59,6 +61,7 @@ mod table;
 pub mod tables;
 mod zigzag;
 
+mod processed;
 mod separable;
 mod splittings;
 mod tabulated;
@@ -75,7 +78,9 @@ mod gauss;
 mod iterate;
 mod midpoint;
 mod newton;
+mod rows;
 mod second_order;
+mod slopes;
 mod stages;
 mod variational;
 
@@ -101,6 +106,12 @@ pub use gauss::Gauss;
 pub use iterate::{Contraction, Outcome, iterate};
 pub use midpoint::{ImplicitMidpoint, Midpoint, MidpointWork};
 pub use paced::{Density, Pace, Paced, Pacing, PacingWork};
+pub use processed::{
+    BlanesCasasMurua8, BlanesCasasMurua8Kernel, BlanesCasasMurua8Processor, Corrector3, Corrector5,
+    Corrector7, Corrector11, Corrector17, Kernel4, Kernel6, Processed, Processed4, Processed6,
+    Processing, Processor4, Processor6, WisdomHolman3, WisdomHolman5, WisdomHolman7,
+    WisdomHolman11, WisdomHolman17,
+};
 pub use projection::{
     Averaged, MidpointProjected, Mixed, Mixing, Projected, ProjectedWork, Semiexplicit,
 };
@@ -109,7 +120,7 @@ pub use second_order::{CarriesForces, Eliminated, EliminatedWork, GaussNystrom};
 pub use separable::{StormerVerlet, SymplecticEuler};
 pub use splittings::Strang;
 pub use stages::{Carries, Collocated, CollocatedWork, Stages};
-pub use table::{Durations, Reversed, Table, Weight};
+pub use table::{Durations, Negated, Reversed, Table, Weight};
 pub use tabulated::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, KahanLi6, KahanLi8,
     McLachlan8, Ruth3, Saba2, Saba3, Saba4, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,

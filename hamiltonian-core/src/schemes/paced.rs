@@ -68,6 +68,13 @@ pub struct Pace<V: Vector> {
 
 impl<V: Vector> Vector for Pace<V> {
     type Scalar = V::Scalar;
+    type Over<U: Real> = Pace<V::Over<U>>;
+    fn zeros_over<U: Real>(&self) -> Pace<V::Over<U>> {
+        Pace {
+            point: self.point.zeros_over(),
+            pace: [U::zero(); 3],
+        }
+    }
     const PARTS: usize = Point::<V>::PARTS + 1;
     #[inline(always)]
     fn part(&self, k: usize) -> &[V::Scalar] {

@@ -361,7 +361,7 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Projected<M> {
     /// (C. T. Kelley, Iterative Methods for Linear and Nonlinear Equations, 1995, section 7.3,
     /// doi:10.1137/1.9781611970944). It starts as ¼, the one for h = 0. A lane that is solved is not
     /// touched any more.
-    #[inline]
+    #[inline(always)]
     fn solve(
         &self,
         t: V::Scalar,

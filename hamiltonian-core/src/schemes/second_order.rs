@@ -5,16 +5,21 @@
 
 use super::collocation::{Collocation, constant};
 use super::compensated::carry;
-use super::iterate::{Contraction, iterate};
+use super::iterate::Outcome;
+use super::rows::{
+    Apart, Beside, Equations, LANES, Layout, in_rows, load, matrix_in_rows, multiply, product,
+    rows, solve, spread, store, sum,
+};
 use super::stages::{Stages, extrapolation};
 use crate::flow::Scratch;
-use crate::map::{Cause, Map, Step};
+use crate::gather::{InLanes, Kept};
+use crate::map::{Cause, Clock, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
 use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::vector::Vector;
 use core::fmt;
-use hamiltonian_lanes::{DoubleDouble, Mask, Real};
+use hamiltonian_lanes::{DoubleDouble, Level, Mask, Pack, Real};
 
 /// Gauss collocation with `S` stages where T is quadratic, in its second-order form: order 2S,
 /// symplectic, time-reversible.
@@ -26,7 +31,8 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 ///
 /// These are the steps of [`Gauss`](super::Gauss) with the velocities eliminated: half the unknowns, and a
 /// fixed-point iteration that contracts with h² instead of h.
-/// It begins with the forces of the step before, extrapolated. The low words that rounding takes from
+/// It begins with the forces of the step before, extrapolated, and ends as [`Gauss`](super::Gauss)' does; its
+/// stages lie in lanes as well. The low words that rounding takes from
 /// `z[n+1]` are carried. Where the fixed point fails, as for steps longer than the fastest motion, the step
 /// is an error: [`Gauss`](super::Gauss) has Newton's method.
 ///
@@ -98,8 +104,8 @@ impl<const S: usize> Listed for GaussNystrom<S> {
 
 symmetric!(GaussNystrom<S>, const S: usize);
 
-/// The value [`GaussNystrom`] carries: the point; the forces at the stages of the last step; the low words of
-/// the point.
+/// The value [`GaussNystrom`] carries: the point; ∂V/∂q at the stages of the last step; the low words of the
+/// point.
 pub type CarriesForces<V, const S: usize> = Pair<Point<V>, Pair<Stages<V, S>, Point<V>>>;
 
 impl<T, S, const STAGES: usize> Scheme<T, S> for GaussNystrom<STAGES>
@@ -118,23 +124,23 @@ where
         let h = step.h;
         let one = DoubleDouble::from(1.0);
         let times = |of: DoubleDouble| constant::<T>(of) * h;
-        // aᵢₖaₖⱼ with aᵢⱼ = μᵢⱼbⱼ.
+        // −aᵢₖaₖⱼ with aᵢⱼ = μᵢⱼbⱼ.
         let double = core::array::from_fn(|i| {
             core::array::from_fn(|j| {
                 let mut sum = DoubleDouble::from(0.0);
                 for k in 0..STAGES {
-                    sum += integrals[i][k] * weights[k] * integrals[k][j] * weights[j];
+                    sum -= integrals[i][k] * weights[k] * integrals[k][j] * weights[j];
                 }
-                constant::<T>(sum) * h
+                constant::<T>(sum) * h * h
             })
         });
         Eliminated {
             dynamics: prepared.clone(),
             h,
             times: nodes.map(times),
-            weights: weights.map(times),
+            weights: weights.map(|b| times(-b)),
             double,
-            ends: core::array::from_fn(|i| times(weights[i] * (one - nodes[i]))),
+            ends: core::array::from_fn(|i| times(weights[i] * (nodes[i] - one))),
             guess: extrapolation(&self.coefficients, step),
             limit: self.max_iterations,
         }
@@ -162,11 +168,11 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
     h: T,
     /// cᵢh.
     times: [T; S],
-    /// bᵢh.
+    /// −bᵢh.
     weights: [T; S],
-    /// (A²)ᵢⱼh.
+    /// −(A²)ᵢⱼh².
     double: [[T; S]; S],
-    /// bᵢ(1 − cᵢ)h.
+    /// −bᵢ(1 − cᵢ)h.
     ends: [T; S],
     guess: [[T; S]; S],
     limit: u32,
@@ -175,106 +181,372 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
 /// The scratch of [`Eliminated`].
 #[derive(Debug, Clone)]
 pub struct EliminatedWork<V: Vector, const S: usize> {
-    stage: V,
+    rows: Rows<V, S>,
+    sums: Sums<V>,
+    kept: Kept,
+}
+
+/// Memory of a step over rows of stages.
+#[derive(Debug, Clone)]
+struct Rows<X: Vector, const S: usize> {
+    points: Stages<X, S>,
+    free: Stages<X, S>,
+    moved: X,
+    next: X,
+}
+
+impl<X: Vector, const S: usize> Rows<X, S> {
+    fn new(zero: &X) -> Self {
+        let stages = Stages(core::array::from_fn(|_| zero.clone()));
+        Rows {
+            points: stages.clone(),
+            free: stages,
+            moved: zero.clone(),
+            next: zero.clone(),
+        }
+    }
+
+    #[inline(always)]
+    fn take(&mut self) -> Self {
+        Rows {
+            points: self.points.take(),
+            free: self.free.take(),
+            moved: self.moved.take(),
+            next: self.next.take(),
+        }
+    }
+}
+
+/// Memory of a step over the scalar.
+#[derive(Debug, Clone)]
+struct Sums<V> {
+    /// M⁻¹p.
+    velocity: V,
     impulse: V,
     moved: V,
-    velocity: V,
-    next: Stages<V, S>,
-    guess: Stages<V, S>,
 }
 
-/// L ↦ −∂V/∂q.
-struct Forces<'a, T: Real, P: Dynamics<T>, const S: usize> {
-    map: &'a Eliminated<T, P, S>,
-    t: T,
-    point: &'a Point<P::Vector>,
-    /// M⁻¹p.
-    velocity: &'a P::Vector,
-    stage: &'a mut P::Vector,
-    impulse: &'a mut P::Vector,
-    moved: &'a mut P::Vector,
+/// The numbers of a method for steps of one size, in rows of stages.
+struct Tableau<'a, R, const S: usize> {
+    times: &'a [R; S],
+    weights: &'a [R; S],
+    double: &'a [[R; S]; S],
+    ends: &'a [R; S],
+    guess: &'a [[R; S]; S],
 }
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<P::Vector, S>>
-    for Forces<'_, T, P, S>
+/// ∂V/∂q at the stages ↦ ∂V/∂q at the points they lead to.
+struct SecondOrder<'a, T: Real, L: Layout<T>, D, V: Vector, X, const S: usize> {
+    tableau: &'a Tableau<'a, L::Row, S>,
+    dynamics: &'a D,
+    t: L::Row,
+    h: T,
+    point: &'a Point<V>,
+    /// q + cᵢh M⁻¹p.
+    free: &'a [X; S],
+    moved: &'a mut X,
+}
+
+impl<T, L, D, V, X, const S: usize> Equations<T, L, S> for SecondOrder<'_, T, L, D, V, X, S>
+where
+    T: Real,
+    L: Layout<T>,
+    D: Dynamics<L::Row, Vector = X>,
+    V: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
 {
+    type Unknowns = X;
     #[inline(always)]
-    fn map(&mut self, forces: &Stages<P::Vector, S>, next: &mut Stages<P::Vector, S>) {
-        let Point { q, p } = self.point;
-        let map = self.map;
-        for i in 0..S {
-            let t = self.t + map.times[i];
-            self.impulse.set_zero();
-            for (factor, force) in map.double[i].iter().zip(&forces.0) {
-                self.impulse.accumulate(*factor, force);
+    fn points(&self, gradients: &[X; S], points: &mut [X; S]) {
+        for k in 0..X::PARTS {
+            for i in 0..points[0].part(k).len() {
+                let few = spread::<T, L, _, S>(None, gradients, k, i);
+                for (point, row) in points[..rows::<T, L, S>()]
+                    .iter_mut()
+                    .zip(self.tableau.double)
+                {
+                    point.part_mut(k)[i] = product::<T, L, S>(row, &few);
+                }
             }
-            map.dynamics.gradient_p(t, q, self.impulse, self.moved);
-            self.stage.set_zero();
-            self.stage.accumulate(map.h, self.moved);
-            self.stage.accumulate(map.times[i], self.velocity);
-            self.stage.accumulate(T::one(), q);
-            map.dynamics.gradient_q(t, self.stage, p, &mut next.0[i]);
-            next.0[i].scale(-T::one());
         }
     }
     #[inline(always)]
-    fn scale(&self, forces: &Stages<P::Vector, S>) -> T::Size {
-        let stages = T::Size::constant(S as f64, 0.0);
-        let h = self.map.h.size();
-        stages * (self.point.q.size() / (h * h) + self.point.p.size() / h) + forces.size()
+    fn evaluate(&mut self, row: usize, impulse: &mut X, next: &mut X) {
+        let t = self.t + self.tableau.times[row];
+        let free = &self.free[row];
+        self.dynamics.gradient_p(t, free, impulse, self.moved);
+        self.moved.accumulate(L::Row::one(), free);
+        self.dynamics.gradient_q(t, self.moved, impulse, next);
+    }
+    #[inline(always)]
+    fn scale(&self) -> <L::Row as Real>::Size {
+        let h = L::splat(self.h).size();
+        let mut sizes = [<L::Row as Real>::Size::zero(); 2];
+        for (size, vector) in sizes.iter_mut().zip([&self.point.q, &self.point.p]) {
+            for k in 0..V::PARTS {
+                for number in vector.part(k) {
+                    *size += L::splat(*number).size();
+                }
+            }
+        }
+        (sizes[0] / h + sizes[1]) / h
     }
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
-    #[inline]
+    /// Solves for ∂V/∂q at the stages of the step from `t`, from those of the step before.
+    #[allow(clippy::too_many_arguments)]
+    #[inline(always)]
+    fn fixed_point<L, D>(
+        &self,
+        tableau: &Tableau<'_, L::Row, S>,
+        dynamics: &D,
+        t: T,
+        point: &Point<P::Vector>,
+        gradients: &mut [D::Vector; S],
+        memory: &mut Rows<D::Vector, S>,
+        sums: &mut Sums<P::Vector>,
+    ) -> Outcome<T>
+    where
+        L: Layout<T>,
+        D: Dynamics<L::Row>,
+    {
+        let Point { q, p } = point;
+        self.dynamics.gradient_p(t, q, p, &mut sums.velocity);
+        let Rows {
+            points,
+            free,
+            moved,
+            next,
+        } = memory;
+        for k in 0..P::Vector::PARTS {
+            for i in 0..q.part(k).len() {
+                let q = L::splat(q.part(k)[i]);
+                let velocity = L::splat(sums.velocity.part(k)[i]);
+                for row in 0..rows::<T, L, S>() {
+                    free.0[row].part_mut(k)[i] = tableau.times[row].fma(velocity, q);
+                }
+            }
+        }
+        multiply::<T, L, _, S>(tableau.guess, gradients);
+        let mut equations = SecondOrder::<T, L, D, _, _, S> {
+            tableau,
+            dynamics,
+            t: L::splat(t),
+            h: self.h,
+            point,
+            free: &free.0,
+            moved,
+        };
+        solve(self.limit, &mut equations, gradients, &mut points.0, next)
+    }
+
+    /// Moves the point and its low words.
+    #[inline(always)]
+    fn finish<L, X>(
+        &self,
+        tableau: &Tableau<'_, L::Row, S>,
+        t: T,
+        gradients: &[X; S],
+        point: &mut Point<P::Vector>,
+        low: &mut Point<P::Vector>,
+        sums: &mut Sums<P::Vector>,
+    ) where
+        L: Layout<T>,
+        X: Vector<Scalar = L::Row>,
+    {
+        for k in 0..P::Vector::PARTS {
+            for i in 0..low.p.part(k).len() {
+                let few = spread::<T, L, _, S>(Some(tableau.ends), gradients, k, i);
+                sums.impulse.part_mut(k)[i] = sum::<T, L, S>(&few);
+                let few = spread::<T, L, _, S>(Some(tableau.weights), gradients, k, i);
+                low.p.part_mut(k)[i] += sum::<T, L, S>(&few);
+            }
+        }
+        self.dynamics
+            .gradient_p(t, &point.q, &sums.impulse, &mut sums.moved);
+        low.q.accumulate(self.h, &sums.moved);
+        low.q.accumulate(self.h, &sums.velocity);
+        carry(point, low);
+    }
+
+    /// One step, stage by stage.
+    #[inline(always)]
     fn solve(
         &self,
         t: T,
         z: &mut CarriesForces<P::Vector, S>,
         work: &mut EliminatedWork<P::Vector, S>,
     ) -> Cause {
-        let Pair {
-            x: point,
-            y: Pair { x: forces, y: low },
-        } = z;
-        for (guess, row) in work.guess.0.iter_mut().zip(&self.guess) {
-            guess.set_zero();
-            for (factor, force) in row.iter().zip(&forces.0) {
-                guess.accumulate(*factor, force);
-            }
-        }
-        forces.copy_from(&work.guess);
-        self.dynamics
-            .gradient_p(t, &point.q, &point.p, &mut work.velocity);
-        let mut equations = Forces {
-            map: self,
+        let (rows, sums) = (&mut work.rows, &mut work.sums);
+        let gradients = &mut z.y.x.0;
+        let outcome = self.fixed_point::<Apart, _>(
+            &self.tableau(),
+            &self.dynamics,
             t,
-            point,
-            velocity: &work.velocity,
-            stage: &mut work.stage,
-            impulse: &mut work.impulse,
-            moved: &mut work.moved,
-        };
-        let outcome = iterate(self.limit, &mut equations, forces, &mut work.next);
+            &z.x,
+            gradients,
+            rows,
+            sums,
+        );
+        self.complete(t, outcome, z, sums)
+    }
+
+    fn tableau(&self) -> Tableau<'_, T, S> {
+        Tableau {
+            times: &self.times,
+            weights: &self.weights,
+            double: &self.double,
+            ends: &self.ends,
+            guess: &self.guess,
+        }
+    }
+
+    /// The rest of a step: the new point.
+    #[inline(always)]
+    fn complete(
+        &self,
+        t: T,
+        outcome: Outcome<T>,
+        z: &mut CarriesForces<P::Vector, S>,
+        sums: &mut Sums<P::Vector>,
+    ) -> Cause {
+        let Pair { x: point, y } = z;
         let solved = outcome.solved.all();
         if !solved {
-            forces.poison(!outcome.solved);
+            y.x.poison(!outcome.solved);
         }
-        work.impulse.set_zero();
-        for (j, force) in forces.0.iter().enumerate() {
-            work.impulse.accumulate(self.ends[j], force);
-            low.p.accumulate(self.weights[j], force);
-        }
-        self.dynamics
-            .gradient_p(t, &point.q, &work.impulse, &mut work.moved);
-        low.q.accumulate(self.h, &work.moved);
-        low.q.accumulate(self.h, &work.velocity);
-        carry(point, low);
+        self.finish::<Apart, _>(&self.tableau(), t, &y.x.0, point, &mut y.y, sums);
         if solved {
             Cause::Overflow
         } else {
             outcome.cause()
         }
+    }
+
+    /// Makes steps, the stages beside each other where there are lanes for them.
+    #[inline(always)]
+    fn steps(
+        &self,
+        clock: Clock<T>,
+        from: u64,
+        n: u64,
+        z: &mut CarriesForces<P::Vector, S>,
+        work: &mut EliminatedWork<P::Vector, S>,
+    ) {
+        let mut made = 0;
+        while made < n && S >= LANES {
+            let steps = StepsBeside {
+                map: self,
+                clock,
+                made: from + made,
+                n: n - made,
+                z,
+                sums: &mut work.sums,
+            };
+            let Ok(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+                break;
+            };
+            made += steps;
+            if made < n {
+                self.complete(
+                    clock.at(from + made),
+                    Outcome::unsolved(),
+                    z,
+                    &mut work.sums,
+                );
+                made += 1;
+            }
+        }
+        while made < n {
+            self.solve(clock.at(from + made), z, work);
+            made += 1;
+        }
+    }
+}
+
+/// Steps whose stages lie beside each other, until one is not solved.
+struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize> {
+    map: &'a Eliminated<T, P, S>,
+    clock: Clock<T>,
+    /// The steps made before.
+    made: u64,
+    n: u64,
+    z: &'a mut CarriesForces<P::Vector, S>,
+    sums: &'a mut Sums<P::Vector>,
+}
+
+impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBeside<'_, T, Q, S> {
+    /// The number of steps made. If it is less than asked for, the value carried is that before the step
+    /// that was not solved, but for ∂V/∂q.
+    type Output = u64;
+    type Pack<L: Level> = L::Four;
+
+    #[inline(always)]
+    fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
+    where
+        P: Pack,
+        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>>,
+    {
+        let StepsBeside {
+            map,
+            clock,
+            made,
+            n,
+            z,
+            sums,
+        } = self;
+        let times = in_rows::<T, Beside<P>, S>(&map.times);
+        let weights = in_rows::<T, Beside<P>, S>(&map.weights);
+        let double = matrix_in_rows::<T, Beside<P>, S>(&map.double);
+        let ends = in_rows::<T, Beside<P>, S>(&map.ends);
+        let guess = matrix_in_rows::<T, Beside<P>, S>(&map.guess);
+        let tableau = Tableau {
+            times: &times,
+            weights: &weights,
+            double: &double,
+            ends: &ends,
+            guess: &guess,
+        };
+        let (gradients, rows) = kept.get(
+            |_: &(Stages<D::Vector, S>, Rows<D::Vector, S>)| true,
+            || {
+                let zero = z.x.q.zeros_over::<T::Over<P>>();
+                let gradients = Stages(core::array::from_fn(|_| zero.clone()));
+                (gradients, Rows::new(&zero))
+            },
+        );
+        // Moved out, they are variables of this loop alone and may stay in registers.
+        let (mut of, mut memory) = (gradients.take(), rows.take());
+        let (mut point, mut low) = (z.x.take(), z.y.y.take());
+        let mut scalars = Sums {
+            velocity: sums.velocity.take(),
+            impulse: sums.impulse.take(),
+            moved: sums.moved.take(),
+        };
+        load::<T, Beside<P>, _, _, S>(&z.y.x.0, &mut of.0);
+        let mut left = n;
+        while left > 0 {
+            let t = clock.at(made + (n - left));
+            let outcome = map.fixed_point::<Beside<P>, _>(
+                &tableau,
+                system,
+                t,
+                &point,
+                &mut of.0,
+                &mut memory,
+                &mut scalars,
+            );
+            if !outcome.solved.all() {
+                break;
+            }
+            map.finish::<Beside<P>, _>(&tableau, t, &of.0, &mut point, &mut low, &mut scalars);
+            left -= 1;
+        }
+        store::<T, Beside<P>, _, _, S>(&of.0, &mut z.y.x.0);
+        (z.x, z.y.y) = (point, low);
+        (*gradients, *rows, *sums) = (of, memory, scalars);
+        n - left
     }
 }
 
@@ -282,12 +554,13 @@ impl<V: Vector, const S: usize> Scratch<CarriesForces<V, S>> for EliminatedWork<
     fn like(like: &CarriesForces<V, S>) -> Self {
         let vector = || like.x.q.clone();
         EliminatedWork {
-            stage: vector(),
-            impulse: vector(),
-            moved: vector(),
-            velocity: vector(),
-            next: like.y.x.clone(),
-            guess: like.y.x.clone(),
+            rows: Rows::new(&like.x.q),
+            sums: Sums {
+                velocity: vector(),
+                impulse: vector(),
+                moved: vector(),
+            },
+            kept: Kept::default(),
         }
     }
 }
@@ -297,10 +570,20 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
     type Work = EliminatedWork<P::Vector, S>;
 
     #[inline(always)]
-    fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        self.solve(t, z, work);
+    fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        T::out_of_line(|| self.steps(Clock::between(t, end), 0, 1, z, work));
     }
-
+    #[inline(always)]
+    fn run(
+        &self,
+        clock: Clock<T>,
+        made: u64,
+        n: u64,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        self.steps(clock, made, n, z, work);
+    }
     #[cold]
     fn explain(&self, t: T, _: T, _: bool, z: &mut Self::Carried, work: &mut Self::Work) -> Cause {
         self.solve(t, z, work)

@@ -15,8 +15,11 @@ use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
 use super::newton::{Entries, Linear};
+use super::rows::{Apart, LANES};
+use super::slopes::{StepsBeside, Tableau, finish, fixed_point};
 use crate::flow::{Scratch, VectorField};
-use crate::map::{Cause, Map, Step};
+use crate::gather::Kept;
+use crate::map::{Cause, Clock, Map, Step};
 use crate::state::{Pair, Point, State};
 use crate::system::Dynamics;
 use crate::vector::Vector;
@@ -29,6 +32,10 @@ pub struct Stages<X, const S: usize>(pub [X; S]);
 
 impl<X: Vector, const S: usize> Vector for Stages<X, S> {
     type Scalar = X::Scalar;
+    type Over<U: Real> = Stages<X::Over<U>, S>;
+    fn zeros_over<U: Real>(&self) -> Stages<X::Over<U>, S> {
+        Stages(core::array::from_fn(|i| self.0[i].zeros_over()))
+    }
     const PARTS: usize = S * X::PARTS;
     #[inline(always)]
     fn part(&self, k: usize) -> &[X::Scalar] {
@@ -143,6 +150,7 @@ pub struct CollocatedWork<V: Vector, const S: usize> {
     next: Stages<Point<V>, S>,
     guess: Stages<Point<V>, S>,
     linear: Linear<V>,
+    kept: Kept,
 }
 
 impl<V: Vector, const S: usize> CollocatedWork<V, S> {
@@ -153,6 +161,7 @@ impl<V: Vector, const S: usize> CollocatedWork<V, S> {
             next: stages.clone(),
             guess: stages.clone(),
             linear: Linear::new(point, S),
+            kept: Kept::default(),
         }
     }
 }
@@ -210,32 +219,21 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
             into.accumulate(-T::one(), line);
         }
     }
-}
 
-impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
-    for Slopes<'_, T, P, S>
-{
-    #[inline(always)]
-    fn map(
+    /// J∇H at all stages.
+    fn at_stages(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
-        next: &mut Stages<Point<P::Vector>, S>,
+        slopes: &mut Stages<Point<P::Vector>, S>,
     ) {
         self.map.increments(unknowns, self.increments);
-        for i in 0..S {
+        for (i, slope) in slopes.0.iter_mut().enumerate() {
             self.stage(i, unknowns);
-            let Point { q, p } = &mut next.0[i];
-            q.set_zero();
-            p.set_zero();
+            slope.set_zero();
             let t = self.t + self.map.times[i];
-            self.map.field.add(t, &self.stage.q, &self.stage.p, q, p);
+            let Point { q, p } = &*self.stage;
+            (self.map.field).add(t, q, p, &mut slope.q, &mut slope.p);
         }
-    }
-    #[inline(always)]
-    fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
-        // The unknowns count too: a point at the origin has no size of its own.
-        let stages = T::Size::constant(S as f64, 0.0);
-        stages * self.point.size() / self.map.h.size() + unknowns.size()
     }
 }
 
@@ -254,7 +252,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
         unknowns: &Stages<Point<P::Vector>, S>,
         next: &mut Stages<Point<P::Vector>, S>,
     ) {
-        self.slopes.map(unknowns, next);
+        self.slopes.at_stages(unknowns, next);
         let map = self.slopes.map;
         for (i, residual) in next.0.iter_mut().enumerate() {
             self.slopes.less_velocity(i, unknowns, &mut residual.q);
@@ -271,7 +269,10 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
         next.accumulate(T::one(), unknowns);
     }
     fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
-        self.slopes.scale(unknowns)
+        let Slopes { map, point, .. } = &self.slopes;
+        // The unknowns count too: a point at the origin has no size of its own.
+        let stages = T::Size::constant(S as f64, 0.0);
+        stages * point.size() / map.h.size() + unknowns.size()
     }
 }
 
@@ -335,10 +336,47 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         outcome
     }
 
-    #[inline]
+    /// One step, stage by stage.
+    #[inline(always)]
     fn solve(
         &self,
         t: T,
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) -> Cause {
+        let Pair { x: point, y } = &mut *z;
+        let unknowns = &mut y.x;
+        let outcome = if self.modes.is_some() {
+            self.solve_between(t, point, None, unknowns, work, |_, _| {})
+        } else {
+            let tableau = Tableau {
+                h: self.h,
+                times: &self.times,
+                weights: &self.weights,
+                coordinates: &self.coordinates,
+                momenta: &self.momenta,
+                guess: &self.guess,
+            };
+            fixed_point::<T, Apart, _, _, _, S>(
+                self.limit,
+                &tableau,
+                &self.field,
+                t,
+                point,
+                &mut unknowns.0,
+                &mut work.next.0,
+                &mut work.stage,
+            )
+        };
+        self.complete(t, outcome, z, work)
+    }
+
+    /// The rest of a step: Newton's method in lanes where the fixed point failed, and the new point.
+    #[inline(always)]
+    fn complete(
+        &self,
+        t: T,
+        mut outcome: Outcome<T>,
         z: &mut Carries<P::Vector, S>,
         work: &mut CollocatedWork<P::Vector, S>,
     ) -> Cause {
@@ -349,25 +387,24 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
                 y: low,
             },
         } = z;
-        let outcome = if self.modes.is_some() {
-            self.solve_between(t, point, None, unknowns, work, |_, _| {})
-        } else {
-            self.solve_slopes(t, point, unknowns, work)
-        };
+        if !outcome.solved.all() && self.modes.is_none() && work.linear.fits() {
+            T::out_of_line(|| self.newton(t, &mut outcome, point, unknowns, work));
+        }
         let solved = outcome.solved.all();
         if !solved {
             unknowns.poison(!outcome.solved);
         }
-        self.increments(unknowns, &mut work.increments);
-        // The integrals over the step of all polynomials but the first vanish.
-        let terms = if self.modes.is_some() { 1 } else { S };
-        for (j, increment) in work.increments.0.iter().enumerate() {
-            if j < terms {
-                low.q.accumulate(T::one(), &increment.q);
+        if self.modes.is_some() {
+            // The integrals over the step of all polynomials but the first vanish.
+            self.increments(unknowns, &mut work.increments);
+            low.q.accumulate(T::one(), &work.increments.0[0].q);
+            for increment in &work.increments.0 {
+                low.p.accumulate(T::one(), &increment.p);
             }
-            low.p.accumulate(T::one(), &increment.p);
+            carry(point, low);
+        } else {
+            finish::<T, Apart, _, _, S>(&self.weights, &unknowns.0, point, low);
         }
-        carry(point, low);
         if solved {
             Cause::Overflow
         } else {
@@ -375,46 +412,68 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
         }
     }
 
-    /// Solves for slopes: the fixed point from extrapolated ones, and Newton's method where that
-    /// fails.
+    /// Newton's method for the lanes that the fixed point has not solved.
     #[inline(always)]
-    fn solve_slopes(
+    fn newton(
         &self,
         t: T,
+        outcome: &mut Outcome<T>,
         point: &Point<P::Vector>,
         slopes: &mut Stages<Point<P::Vector>, S>,
         work: &mut CollocatedWork<P::Vector, S>,
-    ) -> Outcome<T> {
-        for (guess, row) in work.guess.0.iter_mut().zip(&self.guess) {
-            guess.set_zero();
-            for (factor, slope) in row.iter().zip(&slopes.0) {
-                guess.accumulate(*factor, slope);
+    ) {
+        let fixed = outcome.solved;
+        // Over so long a step the last one's slopes say nothing: all stages at the point.
+        work.guess.set_zero();
+        let mut newton = Newton {
+            slopes: Slopes {
+                map: self,
+                t,
+                point,
+                line: None,
+                stage: &mut work.stage,
+                increments: &mut work.increments,
+            },
+            linear: &mut work.linear,
+        };
+        *outcome = iterate(self.limit, &mut newton, &mut work.guess, &mut work.next);
+        // Lanes that were solved know nothing of those that were not.
+        slopes.copy_where(!fixed, &work.guess);
+        outcome.solved = outcome.solved | fixed;
+    }
+
+    /// Makes steps, the stages beside each other where there are lanes for them.
+    #[inline(always)]
+    fn steps(
+        &self,
+        clock: Clock<T>,
+        from: u64,
+        n: u64,
+        z: &mut Carries<P::Vector, S>,
+        work: &mut CollocatedWork<P::Vector, S>,
+    ) {
+        let mut made = 0;
+        while made < n && S >= LANES && self.modes.is_none() {
+            let steps = StepsBeside {
+                map: self,
+                clock,
+                made: from + made,
+                n: n - made,
+                z,
+            };
+            let Ok(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+                break;
+            };
+            made += steps;
+            if made < n {
+                self.complete(clock.at(from + made), Outcome::unsolved(), z, work);
+                made += 1;
             }
         }
-        slopes.copy_from(&work.guess);
-        let mut equations = Slopes {
-            map: self,
-            t,
-            point,
-            line: None,
-            stage: &mut work.stage,
-            increments: &mut work.increments,
-        };
-        let mut outcome = iterate(self.limit, &mut equations, slopes, &mut work.next);
-        if !outcome.solved.all() && work.linear.fits() {
-            let fixed = outcome.solved;
-            // Over so long a step the last one's slopes say nothing: all stages at the point.
-            work.guess.set_zero();
-            let mut newton = Newton {
-                slopes: equations,
-                linear: &mut work.linear,
-            };
-            outcome = iterate(self.limit, &mut newton, &mut work.guess, &mut work.next);
-            // Lanes that were solved know nothing of those that were not.
-            slopes.copy_where(!fixed, &work.guess);
-            outcome.solved = outcome.solved | fixed;
+        while made < n {
+            self.solve(clock.at(from + made), z, work);
+            made += 1;
         }
-        outcome
     }
 }
 
@@ -429,8 +488,19 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
     type Work = CollocatedWork<P::Vector, S>;
 
     #[inline(always)]
-    fn body(&self, t: T, _: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        self.solve(t, z, work);
+    fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
+        T::out_of_line(|| self.steps(Clock::between(t, end), 0, 1, z, work));
+    }
+    #[inline(always)]
+    fn run(
+        &self,
+        clock: Clock<T>,
+        made: u64,
+        n: u64,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        self.steps(clock, made, n, z, work);
     }
 
     #[cold]

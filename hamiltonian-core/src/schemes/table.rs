@@ -1,7 +1,8 @@
 //! Tables of weights: the coefficients of splittings.
 //!
 //! Input: published numbers. Output: [`Table`]: for each stage the durations `(down, up)` in units of
-//! the step. Invariant: the durations of a table sum to one, down and up together.
+//! the step. Invariant: the durations of a table sum to one, down and up together; those of a processor
+//! to zero.
 
 use crate::scheme::{Listed, OneStep};
 use hamiltonian_lanes::Real;
@@ -15,6 +16,12 @@ impl Weight {
     #[inline(always)]
     pub fn to<T: Real>(self) -> T {
         T::constant(self.0, self.1)
+    }
+
+    /// −w, exactly.
+    #[must_use]
+    pub const fn negated(self) -> Weight {
+        Weight(-self.0, -self.1)
     }
 
     /// Half of it, exactly.
@@ -32,6 +39,8 @@ impl Weight {
 pub type Durations = (Weight, Weight);
 
 /// The weights of a splitting, as a type: its number of stages is known at compile time.
+///
+/// Durations sum to one, those of the processor of a [`Processed`](super::Processed) scheme to zero.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no table of coefficients of a splitting",
     label = "expected a splitting such as `Strang`, `BlanesMoan4` or `KahanLi8`",
@@ -81,5 +90,28 @@ where
     type Adjoint = W;
     fn adjoint(&self) -> W {
         self.0
+    }
+}
+
+/// The table with every duration negated: the step −h. `Reversed(Negated(table))` is the inverse of `table`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Negated<W>(pub W);
+
+impl<W: Table> Listed for Negated<W> {
+    fn entry(&self) -> crate::Entry {
+        crate::Entry {
+            variant: "adjoint",
+            ..self.0.entry()
+        }
+    }
+}
+
+impl<W: Table> Table for Negated<W> {
+    type Of<U> = W::Of<U>;
+    fn stages(&self) -> W::Of<Durations> {
+        W::map(self.0.stages(), |(down, up)| (down.negated(), up.negated()))
+    }
+    fn map<A, U>(of: W::Of<A>, f: impl FnMut(A) -> U) -> W::Of<U> {
+        W::map(of, f)
     }
 }

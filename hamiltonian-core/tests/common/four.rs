@@ -108,6 +108,7 @@ impl Real for Four {
     type Mask = Flags;
     type Size = Four;
     const LANES: u32 = 4;
+    hamiltonian_lanes::itself_in_lanes! {}
 
     fn constant(hi: f64, lo: f64) -> Self {
         Four([<f64 as Real>::constant(hi, lo); 4])

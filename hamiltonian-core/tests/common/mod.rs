@@ -6,6 +6,7 @@ pub mod allocator;
 pub mod chain;
 pub mod four;
 pub mod pieces;
+pub mod python;
 pub mod systems;
 pub mod walk;
 

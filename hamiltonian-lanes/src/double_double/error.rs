@@ -10,8 +10,8 @@
 //! Stegun, *Handbook of Mathematical Functions*, 7.1.6 and 7.1.14).
 
 use super::DoubleDouble;
-use super::arithmetic::two_product;
-use crate::real::Real;
+use hamiltonian_real::Real;
+use hamiltonian_real::parts::exact::two_product;
 
 const ZERO: DoubleDouble = DoubleDouble { hi: 0.0, lo: 0.0 };
 const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };

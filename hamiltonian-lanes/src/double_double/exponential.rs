@@ -13,7 +13,7 @@ use super::arithmetic::{exponent, significand};
 use super::constants::{
     ATANH, ATANH_TAIL, EXP, EXP_TAIL, LN_2, LN_2_FIRST, LN_2_SECOND, LN_2_THIRD,
 };
-use crate::real::Real;
+use hamiltonian_real::Real;
 
 const ZERO: DoubleDouble = DoubleDouble { hi: 0.0, lo: 0.0 };
 const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };

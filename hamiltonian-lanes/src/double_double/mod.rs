@@ -5,21 +5,20 @@
 //! `hi` is 0, infinite or NaN.
 
 mod arithmetic;
-pub(crate) mod constants;
-
-pub(crate) mod reduction;
+mod constants;
 mod roots;
 
 mod error;
 mod exponential;
 mod trigonometric;
 
+mod lift;
 mod scalar;
 
 mod big;
 mod decimal;
 
-use arithmetic::two_sum;
+use hamiltonian_real::parts::exact::two_sum;
 
 pub use decimal::ParseDoubleDoubleError;
 

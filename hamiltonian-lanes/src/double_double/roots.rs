@@ -5,8 +5,9 @@
 //! range at the end.
 
 use super::DoubleDouble;
-use super::arithmetic::{exponent, fast_two_sum, power_of_two, two_product};
-use crate::real::Real;
+use super::arithmetic::exponent;
+use hamiltonian_real::Real;
+use hamiltonian_real::parts::exact::{fast_two_sum, power_of_two, two_product};
 
 impl DoubleDouble {
     /// The square root, relative error ≤ 3.2u²; NaN below 0 (V. Lefèvre, N. Louvet, J.-M. Muller,

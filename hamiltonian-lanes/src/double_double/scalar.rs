@@ -4,12 +4,13 @@
 //! leading word, then by the trailing one; NaN compares false.
 
 use super::DoubleDouble;
-use crate::real::Real;
+use hamiltonian_real::{Real, itself_in_lanes};
 
 impl Real for DoubleDouble {
     type Mask = bool;
     type Size = f64;
     const LANES: u32 = 1;
+    itself_in_lanes! {}
 
     #[inline(always)]
     fn constant(hi: f64, lo: f64) -> Self {

@@ -11,9 +11,10 @@
 
 use super::DoubleDouble;
 use super::arithmetic::exponent;
-use super::constants::{COS, COS_TAIL, FRAC_3_PI_4, FRAC_PI_2, FRAC_PI_4, PI, SIN, SIN_TAIL};
-use super::reduction::reduce;
-use crate::real::Real;
+use super::constants::{FRAC_3_PI_4, FRAC_PI_2, FRAC_PI_4, PI};
+use hamiltonian_real::Real;
+use hamiltonian_real::parts::reduce;
+use hamiltonian_real::parts::series::{COS, COS_TAIL, SIN, SIN_TAIL};
 
 const ONE: DoubleDouble = DoubleDouble { hi: 1.0, lo: 0.0 };
 const NAN: DoubleDouble = DoubleDouble {
@@ -27,7 +28,8 @@ impl DoubleDouble {
         if !self.hi.is_finite() {
             return (NAN, NAN);
         }
-        let (quadrant, r) = reduce(self);
+        let (quadrant, (hi, lo)) = reduce(self.hi, self.lo);
+        let r = Self { hi, lo };
         let (sin, cos) = sine_cosine_series(r);
         match quadrant {
             0 => (sin, cos),

@@ -5,8 +5,9 @@
 //! is compiled with that level's instructions.
 
 use core::fmt::Debug;
+use core::sync::atomic::{AtomicU8, Ordering};
 
-use crate::pack::{Pack, V, W};
+use super::pack::{Base, V, W};
 
 /// Capabilities of a CPU, from the least on. Which levels exist depends on the architecture; the least
 /// is on all of them.
@@ -52,10 +53,42 @@ macro_rules! has {
     }};
 }
 
+/// The highest level that [`Cpu::best`] returns, as a number; those above do not exist for the process.
+static LIMIT: AtomicU8 = AtomicU8::new(Cpu::Avx512 as u8);
+
 impl Cpu {
-    /// The best level of the CPU that this runs on.
+    /// The best level of the CPU that this runs on, or the level of [`limit_to`](Cpu::limit_to) if that
+    /// is lower.
     #[inline]
     pub fn best() -> Cpu {
+        let limit = LIMIT.load(Ordering::Relaxed);
+        let best = Cpu::detected();
+        // The levels are in ascending order, and 32-bit x86 and aarch64 have their own least level.
+        match limit {
+            limit if limit >= best as u8 => best,
+            limit if limit == Cpu::Avx2 as u8 => Cpu::Avx2,
+            limit if limit == Cpu::Portable as u8 => Cpu::Portable,
+            _ => best.min(Cpu::Sse2),
+        }
+    }
+
+    /// Hides the levels above `limit` from the whole process: runs compute what they would on a CPU
+    /// without them. For tests and measurements; runs under way are not changed.
+    ///
+    /// ```
+    /// use hamiltonian_lanes::Cpu;
+    /// Cpu::limit_to(Cpu::Portable);
+    /// assert_eq!(Cpu::best(), Cpu::Portable);
+    /// Cpu::limit_to(Cpu::Avx512); // hides nothing
+    /// assert_eq!(Cpu::available().last(), Some(Cpu::best()));
+    /// ```
+    pub fn limit_to(limit: Cpu) {
+        LIMIT.store(limit as u8, Ordering::Relaxed);
+    }
+
+    /// The best level that the CPU has.
+    #[inline]
+    fn detected() -> Cpu {
         #[cfg(target_arch = "x86_64")]
         {
             if !has!("avx2" "fma") {
@@ -104,11 +137,16 @@ mod sealed {
 /// entered only where the CPU has the level.
 pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static {
     /// One number, with this level's fused products.
-    type Scalar: Pack;
+    type Scalar: Base;
     /// One register.
-    type Pack: Pack;
+    type Pack: Base;
     /// As many registers in lock-step as hide the latency of their operations.
-    type Wide: Pack;
+    type Wide: Base;
+    /// Four numbers on every level, in the fastest registers for them: four lanes take half the time of eight
+    /// where numbers are divided, and one chain of operations is as long in both.
+    type Four: Base;
+    /// Eight numbers, on every level: what is summed in lanes is summed in one order.
+    type Eight: Base;
     /// The level this is.
     const CPU: Cpu;
 
@@ -116,7 +154,107 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     /// level's instructions and stands out of line. For large pieces of a kernel that should not be
     /// inlined.
     fn enter<K: Kernel>(kernel: K) -> K::Output;
+
+    /// [`enter`](Level::enter) for work that is written for this level.
+    fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output;
 }
+
+/// Work on one level: what [`Kernel`] is on all of them, for bounds that name the level's packs.
+///
+/// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
+///
+/// ```
+/// use hamiltonian_lanes::{Cpu, KernelAt, Level, OnEveryLevel, Pack, Real};
+///
+/// /// The sum of a function of numbers; the function is given for each pack it is called with.
+/// struct Sum<'a, F> {
+///     of: &'a [f64],
+///     function: F,
+/// }
+/// trait Function<T> {
+///     fn value(&self, x: T) -> T;
+/// }
+///
+/// impl<L: Level, F: Function<L::Pack>> KernelAt<L> for Sum<'_, F> {
+///     type Output = f64;
+///     #[inline(always)]
+///     fn run(self) -> f64 {
+///         let mut sum = L::Pack::zero();
+///         for x in self.of.chunks(L::Pack::LANES as usize) {
+///             sum += self.function.value(L::Pack::load(x, 0.0));
+///         }
+///         (0..L::Pack::LANES).map(|k| sum.lane(k)).sum()
+///     }
+/// }
+///
+/// struct Square;
+/// impl<T: Real> Function<T> for Square {
+///     fn value(&self, x: T) -> T {
+///         x * x
+///     }
+/// }
+///
+/// // One bound serves every level.
+/// fn total<F>(of: &[f64], function: F) -> f64
+/// where
+///     for<'a> Sum<'a, F>: OnEveryLevel<Output = f64>,
+/// {
+///     Sum { of, function }.dispatch()
+/// }
+/// assert_eq!(total(&[1.0, 2.0, 3.0], Square), 14.0);
+/// ```
+pub trait KernelAt<L: Level> {
+    /// The computation.
+    type Output;
+    /// Computes it.
+    fn run(self) -> Self::Output;
+}
+
+/// Work on each level of the architecture: implemented for every [`KernelAt`] of all of them with one
+/// output, and for nothing else.
+pub trait OnEveryLevel: Sized {
+    /// The computation.
+    type Output;
+    /// Runs it on the best level of this CPU.
+    fn dispatch(self) -> Self::Output;
+}
+
+/// The levels that [`Cpu::best`] may return on an architecture without a [limit](Cpu::limit_to), from the
+/// best on, and with a limit the least.
+macro_rules! on_every_level {
+    ($(#[$where:meta])* $($level:ident)*; $least:ident) => {
+        $(#[$where])*
+        impl<K, O> OnEveryLevel for K
+        where
+            K: $(KernelAt<$level, Output = O> +)* KernelAt<$least, Output = O>,
+        {
+            type Output = O;
+            #[inline]
+            fn dispatch(self) -> O {
+                match Cpu::best() {
+                    $(Cpu::$level => $level::enter_at(self),)*
+                    _ => $least::enter_at(self),
+                }
+            }
+        }
+    };
+}
+
+on_every_level!(
+    #[cfg(target_arch = "x86_64")]
+    Avx512 Avx2; Sse2
+);
+on_every_level!(
+    #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+    Neon; Portable
+);
+on_every_level!(
+    #[cfg(not(any(
+        target_arch = "x86_64",
+        all(target_arch = "aarch64", target_feature = "neon")
+    )))]
+    ; Portable
+);
 
 /// Work written once for every level.
 ///
@@ -157,10 +295,22 @@ pub trait Kernel {
     fn run<L: Level>(self) -> Self::Output;
 }
 
-/// Runs a kernel on the best level of this CPU.
+/// Runs a kernel on the best level of this CPU; on x86-64, where SSE2 is always there, not on `Portable`,
+/// of which no code is made then.
 #[inline]
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
-    dispatch_at_most(Cpu::best(), kernel)
+    match Cpu::best() {
+        #[cfg(target_arch = "x86_64")]
+        Cpu::Avx512 => Avx512::enter(kernel),
+        #[cfg(target_arch = "x86_64")]
+        Cpu::Avx2 => Avx2::enter(kernel),
+        #[cfg(target_arch = "x86_64")]
+        _ => Sse2::enter(kernel),
+        #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+        Cpu::Neon => Neon::enter(kernel),
+        #[cfg(not(target_arch = "x86_64"))]
+        _ => Portable::enter(kernel),
+    }
 }
 
 /// Runs a kernel on the best level of this CPU that is not above `limit`: the results of a smaller
@@ -194,9 +344,13 @@ pub fn dispatch_at_most<K: Kernel>(limit: Cpu, kernel: K) -> K::Output {
     }
 }
 
-/// One level: its type, its registers, how many of them are wide, its features.
+/// One level: its type, its registers, how many of them are wide and how many hold eight numbers, its
+/// features.
 macro_rules! level {
-    ($(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal $(, $features:literal)?) => {
+    (
+        $(#[$where:meta])* $level:ident, $scalar:ty, $register:ty, $wide:literal, $eight:literal, $four:ty
+        $(, $features:literal)?
+    ) => {
         $(#[$where])*
         #[derive(Clone, Copy, Debug, Default)]
         pub struct $level;
@@ -209,6 +363,8 @@ macro_rules! level {
             type Scalar = $scalar;
             type Pack = V<$register>;
             type Wide = W<V<$register>, $wide>;
+            type Eight = W<V<$register>, $eight>;
+            type Four = $four;
             const CPU: Cpu = Cpu::$level;
 
             #[inline(always)]
@@ -226,24 +382,49 @@ macro_rules! level {
                     entry(kernel)
                 }
             }
+
+            #[inline(always)]
+            fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output {
+                $(#[target_feature(enable = $features)])?
+                #[inline(never)]
+                fn entry<K: KernelAt<$level>>(kernel: K) -> K::Output {
+                    kernel.run()
+                }
+                // SAFETY: as in `enter`: the caller has asked the CPU, or runs on this level already.
+                #[allow(unused_unsafe)]
+                unsafe {
+                    entry(kernel)
+                }
+            }
         }
     };
 }
 
-level!(Portable, f64, super::portable::Two, 4);
+level!(
+    Portable,
+    f64,
+    super::portable::Two,
+    4,
+    4,
+    W<V<super::portable::Two>, 2>
+);
 level!(
     #[cfg(target_arch = "x86_64")]
     Sse2,
     f64,
     core::arch::x86_64::__m128d,
-    4
+    4,
+    4,
+    W<V<core::arch::x86_64::__m128d>, 2>
 );
 level!(
     #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
     Neon,
     V<super::neon::One>,
     core::arch::aarch64::float64x2_t,
-    8
+    8,
+    4,
+    W<V<core::arch::aarch64::float64x2_t>, 2>
 );
 level!(
     #[cfg(target_arch = "x86_64")]
@@ -251,6 +432,8 @@ level!(
     V<super::avx2::One>,
     core::arch::x86_64::__m256d,
     6,
+    2,
+    V<core::arch::x86_64::__m256d>,
     "avx2,fma"
 );
 level!(
@@ -259,5 +442,7 @@ level!(
     V<super::avx2::One>,
     core::arch::x86_64::__m512d,
     10,
+    1,
+    V<core::arch::x86_64::__m256d>,
     "avx512f,avx512dq,avx512cd,avx512bw,avx512vl,avx2,fma"
 );

@@ -1,4 +1,5 @@
-//! CPU levels as types, entered by run-time dispatch: the one module with unsafe code.
+//! CPU levels as types, entered by run-time dispatch, with their packs: the one module with unsafe
+//! code.
 //!
 //! Input: a [`Kernel`], written once for every level. Output: its result, computed in the registers
 //! of the best level that this CPU has. Invariant: the instructions of a level run only where
@@ -26,10 +27,12 @@ mod avx512;
 mod dispatch;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 mod neon;
+#[deny(unsafe_code)]
+mod pack;
 mod portable;
 mod register;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
 
-pub use dispatch::{Cpu, Kernel, Level, dispatch, dispatch_at_most};
-pub use register::Register;
+pub use dispatch::{Cpu, Kernel, KernelAt, Level, OnEveryLevel, dispatch, dispatch_at_most};
+pub use pack::{Base, Nf, W};

@@ -55,7 +55,7 @@ macro_rules! plain {
             }
             #[inline(always)]
             fn sqrt(a: Self) -> Self {
-                Self([$(crate::Real::sqrt(a.0[$k])),*])
+                Self([$(hamiltonian_real::Real::sqrt(a.0[$k])),*])
             }
             #[inline(always)]
             fn and(a: Self, b: Self) -> Self {

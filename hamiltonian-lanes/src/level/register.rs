@@ -51,7 +51,7 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn shr<const K: u32>(a: Self) -> Self;
     /// Whether the lowest bit is set.
     fn odd(a: Self) -> Self::Flags;
-    /// [`Word::scaled`](crate::word::Word::scaled), where there is an instruction for it.
+    /// [`Word::scaled`](hamiltonian_real::parts::Word::scaled), where there is an instruction for it.
     #[inline(always)]
     fn scaled(_a: Self, _k: Self) -> Option<Self> {
         None

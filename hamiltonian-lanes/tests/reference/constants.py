@@ -1,4 +1,5 @@
-"""Writes src/double_double/constants.rs: the constants of the double-double functions.
+"""Writes the constants of the double-double functions, src/double_double/constants.rs, and the
+coefficients that they share with the scalars, ../hamiltonian-real/src/real/series.rs.
 
 Run from the folder of the crate: python3 tests/reference/constants.py
 Needs mpmath (pip install mpmath).
@@ -50,8 +51,6 @@ unit = mpf(2) ** -42
 ln2_1 = floor(ln2 / unit) * unit
 ln2_2 = floor((ln2 - ln2_1) / unit**2) * unit**2
 ln2_3 = ln2 - ln2_1 - ln2_2
-bits = int(floor(2 / pi * mpf(2) ** 1536))
-limbs = [(bits >> (64 * i)) & (2**64 - 1) for i in reversed(range(24))]
 
 parts = [
     """//! Constants of the double-double functions, rounded from 600 digits.
@@ -71,16 +70,6 @@ use super::DoubleDouble;
     f"pub(super) const LN_2_FIRST: f64 = {literal(float(ln2_1))};\n",
     f"/// The next 42 bits of ln 2.\npub(super) const LN_2_SECOND: f64 = {literal(float(ln2_2))};\n",
     f"/// The rest of ln 2.\npub(super) const LN_2_THIRD: f64 = {literal(float(ln2_3))};\n",
-    "/// 1536 bits of 2/π, the most significant first.\n#[rustfmt::skip]\n"
-    "pub(super) const TWO_OVER_PI: [u64; 24] = [\n"
-    + "\n".join("    " + " ".join(f"0x{w:016x}," for w in limbs[i:i + 4]) for i in range(0, 24, 4))
-    + "\n];\n",
-    table("SIN", [1 / factorial(2 * k + 1) for k in range(1, 8)],
-          "1/(2k + 1)!, k = 1 to 7: the sine's terms that need two words where |x| ≤ π/4"),
-    tail("SIN_TAIL", [1 / factorial(2 * k + 1) for k in range(8, 15)],
-         "1/(2k + 1)!, k = 8 to 14: those that one word serves"),
-    table("COS", [1 / factorial(2 * k) for k in range(1, 9)], "1/(2k)!, k = 1 to 8"),
-    tail("COS_TAIL", [1 / factorial(2 * k) for k in range(9, 16)], "1/(2k)!, k = 9 to 15"),
     table("EXP", [1 / factorial(k) for k in range(2, 15)],
           "1/k!, k = 2 to 14: for |x| ≤ ½ ln 2"),
     tail("EXP_TAIL", [1 / factorial(k) for k in range(15, 25)], "1/k!, k = 15 to 24"),
@@ -90,3 +79,28 @@ use super::DoubleDouble;
 ]
 with open("src/double_double/constants.rs", "w", encoding="utf-8") as out:
     out.write("\n".join(parts))
+
+series = [
+    """//! Coefficients of the sine and the cosine in two words, rounded from 600 digits.
+//!
+//! Input: nothing. Output: 1/n!. Invariant: written by `tests/reference/constants.py` of
+//! `hamiltonian-lanes`, not by hand; each pair is the number rounded to two words.
+#![allow(clippy::excessive_precision)]
+""",
+    table("SIN", [1 / factorial(2 * k + 1) for k in range(1, 8)],
+          "1/(2k + 1)!, k = 1 to 7: the sine's terms that need two words where |x| ≤ π/4"),
+    tail("SIN_TAIL", [1 / factorial(2 * k + 1) for k in range(8, 15)],
+         "1/(2k + 1)!, k = 8 to 14: those that one word serves"),
+    table("COS", [1 / factorial(2 * k) for k in range(1, 9)], "1/(2k)!, k = 1 to 8"),
+    tail("COS_TAIL", [1 / factorial(2 * k) for k in range(9, 16)], "1/(2k)!, k = 9 to 15"),
+]
+with open("../hamiltonian-real/src/real/series.rs", "w", encoding="utf-8") as out:
+    out.write("\n".join(series).replace("pub(super)", "pub"))
+
+# 2/π for the reduction of angles, whose file is written by hand.
+bits = int(floor(2 / pi * mpf(2) ** 1536))
+limbs = [(bits >> (64 * i)) & (2**64 - 1) for i in reversed(range(24))]
+with open("../hamiltonian-real/src/elementary/reduction.rs", encoding="utf-8") as file:
+    text = file.read()
+for limb in limbs:
+    assert f"0x{limb:016x}" in text

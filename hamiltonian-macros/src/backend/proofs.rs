@@ -59,6 +59,10 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                     "correct it or H, or declare it as `monitor`".to_owned(),
                 ),
                 Verdict::Undecided { .. } | Verdict::Jumps { .. } if observable.assumed => continue,
+                Verdict::NoShell { why } => (
+                    format!("{what} is claimed on a shell that orbits leave: {why}"),
+                    "write `on H = …` with numbers and parameters, where H is conserved".to_owned(),
+                ),
                 Verdict::Undecided { residual, why } => (
                     format!(
                         "it is neither proven nor disproven that {what} is conserved{on}: its time derivative is `{}`; {why}",

@@ -30,14 +30,6 @@ impl Checker<'_> {
                 .error(name.span(), format!("unknown coordinates `{word}`"), help);
             return;
         }
-        if self.out.charts.iter().any(|chart| chart.name == *name) {
-            self.report.error(
-                name.span(),
-                format!("`coordinates {word}` is given twice"),
-                "keep one",
-            );
-            return;
-        }
         let kind = match word.as_str() {
             "polar" => self.cartesian(name, arguments).map(Chart::Polar),
             "spherical" => self.cartesian(name, arguments).map(Chart::Spherical),
@@ -47,6 +39,18 @@ impl Checker<'_> {
                 Chart::Heliocentric(bodies)
             }),
         };
+        let is_replaced = |argument: &&Ident| {
+            let mut groups = self.out.groups.iter();
+            let own = groups.position(|group| group.coordinate == **argument);
+            let mut same = self.out.charts.iter().filter(|other| other.name == *name);
+            own.is_some_and(|own| same.any(|other| other.kind.replaces(own as u16)))
+        };
+        let twice = arguments.iter().find(is_replaced);
+        if let Some(twice) = twice {
+            let message = format!("`{twice}` is replaced twice");
+            self.report.error(name.span(), message, "keep one");
+            return;
+        }
         if let Some(kind) = kind {
             self.out.charts.push(checked::Chart {
                 name: name.clone(),
@@ -74,6 +78,12 @@ impl Checker<'_> {
     /// The chart that introduces a name, with the coordinates that it replaces.
     pub(super) fn introduced(&self, name: &str) -> Option<(String, String)> {
         let new = name.strip_prefix("p_").unwrap_or(name);
+        // Of a second chart with such a name it has a number.
+        let number = new.rsplit_once('_');
+        let is_number = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
+        let new = number
+            .filter(|(_, n)| is_number(n))
+            .map_or(new, |(name, _)| name);
         self.ast.statements.iter().find_map(|s| match &s.kind {
             StatementKind::Coordinates { chart, arguments } => {
                 let of_polar = matches!(new, "r" | "phi");

@@ -50,6 +50,7 @@ pub fn write(out: &mut String, context: Context, steps: &[Step]) {
         out,
         indices: Vec::new(),
         slices: Vec::new(),
+        trees: Vec::new(),
     };
     writer.steps(steps);
 }
@@ -60,7 +61,10 @@ pub(super) struct Writer<'a> {
     /// Wrapped indices of open loops and the text they are reached by.
     indices: Vec<(Index, String)>,
     /// Elements of open loops that are reached through a slice cut to the segment.
-    slices: Vec<(Slice, Index, String)>,
+    pub(super) slices: Vec<(Slice, Index, String)>,
+    /// Sums of the open loop that are trees where it is long: whether it is, and the partial sum that an
+    /// iteration adds to.
+    pub(super) trees: Vec<(Value, String, String)>,
 }
 
 impl Writer<'_> {
@@ -69,8 +73,14 @@ impl Writer<'_> {
             match step {
                 Step::Let(value) => self.compute(*value),
                 Step::Accumulate(to, value) => {
-                    let value = self.operand(*value);
-                    line!(self, "{} += {value};", name(*to));
+                    let (sum, value) = (name(*to), self.operand(*value));
+                    match self.trees.iter().find(|(tree, ..)| tree == to) {
+                        Some((_, is_long, tree)) => line!(
+                            self,
+                            "if {is_long} {{ {tree} += {value}; }} else {{ {sum} += {value}; }}"
+                        ),
+                        None => line!(self, "{sum} += {value};"),
+                    }
                 }
                 Step::Store(target, row, column, update) => {
                     let place = self.target(*target, row, column.as_ref());
@@ -81,7 +91,7 @@ impl Writer<'_> {
         }
     }
 
-    fn operand(&self, value: Value) -> String {
+    pub(super) fn operand(&self, value: Value) -> String {
         operand(self.context, value)
     }
 
@@ -173,7 +183,7 @@ impl Writer<'_> {
     }
 
     /// An index where it is used: of a loop's segment, or computed on the spot.
-    fn index(&self, index: &Index) -> String {
+    pub(super) fn index(&self, index: &Index) -> String {
         match self.indices.iter().find(|(known, _)| known == index) {
             Some((_, text)) => text.clone(),
             None => self.context.indices.index(index),
@@ -256,6 +266,8 @@ impl Writer<'_> {
                 Access::Reversed => format!("({start}..{end}).rev()"),
                 Access::Apart | Access::InPlace => format!("{start}..{end}"),
             };
+            let length = format!("({end}).saturating_sub({start})");
+            self.open(inner, None, [&length, &start]);
             line!(self, "for _i{d} in {range} {{");
             match self.context.access {
                 Access::Apart => self.iteration(&inner.body),
@@ -263,41 +275,58 @@ impl Writer<'_> {
                 Access::InPlace | Access::Reversed => self.steps(&inner.body),
             }
             line!(self, "}}");
+            self.close(inner);
             return;
         }
         if found.is_plain(inner) {
             line!(self, "let _l{d} = {end};");
+            let stretch = self.stretch(inner, &found);
+            self.open(inner, stretch.as_ref(), [&format!("_l{d}"), "0usize"]);
             for (at, (slice, index)) in found.cuts.iter().enumerate() {
                 let (reference, name) = (reference(slice), slice.name());
                 line!(self, "let _x{d}_{at} = {reference}{name}[.._l{d}];");
                 let text = format!("_x{d}_{at}[_i{d}]");
                 self.slices.push((*slice, index.clone(), text));
             }
+            if let Some(stretch) = &stretch {
+                self.call(stretch, inner, "0usize");
+            }
             line!(self, "for _i{d} in 0.._l{d} {{");
-            self.iteration(&inner.body);
+            self.iteration_of(inner, stretch.as_ref());
             line!(self, "}}");
+            if stretch.is_some() {
+                line!(self, "}}");
+            }
+            self.close(inner);
             self.slices.truncate(known_slices);
             return;
         }
-        if found.wrapped.is_empty() {
-            line!(self, "let (_i{d}, _e{d}) = ({start}, {end});");
-            line!(self, "if _i{d} < _e{d} {{");
-            line!(self, "let _l{d} = _e{d} - _i{d};");
-        } else {
-            line!(self, "let (mut _i{d}, _e{d}) = ({start}, {end});");
-            line!(self, "while _i{d} < _e{d} {{");
-            line!(self, "let mut _l{d} = _e{d} - _i{d};");
-        }
+        let stretch = self.stretch(inner, &found);
+        let is_wrapped = !found.wrapped.is_empty();
+        let mutable = if is_wrapped { "mut " } else { "" };
+        line!(self, "let ({mutable}_i{d}, _e{d}) = ({start}, {end});");
+        let length = format!("_e{d}.saturating_sub(_i{d})");
+        self.open(inner, stretch.as_ref(), [&length, &format!("_i{d}")]);
+        let word = if is_wrapped { "while" } else { "if" };
+        line!(self, "{word} _i{d} < _e{d} {{");
+        line!(self, "let {mutable}_l{d} = _e{d} - _i{d};");
         self.wrap(inner.domain, &found.wrapped);
         self.cut(inner.domain, &found.cuts);
+        if let Some(stretch) = &stretch {
+            self.call(stretch, inner, &format!("_i{d}"));
+        }
         line!(self, "for _k{d} in 0.._l{d} {{");
         line!(self, "let _i{d} = _i{d} + _k{d};");
-        self.iteration(&inner.body);
+        self.iteration_of(inner, stretch.as_ref());
         line!(self, "}}");
-        if !found.wrapped.is_empty() {
+        if stretch.is_some() {
+            line!(self, "}}");
+        }
+        if is_wrapped {
             line!(self, "_i{d} += _l{d};");
         }
         line!(self, "}}");
+        self.close(inner);
         self.indices.truncate(known_indices);
         self.slices.truncate(known_slices);
     }
@@ -358,11 +387,11 @@ fn real(text: &str) -> String {
 
 /// The elements that a loop's body reaches with the loop's own variable.
 #[derive(Default)]
-struct Accesses {
+pub(super) struct Accesses {
     /// Indices that wrap as the variable moves by one, with its factor 1 or −1.
     wrapped: Vec<(Index, i64)>,
     /// Columns read, or written at this one index only, that run along with the variable.
-    cuts: Vec<(Slice, Index)>,
+    pub(super) cuts: Vec<(Slice, Index)>,
 }
 
 impl Accesses {
@@ -372,6 +401,12 @@ impl Accesses {
         self.wrapped.is_empty()
             && inner.start.as_constant() == Some(0)
             && self.cuts.iter().all(along)
+    }
+
+    /// The name of the start of a wrapped index in a segment.
+    pub(super) fn start_of(&self, domain: Domain, index: &Index) -> Option<String> {
+        let at = self.wrapped.iter().position(|(known, _)| known == index)?;
+        Some(format!("_w{}_{at}", domain.0))
     }
 
     /// Those of a loop; none where iterations read and write one point, which has no parts to cut.

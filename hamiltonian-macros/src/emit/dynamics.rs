@@ -36,6 +36,7 @@ pub fn implementations(context: Context) -> (String, String) {
     emission.system();
     emission.prepared.declare(&mut emission.out, context);
     emission.dynamics();
+    emission.prepared.gather(&mut emission.out, context);
     emission.field(Purpose::VectorField);
     emission.kick();
     emission.separable();
@@ -60,6 +61,7 @@ fn prepared(context: Context) -> Holder {
         &program.prepared,
         slices.collect(),
     )
+    .with_arithmetic()
 }
 
 /// The text of the implementations as far as it is written.
@@ -124,7 +126,8 @@ impl<'a> Emission<'a> {
             arrays: &read,
         };
         self.bodies.write(&mut self.out, body);
-        let fill = self.prepared.fill(context, |array| {
+        let default = "__h::core::default::Default::default()";
+        let fill = self.prepared.fill(context, default, |array| {
             let place = match array {
                 Slice::Read(Array::Held(number)) => format!("_made.{number}"),
                 _ => format!("_b{}", field(array).trim_start_matches('a')),
@@ -210,7 +213,12 @@ impl<'a> Emission<'a> {
         let field = self.made(Purpose::VectorField, "__Field");
         line!(
             self,
-            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nlet _self = self;\n{field}\n}}\n}}"
+            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nlet _self = self;\n{field}\n}}\n\
+             #[inline(always)]\nfn arithmetic(&self) -> __h::Arithmetic {{\nself.arithmetic\n}}\n\
+             fn set_arithmetic(&mut self, _to: __h::Arithmetic) {{\nself.arithmetic = _to;\n}}\n\
+             #[inline(always)]\nfn in_lanes<__K: __h::InLanes<T, Self::Vector>>(&self, \
+             _kept: &mut __h::Kept, _kernel: __K) -> \
+             __h::core::result::Result<__K::Output, __K> {{\n__h::in_lanes(self, _kept, _kernel)\n}}\n}}"
         );
     }
 
@@ -297,7 +305,7 @@ impl<'a> Emission<'a> {
         };
         self.bodies.write(&mut text, body);
         let clone = |array| format!("_self.{}.clone()", field(array));
-        text + &holder.fill(self.context, clone)
+        text + &holder.fill(self.context, "_self.arithmetic", clone)
     }
 
     /// H, the force and the pieces as text, by which a saved run knows its system.

@@ -154,7 +154,12 @@ impl Generics {
 
     /// `Name<N0, T>` of a holder, or of the struct of coordinates.
     pub fn holder_type(&self, name: &str) -> String {
-        self.type_over(name, ["T".to_owned()])
+        self.holder_type_over(name, "T")
+    }
+
+    /// The same over another scalar.
+    pub fn holder_type_over(&self, name: &str, scalar: &str) -> String {
+        self.type_over(name, [scalar.to_owned()])
     }
 
     /// A field of `_self` as a value of type `T`.

@@ -22,6 +22,8 @@ pub struct Holder {
     values: Values,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
     pub arrays: Vec<Slice>,
+    /// Whether it says how work on the system is computed.
+    pub arithmetic: bool,
 }
 
 impl Holder {
@@ -34,6 +36,15 @@ impl Holder {
             name,
             values: Values::of(context.program, values.iter().copied()),
             arrays: slices,
+            arithmetic: false,
+        }
+    }
+
+    /// The same with the choice of how work on the system is computed.
+    pub fn with_arithmetic(self) -> Holder {
+        Holder {
+            arithmetic: true,
+            ..self
         }
     }
 
@@ -61,6 +72,9 @@ impl Holder {
         if !masks.is_empty() {
             let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", masks.len());
         }
+        if self.arithmetic {
+            out.push_str("arithmetic: __h::Arithmetic,\n");
+        }
         for size in context.run_time_sizes() {
             let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
         }
@@ -77,8 +91,13 @@ impl Holder {
     }
 
     /// The expression that makes one where all its values are in scope; `array` is the expression of
-    /// an array.
-    pub fn fill(&self, context: Context, array: impl Fn(Slice) -> String) -> String {
+    /// an array and `arithmetic` that of the arithmetic.
+    pub fn fill(
+        &self,
+        context: Context,
+        arithmetic: &str,
+        array: impl Fn(Slice) -> String,
+    ) -> String {
         let values = match self.values.numbers.len() {
             0 => "__h::core::marker::PhantomData".to_owned(),
             _ => format!("[{}]", names(&self.values.numbers)),
@@ -86,6 +105,9 @@ impl Holder {
         let mut out = format!("{} {{ v: {values}, ", self.name);
         if !self.values.masks.is_empty() {
             let _ = write!(out, "m: [{}], ", names(&self.values.masks));
+        }
+        if self.arithmetic {
+            let _ = write!(out, "arithmetic: {arithmetic}, ");
         }
         for size in context.run_time_sizes() {
             let _ = write!(out, "n{size}: _n{size}, ");
@@ -95,6 +117,63 @@ impl Holder {
         }
         out.push('}');
         out
+    }
+
+    /// The implementation of `Gather` for the prepared system.
+    pub fn gather(&self, out: &mut String, context: Context) {
+        let generics = context.generics;
+        let mut fields = String::new();
+        let mut equal = String::new();
+        match self.values.numbers.len() {
+            0 => fields.push_str("v: __h::core::marker::PhantomData, "),
+            _ => {
+                fields.push_str("v: __h::numbers::<T, __P, _, _>(_of, |_one| &_one.v), ");
+                equal.push_str(" && self.v == _other.v");
+            }
+        }
+        if !self.values.masks.is_empty() {
+            fields.push_str("m: __h::masks::<T, __P, _, _>(_of, |_one| &_one.m), ");
+            equal.push_str(" && __h::same_masks::<T, _>(&self.m, &_other.m)");
+        }
+        if self.arithmetic {
+            fields.push_str("arithmetic: _of[0].arithmetic, ");
+        }
+        let mut fit = Vec::new();
+        for size in context.run_time_sizes() {
+            let _ = write!(fields, "n{size}: _of[0].n{size}, ");
+            fit.push(format!("self.n{size} == _other.n{size}"));
+        }
+        for &array in &self.arrays {
+            let (name, shape) = (field(array), shape(context, array));
+            let ty = context.storage(&shape, "T");
+            let gathered = |of: &str| format!("__h::vectors::<{ty}, __P, _>(_of, |_one| {of})");
+            let _ = match context.is_dynamic(&shape) {
+                true => write!(
+                    fields,
+                    "{name}: __h::Arc::new({}), ",
+                    gathered(&format!("&*_one.{name}"))
+                ),
+                false => write!(fields, "{name}: {}, ", gathered(&format!("&_one.{name}"))),
+            };
+            let _ = write!(equal, " && self.{name} == _other.{name}");
+        }
+        let fit = match fit.is_empty() {
+            true => "true".to_owned(),
+            false => fit.join(" && "),
+        };
+        let _ = writeln!(
+            out,
+            "#[automatically_derived]\nimpl{} __h::Gather<T> for {} {{\n\
+             type Over<__U: __h::Real> = {};\n\
+             #[inline(always)]\nfn gather<__P: __h::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {{\n\
+             {} {{ {fields} }}\n}}\n\
+             fn fits(&self, _other: &Self) -> __h::core::primitive::bool {{ {fit} }}\n\
+             fn equals(&self, _other: &Self) -> __h::core::primitive::bool {{ self.fits(_other){equal} }}\n}}",
+            generics.holder_declaration(),
+            self.ty(context),
+            generics.holder_type_over(&self.name, "__U"),
+            self.name,
+        );
     }
 
     /// All values, in the order they are filled.

@@ -93,6 +93,8 @@ pub fn constructor(context: Context, method: &str) -> String {
 pub fn implementations(context: Context) -> String {
     let visibility = &context.generics.visibility;
     let ty = context.mixed_type();
+    let name = context.mixed_name();
+    let over = context.generics.holder_type_over(&name, "__U");
     let declaration = context.generics.holder_declaration();
     let groups = context.groups;
     let Arguments {
@@ -100,8 +102,8 @@ pub fn implementations(context: Context) -> String {
         arguments,
         fields,
     } = arguments(context);
-    let (mut parts, mut parts_mut) = (String::new(), String::new());
-    let (mut zeros, mut takes) = (String::new(), String::new());
+    let (mut parts, mut parts_mut, mut columns) = (String::new(), String::new(), String::new());
+    let (mut zeros, mut zeros_over, mut takes) = (String::new(), String::new(), String::new());
     for (at, group) in groups.iter().enumerate() {
         let field = &group.coordinate;
         // The last part serves every further number: there is none.
@@ -120,11 +122,17 @@ pub fn implementations(context: Context) -> String {
                 "{pattern} => __h::core::slice::from_mut(&mut self.{field}),"
             );
             let _ = write!(zeros, "{field}: {ZERO}, ");
+            let _ = write!(zeros_over, "{field}: <__U as __h::Real>::zero(), ");
             let _ = write!(takes, "{field}: self.{field}, ");
         } else {
             let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");
+            let _ = writeln!(columns, "{at} => __h::Vector::columns(&self.{field}, 0),");
             let _ = writeln!(parts_mut, "{pattern} => self.{field}.as_mut_slice(),");
             let _ = write!(zeros, "{field}: __h::Vector::zeros_like(&self.{field}), ");
+            let _ = write!(
+                zeros_over,
+                "{field}: __h::Vector::zeros_over::<__U>(&self.{field}), "
+            );
             let _ = write!(takes, "{field}: __h::Vector::take(&mut self.{field}), ");
         }
     }
@@ -133,7 +141,10 @@ pub fn implementations(context: Context) -> String {
          type Scalar = T;\nconst PARTS: __h::core::primitive::usize = {};\n\
          #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
          #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
+         fn columns(&self, _k: __h::core::primitive::usize) -> __h::core::primitive::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
          fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
+         type Over<__U: __h::Real> = {over};\n\
+         #[inline(always)]\nfn zeros_over<__U: __h::Real>(&self) -> {over} {{ {name} {{ {zeros_over} }} }}\n\
          #[inline(always)]\nfn take(&mut self) -> Self {{ Self {{ {takes} }} }}\n}}\n\
          impl{declaration} {ty} {{\n\
          /// The groups in declaration order, arrays in any form `IntoVector` takes.\n\

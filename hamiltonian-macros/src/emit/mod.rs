@@ -42,6 +42,7 @@ mod pieces;
 mod reach;
 mod scan;
 mod storage;
+mod stretch;
 mod values;
 mod vectors;
 

@@ -16,6 +16,9 @@ const TYPES: &[&str] = &[
     "u64", "u128", "usize",
 ];
 
+/// The most digits of a number. The longest exact decimal of an f64 has 767.
+const MOST_DIGITS: usize = 1000;
+
 impl Parser<'_> {
     /// The literal at the cursor as an operand.
     pub(super) fn number_node(&mut self) -> ExprId {
@@ -90,6 +93,16 @@ impl Parser<'_> {
             return None;
         }
         let plain = digits.replace('_', "");
+        let count = plain.bytes().filter(u8::is_ascii_digit).count();
+        if count > MOST_DIGITS {
+            let start: String = plain.chars().take(20).collect();
+            self.report.error(
+                span,
+                format!("`{start}…` has {count} digits, more than {MOST_DIGITS}"),
+                "write the digits that count: an f64 keeps 17",
+            );
+            return None;
+        }
         let Ok(rounded) = plain.parse::<f64>() else {
             self.report.error(
                 span,

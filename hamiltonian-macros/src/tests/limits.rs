@@ -150,3 +150,13 @@ fn what_a_program_cannot_number_is_refused() {
     assert_eq!(error(&coordinates(32_769)), refusal("coordinates", "q"));
     assert_eq!(error(&parameters(32_769)), refusal("parameters", "a"));
 }
+
+#[test]
+fn numbers_have_as_many_digits_as_count() {
+    accept(&format!("H = p^2 + 0.{}*q", "1".repeat(999)));
+    let long = format!("H = p^2 + 0.{}*q", "1".repeat(10_000));
+    assert_eq!(
+        error(&long),
+        "`0.111111111111111111…` has 10001 digits, more than 1000\nhelp: write the digits that count: an f64 keeps 17"
+    );
+}

@@ -19,6 +19,7 @@ use super::table::{Durations, Weight};
 pub mod general;
 pub mod near_integrable;
 pub mod nystrom;
+pub mod processed;
 
 /// For which splittings a table has its order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,6 +110,51 @@ all! {
     }
     nystrom { SRKN_6B SRKN_11B SRKN_14A BLANES_CASAS_ESCORIHUELA_8 }
     near_integrable { SABA_1 SABA_2 SABA_3 SABA_4 ABA_104 ABA_864 ABA_1064 }
+}
+
+/// A processed table, whatever its numbers of stages.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ProcessedListing {
+    /// Its name in the field.
+    pub name: &'static str,
+    /// The order of convergence on splittings of its class.
+    pub order: u32,
+    /// The splittings it is for.
+    pub class: Class,
+    /// The durations of the stages of the kernel.
+    pub kernel: &'static [Durations],
+    /// The durations of the stages of the processor.
+    pub processor: &'static [Durations],
+    /// Author, journal or book, year, DOI.
+    pub source: &'static str,
+}
+
+macro_rules! all_processed {
+    ($($table:ident)+) => {
+        /// All processed tables.
+        ///
+        /// ```
+        /// for table in hamiltonian_core::schemes::tables::all_processed() {
+        ///     println!("{}: {} stages a step", table.name, table.kernel.len());
+        /// }
+        /// ```
+        pub fn all_processed() -> impl Iterator<Item = ProcessedListing> {
+            [$(ProcessedListing {
+                name: processed::$table.name,
+                order: processed::$table.order,
+                class: processed::$table.class,
+                kernel: const { &processed::$table.kernel },
+                processor: const { &processed::$table.processor },
+                source: processed::$table.source,
+            },)+]
+            .into_iter()
+        }
+    };
+}
+
+all_processed! {
+    PROCESSED_4 PROCESSED_6 BLANES_CASAS_MURUA_8
+    WISDOM_HOLMAN_3 WISDOM_HOLMAN_5 WISDOM_HOLMAN_7 WISDOM_HOLMAN_11 WISDOM_HOLMAN_17
 }
 
 /// γ₁ … of the middle, then mirrored, of a composition of a symmetric map.

@@ -1,0 +1,165 @@
+//! A block of steps of all lanes, compiled at a level, out of line.
+//!
+//! Input: what the lanes carry. Output: the same so many steps later, and a closed copy. Invariant: the
+//! bits of a lane depend on that lane alone, and are those of [`Map::run`] however steps are cut into
+//! blocks.
+
+use super::follow::Tracker;
+use crate::map::Map;
+use crate::state::{Carried, State};
+use crate::system::System;
+use crate::vector::Vector;
+use hamiltonian_lanes::{KernelAt, Level, Real};
+
+/// Times of lanes that began at different steps: `start + (k + ahead)·interval`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Times<U> {
+    pub(crate) start: U,
+    pub(crate) interval: U,
+    /// The steps that a lane had made when the count began.
+    pub(crate) ahead: U,
+}
+
+impl<U: Real> Times<U> {
+    /// The times `k` steps after the count began. As for [`Clock::at`](crate::Clock::at), it vanishes where
+    /// a system does not look at the time.
+    #[inline(always)]
+    pub(crate) fn at(&self, k: u64) -> U {
+        let made = U::constant(k as i64 as f64, 0.0) + self.ahead;
+        self.interval.fma(made, self.start)
+    }
+}
+
+/// The piece before the first body of a block.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Opening<M> {
+    /// All lanes are at their starts.
+    Open,
+    /// All lanes are under way.
+    Join,
+    /// The lanes of the mask are at their starts.
+    Mixed(M),
+}
+
+/// The quantities that a block follows.
+pub(crate) struct Followed<'a, U: Real, S: System<U>> {
+    pub(crate) prepared: &'a S::Prepared,
+    pub(crate) trackers: &'a mut [Tracker<U>],
+    /// Scratch for the state that is seen.
+    pub(crate) state: &'a mut State<S::Vector>,
+    /// The steps to the first state that is seen.
+    pub(crate) first: u64,
+    /// The steps between two of them.
+    pub(crate) interval: u64,
+    /// The lanes that see their first state at the end of this block, of no steps.
+    pub(crate) attach: Option<U::Mask>,
+}
+
+/// The block.
+pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System<U>> {
+    pub(crate) map: &'a R,
+    pub(crate) times: Times<U>,
+    /// Steps since the count of times began.
+    pub(crate) made: u64,
+    pub(crate) n: u64,
+    pub(crate) opening: Opening<U::Mask>,
+    pub(crate) carried: &'a mut R::Carried,
+    pub(crate) shown: &'a mut R::Carried,
+    pub(crate) work: &'a mut R::Work,
+    pub(crate) followed: Followed<'a, U, S>,
+}
+
+impl<L, R, U, S> KernelAt<L> for Block<'_, R, U, S>
+where
+    L: Level,
+    R: Map<Carried: Carried<Vector = S::Vector, Scalar = U>>,
+    U: Real,
+    S: System<U>,
+{
+    /// The lanes in which everything is finite.
+    type Output = U::Mask;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let Block {
+            map,
+            times,
+            made,
+            n,
+            opening,
+            carried,
+            shown,
+            work,
+            followed,
+        } = self;
+        let end = made + n;
+        let follows = !followed.trackers.is_empty();
+        // Moved out, the carried value is a variable of this loop alone and stays in registers.
+        let mut z = carried.take();
+        let mut k = made;
+        let mut stop = match n {
+            0 => made,
+            _ if follows => end.min(made.saturating_add(followed.first)),
+            _ => end,
+        };
+        let is_due = |k: u64| (k - made) % followed.interval == followed.first % followed.interval;
+        // Each piece occurs once, which keeps the code of a level small.
+        loop {
+            let t = times.at(k);
+            let opens = if k == made { opening } else { Opening::Join };
+            if k == stop {
+                shown.copy_from(&z);
+                match opens {
+                    Opening::Open => {}
+                    _ => map.close(t, shown, work),
+                }
+                if let Opening::Mixed(fresh) = opens {
+                    shown.copy_where(fresh, &z);
+                }
+                if follows && (followed.attach.is_some() || (n > 0 && is_due(k))) {
+                    see(shown, t, followed.state);
+                    for tracker in followed.trackers.iter_mut() {
+                        let value = tracker
+                            .quantity
+                            .at::<U, S>(followed.prepared, followed.state);
+                        match followed.attach {
+                            Some(lanes) => tracker.begin(lanes, value),
+                            None => tracker.record(value),
+                        }
+                    }
+                }
+                if k == end {
+                    break;
+                }
+                stop = end.min(k.saturating_add(followed.interval));
+            }
+            if !matches!(opens, Opening::Join) {
+                shown.copy_from(&z);
+                map.open(t, shown, work);
+            }
+            if !matches!(opens, Opening::Open) {
+                map.join(t, &mut z, work);
+            }
+            match opens {
+                Opening::Open => z.copy_from(shown),
+                Opening::Mixed(fresh) => z.copy_where(fresh, shown),
+                Opening::Join => {}
+            }
+            k += 1;
+            map.body(t, times.at(k), &mut z, work);
+        }
+        *carried = z;
+        let t = times.at(end);
+        let finite = shown.finite() & carried.finite();
+        finite & shown.time(t).finite()
+    }
+}
+
+/// Writes the state that a closed value shows.
+#[inline(always)]
+fn see<C: Carried>(shown: &C, t: C::Scalar, state: &mut State<C::Vector>) {
+    let point = shown.point();
+    state.q.copy_from(&point.q);
+    state.p.copy_from(&point.p);
+    state.t = shown.time(t);
+}

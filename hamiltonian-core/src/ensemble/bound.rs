@@ -1,0 +1,176 @@
+//! One bound for a scheme whose members advance together on every level.
+//!
+//! Input: a scheme and a system. Output: [`Ensembles`], the bound; behind it the drive of each level.
+//! Invariant: a pairing that is no [`Scheme`] fails with the message of that trait.
+
+use super::drive::InPack;
+use super::seat::Host;
+use crate::error::Error;
+use crate::gather::Gather;
+use crate::map::Map;
+use crate::part::Recipe;
+use crate::scheme::Entry;
+use crate::scheme::Scheme;
+use crate::state::{Carried, State};
+use crate::system::System;
+use crate::vector::Vector;
+use alloc::string::String;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, W};
+
+/// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `f64` and packs.
+///
+/// It is the one bound of code that is generic over systems and schemes:
+///
+/// ```
+/// use hamiltonian_core::{Ensemble, Ensembles, Error, StateOf, System};
+///
+/// fn swarm<S: System<f64>, M: Ensembles<S>>(make: impl Fn(usize) -> (S, StateOf<S>), scheme: M)
+/// -> Result<Ensemble<S>, Error> {
+///     Ensemble::new(1_000, |member| make(member.index), scheme, 0.01)
+/// }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not advance ensembles of `{S}`",
+    label = "this scheme does not advance members of that system in lanes",
+    note = "the scheme must take the system over `f64` and over packs of lanes; a system written by hand \
+            also implements `Gather` for what it prepares"
+)]
+pub trait Ensembles<S: System<f64>>: Scheme<f64, S> {
+    /// Drives the members of a host to their ends.
+    #[doc(hidden)]
+    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
+    /// Whether two systems may stand in one pack.
+    #[doc(hidden)]
+    fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
+    /// Whether all their parameters are equal.
+    #[doc(hidden)]
+    fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
+}
+
+/// The members of a host, to be driven at a level.
+pub struct Members<'a, S: System<f64>, M> {
+    scheme: &'a M,
+    host: &'a mut dyn Host<f64, S>,
+    fuses: bool,
+}
+
+impl<L, S, M> KernelAt<L> for Members<'_, S, M>
+where
+    L: Level,
+    S: System<f64>,
+    M: Scheme<f64, S>
+        + InPack<f64, S, L::Wide>
+        + InPack<f64, S, Nf<L::Wide>>
+        + InPack<f64, S, W<L::Pack, 2>>
+        + InPack<f64, S, Nf<W<L::Pack, 2>>>,
+{
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Members {
+            scheme,
+            host,
+            fuses,
+        } = self;
+        // The widths differ in speed alone. Conditions that are constants of a type are decided before code is
+        // emitted, so that the other width costs no time of the compiler.
+        if const { is_small::<S, M>() } {
+            if fuses {
+                InPack::<f64, S, L::Wide>::drive::<L>(scheme, host);
+            } else {
+                InPack::<f64, S, Nf<L::Wide>>::drive::<L>(scheme, host);
+            }
+        } else if fuses {
+            InPack::<f64, S, W<L::Pack, 2>>::drive::<L>(scheme, host);
+        } else {
+            InPack::<f64, S, Nf<W<L::Pack, 2>>>::drive::<L>(scheme, host);
+        }
+    }
+}
+
+/// Whether a step works on so few numbers that many registers in lock-step hide its latency; with more of
+/// them registers spill.
+const fn is_small<S: System<f64>, M: Scheme<f64, S>>() -> bool {
+    const MOST: usize = 4 * size_of::<f64>();
+    size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>() <= MOST
+}
+
+impl<S, M> Ensembles<S> for M
+where
+    S: System<f64, Prepared: Gather<f64>>,
+    M: Scheme<f64, S>,
+    for<'a> Members<'a, S, M>: OnEveryLevel<Output = ()>,
+{
+    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
+        let scheme = self;
+        Members {
+            scheme,
+            host,
+            fuses,
+        }
+        .dispatch();
+    }
+    fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
+        a.fits(b)
+    }
+    fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
+        a.equals(b)
+    }
+}
+
+/// A scheme for ensembles of `S`, its type forgotten.
+pub(crate) trait Engine<S: System<f64>>: Send + Sync {
+    /// See [`Ensembles::drive`].
+    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
+    /// See [`Ensembles::fits`].
+    fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
+    /// See [`Ensembles::equals`].
+    fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
+    /// Checks a start, and writes all that the scheme carries from it to the end of `words`.
+    fn begin(
+        &self,
+        prepared: &S::Prepared,
+        start: &State<S::Vector>,
+        step: f64,
+        words: &mut Vec<f64>,
+    ) -> Result<(), Error>;
+    /// Whether steps of this size differ in time.
+    fn varies(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: f64) -> bool;
+    /// The scheme's line of the catalogue.
+    fn entry(&self) -> Entry;
+    /// The scheme with all its choices.
+    fn describe(&self) -> String;
+}
+
+impl<S: System<f64>, M: Ensembles<S>> Engine<S> for M {
+    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
+        Ensembles::drive(self, host, fuses);
+    }
+    fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
+        Ensembles::fits(self, a, b)
+    }
+    fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
+        Ensembles::equals(self, a, b)
+    }
+    fn begin(
+        &self,
+        prepared: &S::Prepared,
+        start: &State<S::Vector>,
+        step: f64,
+        words: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        self.check(prepared, start)?;
+        words.extend(self.start(prepared, start, step).components());
+        Ok(())
+    }
+    fn varies(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: f64) -> bool {
+        self.start(prepared, start, step).duration(step).is_some()
+    }
+    fn entry(&self) -> Entry {
+        crate::scheme::Listed::entry(self)
+    }
+    fn describe(&self) -> String {
+        Recipe::<f64, S, M::Map>::describe(self)
+    }
+}

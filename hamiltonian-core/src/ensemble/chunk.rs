@@ -1,0 +1,336 @@
+//! Members in memory, some hundreds at a time.
+//!
+//! Input: systems and starts. Output: the members so many steps later. Invariant: a chunk holds what the
+//! scheme carries, the parameters (once, if all are equal), an observer a member, and nothing else that
+//! grows with the number of members.
+
+use super::follow::{Follower, Track};
+use super::guard::guard;
+use super::seat::{Host, Seat};
+use crate::error::Error;
+use crate::map::Clock;
+use crate::observe::{Observer, View};
+use crate::state::State;
+use crate::system::System;
+use crate::vector::Vector;
+use alloc::boxed::Box;
+use alloc::collections::BTreeMap;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+
+/// One value for all, or one for each.
+#[derive(Debug, Clone)]
+pub(crate) enum Shared<A> {
+    /// No member has one.
+    Nothing,
+    One(A),
+    Each(Vec<A>),
+}
+
+impl<A: Clone> Shared<A> {
+    pub(crate) fn get(&self, index: usize) -> Option<&A> {
+        match self {
+            Shared::Nothing => None,
+            Shared::One(one) => Some(one),
+            Shared::Each(each) => each.get(index),
+        }
+    }
+
+    /// Adds value number `count`, or none.
+    fn push(&mut self, count: usize, value: Option<A>, equals: impl Fn(&A, &A) -> bool) {
+        match (&mut *self, value) {
+            (Shared::Nothing, Some(value)) => *self = Shared::One(value),
+            (Shared::One(one), Some(value)) if !equals(one, &value) => {
+                let mut each = alloc::vec![one.clone(); count];
+                each.push(value);
+                *self = Shared::Each(each);
+            }
+            (Shared::Each(each), Some(value)) => each.push(value),
+            // Never read.
+            (Shared::Each(each), None) => each.extend(each.first().cloned()),
+            _ => {}
+        }
+    }
+}
+
+/// A member that goes no further.
+#[derive(Debug, Clone)]
+pub(crate) enum Out<V: Vector> {
+    /// It failed after so many steps.
+    Failed(Error, u64),
+    /// Its observer ended it at this state, after so many steps.
+    Ended(Box<State<V>>, u64),
+}
+
+/// Members whose indices follow each other.
+#[derive(Debug, Clone)]
+pub(crate) struct Chunk<R, V: Vector<Scalar = f64>, O> {
+    /// The index of the first.
+    pub(crate) first: usize,
+    pub(crate) count: usize,
+    /// All that the scheme carries, member by member.
+    pub(crate) words: Vec<f64>,
+    pub(crate) prepared: Shared<R>,
+    /// The times at which they start.
+    pub(crate) starts: Shared<f64>,
+    pub(crate) out: BTreeMap<usize, Out<V>>,
+    pub(crate) observers: Vec<O>,
+}
+
+/// A chunk of members of `S`.
+pub(crate) type ChunkOf<S, O> = Chunk<<S as System<f64>>::Prepared, <S as System<f64>>::Vector, O>;
+
+impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
+    pub(crate) fn new(first: usize) -> Self {
+        Chunk {
+            first,
+            count: 0,
+            words: Vec::new(),
+            prepared: Shared::Nothing,
+            starts: Shared::Nothing,
+            out: BTreeMap::new(),
+            observers: Vec::new(),
+        }
+    }
+
+    /// Adds a member, which has put what it carries at the end of `words`, or its error.
+    pub(crate) fn push(
+        &mut self,
+        member: Result<(R, f64), Error>,
+        equals: impl Fn(&R, &R) -> bool,
+    ) {
+        let (prepared, start) = match member {
+            Ok((prepared, start)) => (Some(prepared), Some(start)),
+            Err(error) => {
+                self.out.insert(self.count, Out::Failed(error, 0));
+                (None, None)
+            }
+        };
+        self.prepared.push(self.count, prepared, equals);
+        let same_bits = |a: &f64, b: &f64| a.to_bits() == b.to_bits();
+        self.starts.push(self.count, start, same_bits);
+        self.observers.push(());
+        self.count += 1;
+    }
+}
+
+impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
+    /// The same members with other observers.
+    pub(crate) fn with_observers<N>(self, observers: Vec<N>) -> Chunk<R, V, N> {
+        Chunk {
+            first: self.first,
+            count: self.count,
+            words: self.words,
+            prepared: self.prepared,
+            starts: self.starts,
+            out: self.out,
+            observers,
+        }
+    }
+}
+
+impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {
+    /// A copy of the members before `end`, which nobody observes.
+    pub(crate) fn unobserved(&self, end: usize, width: usize) -> Chunk<R, V, ()> {
+        Chunk {
+            first: self.first,
+            count: end,
+            words: self.words[..end * width].into(),
+            prepared: self.prepared.clone(),
+            starts: self.starts.clone(),
+            out: self.out.clone(),
+            observers: alloc::vec![(); end],
+        }
+    }
+}
+
+/// Facts about all members of an ensemble.
+#[derive(Debug, Clone)]
+pub(crate) struct Common<V: Vector<Scalar = f64>> {
+    /// A state of their shape.
+    pub(crate) template: Option<State<V>>,
+    /// The number of words that a member carries.
+    pub(crate) width: usize,
+    pub(crate) step: f64,
+    /// The time of one step.
+    pub(crate) interval: f64,
+    /// The number of steps made by those that still go on.
+    pub(crate) steps: u64,
+}
+
+/// The members of a chunk on their way from one number of steps to another. `see` receives each member's
+/// observer and its view at the stops, and ends the member by `Break`.
+pub(crate) struct Going<'a, S: System<f64>, O, F> {
+    pub(crate) chunk: &'a mut ChunkOf<S, O>,
+    pub(crate) common: &'a Common<S::Vector>,
+    /// The number of steps at which they leave.
+    pub(crate) target: u64,
+    /// Whether observers see anything.
+    pub(crate) looks: bool,
+    /// The index of the next member.
+    pub(crate) next: usize,
+    /// Whether observers see their first state.
+    pub(crate) attaches: bool,
+    /// Whether lanes follow what observers follow.
+    pub(crate) follows: bool,
+    pub(crate) see: F,
+}
+
+/// What an observer makes of a view: whether the member ends, and where.
+pub(crate) type Seen<S> = ControlFlow<Result<Option<State<<S as System<f64>>::Vector>>, Error>>;
+
+impl<S, O, F> Going<'_, S, O, F>
+where
+    S: System<f64>,
+    O: Observer<f64, S>,
+{
+    /// The next stop of a member after so many steps.
+    fn stop(&self, key: usize, made: u64) -> u64 {
+        if !self.looks {
+            return self.target;
+        }
+        let interval = self.chunk.observers[key].interval().max(1);
+        let due = (made / interval).saturating_add(1).saturating_mul(interval);
+        due.min(self.target)
+    }
+
+    /// The drifts that lanes follow for a member: none if they do not follow all that its observer follows.
+    fn tracks(&mut self, key: usize) -> Vec<Track<f64>> {
+        // One number of steps between two states serves all lanes.
+        let interval = self.chunk.observers[0].interval();
+        let observer = &mut self.chunk.observers[key];
+        if !(self.looks && self.follows) || observer.interval() != interval {
+            return Vec::new();
+        }
+        Follower::take(|with| observer.follow(with)).unwrap_or_default()
+    }
+}
+
+impl<S, O, F> Host<f64, S> for Going<'_, S, O, F>
+where
+    S: System<f64>,
+    O: Observer<f64, S>,
+    F: FnMut(usize, &mut O, &View<'_, f64, S>) -> Seen<S>,
+{
+    fn load(&mut self, seat: &mut Option<Seat<f64, S>>) -> bool {
+        while self.next < self.chunk.count && self.chunk.out.contains_key(&self.next) {
+            self.next += 1;
+        }
+        let key = self.next;
+        if key >= self.chunk.count {
+            return false;
+        }
+        self.next += 1;
+        let mut tracks = self.tracks(key);
+        if self.attaches {
+            tracks.iter_mut().for_each(|track| track.drift = None);
+        }
+        let (Some(prepared), Some(start), Some(template)) = (
+            self.chunk.prepared.get(key),
+            self.chunk.starts.get(key),
+            &self.common.template,
+        ) else {
+            return false;
+        };
+        let made = self.common.steps;
+        let interval = self.chunk.observers[key].interval();
+        let stop = match tracks.is_empty() {
+            true => self.stop(key, made),
+            false => self.target,
+        };
+        let width = self.common.width;
+        let words = &self.chunk.words[key * width..][..width];
+        let clock = Clock {
+            start: *start,
+            interval: self.common.interval,
+        };
+        match seat {
+            Some(seat) => {
+                if matches!(self.chunk.prepared, Shared::Each(_)) {
+                    seat.prepared.clone_from(prepared);
+                    seat.other = true;
+                }
+                seat.words.copy_from_slice(words);
+                (seat.key, seat.clock, seat.made, seat.stop) = (key, clock, made, stop);
+                (seat.tracks, seat.interval, seat.since) = (tracks, interval, made);
+            }
+            None => {
+                *seat = Some(Seat {
+                    key,
+                    prepared: prepared.clone(),
+                    other: true,
+                    step: self.common.step,
+                    clock,
+                    made,
+                    stop,
+                    words: words.into(),
+                    tracks,
+                    interval,
+                    since: made,
+                    state: template.clone(),
+                });
+            }
+        }
+        true
+    }
+
+    fn arrive(&mut self, key: usize, stop: &mut u64, view: &View<'_, f64, S>) -> bool {
+        if !self.tracks(key).is_empty() {
+            return false;
+        }
+        let observer = &mut self.chunk.observers[key];
+        let see = &mut self.see;
+        match guard(|| see(key, observer, view)) {
+            Ok(ControlFlow::Continue(())) => {
+                *stop = self.stop(key, view.step);
+                view.step < self.target
+            }
+            Ok(ControlFlow::Break(Ok(end))) => {
+                let end = end.unwrap_or_else(|| view.state.clone());
+                (self.chunk.out).insert(key, Out::Ended(Box::new(end), view.step));
+                false
+            }
+            Ok(ControlFlow::Break(Err(error))) | Err(error) => {
+                self.chunk.out.insert(key, Out::Failed(error, view.step));
+                false
+            }
+        }
+    }
+
+    fn follow(&mut self, key: usize, tracks: &[Track<f64>]) {
+        let observer = &mut self.chunk.observers[key];
+        Follower::give(tracks.into(), |with| observer.follow(with));
+    }
+
+    fn phase(&self) -> u64 {
+        self.common.steps
+    }
+
+    fn leave(&mut self, seat: &mut Seat<f64, S>) {
+        let width = self.common.width;
+        self.chunk.words[seat.key * width..][..width].copy_from_slice(&seat.words);
+    }
+
+    fn fail(&mut self, seat: &mut Seat<f64, S>, error: Error) {
+        self.chunk
+            .out
+            .insert(seat.key, Out::Failed(error, seat.made));
+        self.leave(seat);
+    }
+
+    fn looks(&self) -> bool {
+        self.looks
+    }
+}
+
+/// Shows an observer a state whose number of steps is a multiple of its interval.
+pub(crate) fn observe<S: System<f64>, O: Observer<f64, S>>(
+    observer: &mut O,
+    view: &View<'_, f64, S>,
+) -> Seen<S> {
+    let is_due = view.step.is_multiple_of(observer.interval().max(1));
+    if !is_due || observer.observe(view).is_continue() {
+        return ControlFlow::Continue(());
+    }
+    ControlFlow::Break(observer.end().map(Option::<&_>::cloned))
+}

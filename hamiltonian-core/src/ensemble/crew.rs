@@ -1,0 +1,294 @@
+//! The members that stand in the lanes of a pack, over their own scalar.
+//!
+//! Input: a host. Output: numbers of each lane, for the pack. Invariants: a lane without a member repeats
+//! the numbers of one that has one, so that nothing harmful is computed in it; members that failed in a
+//! block wait and are made again together at the end, step by step.
+
+use super::seat::{Host, Seat};
+use crate::observe::Deviation;
+use crate::state::State;
+use crate::system::System;
+use alloc::vec::Vec;
+use hamiltonian_lanes::Real;
+
+/// The crew.
+pub(crate) struct Crew<T: Real, S: System<T>> {
+    seats: Vec<Option<Seat<T, S>>>,
+    place: Vec<Place>,
+    /// Members that failed in a block of steps.
+    suspects: Vec<Seat<T, S>>,
+    /// Whether suspects stand in the lanes.
+    careful: bool,
+    /// Whether the host has members left.
+    more: bool,
+    change: Option<Change>,
+}
+
+/// What is in a lane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Place {
+    /// Nothing, or a seat to be used again.
+    Empty,
+    /// A member that has just taken it.
+    New,
+    /// A member under way.
+    Under,
+    /// A member that leaves.
+    Leaving,
+}
+
+/// How a crew differs from the one before.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Change {
+    /// Parameters may differ.
+    pub(crate) parameters: bool,
+    /// A member stands at its start.
+    pub(crate) some_fresh: bool,
+    /// All stand at their starts.
+    pub(crate) all_fresh: bool,
+}
+
+impl<T: Real, S: System<T>> Crew<T, S> {
+    pub(crate) fn new(lanes: usize) -> Self {
+        Crew {
+            seats: (0..lanes).map(|_| None).collect(),
+            place: alloc::vec![Place::Empty; lanes],
+            suspects: Vec::new(),
+            careful: false,
+            more: true,
+            change: None,
+        }
+    }
+
+    /// Fills the empty lanes. Returns whether any member is left.
+    pub(crate) fn fill(&mut self, host: &mut dyn Host<T, S>) -> bool {
+        let mut some = false;
+        // Drifts of all lanes are seen at the same steps.
+        let interval = self.interval();
+        let is_aligned = self.phase() == host.phase() % interval;
+        let is_empty = self.under().next().is_none();
+        for (seat, place) in self.seats.iter_mut().zip(&mut self.place) {
+            if *place == Place::Empty && (is_aligned || is_empty) {
+                self.more = self.more && host.load(seat);
+                if self.more {
+                    *place = Place::New;
+                    self.change.get_or_insert_default();
+                }
+            }
+            some |= *place != Place::Empty;
+        }
+        if some {
+            return true;
+        }
+        // Nothing else is left: the suspects, step by step.
+        self.careful = true;
+        for (seat, place) in self.seats.iter_mut().zip(&mut self.place) {
+            let Some(suspect) = self.suspects.pop() else {
+                break;
+            };
+            *seat = Some(suspect);
+            *place = Place::New;
+            self.change.get_or_insert_default();
+            some = true;
+        }
+        some
+    }
+
+    /// The seats whose numbers are in the lanes: a lane without a member repeats the first that has one.
+    pub(crate) fn seats(&self) -> Vec<&Seat<T, S>> {
+        let taken = |lane: usize| {
+            let is_taken = self.place[lane] != Place::Empty;
+            self.seats[lane].as_ref().filter(|_| is_taken)
+        };
+        let stand_in = (0..self.place.len()).find_map(taken);
+        let lanes = 0..self.place.len();
+        lanes.filter_map(|lane| taken(lane).or(stand_in)).collect()
+    }
+
+    /// Whether the crew has changed.
+    pub(crate) fn has_changed(&self) -> bool {
+        self.change.is_some()
+    }
+
+    /// How the crew has changed since the last call.
+    pub(crate) fn changed(&mut self) -> Option<Change> {
+        let mut change = self.change.take()?;
+        change.all_fresh = true;
+        for (seat, place) in self.seats.iter_mut().zip(&self.place) {
+            if let Some(seat) = seat.as_mut().filter(|_| *place != Place::Empty) {
+                change.parameters |= core::mem::take(&mut seat.other);
+                let is_fresh = seat.made == 0;
+                change.some_fresh |= is_fresh;
+                change.all_fresh &= is_fresh;
+            }
+        }
+        Some(change)
+    }
+
+    /// Writes what new members carry into their columns of the rows, and repeats a column in empty lanes.
+    pub(crate) fn write_columns(&mut self, rows: &mut [T]) {
+        let lanes = self.place.len();
+        let mut stand_in = None;
+        for (lane, (seat, place)) in self.seats.iter().zip(&mut self.place).enumerate() {
+            let Some(seat) = seat.as_ref().filter(|_| *place != Place::Empty) else {
+                continue;
+            };
+            stand_in = stand_in.or(Some(lane));
+            if *place == Place::New {
+                for (row, word) in rows.chunks_exact_mut(lanes).zip(&seat.words) {
+                    row[lane] = *word;
+                }
+                *place = Place::Under;
+            }
+        }
+        let Some(stand_in) = stand_in else { return };
+        for (lane, place) in self.place.iter().enumerate() {
+            if *place == Place::Empty {
+                for row in rows.chunks_exact_mut(lanes) {
+                    row[lane] = row[stand_in];
+                }
+            }
+        }
+    }
+
+    /// The steps of the next block: to the next stop of a member, or fewer.
+    pub(crate) fn steps(&self, most: u64) -> u64 {
+        let most = if self.careful { 1 } else { most };
+        let left = self.under().map(|seat| seat.stop.saturating_sub(seat.made));
+        let most = left.fold(most, u64::min);
+        match self.more && self.place.contains(&Place::Empty) {
+            // To the step at which empty lanes may be filled.
+            true => most.min(self.interval() - self.phase()),
+            false => most,
+        }
+    }
+
+    /// The members under way.
+    fn under(&self) -> impl Iterator<Item = &Seat<T, S>> {
+        let taken = self.seats.iter().zip(&self.place);
+        taken.filter_map(|(seat, place)| seat.as_ref().filter(|_| *place == Place::Under))
+    }
+
+    /// Counts the steps made.
+    pub(crate) fn made(&mut self, n: u64) {
+        for (seat, place) in self.seats.iter_mut().zip(&self.place) {
+            if let Some(seat) = seat.as_mut().filter(|_| *place == Place::Under) {
+                seat.made += n;
+            }
+        }
+    }
+
+    /// The steps between two states that are followed.
+    pub(crate) fn interval(&self) -> u64 {
+        let followed = self.under().find(|seat| !seat.tracks.is_empty());
+        followed.map_or(1, |seat| seat.interval.max(1))
+    }
+
+    /// The steps since the last of them.
+    pub(crate) fn phase(&self) -> u64 {
+        let followed = self.under().find(|seat| !seat.tracks.is_empty());
+        followed.map_or(0, |seat| seat.made % seat.interval.max(1))
+    }
+
+    /// Notes that drifts have begun.
+    pub(crate) fn attached(&mut self) {
+        for seat in self.seats.iter_mut().flatten() {
+            for track in &mut seat.tracks {
+                track.drift.get_or_insert_with(|| Deviation {
+                    count: 1,
+                    ..Deviation::new(T::zero())
+                });
+            }
+        }
+    }
+
+    /// Writes the numbers of a drift of each lane.
+    pub(crate) fn write_track(&mut self, k: usize, lanes: &[Vec<T>; 4]) {
+        for (lane, (seat, place)) in self.seats.iter_mut().zip(&self.place).enumerate() {
+            let Some(seat) = seat.as_mut().filter(|_| *place == Place::Under) else {
+                continue;
+            };
+            let Some(Some(drift)) = seat.tracks.get_mut(k).map(|track| &mut track.drift) else {
+                continue;
+            };
+            drift.start = lanes[0][lane];
+            drift.max = lanes[1][lane].to_f64();
+            drift.sum_of_sizes = lanes[2][lane].to_f64();
+            drift.sum = lanes[3][lane].to_f64();
+            let interval = seat.interval.max(1);
+            drift.count += seat.made / interval - seat.since / interval;
+        }
+    }
+
+    /// Notes that the drifts are up to date.
+    pub(crate) fn tracks_written(&mut self) {
+        for seat in self.seats.iter_mut().flatten() {
+            seat.since = seat.made;
+        }
+    }
+
+    /// Takes a member out of its lane, and tells whether it was being made again.
+    pub(crate) fn take(&mut self, lane: usize) -> Option<(Seat<T, S>, bool)> {
+        if core::mem::replace(&mut self.place[lane], Place::Empty) == Place::Empty {
+            return None;
+        }
+        self.change.get_or_insert_default();
+        Some((self.seats[lane].take()?, self.careful))
+    }
+
+    /// Puts a member aside, to be made again.
+    pub(crate) fn suspect(&mut self, mut seat: Seat<T, S>) {
+        seat.other = true;
+        self.suspects.push(seat);
+    }
+
+    /// Whether a member is at its stop.
+    pub(crate) fn is_any_due(&self) -> bool {
+        self.under().any(|seat| seat.made == seat.stop)
+    }
+
+    /// Writes a number of each lane into the states of the members at their stops.
+    #[inline(always)]
+    pub(crate) fn show(&mut self, numbers: &[T], to: impl Fn(&mut State<S::Vector>) -> &mut T) {
+        for ((seat, place), number) in self.seats.iter_mut().zip(&self.place).zip(numbers) {
+            let under = seat.as_mut().filter(|_| *place == Place::Under);
+            if let Some(seat) = under.filter(|seat| seat.made == seat.stop) {
+                *to(&mut seat.state) = *number;
+            }
+        }
+    }
+
+    /// Calls a function with each member at its stop, which returns whether that stays.
+    pub(crate) fn for_each_due(&mut self, mut of: impl FnMut(usize, &mut Seat<T, S>) -> bool) {
+        for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {
+            let under = seat.as_mut().filter(|_| *place == Place::Under);
+            if let Some(seat) = under.filter(|seat| seat.made == seat.stop)
+                && !of(lane, seat)
+            {
+                *place = Place::Leaving;
+            }
+        }
+    }
+
+    /// Whether a member leaves.
+    pub(crate) fn is_any_leaving(&self) -> bool {
+        self.place.contains(&Place::Leaving)
+    }
+
+    /// Gives the members that leave back to the host, with what they carry.
+    pub(crate) fn leave(&mut self, rows: &[T], host: &mut dyn Host<T, S>) {
+        let lanes = self.place.len();
+        for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {
+            if *place != Place::Leaving {
+                continue;
+            }
+            *place = Place::Empty;
+            self.change.get_or_insert_default();
+            let Some(seat) = seat else { continue };
+            for (row, word) in rows.chunks_exact(lanes).zip(&mut seat.words) {
+                *word = row[lane];
+            }
+            host.leave(seat);
+        }
+    }
+}

@@ -1,0 +1,467 @@
+//! Members driven to their ends in the lanes of one pack type.
+//!
+//! Input: a scheme and a host. Output: the host has seen every member at each of its stops. Invariants: a
+//! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
+//! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
+
+use super::block::{Block, Followed, Opening, Times};
+use super::crew::Crew;
+use super::follow::Tracker;
+use super::seat::{Host, Seat};
+use crate::error::Error;
+use crate::failed::Failed;
+use crate::flow::Scratch;
+use crate::gather::{self, Gather, VectorOver};
+use crate::map::{Map, Step};
+use crate::observe::View;
+use crate::part::{Part, Recipe};
+use crate::scheme::Scheme;
+use crate::state::{Carried, State};
+use crate::system::{System, clock};
+use crate::vector::Vector;
+use alloc::vec;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{Level, Mask, Pack, Real};
+
+/// Steps between two checks that everything is finite, as in a single run.
+const BLOCK: u64 = 1024;
+
+/// A scheme that drives members of `S` in the lanes of `P`.
+pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
+    /// Drives all members of the host to their ends, inside the level `L` of the pack.
+    fn drive<L: Level>(&self, host: &mut dyn Host<T, S>);
+}
+
+/// The map of a scheme over the lanes of `P`.
+type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
+
+impl<T, S, P, M> InPack<T, S, P> for M
+where
+    T: Real,
+    P: Pack,
+    S: System<T, Prepared: Gather<T>>
+        + System<
+            T::Over<P>,
+            Vector = VectorOver<<S as System<T>>::Vector, P>,
+            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
+        >,
+    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
+{
+    #[inline(always)]
+    fn drive<L: Level>(&self, host: &mut dyn Host<T, S>) {
+        let mut crew = Crew::<T, S>::new(P::LANES as usize);
+        if !crew.fill(host) {
+            return;
+        }
+        let mut lanes = Lanes::<T, S, P, M>::new(self, &crew);
+        loop {
+            lanes.board(self, &mut crew);
+            // Members whose drift begins here are seen before their first step.
+            let attach = lanes.attach.take();
+            let n = match attach {
+                Some(_) => 0,
+                None => crew.steps(BLOCK),
+            };
+            lanes.before.copy_from(&lanes.carried);
+            lanes.trackers_before.clone_from(&lanes.trackers);
+            let interval = crew.interval();
+            let followed: Followed<'_, T::Over<P>, S> = Followed {
+                prepared: &lanes.prepared,
+                trackers: &mut lanes.trackers,
+                state: &mut lanes.state,
+                first: interval - crew.phase(),
+                interval,
+                attach,
+            };
+            let finite = L::enter_at(Block {
+                map: &lanes.map,
+                times: lanes.times,
+                made: lanes.made,
+                n,
+                opening: lanes.opening,
+                carried: &mut lanes.carried,
+                shown: &mut lanes.shown,
+                work: &mut lanes.work,
+                followed,
+            });
+            if n > 0 {
+                lanes.opening = Opening::Join;
+            }
+            if attach.is_some() {
+                crew.attached();
+            }
+            if !finite.all() {
+                lanes.part_with(self, finite, &mut crew, host);
+            }
+            crew.made(n);
+            lanes.made += n;
+            lanes.arrive(self, &mut crew, host);
+            if !crew.fill(host) {
+                return;
+            }
+        }
+    }
+}
+
+/// A crew in lanes.
+struct Lanes<T, S, P, M>
+where
+    T: Real,
+    P: Pack,
+    S: System<T> + System<T::Over<P>>,
+    M: Scheme<T::Over<P>, S>,
+{
+    prepared: <S as System<T::Over<P>>>::Prepared,
+    map: MapIn<T, S, P, M>,
+    work: <MapIn<T, S, P, M> as Map>::Work,
+    carried: <MapIn<T, S, P, M> as Map>::Carried,
+    /// The carried value at the beginning of the block.
+    before: <MapIn<T, S, P, M> as Map>::Carried,
+    /// The carried value, closed.
+    shown: <MapIn<T, S, P, M> as Map>::Carried,
+    times: Times<T::Over<P>>,
+    opening: Opening<<T::Over<P> as Real>::Mask>,
+    /// Steps since the crew last changed.
+    made: u64,
+    /// The drifts that are followed, and those at the beginning of the block.
+    trackers: Vec<Tracker<T::Over<P>>>,
+    trackers_before: Vec<Tracker<T::Over<P>>>,
+    /// Scratch for the state that is followed.
+    state: State<<S as System<T::Over<P>>>::Vector>,
+    /// The lanes whose drift begins at their present state.
+    attach: Option<<T::Over<P> as Real>::Mask>,
+    /// The step of each lane for which the map is made.
+    steps: Vec<T>,
+    /// Whether all lanes have the same parameters.
+    uniform: bool,
+    /// Numbers of the lanes, component by component.
+    rows: Vec<T>,
+}
+
+impl<T, S, P, M> Lanes<T, S, P, M>
+where
+    T: Real,
+    P: Pack,
+    S: System<T, Prepared: Gather<T>>
+        + System<
+            T::Over<P>,
+            Vector = VectorOver<<S as System<T>>::Vector, P>,
+            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
+        >,
+    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
+{
+    /// The shapes for the first crew, to be boarded.
+    #[inline(always)]
+    fn new(scheme: &M, crew: &Crew<T, S>) -> Self {
+        let seats = crew.seats();
+        let prepared = prepared_in::<T, S, P>(&seats);
+        let steps = each(&seats, |seat| seat.step);
+        let h = T::gather::<P>(&steps);
+        let state = State {
+            t: T::gather::<P>(&each(&seats, |seat| seat.state.t)),
+            q: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.q),
+            p: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.p),
+        };
+        let carried = Scheme::<T::Over<P>, S>::start(scheme, &prepared, &state, h);
+        let zero = <T::Over<P> as Real>::zero();
+        Lanes {
+            map: Scheme::<T::Over<P>, S>::prepare(scheme, &prepared, Step::of(h)),
+            work: Scratch::like(&carried),
+            before: carried.clone(),
+            shown: carried.clone(),
+            rows: vec![T::default(); carried.len() * P::LANES as usize],
+            carried,
+            times: Times {
+                start: zero,
+                interval: zero,
+                ahead: zero,
+            },
+            opening: Opening::Open,
+            prepared,
+            state,
+            trackers: Vec::new(),
+            trackers_before: Vec::new(),
+            attach: None,
+            made: 0,
+            steps,
+            uniform: false,
+        }
+    }
+
+    /// Puts a crew that has changed into the lanes.
+    #[inline(always)]
+    fn board(&mut self, scheme: &M, crew: &mut Crew<T, S>) {
+        let Some(changed) = crew.changed() else {
+            return;
+        };
+        crew.write_columns(&mut self.rows);
+        let seats = crew.seats();
+        let steps = each(&seats, |seat| seat.step);
+        let others = changed.parameters || !self.uniform;
+        if others || steps != self.steps {
+            self.prepared = prepared_in::<T, S, P>(&seats);
+            let h = T::gather::<P>(&steps);
+            self.map = Scheme::<T::Over<P>, S>::prepare(scheme, &self.prepared, Step::of(h));
+            self.steps = steps;
+            let mut pairs = seats.windows(2);
+            self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
+        }
+        load::<T, P, _>(&self.rows, P::LANES as usize, &mut self.carried);
+        self.track(&seats);
+        self.made = 0;
+        let made = T::gather::<P>(&each(&seats, |seat| count(seat.made)));
+        self.times = Times {
+            start: T::gather::<P>(&each(&seats, |seat| seat.clock.start)),
+            interval: T::gather::<P>(&each(&seats, |seat| seat.clock.interval)),
+            ahead: made,
+        };
+        self.opening = match (changed.some_fresh, changed.all_fresh) {
+            (_, true) => Opening::Open,
+            (false, _) => Opening::Join,
+            _ => Opening::Mixed(made.equals(<T::Over<P> as Real>::zero())),
+        };
+    }
+
+    /// Puts the drifts of the members into lanes.
+    #[inline(always)]
+    fn track(&mut self, seats: &[&Seat<T, S>]) {
+        self.trackers.clear();
+        // The first that is followed stands for all: others are seen at their stops.
+        let Some(first) = seats.iter().find(|seat| !seat.tracks.is_empty()) else {
+            return;
+        };
+        let mut begins = vec![T::zero(); seats.len()];
+        for (k, track) in first.tracks.iter().enumerate() {
+            let mut lanes = [(); 4].map(|()| vec![T::zero(); seats.len()]);
+            for (lane, seat) in seats.iter().enumerate() {
+                let Some(track) = seat.tracks.get(k) else {
+                    continue;
+                };
+                let Some(drift) = &track.drift else {
+                    begins[lane] = T::one();
+                    continue;
+                };
+                let number = |number| T::constant(number, 0.0);
+                lanes[0][lane] = drift.start;
+                lanes[1][lane] = number(drift.max);
+                lanes[2][lane] = number(drift.sum_of_sizes);
+                lanes[3][lane] = number(drift.sum);
+            }
+            self.trackers.push(Tracker {
+                quantity: track.quantity,
+                start: T::gather::<P>(&lanes[0]),
+                max: T::gather::<P>(&lanes[1]),
+                sizes: T::gather::<P>(&lanes[2]),
+                sum: T::gather::<P>(&lanes[3]),
+            });
+        }
+        let begins = T::gather::<P>(&begins).equals(<T::Over<P> as Real>::one());
+        self.attach = begins.any().then_some(begins);
+    }
+
+    /// Writes drifts back into the seats of some lanes.
+    #[inline(always)]
+    fn write_tracks(trackers: &[Tracker<T::Over<P>>], crew: &mut Crew<T, S>) {
+        let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
+        for (k, tracker) in trackers.iter().enumerate() {
+            let packs = [tracker.start, tracker.max, tracker.sizes, tracker.sum];
+            for (lanes, pack) in lanes.iter_mut().zip(packs) {
+                T::scatter::<P>(pack, lanes);
+            }
+            crew.write_track(k, &lanes);
+        }
+        crew.tracks_written();
+    }
+
+    /// Takes the members out that are not finite after a block: to be made again step by step, or, where
+    /// that was one step, as failed.
+    #[cold]
+    #[inline(never)]
+    fn part_with(
+        &mut self,
+        scheme: &M,
+        finite: <T::Over<P> as Real>::Mask,
+        crew: &mut Crew<T, S>,
+        host: &mut dyn Host<T, S>,
+    ) {
+        let lanes = P::LANES as usize;
+        let mut before = vec![T::default(); self.rows.len()];
+        store::<T, P, _>(&self.before, lanes, &mut before);
+        let mut shown = vec![T::default(); self.rows.len()];
+        store::<T, P, _>(&self.shown, lanes, &mut shown);
+        store::<T, P, _>(&self.carried, lanes, &mut self.rows);
+        let mut times = vec![T::default(); lanes];
+        T::scatter::<P>(self.shown.time(self.times.at(self.made + 1)), &mut times);
+        Self::write_tracks(&self.trackers_before, crew);
+        let mut bad = Vec::new();
+        for lane in 0..P::LANES {
+            if !finite.lane(lane) {
+                bad.push(lane as usize);
+            }
+        }
+        let size = self.shown.point().q.len();
+        for lane in bad {
+            let column = |rows: &[T], c: usize| rows[c * lanes + lane];
+            let Some((mut seat, careful)) = crew.take(lane) else {
+                continue;
+            };
+            for (c, word) in seat.words.iter_mut().enumerate() {
+                *word = column(&before, c);
+            }
+            if !careful {
+                crew.suspect(seat);
+                continue;
+            }
+            let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
+            let error = explain(scheme, &seat, &point, times[lane].to_f64());
+            host.fail(&mut seat, error);
+        }
+    }
+
+    /// Shows members at their stops to the host, which takes those that leave.
+    #[inline(always)]
+    fn arrive(&mut self, scheme: &M, crew: &mut Crew<T, S>, host: &mut dyn Host<T, S>) {
+        let lanes = P::LANES as usize;
+        let is_any_due = crew.is_any_due();
+        if !self.trackers.is_empty() && (is_any_due || crew.has_changed()) {
+            Self::write_tracks(&self.trackers, crew);
+        }
+        if !is_any_due {
+            return;
+        }
+        if !self.trackers.is_empty() {
+            crew.for_each_due(|_, seat| {
+                if !seat.tracks.is_empty() {
+                    host.follow(seat.key, &seat.tracks);
+                }
+                true
+            });
+        }
+        if host.looks() {
+            let point = self.shown.point();
+            let mut numbers = vec![T::default(); lanes];
+            for c in 0..point.q.len() {
+                T::scatter::<P>(point.q.component(c), &mut numbers);
+                crew.show(&numbers, |state| state.q.component_mut(c));
+                T::scatter::<P>(point.p.component(c), &mut numbers);
+                crew.show(&numbers, |state| state.p.component_mut(c));
+            }
+            T::scatter::<P>(self.shown.time(self.times.at(self.made)), &mut numbers);
+            crew.show(&numbers, |state| &mut state.t);
+            let durations = self.carried.duration(self.times.interval).map(|durations| {
+                T::scatter::<P>(durations, &mut numbers);
+                numbers
+            });
+            arrivals(scheme, crew, host, durations.as_deref());
+        } else {
+            crew.for_each_due(|_, _| false);
+        }
+        if crew.is_any_leaving() {
+            store::<T, P, _>(&self.carried, lanes, &mut self.rows);
+            crew.leave(&self.rows, host);
+        }
+    }
+}
+
+/// Shows the members at their stops to the host. This is code over the members' scalar: once for all packs.
+#[inline(never)]
+fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
+    scheme: &M,
+    crew: &mut Crew<T, S>,
+    host: &mut dyn Host<T, S>,
+    durations: Option<&[T]>,
+) {
+    let recipe: &dyn Recipe<T, S, M::Map> = scheme;
+    crew.for_each_due(|lane, seat| {
+        let part = Part {
+            prepared: &seat.prepared,
+            recipe,
+            state: &seat.state,
+            step: seat.step,
+            clock: seat.clock,
+            duration: durations.map(|durations| durations[lane]),
+        };
+        let view = View {
+            step: seat.made,
+            state: &seat.state,
+            prepared: &seat.prepared,
+            between: &part,
+        };
+        host.arrive(seat.key, &mut seat.stop, &view)
+    });
+}
+
+/// Why a member's next step is not finite: the step is made again alone, over its own scalar. `point` is
+/// the state after it, `reached` its time.
+#[inline(never)]
+fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
+    scheme: &M,
+    seat: &Seat<T, S>,
+    point: &[f64],
+    reached: f64,
+) -> Error {
+    let mut carried = scheme.start(&seat.prepared, &seat.state, seat.step);
+    for (c, word) in seat.words.iter().enumerate() {
+        *carried.component_mut(c) = *word;
+    }
+    let map = scheme.prepare(&seat.prepared, Step::of(seat.step));
+    let mut work = Scratch::like(&carried);
+    let (begin, end) = (seat.clock.at(seat.made), seat.clock.at(seat.made + 1));
+    let first = seat.made == 0;
+    let cause = map.explain(begin, end, first, &mut carried, &mut work);
+    let (q, p) = point.split_at(point.len() / 2);
+    let failed = Failed {
+        step: seat.made + 1,
+        lane: None,
+        clock: clock::<T, S>(),
+        begin: begin.to_f64(),
+        end: reached,
+        q: q.into(),
+        p: p.into(),
+    };
+    failed.because(cause)
+}
+
+/// A number of each lane.
+fn each<T: Real, S: System<T>>(seats: &[&Seat<T, S>], of: impl Fn(&Seat<T, S>) -> T) -> Vec<T> {
+    seats.iter().map(|seat| of(seat)).collect()
+}
+
+/// The systems of the lanes as one.
+#[inline(always)]
+fn prepared_in<T, S, P>(seats: &[&Seat<T, S>]) -> <S::Prepared as Gather<T>>::Over<T::Over<P>>
+where
+    T: Real,
+    S: System<T, Prepared: Gather<T>>,
+    P: Pack,
+{
+    let prepared: Vec<&S::Prepared> = seats.iter().map(|seat| &seat.prepared).collect();
+    S::Prepared::gather::<P>(&prepared)
+}
+
+/// A number of steps as a scalar.
+fn count<T: Real>(steps: u64) -> T {
+    T::constant(steps as i64 as f64, 0.0)
+}
+
+/// The lanes of a carried value from rows, one a component.
+#[inline(always)]
+fn load<T: Real, P: Pack, V: Vector<Scalar = T::Over<P>>>(rows: &[T], lanes: usize, to: &mut V) {
+    let mut rows = rows.chunks_exact(lanes);
+    for k in 0..V::PARTS {
+        for (component, row) in to.part_mut(k).iter_mut().zip(&mut rows) {
+            *component = T::gather::<P>(row);
+        }
+    }
+}
+
+/// The lanes of a carried value into rows.
+#[inline(always)]
+fn store<T: Real, P: Pack, V: Vector<Scalar = T::Over<P>>>(from: &V, lanes: usize, rows: &mut [T]) {
+    let mut rows = rows.chunks_exact_mut(lanes);
+    for k in 0..V::PARTS {
+        for (component, row) in from.part(k).iter().zip(&mut rows) {
+            T::scatter::<P>(*component, row);
+        }
+    }
+}

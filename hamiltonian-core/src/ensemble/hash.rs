@@ -1,0 +1,42 @@
+//! Hashes by which the members of a store are recognised.
+
+use crate::state::State;
+use crate::system::System;
+use crate::vector::Vector;
+use core::fmt::Write;
+
+/// FNV-1a over 64 bits (G. Fowler, L. C. Noll, K.-P. Vo; RFC 9923).
+pub(crate) struct Hash(pub(crate) u64);
+
+impl Hash {
+    pub(crate) fn new() -> Self {
+        Hash(0xcbf2_9ce4_8422_2325)
+    }
+    pub(crate) fn word(&mut self, word: u64) {
+        for byte in word.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+}
+
+impl Write for Hash {
+    fn write_str(&mut self, text: &str) -> core::fmt::Result {
+        for byte in text.bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+        Ok(())
+    }
+}
+
+/// A hash of a member's parameters, start and step.
+pub(crate) fn hash_of<S: System<f64>>(system: &S, start: &State<S::Vector>, step: f64) -> u64 {
+    let mut hash = Hash::new();
+    // Writing to a hash does not fail.
+    let _ = system.describe_parameters(&mut hash);
+    hash.word(start.t.to_bits());
+    for number in start.q.components().chain(start.p.components()) {
+        hash.word(number.to_bits());
+    }
+    hash.word(step.to_bits());
+    hash.0
+}

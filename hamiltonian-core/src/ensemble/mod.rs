@@ -1,0 +1,78 @@
+//! Ensembles: many members of one system and scheme, which advance together in the lanes of packs.
+//!
+//! Input: a system and a start for each index. Output: [`Ensemble`], whose members live in memory, and
+//! [`Sweep`], which keeps a record of each. Invariant: thread count, lane, chunk and neighbours change no
+//! bit of a member.
+//!
+//! The modules follow the data: a member at its seat ([`seat`]), the crew of a pack ([`crew`]), a block of
+//! steps ([`block`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
+//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`]), and members that leave a record ([`sweep`], [`running`],
+//! [`record`]).
+
+mod block;
+mod bound;
+mod chunk;
+mod crew;
+mod drive;
+mod follow;
+mod guard;
+mod hash;
+mod ordered;
+mod record;
+mod running;
+mod saved;
+mod seat;
+#[cfg(feature = "std")]
+mod stored;
+mod swarm;
+mod sweep;
+mod threads;
+
+pub use bound::Ensembles;
+#[doc(hidden)]
+pub use follow::{Follower, Quantity};
+pub use record::{End, Record, Row, Status};
+pub use swarm::Ensemble;
+pub use sweep::Sweep;
+
+/// A member of an ensemble, from which its system and its start are made.
+///
+/// ```
+/// use hamiltonian_core::Member;
+/// let member = Member::new(7, 42);
+/// assert_eq!(member.index, 7);
+/// // The same index and the same seed of the ensemble give the same number, on every machine.
+/// assert_eq!(member.seed, Member::new(7, 42).seed);
+/// assert_ne!(member.seed, Member::new(8, 42).seed);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Member {
+    /// Its index, from 0.
+    pub index: usize,
+    /// A number for generators of random numbers, which depends on the index and the seed of the ensemble
+    /// alone.
+    pub seed: u64,
+}
+
+impl Member {
+    /// The member of an ensemble with that seed.
+    ///
+    /// The seed of a member is number `index` of SplitMix64 after a state that is the first number after
+    /// `seed` (G. L. Steele, D. Lea, C. H. Flood, OOPSLA 2014, 453, doi:10.1145/2660193.2660195).
+    pub fn new(index: usize, seed: u64) -> Self {
+        let state = mixed(seed.wrapping_add(GAMMA));
+        let seed = mixed(state.wrapping_add(GAMMA.wrapping_mul((index as u64).wrapping_add(1))));
+        Member { index, seed }
+    }
+}
+
+/// The odd number nearest to 2⁶⁴ divided by the golden ratio.
+const GAMMA: u64 = 0x9e37_79b9_7f4a_7c15;
+
+/// The finalizer of SplitMix64.
+fn mixed(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}

@@ -1,0 +1,126 @@
+//! Work on several threads whose results are taken in order.
+//!
+//! Input: numbered jobs. Output: their results, one by one in the order of the numbers. Invariant: only a
+//! few jobs more than there are threads are done and not yet taken, so that memory is bounded.
+
+use core::ops::ControlFlow;
+
+/// Does `count` jobs and hands their results over in order, until `take` breaks.
+pub(crate) fn in_order<B: Send>(
+    count: usize,
+    threads: usize,
+    work: impl Fn(usize) -> B + Sync,
+    mut take: impl FnMut(usize, B) -> ControlFlow<()>,
+) {
+    if threads.min(count) <= 1 {
+        let _ = (0..count).try_for_each(|job| take(job, work(job)));
+        return;
+    }
+    #[cfg(feature = "std")]
+    parallel::in_order(count, threads.min(count), work, take);
+    #[cfg(not(feature = "std"))]
+    let _ = (0..count).try_for_each(|job| take(job, work(job)));
+}
+
+#[cfg(feature = "std")]
+mod parallel {
+    use alloc::collections::BTreeMap;
+    use core::ops::ControlFlow;
+    use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+
+    struct Queue<B> {
+        /// The job that is begun next.
+        next: usize,
+        /// The number of results taken.
+        taken: usize,
+        done: BTreeMap<usize, B>,
+        /// Whether no more jobs are begun.
+        stop: bool,
+    }
+
+    struct Shared<B> {
+        queue: Mutex<Queue<B>>,
+        changed: Condvar,
+    }
+
+    impl<B> Shared<B> {
+        fn lock(&self) -> MutexGuard<'_, Queue<B>> {
+            // Each change of the queue is whole.
+            self.queue.lock().unwrap_or_else(PoisonError::into_inner)
+        }
+
+        fn wait<'a>(&self, queue: MutexGuard<'a, Queue<B>>) -> MutexGuard<'a, Queue<B>> {
+            (self.changed.wait(queue)).unwrap_or_else(PoisonError::into_inner)
+        }
+    }
+
+    /// Stops everything when it is dropped: a thread that panics keeps nobody waiting.
+    struct Stop<'a, B>(&'a Shared<B>);
+
+    impl<B> Drop for Stop<'_, B> {
+        fn drop(&mut self) {
+            self.0.lock().stop = true;
+            self.0.changed.notify_all();
+        }
+    }
+
+    pub(super) fn in_order<B: Send>(
+        count: usize,
+        threads: usize,
+        work: impl Fn(usize) -> B + Sync,
+        mut take: impl FnMut(usize, B) -> ControlFlow<()>,
+    ) {
+        let shared = Shared {
+            queue: Mutex::new(Queue {
+                next: 0,
+                taken: 0,
+                done: BTreeMap::new(),
+                stop: false,
+            }),
+            changed: Condvar::new(),
+        };
+        let worker = || {
+            loop {
+                let mut queue = shared.lock();
+                while !queue.stop && queue.next < count && queue.next >= queue.taken + 2 * threads {
+                    queue = shared.wait(queue);
+                }
+                if queue.stop || queue.next >= count {
+                    return;
+                }
+                let job = queue.next;
+                queue.next += 1;
+                drop(queue);
+                let panicked = Stop(&shared);
+                let result = work(job);
+                core::mem::forget(panicked);
+                shared.lock().done.insert(job, result);
+                shared.changed.notify_all();
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 0..threads {
+                crate::ensemble::threads::spawn(scope, worker);
+            }
+            let _stop = Stop(&shared);
+            for job in 0..count {
+                let mut queue = shared.lock();
+                let result = loop {
+                    if let Some(result) = queue.done.remove(&job) {
+                        break result;
+                    }
+                    if queue.stop {
+                        return;
+                    }
+                    queue = shared.wait(queue);
+                };
+                queue.taken = job + 1;
+                drop(queue);
+                shared.changed.notify_all();
+                if take(job, result).is_break() {
+                    return;
+                }
+            }
+        });
+    }
+}

@@ -1,0 +1,425 @@
+//! The members of a chunk of a sweep on their way.
+//!
+//! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend on its index, the
+//! sweep and its seed alone.
+
+use super::Member;
+use super::follow::{Follower, Track};
+use super::guard::guard;
+use super::hash::hash_of;
+use super::record::{Batch, End, Outcome, Record, Status};
+use super::seat::{Host, Seat};
+use super::sweep::{Aim, Sweep};
+use crate::error::Error;
+use crate::integrator::{check_start, check_step, duration};
+use crate::map::Clock;
+use crate::observe::{Observer, View};
+use crate::state::State;
+use crate::system::{System, clock};
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::ops::{ControlFlow, Range};
+
+/// A member on its way.
+struct Under<O> {
+    member: Member,
+    observer: O,
+    is_attached: bool,
+    /// Whether lanes follow all that its observer follows.
+    is_followed: bool,
+    /// Its end, if that is not the same for all.
+    end: f64,
+    /// The number of whole steps after which it is recorded next, if that is known.
+    target: Option<u64>,
+    /// The number of times at which it has been recorded.
+    recorded: usize,
+    values: Vec<f64>,
+}
+
+/// Whether a member has come to its end: at which state, and whether its observer ended it.
+type Seen<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
+
+/// The members.
+pub(crate) struct Running<'r, 'a, S: System<f64>, O> {
+    sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
+    indices: Range<usize>,
+    /// The next one, counted from the first.
+    next: usize,
+    under: Vec<Option<Under<O>>>,
+    outcomes: Vec<Option<Outcome>>,
+    /// A hash of each member made.
+    hashes: Vec<u64>,
+    values: Vec<f64>,
+    words: Vec<f64>,
+    /// The number of steps between two states that the first observer sees.
+    interval: Option<u64>,
+    /// Whether steps differ in time.
+    varies: bool,
+    cancelled: bool,
+}
+
+impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
+    pub(crate) fn new(
+        sweep: &'r Sweep<'a, S, O, Record<'a, S, O>>,
+        indices: Range<usize>,
+        hashes: bool,
+    ) -> Self {
+        let none = |_| None;
+        Running {
+            sweep,
+            next: 0,
+            under: indices.clone().map(|_| None).collect(),
+            outcomes: indices.clone().map(none).collect(),
+            hashes: alloc::vec![0; if hashes { indices.len() } else { 0 }],
+            indices,
+            values: Vec::new(),
+            words: Vec::new(),
+            interval: None,
+            varies: false,
+            cancelled: false,
+        }
+    }
+
+    /// Drives all to their ends.
+    pub(crate) fn batch(mut self) -> Batch {
+        let sweep = self.sweep;
+        sweep.engine.drive(&mut self, sweep.fuses);
+        let missing = |outcome: Option<Outcome>| {
+            outcome.unwrap_or(Outcome {
+                status: Status::Missing,
+                time: f64::NAN,
+                steps: 0,
+                values: 0..0,
+                hash: 0,
+                error: None,
+            })
+        };
+        Batch {
+            first: self.indices.start,
+            columns: sweep.record.columns.len(),
+            outcomes: self.outcomes.into_iter().map(missing).collect(),
+            values: self.values,
+            cancelled: self.cancelled,
+        }
+    }
+
+    /// Makes the member of that number and puts it into the seat.
+    fn make(&mut self, key: usize, seat: &mut Option<Seat<f64, S>>) -> Result<(), Error> {
+        let sweep = self.sweep;
+        let member = Member::new(self.indices.start + key, sweep.seed);
+        let (system, start) = guard(|| (sweep.make)(member)).and_then(|made| made)?;
+        let step = match &sweep.step_each {
+            Some(each) => guard(|| each(member))?,
+            None => sweep.step,
+        };
+        if let Some(hash) = self.hashes.get_mut(key) {
+            *hash = hash_of(&system, &start, step);
+        }
+        check_step(step)?;
+        let prepared = check_start(&system, &start)?;
+        if let Some(seat) = seat
+            && !sweep.engine.fits(&seat.prepared, &prepared)
+        {
+            return Err(Error::OtherSizes { system: S::NAME });
+        }
+        self.words.clear();
+        (sweep.engine).begin(&prepared, &start, step, &mut self.words)?;
+        let clock = Clock {
+            start: start.t,
+            interval: step * duration::<f64>(&sweep.engine.entry()),
+        };
+        self.varies = sweep.engine.varies(&prepared, &start, step);
+        let end = match &sweep.aim {
+            Aim::Each(end) => guard(|| end(member))?,
+            Aim::Until(end) => *end,
+            Aim::Steps(_) => f64::NAN,
+        };
+        let mut under = Under {
+            member,
+            observer: guard(|| (sweep.observer)(member))?,
+            is_attached: false,
+            is_followed: false,
+            end,
+            target: None,
+            recorded: 0,
+            values: Vec::new(),
+        };
+        self.aim(&mut under, clock, 0)?;
+        // An observer that sees nothing need not be attached.
+        let looks = under.observer.interval() < u64::MAX;
+        // One number of steps between two states serves all lanes.
+        let interval = under.observer.interval();
+        let is_same = *self.interval.get_or_insert(interval) == interval;
+        let followed = Follower::take(|with| is_same && under.observer.follow(with));
+        let mut tracks = followed.unwrap_or_default();
+        tracks.iter_mut().for_each(|track| track.drift = None);
+        under.is_followed = !tracks.is_empty();
+        under.is_attached = !looks || under.is_followed;
+        let stop = if under.is_attached {
+            self.stop(&under, 0)
+        } else {
+            0
+        };
+        match seat {
+            Some(seat) => {
+                seat.other |= !sweep.engine.equals(&seat.prepared, &prepared);
+                seat.words.copy_from_slice(&self.words);
+                seat.prepared = prepared;
+                seat.state = start;
+                (seat.key, seat.clock, seat.step) = (key, clock, step);
+                (seat.made, seat.stop) = (0, stop);
+                (seat.tracks, seat.interval, seat.since) = (tracks, interval, 0);
+            }
+            None => {
+                *seat = Some(Seat {
+                    key,
+                    prepared,
+                    other: true,
+                    step,
+                    clock,
+                    made: 0,
+                    stop,
+                    words: self.words.clone(),
+                    tracks,
+                    interval,
+                    since: 0,
+                    state: start,
+                });
+            }
+        }
+        self.under[key] = Some(under);
+        Ok(())
+    }
+
+    /// The time at which a member is recorded next, if it is a time.
+    fn time(&self, under: &Under<O>) -> Option<f64> {
+        match (&self.sweep.record.times, &self.sweep.aim) {
+            (Some(times), _) => times.get(under.recorded).copied(),
+            (None, Aim::Steps(_)) => None,
+            (None, _) => Some(under.end),
+        }
+    }
+
+    /// Sets the number of whole steps after which a member is recorded next.
+    fn aim(&self, under: &mut Under<O>, clock_of: Clock<f64>, made: u64) -> Result<(), Error> {
+        under.target = match (self.time(under), &self.sweep.aim) {
+            (Some(t), _) if self.varies && t.is_finite() => None,
+            (Some(t), _) => {
+                let (before, after) = clock_of.whole_steps(made, t, clock::<f64, S>())?;
+                Some(made + before.unwrap_or(after))
+            }
+            (None, Aim::Steps(n)) => Some(*n),
+            (None, _) => Some(made),
+        };
+        Ok(())
+    }
+
+    /// The next stop of a member.
+    fn stop(&self, under: &Under<O>, made: u64) -> u64 {
+        let interval = match under.is_followed {
+            true => u64::MAX,
+            false => under.observer.interval().max(1),
+        };
+        let due = (made / interval).saturating_add(1).saturating_mul(interval);
+        due.min(under.target.unwrap_or(made + 1))
+    }
+
+    /// Shows a member its state. Returns its end, if it has come to one.
+    fn see(&self, under: &mut Under<O>, view: &View<'_, f64, S>) -> Result<Seen<S>, Error> {
+        let verdict = if !under.is_attached {
+            under.is_attached = true;
+            under.observer.attach(view)
+        } else if !under.is_followed && (view.step).is_multiple_of(under.observer.interval().max(1))
+        {
+            under.observer.observe(view)
+        } else {
+            ControlFlow::Continue(())
+        };
+        if verdict.is_break() {
+            let end = under.observer.end()?.unwrap_or(view.state).clone();
+            return Ok(ControlFlow::Break((end, true)));
+        }
+        let clock_of = Clock {
+            start: view.between.start(),
+            interval: view.between.interval(),
+        };
+        loop {
+            let Some(t) = self.time(under) else {
+                let is_there = under.target == Some(view.step);
+                return Ok(match is_there {
+                    true => ControlFlow::Break((view.state.clone(), false)),
+                    false => ControlFlow::Continue(()),
+                });
+            };
+            let forward = view.between.interval() > 0.0;
+            let is_passed = match under.target {
+                Some(target) => target == view.step,
+                None if forward => view.state.t >= t,
+                None => view.state.t <= t,
+            };
+            if !is_passed {
+                return Ok(ControlFlow::Continue(()));
+            }
+            let meets = match under.target {
+                Some(_) => clock_of.whole_steps(view.step, t, "")?.0.is_none(),
+                None => view.state.t.to_bits() == t.to_bits(),
+            };
+            let state = match meets {
+                true => view.state.clone(),
+                false => view.state_at(t)?,
+            };
+            let Some(times) = &self.sweep.record.times else {
+                return Ok(ControlFlow::Break((state, false)));
+            };
+            under.recorded += 1;
+            if under.recorded >= times.len() {
+                return Ok(ControlFlow::Break((state, false)));
+            }
+            self.write(under, view, &state, false);
+            self.aim(under, clock_of, view.step)?;
+        }
+    }
+
+    /// Writes the numbers of a member at a state.
+    fn write(
+        &self,
+        under: &mut Under<O>,
+        view: &View<'_, f64, S>,
+        state: &State<S::Vector>,
+        stopped: bool,
+    ) {
+        let end = End {
+            member: under.member,
+            state,
+            observer: &under.observer,
+            steps: view.step,
+            stopped,
+            prepared: view.prepared,
+        };
+        (self.sweep.record.write)(&end, &mut under.values);
+    }
+
+    /// Notes the end of a member.
+    fn finish(
+        &mut self,
+        key: usize,
+        status: Status,
+        time: f64,
+        steps: u64,
+        values: &[f64],
+        error: Option<Error>,
+    ) {
+        let begin = self.values.len();
+        let record = &self.sweep.record;
+        if error.is_some() && !record.several {
+            self.values.extend(record.columns.iter().map(|_| f64::NAN));
+        } else {
+            self.values.extend_from_slice(values);
+        }
+        let index = self.indices.start + key;
+        let error = error.map(|error| Error::Member {
+            index,
+            error: Box::new(error),
+        });
+        self.outcomes[key] = Some(Outcome {
+            status,
+            time,
+            steps,
+            values: begin..self.values.len(),
+            hash: self.hashes.get(key).copied().unwrap_or(0),
+            error,
+        });
+    }
+}
+
+impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O> {
+    fn load(&mut self, seat: &mut Option<Seat<f64, S>>) -> bool {
+        while self.next < self.indices.len() {
+            if self.sweep.is_cancelled() {
+                self.cancelled = true;
+                return false;
+            }
+            let key = self.next;
+            self.next += 1;
+            match self.make(key, seat) {
+                Ok(()) => return true,
+                Err(error) => {
+                    let status = Status::of(&error, false);
+                    self.finish(key, status, f64::NAN, 0, &[], Some(error));
+                }
+            }
+        }
+        false
+    }
+
+    fn arrive(&mut self, key: usize, stop: &mut u64, view: &View<'_, f64, S>) -> bool {
+        let Some(mut under) = self.under[key].take() else {
+            return false;
+        };
+        let seen = guard(|| {
+            let seen = self.see(&mut under, view)?;
+            if let ControlFlow::Break((state, stopped)) = &seen {
+                self.write(&mut under, view, state, *stopped);
+            }
+            Ok(seen)
+        });
+        match seen.and_then(|seen| seen) {
+            Ok(ControlFlow::Continue(())) => {
+                *stop = self.stop(&under, view.step);
+                self.under[key] = Some(under);
+                true
+            }
+            Ok(ControlFlow::Break((state, stopped))) => {
+                let status = if stopped {
+                    Status::Stopped
+                } else {
+                    Status::Ended
+                };
+                self.finish(key, status, state.t, view.step, &under.values, None);
+                false
+            }
+            Err(error) => {
+                let status = Status::of(&error, true);
+                self.finish(
+                    key,
+                    status,
+                    view.state.t,
+                    view.step,
+                    &under.values,
+                    Some(error),
+                );
+                false
+            }
+        }
+    }
+
+    fn follow(&mut self, key: usize, tracks: &[Track<f64>]) {
+        if let Some(under) = &mut self.under[key] {
+            Follower::give(tracks.into(), |with| under.observer.follow(with));
+        }
+    }
+
+    fn phase(&self) -> u64 {
+        0
+    }
+
+    fn leave(&mut self, _: &mut Seat<f64, S>) {}
+
+    fn fail(&mut self, seat: &mut Seat<f64, S>, error: Error) {
+        let values = self.under[seat.key].take().map(|under| under.values);
+        let time = seat.clock.at(seat.made);
+        let status = Status::of(&error, true);
+        self.finish(
+            seat.key,
+            status,
+            time,
+            seat.made,
+            &values.unwrap_or_default(),
+            Some(error),
+        );
+    }
+
+    fn looks(&self) -> bool {
+        true
+    }
+}

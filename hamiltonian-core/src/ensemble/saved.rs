@@ -1,0 +1,160 @@
+//! Saving an ensemble and going on with it.
+//!
+//! Input: an ensemble, or a [`Checkpoint`]. Output: the other. Invariant: a checkpoint of other members, of
+//! another scheme or of another step is refused.
+
+use super::Member;
+use super::bound::Ensembles;
+use super::chunk::Out;
+use super::hash::Hash;
+use super::swarm::Ensemble;
+use crate::checkpoint::{Checkpoint, Memory};
+use crate::error::{CheckpointError, Error};
+use crate::observe::Observer;
+use crate::state::State;
+use crate::system::System;
+use alloc::borrow::ToOwned;
+use alloc::boxed::Box;
+use alloc::format;
+use alloc::string::String;
+use alloc::string::ToString;
+use core::fmt::Write;
+
+/// How a saved member goes on.
+const ON: u64 = 0;
+const FAILED: u64 = 1;
+const ENDED: u64 = 2;
+
+impl<S: System<f64>, O> Ensemble<S, O> {
+    /// The system and the number of members.
+    fn formula(&self) -> String {
+        let name = S::NAME;
+        format!("{name}: {} ({} members)", S::FORMULA, self.len())
+    }
+
+    /// A hash of all parameters and of the times at which members start.
+    fn members_hash(&self) -> String {
+        let mut hash = Hash::new();
+        for chunk in &self.chunks {
+            // Writing to a hash does not fail.
+            let _ = write!(hash, "{:?} {:?}", chunk.prepared, chunk.starts);
+        }
+        format!("hash of all members: {:016x}", hash.0)
+    }
+}
+
+impl<S: System<f64>, O: Observer<f64, S>> Ensemble<S, O> {
+    /// The ensemble and the memory of its observers, to be saved.
+    pub fn checkpoint(&self) -> Checkpoint {
+        let mut numbers = Memory::default();
+        numbers.number(self.common.step);
+        numbers.count(u64::from(self.fuses));
+        let mut observers = Memory::default();
+        for chunk in &self.chunks {
+            for word in &chunk.words {
+                numbers.number(*word);
+            }
+            for (key, observer) in chunk.observers.iter().enumerate() {
+                match chunk.out.get(&key) {
+                    None => numbers.count(ON),
+                    Some(Out::Failed(error, steps)) => {
+                        numbers.count(FAILED);
+                        numbers.text(&error.to_string());
+                        numbers.count(*steps);
+                    }
+                    Some(Out::Ended(state, steps)) => {
+                        numbers.count(ENDED);
+                        numbers.state(state);
+                        numbers.count(*steps);
+                    }
+                }
+                if !matches!(chunk.out.get(&key), Some(Out::Failed(..))) {
+                    observer.save(&mut observers);
+                }
+            }
+        }
+        Checkpoint {
+            system: self.formula(),
+            parameters: self.members_hash(),
+            scheme: self.engine.describe(),
+            scalar: core::any::type_name::<f64>().to_owned(),
+            counts: [self.common.steps, 0, 0],
+            numbers,
+            observers,
+        }
+    }
+}
+
+impl<S: System<f64>> Ensemble<S> {
+    /// The ensemble that was saved, whose members are made again by the same closure: it goes on with the
+    /// same bits. Observers are attached by [`observe`](Ensemble::observe) as before, and remember what
+    /// they saved. The error of a member that had failed is [`Error::Before`].
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator_any.md")]
+    /// use hamiltonian_core::prelude::*;
+    ///
+    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+    /// let mut swarm = Ensemble::new(20, start, ImplicitMidpoint::default(), 0.01)?;
+    /// swarm.advance(50);
+    /// let saved = swarm.checkpoint().to_bytes();
+    /// swarm.advance(50);
+    ///
+    /// let saved = Checkpoint::from_bytes(&saved)?;
+    /// let mut again = Ensemble::resume(20, start, ImplicitMidpoint::default(), saved)?;
+    /// again.advance(50);
+    /// assert!(again.states().eq(swarm.states()));
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`CheckpointError::Other`] for other members, another scheme or another number of them;
+    /// [`CheckpointError::Damaged`] for numbers that do not fit; those of [`new`](Ensemble::new).
+    pub fn resume<M: Ensembles<S>>(
+        count: usize,
+        make: impl FnMut(Member) -> (S, State<S::Vector>),
+        scheme: M,
+        checkpoint: Checkpoint,
+    ) -> Result<Self, Error> {
+        let mut numbers = checkpoint.numbers;
+        let step = numbers.read_number()?;
+        let fuses = numbers.read_count()? != 0;
+        let mut swarm = Self::new(count, make, scheme, step)?;
+        Checkpoint::same("system", &checkpoint.system, &swarm.formula())?;
+        Checkpoint::same("parameter", &checkpoint.parameters, &swarm.members_hash())?;
+        Checkpoint::same("scheme", &checkpoint.scheme, &swarm.engine.describe())?;
+        swarm.fuses = fuses;
+        swarm.common.steps = checkpoint.counts[0];
+        for chunk in &mut swarm.chunks {
+            for word in &mut chunk.words {
+                *word = numbers.read_number()?;
+            }
+            for key in 0..chunk.count {
+                let out = match (numbers.read_count()?, &swarm.common.template) {
+                    (ON, _) => continue,
+                    (FAILED, _) => {
+                        let message = numbers.read_text()?;
+                        Out::Failed(Error::Before { message }, numbers.read_count()?)
+                    }
+                    (ENDED, Some(template)) => {
+                        let state = numbers.read_state(template)?;
+                        Out::Ended(Box::new(state), numbers.read_count()?)
+                    }
+                    _ => return Err(damaged()),
+                };
+                // The error of a start is there already.
+                chunk.out.entry(key).or_insert(out);
+            }
+        }
+        if !numbers.is_empty() {
+            return Err(damaged());
+        }
+        swarm.memory = checkpoint.observers;
+        Ok(swarm)
+    }
+}
+
+fn damaged() -> Error {
+    let reason = "the numbers do not fit";
+    CheckpointError::Damaged { reason }.into()
+}

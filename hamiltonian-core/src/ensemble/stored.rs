@@ -1,0 +1,164 @@
+//! Sweeps on disk.
+//!
+//! Input: a sweep and a path. Output: a [`Store`] with the chunks of the sweep's shard. Invariant: a chunk
+//! that is present was written by the same sweep, from the same members.
+
+use super::Member;
+use super::guard::guard;
+use super::hash::{Hash, hash_of};
+use super::record::{Batch, Record, Status};
+use super::sweep::{Aim, Sweep};
+use crate::error::Error;
+use crate::observe::Observer;
+use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
+use crate::system::System;
+use alloc::format;
+use alloc::string::ToString;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+use hamiltonian_lanes::Cpu;
+use std::path::Path;
+
+impl<'a, S, O> Sweep<'a, S, O, Record<'a, S, O>>
+where
+    S: System<f64>,
+    O: Observer<f64, S>,
+{
+    /// Runs the chunks of this shard that the store at `path` does not have, and writes each when it is
+    /// done. The store is a Zarr v3 directory, which zarr-python and xarray open; it is created if there is
+    /// none. A sweep that was killed goes on where it stopped, and shards write one store without
+    /// coordination.
+    ///
+    /// There is one array a column, and for each member its `status` (see [`Status`]), the `time` of its end
+    /// and its number of `steps`. With [`record_at`](Sweep::record_at) columns have a second dimension `t`.
+    /// With [`rows`](Sweep::rows) each chunk has a group with its rows, and their `member`.
+    ///
+    /// Unless the sweep is [`reproducible`](Sweep::reproducible), the store takes chunks of one CPU level
+    /// alone.
+    ///
+    /// # Errors
+    /// [`Error::NoMembers`], [`Error::Cancelled`]; [`StoreError`](crate::StoreError) for a store of another
+    /// sweep or of other members, and for files that cannot be written.
+    pub fn store(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
+        if self.count == 0 {
+            return Err(Error::NoMembers);
+        }
+        let store = Store::open_or_create(path, &self.layout())?;
+        let mut missing = Vec::new();
+        for members in self.chunks() {
+            let chunk = (members.start / self.chunk_size()) as u64;
+            if !store.present(chunk)? {
+                missing.push(members);
+            } else {
+                store.check_first(chunk, self.hash(members.start))?;
+            }
+        }
+        if !missing.is_empty() {
+            self.each_batch(missing, true, |batch| {
+                let chunk = (batch.first / self.chunk_size()) as u64;
+                store.write(chunk, &self.data(&batch))?;
+                Ok(ControlFlow::Continue(()))
+            })?;
+        }
+        store.complete()
+    }
+
+    /// The hash of a member, which is made again; 0 if it cannot be made.
+    pub(crate) fn hash(&self, index: usize) -> u64 {
+        let member = Member::new(index, self.seed);
+        let made = guard(|| {
+            let step = self
+                .step_each
+                .as_ref()
+                .map_or(self.step, |each| each(member));
+            (self.make)(member).map(|(system, start)| hash_of(&system, &start, step))
+        });
+        made.and_then(|hash| hash).unwrap_or(0)
+    }
+
+    /// The layout of the store.
+    fn layout(&self) -> Layout {
+        let record = &self.record;
+        let rows = match (&record.times, record.several) {
+            (Some(times), _) => Rows::At {
+                name: "t".to_string(),
+                values: times.clone(),
+            },
+            (None, true) => Rows::Any,
+            (None, false) => Rows::One,
+        };
+        let end: Attribute = match (&record.times, &self.aim) {
+            (Some(_), _) => "at the last time".into(),
+            (None, Aim::Steps(n)) => format!("{n} steps").into(),
+            (None, Aim::Until(t)) => (*t).into(),
+            (None, Aim::Each(_)) => "of each member".into(),
+        };
+        let step: Attribute = match self.step_each {
+            Some(_) => "of each member".into(),
+            None => self.step.into(),
+        };
+        let arithmetic = if self.fuses { "fused" } else { "unfused" };
+        let mut attributes = vec![
+            ("system".to_string(), S::NAME.into()),
+            ("hamiltonian".to_string(), S::FORMULA.into()),
+            ("scheme".to_string(), self.engine.describe().into()),
+            ("step".to_string(), step),
+            ("end".to_string(), end),
+            ("seed".to_string(), self.seed.into()),
+            ("arithmetic".to_string(), arithmetic.into()),
+            ("version".to_string(), env!("CARGO_PKG_VERSION").into()),
+        ];
+        if self.fuses {
+            attributes.push(("level".to_string(), format!("{:?}", Cpu::best()).into()));
+        }
+        let failures = ["start", "not_finite", "unsolved", "panicked", "failed"];
+        Layout {
+            rows,
+            chunk: self.chunk_size() as u64,
+            failures: failures.map(str::to_string).into(),
+            attributes,
+            ..Layout::new(self.count as u64, record.columns.iter().map(String::as_str))
+        }
+    }
+
+    /// The arrays of a chunk.
+    fn data(&self, batch: &Batch) -> ChunkData {
+        let record = &self.record;
+        let rows = record.times.as_ref().map_or(1, Vec::len);
+        let mut data = ChunkData {
+            columns: vec![Vec::new(); record.columns.len()],
+            ..ChunkData::default()
+        };
+        let columns = record.columns.len().max(1);
+        let mut all = Hash::new();
+        for (k, outcome) in batch.outcomes.iter().enumerate() {
+            let values = &batch.values[outcome.values.clone()];
+            let any = record.several && record.times.is_none();
+            for row in values.chunks_exact(columns) {
+                for (column, value) in data.columns.iter_mut().zip(row) {
+                    column.push(*value);
+                }
+                if any {
+                    data.member.push((batch.first + k) as u64);
+                }
+            }
+            if !any {
+                // Rows of a member that did not reach its end are missing.
+                for column in &mut data.columns {
+                    column.resize((k + 1) * rows, f64::NAN);
+                }
+            }
+            data.status.push(outcome.status as u8);
+            data.time.push(outcome.time);
+            data.steps.push(outcome.steps);
+            all.word(outcome.hash);
+        }
+        let first = batch.outcomes.first().map_or(0, |outcome| outcome.hash);
+        data.hashes = [first, all.0];
+        data
+    }
+}
+
+// The names of failures are those of `Status`.
+const _: () = assert!(Status::Start as u8 == 3 && Status::Failed as u8 == 7);

@@ -1,0 +1,411 @@
+//! Members that live in memory.
+//!
+//! Input: a system and a start for each index, a scheme, a step. Output: all of them so many steps later.
+
+use super::Member;
+use super::bound::{Engine, Ensembles};
+use super::chunk::{Chunk, ChunkOf, Common, Going, Out, Seen, observe};
+use super::guard::guard;
+use super::threads;
+use crate::checkpoint::Memory;
+use crate::error::Error;
+use crate::integrator::{check_start, check_step, duration};
+use crate::observe::{Observer, Verdict, View};
+use crate::state::State;
+use crate::system::System;
+use alloc::boxed::Box;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::fmt;
+use core::ops::ControlFlow;
+
+/// Many members of one system and one scheme, which advance together in the lanes of packs and on threads.
+///
+/// Each member has its own start and its own parameters. A member that fails keeps its error, and the
+/// others go on.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator_any.md")]
+/// use hamiltonian_core::prelude::*;
+///
+/// let mut swarm = Ensemble::new(1_000, |member| {
+///     let theta = 3.0 * (member.index as f64 / 1e3 - 0.5);
+///     (Oscillator, State::new([theta], [0.0]))
+/// }, ImplicitMidpoint::default(), 1e-3)?;
+/// swarm.advance(1_000);
+/// for end in swarm.states() {
+///     assert!((end?.t - 1.0).abs() < 1e-12);
+/// }
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Bits
+/// The number of threads, the number of members and the other members change no bit of a member. By
+/// default products and sums fuse where the CPU fuses them. With [`reproducible`](Ensemble::reproducible)
+/// nothing fuses: a member then has the bits of a single [`Integrator`](crate::Integrator) on every CPU.
+pub struct Ensemble<S: System<f64>, O = ()> {
+    pub(crate) engine: Arc<dyn Engine<S>>,
+    pub(crate) chunks: Vec<ChunkOf<S, O>>,
+    pub(crate) common: Common<S::Vector>,
+    threads: usize,
+    pub(crate) fuses: bool,
+    /// The memory of the observers of a saved ensemble, until they are attached.
+    pub(crate) memory: Memory,
+}
+
+/// The most members of a chunk: a multiple of the lanes of every pack.
+const CHUNK: usize = 1280;
+/// The fewest, as many as the widest pack has lanes.
+const LANES: usize = 80;
+
+impl<S: System<f64>> Ensemble<S> {
+    /// An ensemble of `count` members. `make` makes the system and the start of each; `step` is the step
+    /// of all, negative to integrate backwards.
+    ///
+    /// A start that is no start is the error of its member: see [`states`](Ensemble::states).
+    ///
+    /// # Errors
+    /// [`Error::NoMembers`], [`Error::Step`].
+    pub fn new<M: Ensembles<S>>(
+        count: usize,
+        mut make: impl FnMut(Member) -> (S, State<S::Vector>),
+        scheme: M,
+        step: f64,
+    ) -> Result<Self, Error> {
+        Self::try_new(count, |member| Ok(make(member)), scheme, step)
+    }
+
+    /// The same with a closure that returns a `Result`, the error of which is that of the member.
+    ///
+    /// # Errors
+    /// Those of [`new`](Ensemble::new).
+    pub fn try_new<M: Ensembles<S>>(
+        count: usize,
+        mut make: impl FnMut(Member) -> Result<(S, State<S::Vector>), Error>,
+        scheme: M,
+        step: f64,
+    ) -> Result<Self, Error> {
+        if count == 0 {
+            return Err(Error::NoMembers);
+        }
+        check_step(step)?;
+        let engine: Arc<dyn Engine<S>> = Arc::new(scheme);
+        let mut common = Common {
+            template: None,
+            width: 0,
+            step,
+            interval: step * duration::<f64>(&engine.entry()),
+            steps: 0,
+        };
+        let mut first_of_all: Option<S::Prepared> = None;
+        let size = count.div_ceil(64).next_multiple_of(LANES).min(CHUNK);
+        let mut chunks = Vec::with_capacity(count.div_ceil(size));
+        for first in (0..count).step_by(size) {
+            let mut chunk = Chunk::new(first);
+            for index in first..count.min(first + size) {
+                // A member that failed leaves its words at 0.
+                chunk.words.resize((index - first) * common.width, 0.0);
+                let made = guard(|| make(Member::new(index, 0))).and_then(|made| made);
+                let begun = made.and_then(|(system, start)| {
+                    let prepared = check_start(&system, &start)?;
+                    if let Some(first) = &first_of_all
+                        && !engine.fits(first, &prepared)
+                    {
+                        return Err(Error::OtherSizes { system: S::NAME });
+                    }
+                    engine.begin(&prepared, &start, step, &mut chunk.words)?;
+                    Ok((prepared, start))
+                });
+                let member = begun.map(|(prepared, start)| {
+                    let t = start.t;
+                    if first_of_all.is_none() {
+                        first_of_all = Some(prepared.clone());
+                        common.width = chunk.words.len();
+                        let before = (index - first) * common.width;
+                        chunk.words.splice(0..0, core::iter::repeat_n(0.0, before));
+                        common.template = Some(start);
+                    }
+                    (prepared, t)
+                });
+                chunk.push(member, |a, b| engine.equals(a, b));
+            }
+            chunk.words.resize(chunk.count * common.width, 0.0);
+            chunk.words.shrink_to_fit();
+            chunks.push(chunk);
+        }
+        Ok(Ensemble {
+            engine,
+            chunks,
+            common,
+            threads: threads::available(),
+            fuses: true,
+            memory: Memory::default(),
+        })
+    }
+
+    /// The same ensemble with an observer for each member, made from its index. It receives the present
+    /// state at once, and from then on the states of its member as in a single run; one that ends its
+    /// member ends no other.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator_any.md")]
+    /// use hamiltonian_core::prelude::*;
+    ///
+    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [1.0]));
+    /// let mut swarm = Ensemble::new(20, start, ImplicitMidpoint::default(), 1e-3)?
+    ///     .observe(|_member| EnergyDrift::new());
+    /// swarm.advance(1_000);
+    /// assert!(swarm.observers().all(|drift| drift.max_relative() < 1e-6));
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn observe<O: Observer<f64, S> + Send>(
+        self,
+        mut observer: impl FnMut(Member) -> O,
+    ) -> Ensemble<S, O> {
+        let chunks = self.chunks.into_iter().map(|chunk| {
+            let indices = chunk.first..chunk.first + chunk.count;
+            let observers = indices.map(|index| observer(Member::new(index, 0)));
+            let observers = observers.collect();
+            chunk.with_observers(observers)
+        });
+        let mut observed = Ensemble {
+            engine: self.engine,
+            chunks: chunks.collect(),
+            common: self.common,
+            threads: self.threads,
+            fuses: self.fuses,
+            memory: Memory::default(),
+        };
+        let now = observed.common.steps;
+        let mut memory = self.memory;
+        if !memory.is_empty() {
+            observed.restore(&mut memory);
+            return observed;
+        }
+        observed.drive(now, true, |_, observer, view| match observer.attach(view) {
+            ControlFlow::Continue(()) => ControlFlow::Continue(()),
+            ControlFlow::Break(()) => ControlFlow::Break(observer.end().map(Option::<&_>::cloned)),
+        });
+        observed
+    }
+}
+
+impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
+    /// Makes `n` steps of every member that has neither failed nor been ended by its observer.
+    pub fn advance(&mut self, n: u64) -> &mut Self {
+        let target = self.common.steps.saturating_add(n);
+        if target == self.common.steps {
+            return self;
+        }
+        self.drive(target, false, |_, observer, view| observe(observer, view));
+        self.common.steps = target;
+        self
+    }
+
+    /// Makes `n` steps and shows the whole ensemble to a closure after every `steps` steps (0 counts as 1)
+    /// of them and at the end, until that returns [`ControlFlow::Break`]: progress, pictures, a condition
+    /// on all members.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator_any.md")]
+    /// use hamiltonian_core::prelude::*;
+    ///
+    /// let start = |_| (Oscillator, State::new([0.1], [0.0]));
+    /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 1e-3)?;
+    /// let mut seen = vec![];
+    /// swarm.watch(25, 10, |swarm| seen.push(swarm.steps()));
+    /// assert_eq!(seen, [10, 20, 25]);
+    /// # Ok::<(), Error>(())
+    /// ```
+    pub fn watch<V: Verdict>(&mut self, n: u64, steps: u64, mut closure: impl FnMut(&Self) -> V) {
+        let mut left = n;
+        while left > 0 {
+            let some = steps.max(1).min(left);
+            self.advance(some);
+            left -= some;
+            if closure(self).control().is_break() {
+                return;
+            }
+        }
+    }
+}
+
+impl<S: System<f64>, O> Ensemble<S, O> {
+    /// Advances on so many threads (0 counts as 1). By default there are as many as the machine runs at
+    /// once.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads.max(1);
+        self
+    }
+
+    /// Fuses no products and sums, so that each member has the bits of its single run on every CPU.
+    #[must_use]
+    pub fn reproducible(mut self) -> Self {
+        self.fuses = false;
+        self
+    }
+
+    /// The number of members.
+    #[allow(clippy::len_without_is_empty)] // An ensemble has members.
+    pub fn len(&self) -> usize {
+        self.chunks.iter().map(|chunk| chunk.count).sum()
+    }
+
+    /// The number of steps made by the members that go on.
+    pub fn steps(&self) -> u64 {
+        self.common.steps
+    }
+
+    /// The members' observers, in the order of the index.
+    pub fn observers(&self) -> impl Iterator<Item = &O> {
+        self.chunks.iter().flat_map(|chunk| &chunk.observers)
+    }
+
+    /// The state of each member, in the order of the index: the present one, the one at which its observer
+    /// ended it, or its error.
+    ///
+    /// # Errors
+    /// [`Error::Member`] with the index and the error of the member.
+    pub fn states(&self) -> impl Iterator<Item = Result<State<S::Vector>, Error>> {
+        (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX))
+    }
+
+    /// The state of one member, see [`states`](Ensemble::states); `None` if there is no such index.
+    pub fn at(&self, index: usize) -> Option<Result<State<S::Vector>, Error>> {
+        let number = self
+            .chunks
+            .partition_point(|chunk| chunk.first + chunk.count <= index);
+        let key = index - self.chunks.get(number)?.first;
+        self.closed(number, key..key + 1).pop()
+    }
+
+    /// The number of steps that each member has made.
+    pub fn steps_of(&self, index: usize) -> Option<u64> {
+        let number = self
+            .chunks
+            .partition_point(|chunk| chunk.first + chunk.count <= index);
+        let chunk = self.chunks.get(number)?;
+        Some(match chunk.out.get(&(index - chunk.first)) {
+            Some(Out::Failed(_, steps) | Out::Ended(_, steps)) => *steps,
+            None => self.common.steps,
+        })
+    }
+
+    /// The states of some members of a chunk.
+    fn closed(
+        &self,
+        number: usize,
+        keys: core::ops::Range<usize>,
+    ) -> Vec<Result<State<S::Vector>, Error>> {
+        let chunk = &self.chunks[number];
+        let keys = keys.start..keys.end.min(chunk.count);
+        let mut states: Vec<Option<State<S::Vector>>> = alloc::vec![None; chunk.count];
+        let mut copy = chunk.unobserved(keys.end, self.common.width);
+        let mut host = Going {
+            chunk: &mut copy,
+            common: &self.common,
+            target: self.common.steps,
+            looks: true,
+            attaches: false,
+            follows: false,
+            next: keys.start,
+            see: |key: usize, (): &mut (), view: &View<'_, f64, S>| {
+                states[key] = Some(view.state.clone());
+                ControlFlow::Continue(())
+            },
+        };
+        self.engine.drive(&mut host, self.fuses);
+        keys.map(|key| match (chunk.out.get(&key), states[key].take()) {
+            (Some(Out::Failed(error, _)), _) => Err(Error::Member {
+                index: chunk.first + key,
+                error: Box::new(error.clone()),
+            }),
+            (Some(Out::Ended(state, _)), _) => Ok((**state).clone()),
+            (None, Some(state)) => Ok(state),
+            (None, None) => Err(Error::NoMembers),
+        })
+        .collect()
+    }
+
+    /// Gives observers back what they remember; a member whose observer is another one fails.
+    fn restore(&mut self, memory: &mut Memory)
+    where
+        O: Observer<f64, S>,
+    {
+        for chunk in &mut self.chunks {
+            // Those that ended have memories too. A state is of use for its shape.
+            let out = core::mem::take(&mut chunk.out);
+            let failed = out.iter().filter(|(_, out)| matches!(out, Out::Failed(..)));
+            chunk.out = failed.map(|(key, out)| (*key, out.clone())).collect();
+            let mut host = Going {
+                chunk,
+                common: &self.common,
+                target: self.common.steps,
+                looks: true,
+                attaches: false,
+                follows: false,
+                next: 0,
+                see: |_: usize, observer: &mut O, view: &View<'_, f64, S>| match observer
+                    .restore(view, memory)
+                {
+                    Ok(()) => ControlFlow::Continue(()),
+                    Err(error) => ControlFlow::Break(Err(error)),
+                },
+            };
+            self.engine.drive(&mut host, self.fuses);
+            chunk.out.extend(out);
+        }
+    }
+
+    /// Drives all members to a number of steps.
+    fn drive(
+        &mut self,
+        target: u64,
+        attaches: bool,
+        see: impl Fn(usize, &mut O, &View<'_, f64, S>) -> Seen<S> + Sync,
+    ) where
+        O: Observer<f64, S> + Send,
+    {
+        let (engine, common, fuses) = (&*self.engine, &self.common, self.fuses);
+        threads::for_each(&mut self.chunks, self.threads, |chunk| {
+            let looks = attaches || chunk.observers.iter().any(|one| one.interval() < u64::MAX);
+            let mut host = Going {
+                chunk,
+                common,
+                target,
+                looks,
+                attaches,
+                follows: true,
+                next: 0,
+                see: &see,
+            };
+            engine.drive(&mut host, fuses);
+        });
+    }
+}
+
+impl<S: System<f64>, O: Clone> Clone for Ensemble<S, O> {
+    fn clone(&self) -> Self {
+        Ensemble {
+            engine: Arc::clone(&self.engine),
+            chunks: self.chunks.clone(),
+            common: self.common.clone(),
+            threads: self.threads,
+            fuses: self.fuses,
+            memory: self.memory.clone(),
+        }
+    }
+}
+
+impl<S: System<f64>, O> fmt::Debug for Ensemble<S, O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Ensemble")
+            .field("system", &S::NAME)
+            .field("scheme", &self.engine.describe())
+            .field("members", &self.len())
+            .field("step", &self.common.step)
+            .field("steps", &self.common.steps)
+            .finish_non_exhaustive()
+    }
+}

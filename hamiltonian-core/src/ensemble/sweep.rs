@@ -1,0 +1,451 @@
+//! Members that are made from their index, run to their end, and leave a record.
+//!
+//! Input: a system and a start for each index, a scheme, a step, an end, a record. Output: rows in the
+//! order of the index. Invariant: only chunks in work are in memory.
+
+use super::Member;
+use super::bound::{Engine, Ensembles};
+use super::ordered::in_order;
+use super::record::{Batch, End, Record, Row};
+use super::running::Running;
+use super::threads;
+use crate::error::Error;
+use crate::observe::Observer;
+use crate::shard::Shard;
+use crate::state::State;
+use crate::system::System;
+use crate::table::Table;
+use alloc::boxed::Box;
+use alloc::string::String;
+use alloc::sync::Arc;
+use alloc::vec::Vec;
+use core::ops::{ControlFlow, Range};
+use core::sync::atomic::{AtomicBool, Ordering};
+
+/// Makes the system and the start of a member.
+type Make<'a, S> =
+    Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
+/// A number of each member.
+type Each<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
+
+/// Where members end.
+pub(crate) enum Aim<'a> {
+    /// After so many steps.
+    Steps(u64),
+    /// At this time.
+    Until(f64),
+    /// Each at its own time.
+    Each(Each<'a>),
+}
+
+/// Members that are made from their index, run to their end and recorded: 10⁹ of them need no memory.
+///
+/// A sweep is described first: the end, an observer, the record. [`collect`](Sweep::collect),
+/// [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) run it, on all cores.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator_any.md")]
+/// use hamiltonian_core::prelude::*;
+///
+/// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+/// let table = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
+///     .until(1.005)
+///     .observe(|_member| EnergyDrift::new())
+///     .record(["q", "drift"], |end| [end.state.q[0], end.observer.max_relative()])
+///     .collect()?;
+/// assert_eq!(table.rows(), 100);
+/// assert!(table.column("drift").is_some_and(|mut drift| drift.all(|drift| drift < 1e-12)));
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Bits
+/// As for an [`Ensemble`](crate::Ensemble): neither threads nor chunks nor shards change a bit of a member,
+/// and with [`reproducible`](Sweep::reproducible) it has the bits of a single run on every CPU. What is
+/// left of the last step, and observers other than those that follow energies and observables, compute
+/// over `f64`, without fused products, in both modes.
+pub struct Sweep<'a, S: System<f64>, O = (), R = ()> {
+    pub(crate) count: usize,
+    pub(crate) engine: Arc<dyn Engine<S>>,
+    pub(crate) make: Make<'a, S>,
+    pub(crate) step: f64,
+    pub(crate) step_each: Option<Each<'a>>,
+    pub(crate) aim: Aim<'a>,
+    pub(crate) observer: Arc<dyn Fn(Member) -> O + Send + Sync + 'a>,
+    pub(crate) record: R,
+    pub(crate) seed: u64,
+    chunk: Option<usize>,
+    shard: Option<Shard>,
+    threads: usize,
+    pub(crate) fuses: bool,
+    cancel: Option<&'a AtomicBool>,
+    progress: Option<Box<dyn Fn(usize, usize) + Send + Sync + 'a>>,
+}
+
+/// The most members of a chunk by default: a multiple of the lanes of every pack.
+const CHUNK: usize = 4800;
+/// The fewest by default, as many as the widest pack has lanes.
+const LANES: usize = 80;
+
+impl<'a, S: System<f64>> Sweep<'a, S> {
+    /// A sweep over `count` members with the step `step`, to be given an end and a record. `make` makes the
+    /// system and the start of a member, on any thread.
+    pub fn new<M: Ensembles<S>>(
+        count: usize,
+        make: impl Fn(Member) -> (S, State<S::Vector>) + Send + Sync + 'a,
+        scheme: M,
+        step: f64,
+    ) -> Self {
+        Self::try_new(count, move |member| Ok(make(member)), scheme, step)
+    }
+
+    /// The same with a closure that returns a `Result`, the error of which is that of the member.
+    pub fn try_new<M: Ensembles<S>>(
+        count: usize,
+        make: impl Fn(Member) -> Result<(S, State<S::Vector>), Error> + Send + Sync + 'a,
+        scheme: M,
+        step: f64,
+    ) -> Self {
+        Sweep {
+            count,
+            engine: Arc::new(scheme),
+            make: Box::new(make),
+            step,
+            step_each: None,
+            aim: Aim::Steps(0),
+            observer: Arc::new(|_| ()),
+            record: (),
+            seed: 0,
+            chunk: None,
+            shard: None,
+            threads: threads::available(),
+            fuses: true,
+            cancel: None,
+            progress: None,
+        }
+    }
+
+    /// With an observer for each member, as in a single run. An observer that ends its member ends no
+    /// other.
+    pub fn observe<O: Observer<f64, S>>(
+        self,
+        observer: impl Fn(Member) -> O + Send + Sync + 'a,
+    ) -> Sweep<'a, S, O> {
+        self.with(Arc::new(observer), ())
+    }
+}
+
+impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
+    /// With one row a member: what the closure makes of its end, under these names. A member that failed
+    /// has NaN in its row.
+    pub fn record<const N: usize>(
+        self,
+        columns: [&str; N],
+        record: impl Fn(&End<'_, S, O>) -> [f64; N] + Send + Sync + 'a,
+    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+        let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| to.extend(record(end));
+        self.recorded(&columns, false, None, Box::new(write))
+    }
+
+    /// With a row for each of these times, which go in the direction of the run; the last is the end. The
+    /// closure sees the member at each. Tables have the index of the member as their first column,
+    /// `member`.
+    pub fn record_at<const N: usize>(
+        self,
+        times: impl IntoIterator<Item = f64>,
+        columns: [&str; N],
+        record: impl Fn(&End<'_, S, O>) -> [f64; N] + Send + Sync + 'a,
+    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+        let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| to.extend(record(end));
+        let times = times.into_iter().collect();
+        self.recorded(&columns, true, Some(times), Box::new(write))
+    }
+
+    /// With any number of rows a member, for example the states of a section. Tables have the index of the
+    /// member as their first column, `member`.
+    pub fn rows<const N: usize, I: IntoIterator<Item = [f64; N]>>(
+        self,
+        columns: [&str; N],
+        rows: impl Fn(&End<'_, S, O>) -> I + Send + Sync + 'a,
+    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+        let write = move |end: &End<'_, S, O>, to: &mut Vec<f64>| {
+            to.extend(rows(end).into_iter().flatten());
+        };
+        self.recorded(&columns, true, None, Box::new(write))
+    }
+
+    fn recorded(
+        self,
+        columns: &[&str],
+        several: bool,
+        times: Option<Vec<f64>>,
+        write: super::record::Write<'a, S, O>,
+    ) -> Sweep<'a, S, O, Record<'a, S, O>> {
+        let record = Record {
+            columns: columns.iter().map(|name| String::from(*name)).collect(),
+            several,
+            times,
+            write,
+        };
+        let observer = Arc::clone(&self.observer);
+        self.with(observer, record)
+    }
+}
+
+impl<'a, S: System<f64>, O, R> Sweep<'a, S, O, R> {
+    /// The same with another observer and another record.
+    fn with<N, Q>(
+        self,
+        observer: Arc<dyn Fn(Member) -> N + Send + Sync + 'a>,
+        record: Q,
+    ) -> Sweep<'a, S, N, Q> {
+        Sweep {
+            count: self.count,
+            engine: self.engine,
+            make: self.make,
+            step: self.step,
+            step_each: self.step_each,
+            aim: self.aim,
+            observer,
+            record,
+            seed: self.seed,
+            chunk: self.chunk,
+            shard: self.shard,
+            threads: self.threads,
+            fuses: self.fuses,
+            cancel: self.cancel,
+            progress: self.progress,
+        }
+    }
+
+    /// Ends members after `n` steps.
+    #[must_use]
+    pub fn steps(mut self, n: u64) -> Self {
+        self.aim = Aim::Steps(n);
+        self
+    }
+
+    /// Ends members at the time `t`. Between two steps the state is that of a part of a step, as in
+    /// [`advance_until`](crate::Integrator::advance_until).
+    #[must_use]
+    pub fn until(mut self, t: f64) -> Self {
+        self.aim = Aim::Until(t);
+        self
+    }
+
+    /// Ends each member at its own time.
+    #[must_use]
+    pub fn until_each(mut self, t: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+        self.aim = Aim::Each(Box::new(t));
+        self
+    }
+
+    /// Gives each member its own step, instead of the one of all.
+    #[must_use]
+    pub fn step_each(mut self, step: impl Fn(Member) -> f64 + Send + Sync + 'a) -> Self {
+        self.step_each = Some(Box::new(step));
+        self
+    }
+
+    /// Sets the seed from which [`Member::seed`] is made; it is 0 by default.
+    #[must_use]
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.seed = seed;
+        self
+    }
+
+    /// Sets the number of members in a chunk (0 counts as 1): the unit of work of a thread, and of a store
+    /// a file.
+    #[must_use]
+    pub fn chunk(mut self, members: usize) -> Self {
+        self.chunk = Some(members.max(1));
+        self
+    }
+
+    /// Computes the chunks of this shard alone.
+    #[must_use]
+    pub fn shard(mut self, shard: Shard) -> Self {
+        self.shard = Some(shard);
+        self
+    }
+
+    /// Runs on so many threads (0 counts as 1). By default there are as many as the machine runs at once.
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self {
+        self.threads = threads.max(1);
+        self
+    }
+
+    /// Fuses no products and sums, so that each member has the bits of its single run on every CPU.
+    #[must_use]
+    pub fn reproducible(mut self) -> Self {
+        self.fuses = false;
+        self
+    }
+
+    /// Stops the sweep with [`Error::Cancelled`] once the flag is set, for example by a handler of Ctrl-C.
+    #[must_use]
+    pub fn cancel(mut self, flag: &'a AtomicBool) -> Self {
+        self.cancel = Some(flag);
+        self
+    }
+
+    /// Calls a closure after each chunk with the number of members that are done and of all of this shard.
+    #[must_use]
+    pub fn progress(mut self, closure: impl Fn(usize, usize) + Send + Sync + 'a) -> Self {
+        self.progress = Some(Box::new(closure));
+        self
+    }
+
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+
+    /// The number of members in a chunk.
+    pub(crate) fn chunk_size(&self) -> usize {
+        let size = self
+            .count
+            .div_ceil(64)
+            .next_multiple_of(LANES)
+            .clamp(1, CHUNK);
+        self.chunk.unwrap_or(size)
+    }
+
+    /// The members of the chunks of this shard, chunk by chunk.
+    pub(crate) fn chunks(&self) -> Vec<Range<usize>> {
+        let size = self.chunk_size();
+        let chunks = (0..self.count.div_ceil(size)).filter(|chunk| match &self.shard {
+            Some(shard) => shard.has(*chunk as u64),
+            None => true,
+        });
+        let members = chunks.map(|chunk| chunk * size..self.count.min((chunk + 1) * size));
+        members.collect()
+    }
+}
+
+impl<'a, S, O> Sweep<'a, S, O, Record<'a, S, O>>
+where
+    S: System<f64>,
+    O: Observer<f64, S>,
+{
+    /// Runs the sweep and takes its rows one by one in the order of the index, on this thread.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator_any.md")]
+    /// use hamiltonian_core::prelude::*;
+    ///
+    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+    /// let largest = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
+    ///     .steps(100)
+    ///     .record(["q"], |end| [end.state.q[0]])
+    ///     .fold(0.0_f64, |largest, row| largest.max(row.values[0]))?;
+    /// assert!((largest - (9.9 * 1_f64.cos() + 0.5 * 1_f64.sin())).abs() < 1e-3);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NoMembers`], [`Error::Cancelled`]. The error of a member is in its row.
+    pub fn fold<A>(&self, init: A, mut take: impl FnMut(A, &Row<'_>) -> A) -> Result<A, Error> {
+        self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
+    }
+
+    /// The same until the closure breaks. Which rows it sees does not depend on threads: chunks beyond the
+    /// one in which it breaks are dropped.
+    ///
+    /// # Errors
+    /// Those of [`fold`](Sweep::fold).
+    pub fn try_fold<A>(
+        &self,
+        init: A,
+        mut take: impl FnMut(A, &Row<'_>) -> ControlFlow<A, A>,
+    ) -> Result<A, Error> {
+        let mut all = Some(init);
+        self.each_batch(self.chunks(), false, |batch| {
+            for row in batch.rows() {
+                match all.take().map(|so_far| take(so_far, &row)) {
+                    Some(ControlFlow::Continue(so_far)) => all = Some(so_far),
+                    Some(ControlFlow::Break(last)) => {
+                        all = Some(last);
+                        return Ok(ControlFlow::Break(()));
+                    }
+                    None => {}
+                }
+            }
+            Ok(ControlFlow::Continue(()))
+        })?;
+        all.ok_or(Error::NoMembers)
+    }
+
+    /// Runs the sweep and collects the rows into a table. With one row a member the last column is
+    /// `status`, see [`Status`](crate::Status); with several rows the first is `member`.
+    ///
+    /// # Errors
+    /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::TableError::Twice) for a name that
+    /// occurs twice.
+    pub fn collect(&self) -> Result<Table, Error> {
+        let columns = self.record.columns.iter().map(String::as_str);
+        let several = self.record.several;
+        let mut table = match several {
+            true => Table::with_index("member", columns)?,
+            false => Table::new(columns.chain(["status"]))?,
+        };
+        let mut line = Vec::new();
+        self.each_batch(self.chunks(), false, |batch| {
+            for row in batch.rows() {
+                if row.values.is_empty() && several {
+                    continue;
+                }
+                line.clear();
+                line.extend(several.then_some(row.index as f64));
+                line.extend_from_slice(row.values);
+                line.extend((!several).then_some(f64::from(row.status as u8)));
+                table.push(&line)?;
+            }
+            Ok(ControlFlow::Continue(()))
+        })?;
+        Ok(table)
+    }
+
+    /// Runs chunks and takes their batches in order, with hashes of their members if they are stored.
+    pub(crate) fn each_batch(
+        &self,
+        chunks: Vec<Range<usize>>,
+        hashes: bool,
+        mut take: impl FnMut(Batch) -> Result<ControlFlow<()>, Error>,
+    ) -> Result<(), Error> {
+        if self.count == 0 {
+            return Err(Error::NoMembers);
+        }
+        let of = chunks.iter().map(Range::len).sum();
+        let mut done = 0;
+        let mut result = Ok(());
+        let work = |job: usize| Running::new(self, chunks[job].clone(), hashes).batch();
+        in_order(chunks.len(), self.threads, work, |_, batch| {
+            if batch.cancelled {
+                result = Err(Error::Cancelled { done, of });
+                return ControlFlow::Break(());
+            }
+            done += batch.outcomes.len();
+            let taken = take(batch);
+            if let Some(progress) = &self.progress {
+                progress(done, of);
+            }
+            taken.unwrap_or_else(|error| {
+                result = Err(error);
+                ControlFlow::Break(())
+            })
+        });
+        result
+    }
+}
+
+impl<S: System<f64>, O, R> core::fmt::Debug for Sweep<'_, S, O, R> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.debug_struct("Sweep")
+            .field("system", &S::NAME)
+            .field("scheme", &self.engine.describe())
+            .field("members", &self.count)
+            .field("step", &self.step)
+            .field("seed", &self.seed)
+            .finish_non_exhaustive()
+    }
+}

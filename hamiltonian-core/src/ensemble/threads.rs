@@ -1,0 +1,64 @@
+//! Work on several threads.
+//!
+//! Input: items. Output: the work is done on each. Invariant: an item is worked on by one thread, so that
+//! results depend on neither their number nor the order.
+
+/// The number of threads that the machine runs at once.
+pub(crate) fn available() -> usize {
+    #[cfg(feature = "std")]
+    {
+        std::thread::available_parallelism().map_or(1, core::num::NonZero::get)
+    }
+    #[cfg(not(feature = "std"))]
+    {
+        1
+    }
+}
+
+/// Starts a thread for members. In unoptimised code the frames of inlined arithmetic in packs take more
+/// than the usual 2 MB of a thread's stack; what is not touched takes no memory.
+#[cfg(feature = "std")]
+pub(crate) fn spawn<'scope>(
+    scope: &'scope std::thread::Scope<'scope, '_>,
+    worker: impl FnOnce() + Send + 'scope,
+) {
+    const STACK: usize = 64 << 20;
+    let builder = std::thread::Builder::new().stack_size(STACK);
+    if let Err(error) = builder.spawn_scoped(scope, worker) {
+        // As `Scope::spawn` does.
+        panic!("the system starts no further thread: {error}");
+    }
+}
+
+/// Does the work on every item; threads take the next item when they are done with one.
+pub(crate) fn for_each<A: Send>(items: &mut [A], threads: usize, work: impl Fn(&mut A) + Sync) {
+    let threads = threads.clamp(1, items.len().max(1));
+    if threads == 1 {
+        items.iter_mut().for_each(work);
+        return;
+    }
+    #[cfg(feature = "std")]
+    {
+        let next = std::sync::Mutex::new(items.iter_mut());
+        let take = || {
+            // A thread that panicked has left the iterator whole.
+            let mut next = next
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner);
+            next.next()
+        };
+        let worker = || {
+            while let Some(item) = take() {
+                work(item);
+            }
+        };
+        std::thread::scope(|scope| {
+            for _ in 1..threads {
+                spawn(scope, worker);
+            }
+            worker();
+        });
+    }
+    #[cfg(not(feature = "std"))]
+    items.iter_mut().for_each(work);
+}

@@ -1,0 +1,276 @@
+//! Several members in the lanes of one: how code over `f64` reaches packs.
+//!
+//! Input: vectors and prepared systems over a scalar, one a member. Output: one over
+//! [`Real::Over`] a pack, and back. Invariant: lane k has the bits of member k; the last member fills the
+//! lanes that are left; what is prepared is computed once, over the scalar, and copied.
+//!
+//! Two routes lead here. An ensemble gathers the prepared systems of its members ([`Gather`]). A scheme
+//! or a loop of a single run hands a [`InLanes`] kernel to [`Dynamics::in_lanes`], which gathers one
+//! system into all lanes at the level of the CPU.
+
+use crate::system::Dynamics;
+use crate::vector::Vector;
+use alloc::boxed::Box;
+use core::any::Any;
+use core::fmt;
+use core::marker::PhantomData;
+use hamiltonian_lanes::{Base, Kernel, Level, Nf, Pack, Real, dispatch};
+
+/// The scalar of a vector with a value in each lane of the pack `P`.
+pub type ScalarOver<V, P> = <<V as Vector>::Scalar as Real>::Over<P>;
+/// A vector with a member in each lane of the pack `P`.
+pub type VectorOver<V, P> = <V as Vector>::Over<ScalarOver<V, P>>;
+
+/// The most members that are gathered into one pack.
+pub const MOST: usize = 128;
+
+/// A prepared system that can stand in the lanes of a pack beside others of its definition.
+///
+/// The macro implements it for every definition. A system written by hand implements it to take part in
+/// ensembles and, with [`Dynamics::in_lanes`], to let implicit schemes use packs in a single run:
+///
+/// ```
+/// # use hamiltonian_core::{Dynamics, Gather, InLanes, Unforced, Vector, VectorField, gather};
+/// # use hamiltonian_core::private::SVector;
+/// # use hamiltonian_lanes::{Pack, Real};
+/// /// H = ½(p² + ω²q²), prepared.
+/// #[derive(Debug, Clone)]
+/// struct Ready<T> {
+///     omega_squared: T,
+/// }
+///
+/// impl<T: Real> Gather<T> for Ready<T> {
+///     type Over<U: Real> = Ready<U>;
+///     fn gather<P: Pack>(members: &[&Self]) -> Ready<T::Over<P>> {
+///         Ready { omega_squared: gather::number(members, |one| one.omega_squared) }
+///     }
+///     fn fits(&self, _: &Self) -> bool {
+///         true // no sizes that could differ
+///     }
+///     fn equals(&self, other: &Self) -> bool {
+///         self.omega_squared == other.omega_squared
+///     }
+/// }
+/// # impl<T: Real> Dynamics<T> for Ready<T> {
+/// #     type Vector = SVector<T, 1>;
+/// #     type Field = Self;
+/// #     fn energy(&self, _: T, q: &SVector<T, 1>, p: &SVector<T, 1>) -> T { p[0] * p[0] + self.omega_squared * q[0] * q[0] }
+/// #     fn gradient_q(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>) {}
+/// #     fn gradient_p(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>) {}
+/// #     fn time_derivative(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
+/// #     fn hessian_vector(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
+/// #     fn observable(&self, _: usize, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>) -> T { T::zero() }
+/// #     fn field(&self, _: T) -> Self { self.clone() }
+/// # }
+/// # impl<T: Real> VectorField<SVector<T, 1>> for Ready<T> {
+/// #     fn add(&self, _: T, _: &SVector<T, 1>, _: &SVector<T, 1>, _: &mut SVector<T, 1>, _: &mut SVector<T, 1>) {}
+/// # }
+/// ```
+#[diagnostic::on_unimplemented(
+    message = "the prepared system `{Self}` cannot stand in the lanes of a pack",
+    label = "this needs a system whose members advance together",
+    note = "systems of `hamiltonian!` can; for one written by hand: `impl<T: Real> Gather<T> for … {{}}`"
+)]
+pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
+    /// The same prepared system over another scalar.
+    type Over<U: Real>: Dynamics<U, Vector = <Self::Vector as Vector>::Over<U>>
+        + Send
+        + Sync
+        + 'static;
+
+    /// One system with member k in lane k, and the last in the lanes that are left. There are at least one
+    /// and at most [`MOST`] members, and all of them [`fit`](Gather::fits) the first.
+    fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
+    /// Whether both may stand in one pack: sizes set at run time are the same.
+    fn fits(&self, other: &Self) -> bool;
+    /// Whether both are the same system: every parameter is equal.
+    fn equals(&self, other: &Self) -> bool;
+}
+
+/// Work of a single run over the scalar `T` that packs do faster: stages, loops.
+///
+/// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
+pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
+    /// The computation.
+    type Output;
+    /// The pack that is used on a level; wrapped in [`Nf`] unless products [fuse](crate::Arithmetic::fused), so that
+    /// a run has the same bits on every level.
+    type Pack<L: Level>: Base;
+    /// Computes it with the system in every lane. What it keeps, it finds there the next time that a kernel
+    /// runs with the same system in the same packs.
+    fn run<P, D>(self, system: &D, kept: &mut Kept) -> Self::Output
+    where
+        P: Pack,
+        D: Dynamics<T::Over<P>, Vector = V::Over<T::Over<P>>>;
+}
+
+/// Memory of work in lanes, whose type is the level's: a part of the scratch of a map. Its content never
+/// matters; it saves allocations and preparation. A copy is empty.
+#[derive(Default)]
+pub struct Kept(Option<Box<dyn Any + Send + Sync>>);
+
+impl Kept {
+    /// The value kept, if it has this type and is good; else a new one.
+    #[inline(always)]
+    pub fn get<X: Any + Send + Sync>(
+        &mut self,
+        is_good: impl FnOnce(&X) -> bool,
+        make: impl FnOnce() -> X,
+    ) -> &mut X {
+        let any = self.0.take();
+        let kept = any
+            .and_then(|any| any.downcast().ok())
+            .filter(|kept| is_good(kept));
+        let kept = self.0.insert(kept.unwrap_or_else(|| Box::new(make())));
+        match kept.downcast_mut() {
+            Some(kept) => kept,
+            None => unreachable!("a value of this type was kept a line before"),
+        }
+    }
+}
+
+impl Clone for Kept {
+    fn clone(&self) -> Self {
+        Kept(None)
+    }
+}
+
+impl fmt::Debug for Kept {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Kept").finish_non_exhaustive()
+    }
+}
+
+/// Runs a kernel on the best level of this CPU with one system in all lanes: the implementation of
+/// [`Dynamics::in_lanes`] where there is [`Gather`]. The kernel comes back if `T` has no form in lanes, or
+/// if the system's [arithmetic](Dynamics::arithmetic) does not use them.
+///
+/// # Errors
+/// The kernel.
+#[inline(always)]
+pub fn in_lanes<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>>(
+    system: &D,
+    kept: &mut Kept,
+    kernel: K,
+) -> Result<K::Output, K> {
+    if !T::WIDENS || !system.arithmetic().lanes {
+        return Err(kernel);
+    }
+    let scalar = PhantomData::<T>;
+    Ok(dispatch(Entry {
+        system,
+        kept,
+        kernel,
+        scalar,
+    }))
+}
+
+/// The way into a level for [`in_lanes`].
+struct Entry<'a, T, D, K> {
+    system: &'a D,
+    kept: &'a mut Kept,
+    kernel: K,
+    scalar: PhantomData<T>,
+}
+
+/// What [`in_lanes`] keeps: the system, gathered.
+struct Gathered<D, O> {
+    of: D,
+    over: O,
+    kept: Kept,
+}
+
+impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Entry<'_, T, D, K> {
+    #[inline(always)]
+    fn over<P: Pack>(self) -> K::Output {
+        let system = self.system;
+        let Gathered { over, kept, .. } = self.kept.get(
+            |kept: &Gathered<D, D::Over<T::Over<P>>>| kept.of.equals(system),
+            || Gathered {
+                of: system.clone(),
+                over: D::gather::<P>(&[system]),
+                kept: Kept::default(),
+            },
+        );
+        self.kernel.run::<P, _>(over, kept)
+    }
+}
+
+impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D, K> {
+    type Output = K::Output;
+    #[inline(always)]
+    fn run<L: Level>(self) -> K::Output {
+        if self.system.arithmetic().fused {
+            self.over::<K::Pack<L>>()
+        } else {
+            self.over::<Nf<K::Pack<L>>>()
+        }
+    }
+}
+
+/// A number of each member, in its lane.
+#[inline(always)]
+pub fn number<T: Real, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> T) -> T::Over<P> {
+    let mut values = [T::default(); MOST];
+    let count = members.len().min(MOST);
+    for (value, member) in values.iter_mut().zip(members) {
+        *value = of(member);
+    }
+    T::gather::<P>(&values[..count])
+}
+
+/// An array of numbers of each member, in its lane.
+#[inline(always)]
+pub fn numbers<T: Real, P: Pack, M, const N: usize>(
+    members: &[&M],
+    of: impl Fn(&M) -> &[T; N],
+) -> [T::Over<P>; N] {
+    let mut all = [T::Over::<P>::default(); N];
+    for (k, to) in all.iter_mut().enumerate() {
+        *to = number::<T, P, M>(members, |member| of(member)[k]);
+    }
+    all
+}
+
+/// Conditions of each member, in its lane.
+#[inline(always)]
+pub fn masks<T: Real, P: Pack, M, const N: usize>(
+    members: &[&M],
+    of: impl Fn(&M) -> &[T::Mask; N],
+) -> [<T::Over<P> as Real>::Mask; N] {
+    let flag = |k: usize| {
+        let value = |member: &M| T::select(of(member)[k], T::one(), T::zero());
+        number::<T, P, M>(members, value).equals(T::Over::<P>::one())
+    };
+    core::array::from_fn(flag)
+}
+
+/// A vector of each member, in its lane. All have the shape of the first.
+///
+/// # Panics
+/// If there is no member.
+#[inline(always)]
+pub fn vectors<V: Vector, P: Pack, M>(members: &[&M], of: impl Fn(&M) -> &V) -> VectorOver<V, P> {
+    let mut gathered = of(members[0]).zeros_over::<ScalarOver<V, P>>();
+    for k in 0..V::PARTS {
+        for (i, to) in gathered.part_mut(k).iter_mut().enumerate() {
+            *to = number::<V::Scalar, P, M>(members, |member| of(member).part(k)[i]);
+        }
+    }
+    gathered
+}
+
+/// Writes lane k of a vector to member k, for as many members as there are. All have its shape.
+#[inline(always)]
+pub fn scatter<V: Vector, P: Pack>(from: &VectorOver<V, P>, members: &mut [&mut V]) {
+    let mut values = [V::Scalar::default(); MOST];
+    let count = members.len().min(MOST);
+    for k in 0..V::PARTS {
+        for (i, from) in from.part(k).iter().enumerate() {
+            V::Scalar::scatter::<P>(*from, &mut values[..count]);
+            for (member, value) in members.iter_mut().zip(&values[..count]) {
+                member.part_mut(k)[i] = *value;
+            }
+        }
+    }
+}

@@ -1,0 +1,315 @@
+//! Processed splittings: a kernel that is repeated, and a processor around all of its steps.
+//!
+//! Input: a [`Split`] system, the tables of a kernel and of a processor. Output: [`Processed`]. Invariant:
+//! what is carried from step to step is the state before the processor, so that a step costs its kernel
+//! alone; the processor is applied to the copy that is shown.
+
+use super::splittings::Strang;
+use super::table::{Durations, Negated, Reversed, Table};
+use super::tables::processed as tables;
+use super::zigzag::Zigzag;
+use crate::flow::{Flow, Pieces};
+use crate::map::{Cause, Map, Step};
+use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
+use crate::state::{Carried, Point, State};
+use crate::system::{Exact, Split};
+use crate::vector::Vector;
+use hamiltonian_lanes::{Mask, Real};
+
+/// A kernel K between a processor π and its inverse, on pieces with exact flows:
+///
+/// ```text
+/// Φ = π ∘ K ∘ π⁻¹,    Φⁿ = π ∘ Kⁿ ∘ π⁻¹
+/// ```
+///
+/// A run applies π⁻¹ once at its start, then K in each step, and π to the copy of the state that an observer
+/// or the caller sees. K has to satisfy those order conditions alone that no change of variables removes, so
+/// it takes fewer stages than a splitting of the same order, or has smaller errors with as many.
+/// Observers of every step pay for the processor in every step; see
+/// [`every`](crate::every).
+///
+/// Both K and π are compositions of the exact flows, so Φ preserves dq∧dp. Its adjoint is
+/// π₋ₕ ∘ K* ∘ π₋ₕ⁻¹; π and π₋ₕ agree to the order of the scheme but not to the last bit, so Φ is symmetric to
+/// that order only.
+///
+/// `K` and `P` are [`Table`]s; the durations of `P` sum to zero. Its entry is that of the whole scheme.
+///
+/// Source: J. C. Butcher, Lecture Notes in Mathematics 109 (1969) 133, doi:10.1007/BFb0060019; S. Blanes,
+/// F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
+///
+/// ```
+#[doc = include_str!("../doc/oscillator.md")]
+/// use hamiltonian_core::{Integrator, State, schemes::Processed6};
+///
+/// let start = State::new([1.0], [0.0]);
+/// let mut run = Integrator::new(&Oscillator, Processed6::default(), start, 0.1)?;
+/// assert!((run.advance(10)?.q[0] - 1.0_f64.cos()).abs() < 1e-9);
+/// // What is carried is another point: the kernel's.
+/// assert!((run.carried().q[0] - 1.0_f64.cos()).abs() > 1e-6);
+/// # Ok::<(), hamiltonian_core::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Processed<K, P> {
+    /// The step that is repeated.
+    pub kernel: K,
+    /// π.
+    pub processor: P,
+}
+
+impl<K: Table, P: Table> Listed for Processed<K, P> {
+    fn entry(&self) -> Entry {
+        self.processor.entry()
+    }
+}
+
+impl<K: Table + PartialEq, P: Table + PartialEq> OneStep for Processed<K, P> {
+    type Adjoint = Processed<Reversed<K>, Negated<P>>;
+    fn adjoint(&self) -> Self::Adjoint {
+        Processed {
+            kernel: Reversed(self.kernel),
+            processor: Negated(self.processor),
+        }
+    }
+}
+
+impl<T, S, K, P> Scheme<T, S> for Processed<K, P>
+where
+    T: Real,
+    S: Split<T> + Exact,
+    K: Table,
+    P: Table,
+{
+    type Map = Processing<
+        Point<S::Vector>,
+        <S::Pieces as Pieces<T, S::Prepared>>::Outer,
+        <S::Pieces as Pieces<T, S::Prepared>>::Inner,
+        K,
+        P,
+    >;
+    #[inline(always)]
+    fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
+        let (pieces, whole) = (&S::PIECES, Step::of(step.h));
+        let unprocessing = Reversed(Negated(self.processor));
+        Processing {
+            unprocessor: Zigzag::new(&unprocessing, pieces, prepared, whole),
+            kernel: Zigzag::new(&self.kernel, pieces, prepared, step),
+            processor: Zigzag::new(&self.processor, pieces, prepared, whole),
+        }
+    }
+    /// Processors of different steps do not cancel.
+    #[inline(always)]
+    fn prepare_after(
+        &self,
+        before: &Self,
+        prepared: &S::Prepared,
+        step: Step<T>,
+    ) -> Option<Self::Map>
+    where
+        Self: OneStep,
+    {
+        let joins = self == before && step.h.equals(step.before).all();
+        joins.then(|| Scheme::<T, S>::prepare(self, prepared, step))
+    }
+    fn start(&self, _: &S::Prepared, state: &State<S::Vector>, _: T) -> Point<S::Vector> {
+        state.point()
+    }
+}
+
+/// The map of a [`Processed`] scheme.
+#[derive(Debug)]
+pub struct Processing<X: Vector, O, I, K: Table, P: Table> {
+    /// π⁻¹.
+    unprocessor: Zigzag<X, O, I, Reversed<Negated<P>>>,
+    kernel: Zigzag<X, O, I, K>,
+    /// π.
+    processor: Zigzag<X, O, I, P>,
+}
+
+/// A processor at the time `t`, to which the clock comes back: the durations sum to zero.
+///
+/// It is long and seldom made, so it is compiled once, apart from the loop over steps. Its point is moved there and
+/// back, so that the one of the loop stays in registers.
+#[inline(always)]
+fn apart<X, O, I, W>(
+    processor: &Zigzag<X, O, I, W>,
+    t: X::Scalar,
+    z: &mut X,
+    work: &mut (O::Work, I::Work),
+) where
+    X: Carried,
+    O: Flow<X>,
+    I: Flow<X>,
+    W: Table,
+{
+    let mut moved = z.take();
+    X::Scalar::out_of_line(|| processor.step(t, t, &mut moved, work));
+    *z = moved;
+}
+
+impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Table, P: Table> Map for Processing<X, O, I, K, P> {
+    type Carried = X;
+    /// That of the kernel, which the processors share.
+    type Work = (O::Work, I::Work);
+
+    #[inline(always)]
+    fn open(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
+        apart(&self.unprocessor, t, z, work);
+        self.kernel.open(t, z, work);
+    }
+
+    #[inline(always)]
+    fn body(&self, t: X::Scalar, end: X::Scalar, z: &mut X, work: &mut Self::Work) {
+        self.kernel.body(t, end, z, work);
+    }
+
+    #[inline(always)]
+    fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
+        self.kernel.close(t, z, work);
+        apart(&self.processor, t, z, work);
+    }
+
+    #[inline(always)]
+    fn join(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
+        self.kernel.join(t, z, work);
+    }
+
+    #[cold]
+    fn explain(
+        &self,
+        t: X::Scalar,
+        end: X::Scalar,
+        first: bool,
+        z: &mut X,
+        work: &mut Self::Work,
+    ) -> Cause {
+        if first {
+            let cause = self.unprocessor.explain(t, t, true, z, work);
+            if !z.is_finite() {
+                return cause;
+            }
+        }
+        // This closes the kernel too.
+        let cause = self.kernel.explain(t, end, first, z, work);
+        if !z.is_finite() {
+            return cause;
+        }
+        self.processor.explain(end, end, true, z, work)
+    }
+}
+
+/// The table `$part` of a processed one as a type.
+macro_rules! weights {
+    ($(#[$doc:meta])* $name:ident: $table:path, $part:ident, $stages:literal, $scheme:ident) => {
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+        pub struct $name;
+
+        impl Listed for $name {
+            fn entry(&self) -> Entry {
+                Entry {
+                    name: stringify!($scheme),
+                    variant: "",
+                    equations: "",
+                    order: $table.order,
+                    duration: 1,
+                    needs: Needs::Exact,
+                    preserves: Form::OnePoint,
+                    source: $table.source,
+                }
+            }
+        }
+
+        impl Table for $name {
+            type Of<U> = [U; $stages];
+            #[inline(always)]
+            fn stages(&self) -> [Durations; $stages] {
+                $table.$part
+            }
+            #[inline(always)]
+            fn map<A, U>(of: [A; $stages], f: impl FnMut(A) -> U) -> [U; $stages] {
+                of.map(f)
+            }
+        }
+    };
+}
+
+/// The kernel `$kernel` and the processor `$processor` of a table, and the scheme `$scheme` of the two.
+macro_rules! processed {
+    ($($(#[$doc:meta])* $scheme:ident: $table:path, $kernel:ident $kernel_stages:literal,
+       $processor:ident $stages:literal;)+) => {$(
+        weights! {
+            #[doc = concat!("The kernel of [`", stringify!($scheme), "`]: not a scheme of its order by itself.")]
+            $kernel: $table, kernel, $kernel_stages, $scheme
+        }
+        processed! { @with_kernel $(#[$doc])* $scheme: $table, $kernel, $processor $stages }
+    )+};
+    (@with_kernel $(#[$doc:meta])* $scheme:ident: $table:path, $kernel:ident, $processor:ident $stages:literal) => {
+        weights! {
+            #[doc = concat!("The processor of [`", stringify!($scheme), "`].")]
+            $processor: $table, processor, $stages, $scheme
+        }
+
+        $(#[$doc])*
+        ///
+        /// Preserves dq∧dp.
+        ///
+        /// ```
+        #[doc = include_str!("../doc/oscillator.md")]
+        #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($scheme), "};")]
+        ///
+        /// let start = State::new([1.0], [0.0]);
+        #[doc = concat!("let mut run = Integrator::new(&Oscillator, ", stringify!($scheme), "::default(), start, 0.05)?;")]
+        /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
+        /// # Ok::<(), hamiltonian_core::Error>(())
+        /// ```
+        pub type $scheme = Processed<$kernel, $processor>;
+    };
+}
+
+macro_rules! corrected {
+    ($($(#[$doc:meta])* $scheme:ident: $table:path, $processor:ident $stages:literal;)+) => {$(
+        processed! { @with_kernel
+            $(#[$doc])*
+            ///
+            /// Strang's splitting of H = A + εB with a small ε, A the first piece of `split { A = …; B = …; }`,
+            /// and as processor Wisdom's corrector, which removes the errors linear in ε up to its order. A
+            /// step costs one flow of A and one of B, as [`Strang`]'s does. Without a small piece it is a
+            /// scheme of order 2.
+            ///
+            /// Source: J. Wisdom, M. Holman, Astron. J. 102 (1991) 1528, doi:10.1086/115978; J. Wisdom, Astron.
+            /// J. 131 (2006) 2294, doi:10.1086/500829; H. Rein, D. Tamayo, G. Brown, Mon. Not. R. Astron. Soc.
+            /// 489 (2019) 4632, doi:10.1093/mnras/stz2503.
+            $scheme: $table, Strang, $processor $stages
+        }
+    )+};
+}
+
+processed! {
+    /// A processed splitting: order 4 with 5 stages.
+    ///
+    /// Source: the kernel with the least error modulo conjugation that a search found, by the conditions of S.
+    /// Blanes, F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
+    Processed4: tables::PROCESSED_4, Kernel4 5, Processor4 12;
+    /// A processed splitting: order 6 with 8 stages.
+    ///
+    /// Source: the kernel with the least error modulo conjugation that a search found, by the conditions of S.
+    /// Blanes, F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
+    Processed6: tables::PROCESSED_6, Kernel6 8, Processor6 24;
+    /// Blanes, Casas and Murua's processed composition: order 8 with 13 stages.
+    ///
+    /// Source: S. Blanes, F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
+    BlanesCasasMurua8: tables::BLANES_CASAS_MURUA_8, BlanesCasasMurua8Kernel 13, BlanesCasasMurua8Processor 20;
+}
+
+corrected! {
+    /// Wisdom and Holman's map with a corrector of order 3: error O(εh⁴ + ε²h²).
+    WisdomHolman3: tables::WISDOM_HOLMAN_3, Corrector3 2;
+    /// Wisdom and Holman's map with a corrector of order 5: error O(εh⁶ + ε²h²).
+    WisdomHolman5: tables::WISDOM_HOLMAN_5, Corrector5 4;
+    /// Wisdom and Holman's map with a corrector of order 7: error O(εh⁸ + ε²h²).
+    WisdomHolman7: tables::WISDOM_HOLMAN_7, Corrector7 6;
+    /// Wisdom and Holman's map with a corrector of order 11: error O(εh¹² + ε²h²).
+    WisdomHolman11: tables::WISDOM_HOLMAN_11, Corrector11 10;
+    /// Wisdom and Holman's map with a corrector of order 17: error O(εh¹⁸ + ε²h²).
+    WisdomHolman17: tables::WISDOM_HOLMAN_17, Corrector17 16;
+}

@@ -1,0 +1,382 @@
+//! Stages in rows: one after the other over a scalar, or beside each other in the lanes of a pack.
+//!
+//! Input: numbers of each stage. Output: [`Layout`], sums over stages, and the fixed-point iteration of
+//! all stages. Invariant: every layout adds in the same order, so that a step has the same bits in all
+//! of them where products do not fuse. The lanes of the last row that are left repeat its last stage.
+
+use super::iterate::Outcome;
+use crate::vector::Vector;
+use core::marker::PhantomData;
+use hamiltonian_lanes::{Mask, Pack, Real};
+
+/// The stages of a row of [`Beside`].
+pub(super) const LANES: usize = 4;
+
+/// How the stages of a step lie in rows.
+pub(super) trait Layout<T: Real> {
+    /// The scalar of a row.
+    type Row: Real;
+    /// The stages of a row as numbers.
+    type Few: Copy + AsRef<[T]>;
+    /// The stages of a row.
+    const WIDTH: usize;
+    /// A number of each stage of a row; the last fills what is left.
+    fn gather(values: &[T]) -> Self::Row;
+    /// One number for all stages.
+    fn splat(value: T) -> Self::Row;
+    /// The numbers of the stages.
+    fn split(row: Self::Row) -> Self::Few;
+    /// Whether it holds for all stages.
+    fn all(mask: <Self::Row as Real>::Mask) -> T::Mask;
+    /// Whether it holds for a stage.
+    fn any(mask: <Self::Row as Real>::Mask) -> T::Mask;
+    /// The sum of a norm over the stages.
+    fn total(size: <Self::Row as Real>::Size) -> T::Size;
+    /// `to = from`, but for the lanes of `T` where the mask is set.
+    fn copy_unless<X: Vector<Scalar = Self::Row>>(mask: T::Mask, from: &X, to: &mut X);
+}
+
+/// Each stage in a row of its own.
+pub(super) struct Apart;
+
+impl<T: Real> Layout<T> for Apart {
+    type Row = T;
+    type Few = [T; 1];
+    const WIDTH: usize = 1;
+    #[inline(always)]
+    fn gather(values: &[T]) -> T {
+        values[0]
+    }
+    #[inline(always)]
+    fn splat(value: T) -> T {
+        value
+    }
+    #[inline(always)]
+    fn split(row: T) -> [T; 1] {
+        [row]
+    }
+    #[inline(always)]
+    fn all(mask: T::Mask) -> T::Mask {
+        mask
+    }
+    #[inline(always)]
+    fn any(mask: T::Mask) -> T::Mask {
+        mask
+    }
+    #[inline(always)]
+    fn total(size: T::Size) -> T::Size {
+        size
+    }
+    #[inline(always)]
+    fn copy_unless<X: Vector<Scalar = T>>(mask: T::Mask, from: &X, to: &mut X) {
+        if T::LANES == 1 {
+            // Nothing is copied after all is solved.
+            to.copy_from(from);
+        } else {
+            to.copy_where(!mask, from);
+        }
+    }
+}
+
+/// Four stages beside each other in the lanes of the pack `P`.
+pub(super) struct Beside<P>(PhantomData<P>);
+
+impl<T: Real, P: Pack> Layout<T> for Beside<P> {
+    type Row = T::Over<P>;
+    type Few = [T; LANES];
+    const WIDTH: usize = LANES;
+    #[inline(always)]
+    fn gather(values: &[T]) -> Self::Row {
+        const { assert!(P::LANES as usize == LANES) }
+        T::gather::<P>(values)
+    }
+    #[inline(always)]
+    fn splat(value: T) -> Self::Row {
+        value.spread::<P>()
+    }
+    #[inline(always)]
+    fn split(row: Self::Row) -> [T; LANES] {
+        let mut few = [T::default(); LANES];
+        T::scatter::<P>(row, &mut few);
+        few
+    }
+    #[inline(always)]
+    fn all(mask: <Self::Row as Real>::Mask) -> T::Mask {
+        T::Mask::splat(mask.all())
+    }
+    #[inline(always)]
+    fn any(mask: <Self::Row as Real>::Mask) -> T::Mask {
+        T::Mask::splat(mask.any())
+    }
+    #[inline(always)]
+    fn total(size: <Self::Row as Real>::Size) -> T::Size {
+        let mut sum = 0.0;
+        for lane in 0..LANES as u32 {
+            sum += size.lane(lane);
+        }
+        T::Size::constant(sum, 0.0)
+    }
+    #[inline(always)]
+    fn copy_unless<X: Vector<Scalar = Self::Row>>(_: T::Mask, from: &X, to: &mut X) {
+        to.copy_from(from);
+    }
+}
+
+/// The number of rows of `S` stages.
+#[inline(always)]
+pub(super) const fn rows<T: Real, L: Layout<T>, const S: usize>() -> usize {
+    S.div_ceil(L::WIDTH)
+}
+
+/// A number of each stage, in rows; those after the last row are 0.
+#[inline(always)]
+pub(super) fn in_rows<T: Real, L: Layout<T>, const S: usize>(values: &[T; S]) -> [L::Row; S] {
+    let mut all = [L::Row::zero(); S];
+    for (row, few) in all.iter_mut().zip(values.chunks(L::WIDTH)) {
+        *row = L::gather(few);
+    }
+    all
+}
+
+/// A matrix whose rows are stages: `[row][j]`.
+#[inline(always)]
+pub(super) fn matrix_in_rows<T: Real, L: Layout<T>, const S: usize>(
+    matrix: &[[T; S]; S],
+) -> [[L::Row; S]; S] {
+    let mut all = [[L::Row::zero(); S]; S];
+    for (row, to) in all.iter_mut().enumerate().take(rows::<T, L, S>()) {
+        let first = row * L::WIDTH;
+        for (j, to) in to.iter_mut().enumerate() {
+            let mut few = [matrix[first][j]; LANES];
+            for (k, number) in few.iter_mut().enumerate() {
+                *number = matrix[(first + k).min(S - 1)][j];
+            }
+            *to = L::gather(&few[..L::WIDTH]);
+        }
+    }
+    all
+}
+
+/// The number of stage `j`.
+#[inline(always)]
+fn number<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S], j: usize) -> T {
+    few[j / L::WIDTH].as_ref()[j % L::WIDTH]
+}
+
+/// The sum of four partial sums, or of as many as there are stages.
+#[inline(always)]
+fn joined<R: Real, const S: usize>(sums: [R; 4]) -> R {
+    match S {
+        1 => sums[0],
+        2 => sums[0] + sums[1],
+        3 => (sums[0] + sums[1]) + sums[2],
+        _ => (sums[0] + sums[1]) + (sums[2] + sums[3]),
+    }
+}
+
+/// `Σ matrix[j]·few[j]` for a row: partial sums of the stages with the same remainder modulo 4, joined.
+#[inline(always)]
+pub(super) fn product<T: Real, L: Layout<T>, const S: usize>(
+    matrix: &[L::Row; S],
+    few: &[L::Few; S],
+) -> L::Row {
+    let mut sums = [L::Row::zero(); 4];
+    for j in 0..S.min(4) {
+        sums[j] = matrix[j] * L::splat(number::<T, L, S>(few, j));
+    }
+    let mut first = 4;
+    while first + 4 <= S {
+        for (k, sum) in sums.iter_mut().enumerate() {
+            let j = first + k;
+            *sum = matrix[j].fma(L::splat(number::<T, L, S>(few, j)), *sum);
+        }
+        first += 4;
+    }
+    if S > 4 {
+        for (k, sum) in sums.iter_mut().enumerate().take(S % 4) {
+            let j = S / 4 * 4 + k;
+            *sum = matrix[j].fma(L::splat(number::<T, L, S>(few, j)), *sum);
+        }
+    }
+    joined::<_, S>(sums)
+}
+
+/// `Σ few[j]` in the same order.
+#[inline(always)]
+pub(super) fn sum<T: Real, L: Layout<T>, const S: usize>(few: &[L::Few; S]) -> T {
+    let mut sums = [T::zero(); 4];
+    for j in 0..S {
+        let term = number::<T, L, S>(few, j);
+        sums[j % 4] = if j < 4 { term } else { sums[j % 4] + term };
+    }
+    joined::<_, S>(sums)
+}
+
+/// Replaces each number of the unknowns by the sum of a row of the matrix with all stages' numbers: the
+/// guess for a step from the unknowns of the step before.
+#[inline(always)]
+pub(super) fn multiply<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
+    matrix: &[[L::Row; S]; S],
+    unknowns: &mut [Y; S],
+) {
+    for k in 0..Y::PARTS {
+        for i in 0..unknowns[0].part(k).len() {
+            let few = spread::<T, L, Y, S>(None, unknowns, k, i);
+            for row in 0..rows::<T, L, S>() {
+                unknowns[row].part_mut(k)[i] = product::<T, L, S>(&matrix[row], &few);
+            }
+        }
+    }
+}
+
+/// Number `i` of part `k` of all stages, times a factor of each.
+#[inline(always)]
+pub(super) fn spread<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
+    factors: Option<&[L::Row; S]>,
+    unknowns: &[Y; S],
+    k: usize,
+    i: usize,
+) -> [L::Few; S] {
+    let mut few = [L::split(L::Row::zero()); S];
+    for row in 0..rows::<T, L, S>() {
+        let number = unknowns[row].part(k)[i];
+        few[row] = L::split(match factors {
+            Some(factors) => factors[row] * number,
+            None => number,
+        });
+    }
+    few
+}
+
+/// Lays the unknowns of each stage into rows.
+#[inline(always)]
+pub(super) fn load<T, L, Y, X, const S: usize>(from: &[Y; S], to: &mut [X; S])
+where
+    T: Real,
+    L: Layout<T>,
+    Y: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    for row in 0..rows::<T, L, S>() {
+        for k in 0..Y::PARTS {
+            for i in 0..from[0].part(k).len() {
+                let mut few = [T::zero(); LANES];
+                for (lane, number) in few.iter_mut().enumerate() {
+                    *number = from[(row * L::WIDTH + lane).min(S - 1)].part(k)[i];
+                }
+                to[row].part_mut(k)[i] = L::gather(&few[..L::WIDTH]);
+            }
+        }
+    }
+}
+
+/// Takes them out again.
+#[inline(always)]
+pub(super) fn store<T, L, X, Y, const S: usize>(from: &[X; S], to: &mut [Y; S])
+where
+    T: Real,
+    L: Layout<T>,
+    Y: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    for k in 0..Y::PARTS {
+        for i in 0..to[0].part(k).len() {
+            let few = spread::<T, L, X, S>(None, from, k, i);
+            for (j, to) in to.iter_mut().enumerate() {
+                to.part_mut(k)[i] = number::<T, L, S>(&few, j);
+            }
+        }
+    }
+}
+
+/// Equations `y = g(y)` for an unknown of each stage.
+pub(super) trait Equations<T: Real, L: Layout<T>, const S: usize> {
+    /// The unknowns of a row, and the point at which they are evaluated.
+    type Unknowns: Vector<Scalar = L::Row>;
+    /// The points of all rows.
+    fn points(&self, unknowns: &[Self::Unknowns; S], points: &mut [Self::Unknowns; S]);
+    /// The right-hand side of a row.
+    fn evaluate(&mut self, row: usize, point: &mut Self::Unknowns, next: &mut Self::Unknowns);
+    /// The size of the numbers that the unknowns of a row are made of, besides their own.
+    fn scale(&self) -> <L::Row as Real>::Size;
+}
+
+/// A change that no longer shrinks is rounding if it is at most this many ε of the numbers added:
+/// evaluations of J∇H may lose three decimal digits by cancellation.
+const ROUNDING: f64 = 1024.0;
+
+/// The iteration ends when the next change would be less than this part of ε: what is left is then no
+/// drift beside rounding, not even over 10⁷ steps.
+const REST: f64 = 1.0 / 256.0;
+
+/// Iterates `y ← g(y)` of all stages, at most `limit` times, until in each of them
+/// - the change is 0,
+/// - or the change after this one, foreseen from the last two quotients of changes, would be lost in the
+///   rounding of the unknowns,
+/// - or the change does not shrink any more and is rounding.
+///
+/// A lane of `T` that is solved is not touched any more.
+#[inline(always)]
+pub(super) fn solve<T: Real, L: Layout<T>, E: Equations<T, L, S>, const S: usize>(
+    limit: u32,
+    equations: &mut E,
+    unknowns: &mut [E::Unknowns; S],
+    points: &mut [E::Unknowns; S],
+    next: &mut E::Unknowns,
+) -> Outcome<T> {
+    type Size<L, T> = <<L as Layout<T>>::Row as Real>::Size;
+    let zero = Size::<L, T>::zero();
+    let infinite = Size::<L, T>::constant(f64::INFINITY, 0.0);
+    let (mut before, mut earlier, mut rest) = ([infinite; S], [infinite; S], [zero; S]);
+    let mut stalled = [<L::Row as Real>::Mask::splat(false); S];
+    let mut solved = T::Mask::splat(false);
+    let mut iterations = 0;
+    while iterations < limit {
+        equations.points(unknowns, points);
+        let mut done = <L::Row as Real>::Mask::splat(true);
+        let mut lost = <L::Row as Real>::Mask::splat(false);
+        for row in 0..rows::<T, L, S>() {
+            equations.evaluate(row, &mut points[row], next);
+            let change = next.size_of_difference(&unknowns[row]);
+            L::copy_unless(solved, next, &mut unknowns[row]);
+            if iterations == 0 {
+                let part = Size::<L, T>::constant(REST * T::epsilon(), 0.0);
+                rest[row] = part * next.size();
+            }
+            // Two quotients: one may be small by chance.
+            let foreseen = (change * change).le(rest[row] * before[row])
+                & (change * before[row]).le(rest[row] * earlier[row])
+                & earlier[row].lt(infinite);
+            let mut now = change.equals(zero) | foreseen;
+            // Strictly smaller than infinity: ∞ ≤ ∞ is no convergence.
+            let stalls = before[row].le(change) & before[row].lt(infinite);
+            if (stalls | stalled[row]).any() {
+                let scale = equations.scale() + next.size();
+                let floor = Size::<L, T>::constant(ROUNDING * T::epsilon(), 0.0) * scale;
+                stalled[row] = stalled[row] | (stalls & change.lt(floor));
+                now = now | (stalled[row] & change.lt(floor));
+            }
+            done = done & now;
+            lost = lost | !change.equals(change);
+            earlier[row] = before[row];
+            before[row] = change;
+        }
+        iterations += 1;
+        solved = solved | L::all(done);
+        // A lane that is not a number stays one.
+        if (solved | L::any(lost)).all() {
+            break;
+        }
+    }
+    let mut residual = T::Size::zero();
+    if !solved.all() {
+        for change in before.iter().take(rows::<T, L, S>()) {
+            residual += L::total(*change);
+        }
+    }
+    Outcome {
+        solved,
+        residual,
+        iterations,
+    }
+}

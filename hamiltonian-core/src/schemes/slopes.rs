@@ -1,0 +1,247 @@
+//! The fixed point of the slopes of all stages, `Fᵢ = J∇H(z + Σ αᵢⱼ bⱼh Fⱼ, t + cᵢh)`, in any layout.
+//!
+//! Input: the numbers of a method, a vector field, the point. Output: the slopes, and the step they make.
+//! Invariant: the bits do not depend on the [`Layout`].
+
+use super::compensated::carry;
+use super::iterate::Outcome;
+use super::rows::{
+    Beside, Equations, Layout, in_rows, load, matrix_in_rows, multiply, product, rows, solve,
+    spread, store, sum,
+};
+use super::stages::{Carries, Collocated, Stages};
+use crate::flow::VectorField;
+use crate::gather::{InLanes, Kept};
+use crate::map::Clock;
+use crate::state::{Pair, Point};
+use crate::system::Dynamics;
+use crate::vector::Vector;
+use core::marker::PhantomData;
+use hamiltonian_lanes::{Level, Mask, Pack, Real};
+
+/// The numbers of a method for steps of one size, in rows of stages.
+pub(super) struct Tableau<'a, R, const S: usize> {
+    /// The step.
+    pub(super) h: R,
+    /// cᵢh.
+    pub(super) times: &'a [R; S],
+    /// bᵢh.
+    pub(super) weights: &'a [R; S],
+    /// α for the coordinates.
+    pub(super) coordinates: &'a [[R; S]; S],
+    /// α for the momenta.
+    pub(super) momenta: &'a [[R; S]; S],
+    /// The slopes of the step before become a guess.
+    pub(super) guess: &'a [[R; S]; S],
+}
+
+/// Slopes ↦ J∇H at the points they lead to.
+struct FirstOrder<'a, T: Real, L: Layout<T>, F, V: Vector<Scalar = T>, X, const S: usize> {
+    tableau: &'a Tableau<'a, L::Row, S>,
+    field: &'a F,
+    t: L::Row,
+    point: &'a Point<V>,
+    of: PhantomData<X>,
+}
+
+impl<T, L, F, V, X, const S: usize> Equations<T, L, S> for FirstOrder<'_, T, L, F, V, X, S>
+where
+    T: Real,
+    L: Layout<T>,
+    F: VectorField<X>,
+    V: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    type Unknowns = Point<X>;
+    #[inline(always)]
+    fn points(&self, slopes: &[Point<X>; S], points: &mut [Point<X>; S]) {
+        for k in 0..Point::<X>::PARTS {
+            let matrix = if k < X::PARTS {
+                self.tableau.coordinates
+            } else {
+                self.tableau.momenta
+            };
+            for i in 0..self.point.part(k).len() {
+                let few = spread::<T, L, _, S>(Some(self.tableau.weights), slopes, k, i);
+                let base = L::splat(self.point.part(k)[i]);
+                for row in 0..rows::<T, L, S>() {
+                    // The small numbers first.
+                    let increment = product::<T, L, S>(&matrix[row], &few);
+                    points[row].part_mut(k)[i] = increment + base;
+                }
+            }
+        }
+    }
+    #[inline(always)]
+    fn evaluate(&mut self, row: usize, point: &mut Point<X>, next: &mut Point<X>) {
+        next.set_zero();
+        let t = self.t + self.tableau.times[row];
+        let Point { q, p } = next;
+        self.field.add(t, &point.q, &point.p, q, p);
+    }
+    #[inline(always)]
+    fn scale(&self) -> <L::Row as Real>::Size {
+        let mut size = <L::Row as Real>::Size::zero();
+        for k in 0..Point::<V>::PARTS {
+            for number in self.point.part(k) {
+                size += L::splat(*number).size();
+            }
+        }
+        size / self.tableau.h.size()
+    }
+}
+
+/// Solves for the slopes of the step from `t`, from those of the step before.
+#[allow(clippy::too_many_arguments)]
+#[inline(always)]
+pub(super) fn fixed_point<T, L, F, V, X, const S: usize>(
+    limit: u32,
+    tableau: &Tableau<'_, L::Row, S>,
+    field: &F,
+    t: T,
+    point: &Point<V>,
+    slopes: &mut [Point<X>; S],
+    points: &mut [Point<X>; S],
+    next: &mut Point<X>,
+) -> Outcome<T>
+where
+    T: Real,
+    L: Layout<T>,
+    F: VectorField<X>,
+    V: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    // One slope is its own guess.
+    if S > 1 {
+        multiply::<T, L, _, S>(tableau.guess, slopes);
+    }
+    let mut equations = FirstOrder::<T, L, F, V, X, S> {
+        tableau,
+        field,
+        t: L::splat(t),
+        point,
+        of: PhantomData,
+    };
+    solve(limit, &mut equations, slopes, points, next)
+}
+
+/// Adds Σ bᵢhFᵢ to the point and its low words.
+#[inline(always)]
+pub(super) fn finish<T, L, V, X, const S: usize>(
+    weights: &[L::Row; S],
+    slopes: &[Point<X>; S],
+    point: &mut Point<V>,
+    low: &mut Point<V>,
+) where
+    T: Real,
+    L: Layout<T>,
+    V: Vector<Scalar = T>,
+    X: Vector<Scalar = L::Row>,
+{
+    for k in 0..Point::<V>::PARTS {
+        for i in 0..low.part(k).len() {
+            let few = spread::<T, L, _, S>(Some(weights), slopes, k, i);
+            low.part_mut(k)[i] += sum::<T, L, S>(&few);
+        }
+    }
+    carry(point, low);
+}
+
+/// Steps whose stages lie beside each other, until one is not solved.
+pub(super) struct StepsBeside<'a, T: Real, P: Dynamics<T>, const S: usize> {
+    pub(super) map: &'a Collocated<T, P, S>,
+    pub(super) clock: Clock<T>,
+    /// The steps made before.
+    pub(super) made: u64,
+    pub(super) n: u64,
+    pub(super) z: &'a mut Carries<P::Vector, S>,
+}
+
+/// The memory of [`StepsBeside`]: slopes, points, a slope.
+struct Memory<X: Vector, const S: usize> {
+    slopes: Stages<Point<X>, S>,
+    points: Stages<Point<X>, S>,
+    next: Point<X>,
+}
+
+impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBeside<'_, T, Q, S> {
+    /// The number of steps made. If it is less than asked for, the value carried is that before the step
+    /// that was not solved, but for its slopes.
+    type Output = u64;
+    type Pack<L: Level> = L::Four;
+
+    #[inline(always)]
+    fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64
+    where
+        P: Pack,
+        D: Dynamics<T::Over<P>, Vector = <Q::Vector as Vector>::Over<T::Over<P>>>,
+    {
+        let StepsBeside {
+            map,
+            clock,
+            made,
+            n,
+            z,
+        } = self;
+        let times = in_rows::<T, Beside<P>, S>(&map.times);
+        let weights = in_rows::<T, Beside<P>, S>(&map.weights);
+        let coordinates = matrix_in_rows::<T, Beside<P>, S>(&map.coordinates);
+        let momenta = matrix_in_rows::<T, Beside<P>, S>(&map.momenta);
+        let guess = matrix_in_rows::<T, Beside<P>, S>(&map.guess);
+        let tableau = Tableau {
+            h: map.h.spread::<P>(),
+            times: &times,
+            weights: &weights,
+            coordinates: &coordinates,
+            momenta: &momenta,
+            guess: &guess,
+        };
+        let field = system.field(T::Over::<P>::one());
+        let memory = kept.get(
+            |_| true,
+            || {
+                let zero = z.x.zeros_over::<T::Over<P>>();
+                let stages = Stages(core::array::from_fn(|_| zero.clone()));
+                Memory::<D::Vector, S> {
+                    slopes: stages.clone(),
+                    points: stages,
+                    next: zero,
+                }
+            },
+        );
+        // Moved out, they are variables of this loop alone and may stay in registers.
+        let mut slopes = memory.slopes.take();
+        let mut points = memory.points.take();
+        let mut next = memory.next.take();
+        let (mut point, mut low) = (z.x.take(), z.y.y.take());
+        load::<T, Beside<P>, _, _, S>(&z.y.x.0, &mut slopes.0);
+        let mut left = n;
+        while left > 0 {
+            let outcome = fixed_point::<T, Beside<P>, _, _, _, S>(
+                map.limit,
+                &tableau,
+                &field,
+                clock.at(made + (n - left)),
+                &point,
+                &mut slopes.0,
+                &mut points.0,
+                &mut next,
+            );
+            if !outcome.solved.all() {
+                break;
+            }
+            finish::<T, Beside<P>, _, _, S>(&weights, &slopes.0, &mut point, &mut low);
+            left -= 1;
+        }
+        store::<T, Beside<P>, _, _, S>(&slopes.0, &mut z.y.x.0);
+        let Pair { x, y } = z;
+        *x = point;
+        y.y = low;
+        *memory = Memory {
+            slopes,
+            points,
+            next,
+        };
+        n - left
+    }
+}

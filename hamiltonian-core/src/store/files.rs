@@ -1,0 +1,93 @@
+//! Files that appear whole or not at all.
+//!
+//! A file is written beside its place and renamed. What a killed process was writing stays in the
+//! directory `status/parts` until the store is complete: readers of Zarr never look there.
+
+use super::error::StoreError;
+use crate::error::Error;
+use std::collections::hash_map::RandomState;
+use std::fs::{self, File};
+use std::hash::{BuildHasher, Hasher};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// Names for what is being written, different in every process on every machine.
+#[derive(Debug)]
+pub(super) struct Parts {
+    directory: PathBuf,
+    /// A number that is different in every process: process numbers are those of one machine.
+    process: u64,
+    next: AtomicU64,
+}
+
+impl Parts {
+    pub(super) fn of(root: &Path) -> Self {
+        Parts {
+            directory: root.join(super::layout::STATUS).join("parts"),
+            process: RandomState::new().build_hasher().finish(),
+            next: AtomicU64::new(0),
+        }
+    }
+
+    /// A path that nobody else writes to.
+    pub(super) fn fresh(&self) -> io::Result<PathBuf> {
+        fs::create_dir_all(&self.directory)?;
+        let number = self.next.fetch_add(1, Ordering::Relaxed);
+        let name = format!("{:016x}-{number}", self.process);
+        Ok(self.directory.join(name))
+    }
+
+    /// Removes what killed processes left.
+    pub(super) fn remove(&self) {
+        // There may be none, or another process is removing them.
+        let _ = fs::remove_dir_all(&self.directory);
+    }
+
+    /// Writes a file: `place` has all bytes, or is as it was.
+    pub(super) fn write(&self, place: &Path, bytes: &[u8]) -> io::Result<()> {
+        let part = self.fresh()?;
+        let written = write_new(&part, bytes).and_then(|()| {
+            if let Some(directory) = place.parent() {
+                fs::create_dir_all(directory)?;
+            }
+            fs::rename(&part, place)
+        });
+        if written.is_err() {
+            // It is of no use, and takes space that may be missing.
+            let _ = fs::remove_file(&part);
+        }
+        written
+    }
+}
+
+/// Writes a file to the disk.
+pub(super) fn write_new(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(bytes)?;
+    file.sync_all()
+}
+
+/// The typed error for a file of the store `root`.
+pub(super) fn failed(root: &Path, path: &Path, error: &io::Error) -> Error {
+    let full = [ErrorKind::StorageFull, ErrorKind::QuotaExceeded];
+    match full.contains(&error.kind()) {
+        true => StoreError::Full {
+            path: root.display().to_string(),
+        },
+        false => StoreError::File {
+            path: path.display().to_string(),
+            message: error.to_string(),
+        },
+    }
+    .into()
+}
+
+/// The bytes of a file; `None` if there is none.
+pub(super) fn read(root: &Path, path: &Path) -> Result<Option<Vec<u8>>, Error> {
+    match fs::read(path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(failed(root, path, &error)),
+    }
+}

@@ -1,0 +1,147 @@
+//! Processed splittings: the kernel alone, three pieces, observers, steps of different sizes, long runs.
+
+use crate::common::pieces::Polar;
+use crate::common::systems::*;
+use crate::common::{difference, start};
+use crate::composition::{is, slope};
+use hamiltonian_core::prelude::*;
+use hamiltonian_core::schemes::Table;
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{Entry, Listed, OneStep, Scheme};
+
+/// A processor that does nothing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Idle;
+
+impl Listed for Idle {
+    fn entry(&self) -> Entry {
+        Processed6::default().entry()
+    }
+}
+
+impl Table for Idle {
+    type Of<U> = [U; 1];
+    fn stages(&self) -> [Durations; 1] {
+        [(Weight(0.0, 0.0), Weight(0.0, 0.0))]
+    }
+    fn map<A, U>(of: [A; 1], f: impl FnMut(A) -> U) -> [U; 1] {
+        of.map(f)
+    }
+}
+
+#[test]
+fn a_kernel_alone_has_order_2() {
+    fn alone<K: Table>(kernel: K) -> f64 {
+        let processor = Idle;
+        slope(
+            &Hand(Pumped),
+            Processed { kernel, processor },
+            &[0.9],
+            &[0.4],
+        )
+    }
+    is(2.0, alone(Kernel4));
+    is(2.0, alone(Kernel6));
+}
+
+#[test]
+fn three_pieces_have_the_order_of_two() {
+    let (q, p) = (&[0.4, 0.7][..], &[0.2, 0.15][..]);
+    is(4.0, slope(&Hand(Polar::<3>), Processed4::default(), q, p));
+    is(4.0, slope(&Hand(Polar::<4>), Processed4::default(), q, p));
+}
+
+/// What is carried is the kernel's point, so the bits do not depend on who looks, and how often.
+#[test]
+fn observers_change_no_bit() {
+    let system = Hand(Pumped);
+    let begin = start(&system, &[0.9], &[0.4]);
+    let new = || Integrator::new(&system, Processed6::default(), begin.clone(), 0.1).unwrap();
+    let mut unseen = new();
+    let mut seen: Vec<f64> = Vec::new();
+    let mut watched = new().watch(1, |view| seen.push(view.state.q[0]));
+    for _ in 0..30 {
+        watched.advance(1).unwrap();
+    }
+    unseen.advance(30).unwrap();
+    assert_eq!(unseen.carried(), watched.carried());
+    assert_eq!(unseen.state(), watched.state());
+    // The processor is no identity, and is undone at the start.
+    assert!((unseen.carried().q[0] - unseen.state().q[0]).abs() > 1e-9);
+    drop(watched);
+    assert_eq!(seen[0], 0.9);
+}
+
+/// Processors of different steps do not cancel: each stage closes and the next one opens.
+#[test]
+fn steps_of_different_sizes_follow_each_other() {
+    let system = Hand(Pumped);
+    let begin = start(&system, &[0.9], &[0.4]);
+    let (first, second) = (0.0625, 0.1875);
+    let weights = [0.25, 0.75].map(|weight| Weight(weight, 0.0));
+    let both = Composition::new(Processed4::default(), weights, 4, "two sizes");
+    let mut run = Integrator::new(&system, both, begin.clone(), first + second).unwrap();
+    let mut apart = begin.clone();
+    for _ in 0..3 {
+        for h in [first, second] {
+            let mut part = Integrator::new(&system, Processed4::default(), apart, h).unwrap();
+            apart = part.advance(1).unwrap().clone();
+        }
+    }
+    let off = difference(run.advance(3).unwrap(), &apart);
+    assert!(off <= 1e-14, "{off:e}");
+    // Steps of one size are joined: two halves of a composition are two steps.
+    let halves = [Weight(0.5, 0.0); 2];
+    let both = Composition::new(Processed4::default(), halves, 4, "halves");
+    let mut run = Integrator::new(&system, both, begin.clone(), 0.25).unwrap();
+    let mut plain = Integrator::new(&system, Processed4::default(), begin, 0.125).unwrap();
+    let off = difference(run.advance(5).unwrap(), plain.advance(10).unwrap());
+    assert!(off <= 1e-14, "{off:e}");
+}
+
+/// The adjoint of the adjoint is the scheme, with other types.
+#[test]
+fn adjoints_of_adjoints_are_the_scheme() {
+    let scheme = Processed6::default();
+    let twice = scheme.adjoint().adjoint();
+    assert_eq!(scheme.kernel.stages(), twice.kernel.stages());
+    assert_eq!(scheme.processor.stages(), twice.processor.stages());
+    assert_ne!(
+        scheme.processor.stages(),
+        scheme.adjoint().processor.stages()
+    );
+}
+
+/// max |H/H(0) − 1| of each tenth of a run of 10⁷ steps stays that of the first.
+#[test]
+fn energy_does_not_drift() {
+    if std::env::var_os("HAMILTONIAN_HEAVY").is_none_or(|value| value != "1") {
+        return;
+    }
+    fn tenths(scheme: impl Scheme<f64, Hand<HenonHeiles, 2>>, h: f64) {
+        const TENTH: u64 = 1_000_000;
+        let system = Hand(HenonHeiles);
+        let begin = start(&system, &[0.12, 0.23], &[0.31, -0.17]);
+        let name = scheme.entry().name;
+        let mut run = Integrator::new(&system, scheme, begin, h).unwrap();
+        let energy = run.energy();
+        let mut largest = Vec::new();
+        for _ in 0..10 {
+            let mut most = 0.0_f64;
+            for _ in 0..TENTH / 100 {
+                run.advance(100).unwrap();
+                most = most.max((run.energy() / energy - 1.0).abs());
+            }
+            largest.push(most);
+        }
+        println!("{name}: {largest:?}");
+        for most in &largest {
+            assert!(
+                (most / largest[0] - 1.0).abs() <= 0.02,
+                "{name}: {largest:?}"
+            );
+        }
+    }
+    tenths(Processed4::default(), 0.5);
+    tenths(Processed6::default(), 1.2);
+}

@@ -1,0 +1,42 @@
+//! Packs: several `f64` as one scalar.
+//!
+//! Input: registers of a level, or `f64`. Output: each [`Pack`], with one register ([`V`]), several in
+//! lock-step ([`W`]) and any of them unfused ([`Nf`]). Invariant: a lane's result depends on that
+//! lane's operands alone, and is what `f64` gives in every pack that does not fuse.
+
+mod lift;
+mod register;
+mod unfused;
+mod wide;
+
+pub use register::V;
+pub use unfused::Nf;
+pub use wide::W;
+
+use hamiltonian_real::Pack;
+use hamiltonian_real::parts::Word;
+
+use lift::LiftEvery;
+
+/// A pack that [`W`] and [`Nf`] make packs of, and that lifts from every kind of number.
+pub trait Base: Pack + Word + LiftEvery {}
+impl<P: Pack + Word + LiftEvery> Base for P {}
+
+/// `x += y` and its kin from `x + y`, for a generic type.
+macro_rules! assigning {
+    (@one [$($generics:tt)*] $Type:ty, $Trait:ident $method:ident $operator:tt) => {
+        impl<$($generics)*> core::ops::$Trait for $Type {
+            #[inline(always)]
+            fn $method(&mut self, other: Self) {
+                *self = *self $operator other;
+            }
+        }
+    };
+    ($generics:tt $Type:ty) => {
+        crate::level::pack::assigning! { @one $generics $Type, AddAssign add_assign + }
+        crate::level::pack::assigning! { @one $generics $Type, SubAssign sub_assign - }
+        crate::level::pack::assigning! { @one $generics $Type, MulAssign mul_assign * }
+        crate::level::pack::assigning! { @one $generics $Type, DivAssign div_assign / }
+    };
+}
+use assigning;

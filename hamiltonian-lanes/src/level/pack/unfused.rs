@@ -1,0 +1,192 @@
+//! Any pack without fusing.
+//!
+//! Input: a pack. Output: [`Nf`]. Invariant: every lane has the bits of `f64`, on every level: a
+//! product and a sum are rounded apart, in formulas and inside elementary functions.
+
+use core::ops::{Add, Div, Mul, Neg, Sub};
+
+use super::{Base, assigning};
+use hamiltonian_real::parts::Word;
+use hamiltonian_real::parts::elementary;
+use hamiltonian_real::{Lift, Pack, Real, itself_in_lanes};
+
+/// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
+/// every CPU, for a fifth to a half more time on levels that fuse.
+///
+/// ```
+/// use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
+///
+/// struct Product;
+/// impl Kernel for Product {
+///     type Output = f64;
+///     fn run<L: Level>(self) -> f64 {
+///         let x = Nf(L::Pack::constant(0.1, 0.0));
+///         x.fma(x, -x * x).lane(0)
+///     }
+/// }
+/// // A fused product would leave the rounding error of 0.1².
+/// assert_eq!(dispatch(Product), 0.0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(transparent)]
+pub struct Nf<P>(pub P);
+
+macro_rules! operators {
+    ($($Trait:ident $method:ident;)*) => {
+        $(
+            impl<P: Base> $Trait for Nf<P> {
+                type Output = Self;
+                #[inline(always)]
+                fn $method(self, other: Self) -> Self {
+                    Self(self.0.$method(other.0))
+                }
+            }
+        )*
+    };
+}
+
+operators! {
+    Add add;
+    Sub sub;
+    Mul mul;
+    Div div;
+}
+assigning! { [P: Base] Nf<P> }
+
+impl<P: Base> Neg for Nf<P> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(-self.0)
+    }
+}
+
+impl<P: Base> Lift<f64> for Nf<P> {
+    #[inline(always)]
+    fn lift(value: f64) -> Self {
+        Self(P::lift(value))
+    }
+}
+impl<P: Base> Lift<Nf<P>> for Nf<P> {
+    #[inline(always)]
+    fn lift(value: Self) -> Self {
+        value
+    }
+}
+
+impl<P: Base> Real for Nf<P> {
+    type Mask = P::Mask;
+    type Size = Self;
+    const LANES: u32 = P::LANES;
+    itself_in_lanes! {}
+
+    #[inline(always)]
+    fn constant(hi: f64, lo: f64) -> Self {
+        Self(P::constant(hi, lo))
+    }
+    #[inline(always)]
+    fn fma(self, b: Self, c: Self) -> Self {
+        self * b + c
+    }
+    #[inline(always)]
+    fn select(mask: P::Mask, yes: Self, no: Self) -> Self {
+        Self(P::select(mask, yes.0, no.0))
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> P::Mask {
+        self.0.lt(other.0)
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> P::Mask {
+        self.0.le(other.0)
+    }
+    #[inline(always)]
+    fn equals(self, other: Self) -> P::Mask {
+        self.0.equals(other.0)
+    }
+    #[inline(always)]
+    fn magnitude(self) -> f64 {
+        self.0.magnitude()
+    }
+    #[inline(always)]
+    fn size(self) -> Self {
+        Self(self.0.size())
+    }
+    #[inline(always)]
+    fn finite(self) -> P::Mask {
+        self.0.finite()
+    }
+    #[inline(always)]
+    fn lane(self, k: u32) -> f64 {
+        self.0.lane(k)
+    }
+    #[inline(always)]
+    fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
+        P::out_of_line(f)
+    }
+    fn read_words(next: &mut dyn FnMut() -> f64) -> Self {
+        Self(P::read_words(next))
+    }
+    #[inline(always)]
+    fn epsilon() -> f64 {
+        f64::EPSILON
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(self.0.sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(self.0.abs())
+    }
+    #[inline(always)]
+    fn sign(self) -> Self {
+        Self(self.0.sign())
+    }
+    elementary! { #[inline(always)] }
+}
+
+impl<P: Base> Word for Nf<P> {
+    type Bits = P::Bits;
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn bits(self) -> P::Bits {
+        self.0.bits()
+    }
+    #[inline(always)]
+    fn from_bits(bits: P::Bits) -> Self {
+        Self(P::from_bits(bits))
+    }
+    #[inline(always)]
+    fn odd(bits: P::Bits) -> P::Mask {
+        P::odd(bits)
+    }
+    #[inline(always)]
+    fn scaled(self, k: Self) -> Option<Self> {
+        Some(Self(self.0.scaled(k.0)?))
+    }
+    #[inline(always)]
+    fn replace(self, mask: P::Mask, x: Self, f: fn(f64) -> f64) -> Self {
+        Self(self.0.replace(mask, x.0, f))
+    }
+    #[inline(always)]
+    fn replace2(self, mask: P::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self {
+        Self(self.0.replace2(mask, x.0, y.0, f))
+    }
+}
+
+impl<P: Base> Pack for Nf<P> {
+    #[inline(always)]
+    fn load(from: &[f64], missing: f64) -> Self {
+        Self(P::load(from, missing))
+    }
+    #[inline(always)]
+    fn store(self, into: &mut [f64]) {
+        self.0.store(into);
+    }
+    #[inline(always)]
+    fn below(n: u32) -> P::Mask {
+        P::below(n)
+    }
+}

@@ -1,0 +1,413 @@
+//! Innermost loops that core runs: their arithmetic, the elements it reads, its stores and sums.
+//!
+//! Input: a loop with the columns that run along with it. Output: [`Stretch`], a type that implements
+//! core's `Body`, and the call. Invariant: every element that is reached moves on by one with the loop
+//! variable, or does not move; what an iteration computes is a function over any scalar.
+
+use super::block::{Accesses, Writer, name, names};
+use super::context::{Access, ZERO};
+use super::layout::Slice;
+use hamiltonian_symbolic::index::Index;
+use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
+use std::fmt::Write;
+
+/// The most values that an iteration in lanes computes.
+const MOST: usize = 300;
+
+/// A loop whose iterations core runs.
+pub(super) struct Stretch {
+    /// The type of its arithmetic.
+    name: String,
+    /// What does not vary: its instructions are steps of the loop's body, or values from outside.
+    given: Vec<Value>,
+    /// What is read, with the number of its cut.
+    reads: Vec<(Value, usize)>,
+    /// The loop variable as a real.
+    number: Option<Value>,
+    /// The steps of the arithmetic.
+    computed: Vec<Step>,
+    /// The results of the arithmetic.
+    results: Vec<Value>,
+    /// The columns that are written.
+    columns: Vec<String>,
+    stores: Vec<Store>,
+    /// Sums that are added to.
+    sums: Vec<Value>,
+    /// The number of a sum and that of a result added to it, in order.
+    added: Vec<(usize, usize)>,
+    /// Stores and additions, for iterations one by one.
+    rest: Vec<Step>,
+}
+
+/// A store of an iteration.
+struct Store {
+    column: usize,
+    change: &'static str,
+    by: [usize; 2],
+    /// The place of the first iteration; `None` in a column that is cut to the stretch.
+    start: Option<String>,
+}
+
+/// The number of an element of a list, which it is added to if it is not there.
+fn number<X: PartialEq>(list: &mut Vec<X>, element: X) -> usize {
+    list.iter()
+        .position(|known| *known == element)
+        .unwrap_or_else(|| {
+            list.push(element);
+            list.len() - 1
+        })
+}
+
+/// The sums that an innermost loop adds to.
+fn sums(inner: &Loop) -> Vec<Value> {
+    let mut sums = Vec::new();
+    for step in &inner.body {
+        match step {
+            Step::Accumulate(to, _) => _ = number(&mut sums, *to),
+            Step::Loop(_) => return Vec::new(),
+            _ => {}
+        }
+    }
+    sums
+}
+
+impl Writer<'_> {
+    /// The loop for core, if it has the form.
+    pub(super) fn stretch(&self, inner: &Loop, found: &Accesses) -> Option<Stretch> {
+        let program = self.context.program;
+        let varies = |variables: u64| variables & 1 << inner.domain.0 != 0;
+        let mut made = Stretch {
+            name: String::new(),
+            given: Vec::new(),
+            reads: Vec::new(),
+            number: None,
+            computed: Vec::new(),
+            results: Vec::new(),
+            columns: Vec::new(),
+            stores: Vec::new(),
+            sums: sums(inner),
+            added: Vec::new(),
+            rest: Vec::new(),
+        };
+        if self.context.access != Access::Apart || !(self.context.has_trees || made.sums.is_empty())
+        {
+            return None;
+        }
+        for step in &inner.body {
+            let Step::Let(value) = step else {
+                continue;
+            };
+            match program.instruction(*value) {
+                Instruction::Scalar(_)
+                | Instruction::Time
+                | Instruction::Coefficient
+                | Instruction::Extent(_) => made.given.push(*value),
+                Instruction::Variable(domain) if *domain == inner.domain => {
+                    made.number = Some(*value);
+                }
+                Instruction::Variable(_) => made.given.push(*value),
+                Instruction::Count(start, end) => {
+                    if varies(start.variables() | end.variables()) {
+                        return None;
+                    }
+                    made.given.push(*value);
+                }
+                Instruction::Load(array, row, column) => {
+                    let columns = column.as_ref().map_or(0, |column| column.variables());
+                    if varies(row.variables() | columns) {
+                        let cut = (self.context.read(*array), row.clone());
+                        let at = found.cuts.iter().position(|known| *known == cut)?;
+                        if column.is_some() {
+                            return None;
+                        }
+                        made.reads.push((*value, at));
+                    } else {
+                        made.given.push(*value);
+                    }
+                }
+                instruction if instruction.is_number() => {}
+                _ => made.computed.push(step.clone()),
+            }
+            if made.name.is_empty() && !program.instruction(*value).is_number() {
+                made.name = format!("__Body{}", value.0);
+            }
+        }
+        if made.reads.is_empty() || made.computed.len() > MOST {
+            return None;
+        }
+        // What the arithmetic reads from outside the loop.
+        for value in super::scan::scan(self.context, &made.computed, &[]).reads {
+            made.takes(program.instruction(value), value)?;
+        }
+        for step in &inner.body {
+            match step {
+                Step::Let(_) => continue,
+                Step::Loop(_) => return None,
+                Step::Accumulate(to, value) => {
+                    let sum = number(&mut made.sums, *to);
+                    made.takes(program.instruction(*value), *value)?;
+                    made.added.push((sum, number(&mut made.results, *value)));
+                }
+                Step::Store(target, row, column, update) => {
+                    let slice = Slice::write(self.context.layout, *target);
+                    let at = (found.cuts.iter()).position(|(s, index)| *s == slice && index == row);
+                    let place = match at {
+                        _ if column.is_some() => return None,
+                        Some(at) => (format!("_x{}_{at}", inner.domain.0), None),
+                        None => (slice.name(), Some(self.first(row, inner, found)?)),
+                    };
+                    let column = number(&mut made.columns, place.0);
+                    let (change, [a, b]) = match *update {
+                        Update::Set(a) => ("Set", [a, a]),
+                        Update::Add(a) => ("Add", [a, a]),
+                        Update::Sub(a) => ("Sub", [a, a]),
+                        Update::AddProduct(a, b) => ("AddProduct", [a, b]),
+                        Update::SubProduct(a, b) => ("SubProduct", [a, b]),
+                    };
+                    for value in [a, b] {
+                        made.takes(program.instruction(value), value)?;
+                    }
+                    let by = [a, b].map(|value| number(&mut made.results, value));
+                    made.stores.push(Store {
+                        column,
+                        change,
+                        by,
+                        start: place.1,
+                    });
+                }
+            }
+            made.rest.push(step.clone());
+        }
+        Some(made)
+    }
+
+    /// Where the first iteration of a segment finds an element that moves on by one; the columns of
+    /// scalar coordinates have no such elements.
+    fn first(&self, row: &Index, inner: &Loop, found: &Accesses) -> Option<String> {
+        if row.affine.factor(inner.domain) != 1 {
+            return None;
+        }
+        match &row.modulo {
+            None => Some(self.context.indices.plain(&row.affine)),
+            Some(_) => found.start_of(inner.domain, row),
+        }
+    }
+
+    /// Writes what stands before a loop: its arithmetic, and the partial sums of a long one. `length`
+    /// and `start` are the extent and the first value of the loop.
+    pub(super) fn open(
+        &mut self,
+        inner: &Loop,
+        stretch: Option<&Stretch>,
+        [length, start]: [&str; 2],
+    ) {
+        let d = inner.domain.0;
+        if let Some(stretch) = stretch {
+            self.body(stretch);
+        }
+        let sums = match self.context.has_trees && self.context.access == Access::Apart {
+            true => sums(inner),
+            false => Vec::new(),
+        };
+        if sums.is_empty() {
+            if stretch.is_some() {
+                line!(
+                    self,
+                    "let _long{d} = <T as __h::Real>::WIDENS && {length} >= __h::LONG;"
+                );
+            }
+            return;
+        }
+        line!(self, "let _from{d} = {start};");
+        line!(self, "let _long{d} = {length} >= __h::LONG;");
+        line!(
+            self,
+            "let mut _sums{d} = [[{ZERO}; __h::STRIDE]; {}];",
+            sums.len()
+        );
+        if stretch.is_none() {
+            for (at, sum) in sums.into_iter().enumerate() {
+                let place = format!("_sums{d}[{at}][(_i{d} - _from{d}) % __h::STRIDE]");
+                self.trees.push((sum, format!("_long{d}"), place));
+            }
+        }
+    }
+
+    /// Writes what stands after a loop: long sums are put together.
+    pub(super) fn close(&mut self, inner: &Loop) {
+        self.trees.clear();
+        if !self.context.has_trees || self.context.access != Access::Apart {
+            return;
+        }
+        let d = inner.domain.0;
+        for (at, sum) in sums(inner).into_iter().enumerate() {
+            let sum = name(sum);
+            line!(
+                self,
+                "if _long{d} {{ {sum} += __h::total(&_sums{d}[{at}]); }}"
+            );
+        }
+    }
+
+    /// Writes the arithmetic of an iteration as a type.
+    fn body(&mut self, stretch: &Stretch) {
+        let (given, reads) = (names(&stretch.given), stretch.read_names());
+        line!(self, "struct {};", stretch.name);
+        line!(
+            self,
+            "impl __h::Body<{}> for {} {{",
+            stretch.counts(),
+            stretch.name
+        );
+        if stretch.number.is_some() {
+            line!(self, "const COUNTS: __h::core::primitive::bool = true;");
+        }
+        if !stretch.stores.is_empty() {
+            line!(self, "const STORES: &'static [__h::Store] = &[");
+            for Store {
+                column,
+                change,
+                by: [a, b],
+                start,
+            } in &stretch.stores
+            {
+                let kind = if start.is_some() { "among" } else { "to" };
+                line!(
+                    self,
+                    "__h::Store::{kind}({column}, __h::Change::{change}, [{a}, {b}]),"
+                );
+            }
+            line!(self, "];");
+        }
+        if !stretch.added.is_empty() {
+            let number = "__h::core::primitive::usize";
+            line!(
+                self,
+                "const SUMS: &'static [({number}, {number})] = &{:?};",
+                stretch.added
+            );
+        }
+        line!(
+            self,
+            "#[inline(always)]\n\
+             fn compute<T: __h::Real>([{given}]: [T; {}], [{reads}]: [T; {}], {}: T) -> [T; {}] {{",
+            stretch.given.len(),
+            stretch.reads.len(),
+            stretch.number.map_or("_".to_owned(), name),
+            stretch.results.len(),
+        );
+        self.steps(&stretch.computed);
+        let results: Vec<String> = (stretch.results.iter())
+            .map(|value| self.operand(*value))
+            .collect();
+        line!(self, "[{}]\n}}\n}}", results.join(", "));
+    }
+
+    /// Writes the call of core for a segment that begins at `start`, and the beginning of what is done
+    /// otherwise.
+    pub(super) fn call(&mut self, stretch: &Stretch, inner: &Loop, start: &str) {
+        let d = inner.domain.0;
+        line!(self, "if _long{d} {{");
+        if start != format!("_i{d}") {
+            line!(self, "let _i{d} = {start};");
+        }
+        self.loads(inner, stretch, false);
+        let reads: Vec<String> = (stretch.reads.iter())
+            .map(|(_, cut)| format!("_x{d}_{cut}"))
+            .collect();
+        let columns: Vec<String> = (stretch.columns.iter())
+            .map(|column| format!("&mut {column}[..]"))
+            .collect();
+        let starts: Vec<&str> = (stretch.stores.iter())
+            .map(|store| store.start.as_deref().unwrap_or("0usize"))
+            .collect();
+        let (first, sums) = match stretch.sums.is_empty() {
+            true => ("0usize".to_owned(), "&mut []".to_owned()),
+            false => (format!("_i{d} - _from{d}"), format!("&mut _sums{d}")),
+        };
+        line!(
+            self,
+            "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
+             reads: [{}], columns: [{}], starts: [{}], sums: {sums} }}.run({});\n}} else {{",
+            names(&stretch.given),
+            reads.join(", "),
+            columns.join(", "),
+            starts.join(", "),
+            stretch.name,
+        );
+    }
+
+    /// Writes what is given, and with `all` what is read.
+    fn loads(&mut self, inner: &Loop, stretch: &Stretch, all: bool) {
+        let is_wanted = |step: &&Step| match step {
+            Step::Let(value) => {
+                let is_read = stretch.reads.iter().any(|(read, _)| read == value);
+                stretch.given.contains(value) || all && (is_read || stretch.number == Some(*value))
+            }
+            _ => false,
+        };
+        let steps: Vec<Step> = inner.body.iter().filter(is_wanted).cloned().collect();
+        self.steps(&steps);
+    }
+
+    /// An iteration by itself: loads, a call of its arithmetic, stores.
+    pub(super) fn iteration_of(&mut self, inner: &Loop, stretch: Option<&Stretch>) {
+        let Some(stretch) = stretch else {
+            return self.iteration(&inner.body);
+        };
+        self.loads(inner, stretch, true);
+        if !stretch.computed.is_empty() {
+            let is_computed = |value: &Value| {
+                (stretch.computed.iter()).any(|step| matches!(step, Step::Let(v) if v == value))
+            };
+            let results: Vec<String> = (stretch.results.iter())
+                .map(|value| match is_computed(value) {
+                    true => name(*value),
+                    false => "_".to_owned(),
+                })
+                .collect();
+            line!(
+                self,
+                "let [{}] = <{} as __h::Body<{}>>::compute([{}], [{}], {});",
+                results.join(", "),
+                stretch.name,
+                stretch.counts(),
+                names(&stretch.given),
+                stretch.read_names(),
+                stretch.number.map_or(ZERO.to_owned(), name),
+            );
+        }
+        self.steps(&stretch.rest);
+    }
+}
+
+impl Stretch {
+    /// Notes a value that comes from outside the loop. `None` if it is a mask, which has no form over
+    /// another scalar.
+    fn takes(&mut self, instruction: &Instruction, value: Value) -> Option<()> {
+        let is_known = instruction.is_number()
+            || self.number == Some(value)
+            || self.given.contains(&value)
+            || self.reads.iter().any(|(read, _)| *read == value)
+            || (self.computed.iter()).any(|step| matches!(step, Step::Let(v) if *v == value));
+        if is_known {
+            return Some(());
+        }
+        if instruction.is_mask() {
+            return None;
+        }
+        self.given.push(value);
+        Some(())
+    }
+
+    fn read_names(&self) -> String {
+        let reads: Vec<Value> = self.reads.iter().map(|(value, _)| *value).collect();
+        names(&reads)
+    }
+
+    /// The generic arguments of its `Body`.
+    fn counts(&self) -> String {
+        let (given, reads) = (self.given.len(), self.reads.len());
+        format!("{given}, {reads}, {}", self.results.len())
+    }
+}

@@ -1,0 +1,266 @@
+//! Sine, cosine, tangent.
+//!
+//! Input: any double. Output: the function's value. Invariant: angles up to 2²⁰ are reduced
+//! modulo π/2 in line, with the head of π/2 by parts whose products are exact, so that what is
+//! left has a second word however near to a multiple of π/2 the angle lies; larger ones go, lane
+//! by lane, through [`reduction`] (Payne and Hanek). The sign bit is
+//! taken off first and put back last, so that odd functions are odd to the bit. Tiny angles are
+//! computed as 0, and stand where they are their own sine.
+
+use super::coefficients::*;
+use super::pairs::{
+    ROUNDER, fast_two_sum, flip, is_tiny, polynomial, quotient, sign_bit, two_square, unless,
+};
+use super::reduction;
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+/// The largest angle that is reduced in line.
+const LARGE: f64 = (1u64 << 20) as f64;
+
+/// `(n, r, tail)` with `angle = n·π/2 + r + tail`, |r| ≤ π/4, for 0 ≤ angle ≤ [`LARGE`]; `n`
+/// modulo 4 in the lowest bits.
+#[inline(always)]
+fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
+    if W::LANES == 1 {
+        // Up to 3π/4, where the chain of operations that finds `n` is the longer half of a single
+        // sine.
+        if angle.le(W::splat(0.78)).all() {
+            return (W::Bits::splat(0), angle, W::zero());
+        }
+        if (W::splat(0.79).le(angle) & angle.le(W::splat(2.35))).all() {
+            let (r, tail) = rest(angle, W::one());
+            return (W::Bits::splat(1), r, tail);
+        }
+    }
+    let shifted = angle.fma(W::splat(TWO_OVER_PI), W::splat(ROUNDER));
+    let (r, tail) = rest(angle, shifted - W::splat(ROUNDER));
+    (shifted.bits(), r, tail)
+}
+
+/// `(r, tail)` with `angle = n·π/2 + r + tail`.
+#[inline(always)]
+fn rest<W: Word>(angle: W, n: W) -> (W, W) {
+    if W::FUSED {
+        // Exact, since both terms are multiples of 2⁻⁵³ and the difference is below 1.
+        let first = n.fma(W::splat(-HALF_PI_HIGH), angle);
+        let low = n * W::splat(HALF_PI_LOW);
+        let cut = n.fma(W::splat(HALF_PI_LOW), -low);
+        let (r, rest) = fast_two_sum(first, -low);
+        (r, n.fma(W::splat(-HALF_PI_TAIL), rest - cut))
+    } else {
+        // Three exact products; each sum keeps what it rounds off.
+        let first = angle - n * W::splat(HALF_PI_1);
+        let (low, cut) = fast_two_sum(n * W::splat(HALF_PI_2), n * W::splat(HALF_PI_3));
+        let (r, rest) = fast_two_sum(first, -low);
+        (r, (rest - cut) - n * W::splat(HALF_PI_4))
+    }
+}
+
+/// `1 − z/2 = w + cut`.
+#[inline(always)]
+fn cosine_head<W: Word>(z: W) -> (W, W) {
+    // Half of z is exact, so that each of these rounds once whether the type fuses or not.
+    let w = z.fma(W::splat(-0.5), W::one());
+    (w, z.fma(W::splat(-0.5), W::one() - w))
+}
+
+/// `((r, s), (w, c))`: sine and cosine of `r + tail` are `r + s` and `w + c`, for |r| ≤ π/4.
+#[inline(always)]
+fn parts<W: Word>(r: W, tail: W) -> ((W, W), (W, W)) {
+    let z = r * r;
+    let (w, cut) = cosine_head(z);
+    let sine = (r * z).fma(polynomial(z, &SINE), tail * w);
+    let cosine = (z * z).fma(polynomial(z, &COSINE), (-r).fma(tail, cut));
+    ((r, sine), (w, cosine))
+}
+
+/// Sine and cosine in quadrant `n`, of an angle with the sign bit `sign`.
+#[inline(always)]
+fn turn<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> (W, W) {
+    let ((r, s), (w, c)) = parts(r, tail);
+    let (sine, cosine) = (r + s, w + c);
+    let swapped = W::odd(n);
+    let two = W::Bits::splat(2);
+    let sine_sign = (n & two).shl::<62>() ^ sign;
+    let cosine_sign = (n.plus(W::Bits::splat(1)) & two).shl::<62>();
+    (
+        flip(W::select(swapped, cosine, sine), sine_sign),
+        flip(W::select(swapped, sine, cosine), cosine_sign),
+    )
+}
+
+/// Tangent in quadrant `n`.
+#[inline(always)]
+fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
+    let ((r, s), (w, c)) = parts(r, tail);
+    // The rounding of r² counts in a quotient.
+    let c = W::splat(-0.5).fma(two_square(r).1, c);
+    let (sine, cosine) = (fast_two_sum(r, s), fast_two_sum(w, c));
+    let swapped = W::odd(n);
+    let above = (
+        W::select(swapped, cosine.0, sine.0),
+        W::select(swapped, cosine.1, sine.1),
+    );
+    let below = (
+        W::select(swapped, sine.0, cosine.0),
+        W::select(swapped, sine.1, cosine.1),
+    );
+    let (high, low) = quotient(above, below);
+    flip(high + low, n.shl::<63>() ^ sign)
+}
+
+/// [`turn`]'s sine, bit by bit. In lanes, where sine and cosine do the same operations, their
+/// operands are told apart before and the operations done once. A cosine is the sine a quadrant on.
+#[inline(always)]
+fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
+    let swapped = W::odd(n);
+    let z = r * r;
+    if W::LANES == 1 {
+        let sign = (n & W::Bits::splat(2)).shl::<62>() ^ sign;
+        // One of the two series, by a branch; −w is had without a constant in a register.
+        let minus_w = z.fma(W::splat(0.5), W::splat(-1.0));
+        let y = if swapped.all() {
+            let cut = z.fma(W::splat(-0.5), W::one() + minus_w);
+            (z * z).fma(polynomial(z, &COSINE), (-r).fma(tail, cut)) - minus_w
+        } else {
+            r + (r * z).fma(polynomial(z, &SINE), -(tail * minus_w))
+        };
+        return flip(y, sign);
+    }
+    let (w, cut) = cosine_head(z);
+    let rest = W::select(swapped, (-r).fma(tail, cut), tail * w);
+    let factor = W::select(swapped, z, r) * z;
+    // As in `polynomial`.
+    let (square, first, second, third) = (
+        z * z,
+        coefficient::<W, 1>(swapped).fma(z, coefficient::<W, 0>(swapped)),
+        coefficient::<W, 3>(swapped).fma(z, coefficient::<W, 2>(swapped)),
+        coefficient::<W, 5>(swapped).fma(z, coefficient::<W, 4>(swapped)),
+    );
+    let series = if W::FUSED {
+        third.fma(square, second).fma(square, first)
+    } else {
+        first + third.fma(square * square, second * square)
+    };
+    let y = W::select(swapped, w, r) + factor.fma(series, rest);
+    flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
+}
+
+/// Number `K` of [`COSINE`] where `swapped` is set, of [`SINE`] elsewhere.
+#[inline(always)]
+fn coefficient<W: Word, const K: usize>(swapped: W::Mask) -> W {
+    W::select(swapped, W::splat(COSINE[K]), W::splat(SINE[K]))
+}
+
+/// Sine.
+#[inline(always)]
+pub fn sin<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
+    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
+        return x.replace(W::Mask::splat(true), x, sin_of_large);
+    }
+    let tiny = is_tiny(angle);
+    if W::LANES == 1 && tiny.all() {
+        return x;
+    }
+    let (n, r, tail) = reduce(unless(tiny, angle));
+    let y = W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)));
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES > 1 && rare.any() {
+        return y.replace(rare, x, sin_of_large);
+    }
+    y
+}
+
+/// Cosine.
+#[inline(always)]
+pub fn cos<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
+    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
+        return x.replace(W::Mask::splat(true), x, cos_of_large);
+    }
+    let tiny = is_tiny(angle);
+    if W::LANES == 1 && tiny.all() {
+        return W::one();
+    }
+    let (n, r, tail) = reduce(unless(tiny, angle));
+    let next = n.plus(W::Bits::splat(1));
+    let y = sine_in(next, r, tail, W::Bits::splat(0));
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES > 1 && rare.any() {
+        return y.replace(rare, x, cos_of_large);
+    }
+    y
+}
+
+/// Sine and cosine.
+#[inline(always)]
+pub fn sin_cos<W: Word>(x: W) -> (W, W) {
+    let angle = x.abs();
+    let tiny = is_tiny(angle);
+    if W::LANES == 1 && tiny.all() {
+        return (x, W::one());
+    }
+    let (n, r, tail) = reduce(unless(tiny, angle));
+    let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+    let sine = W::select(tiny, x, sine);
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return (
+            sine.replace(rare, x, sin_of_large),
+            cosine.replace(rare, x, cos_of_large),
+        );
+    }
+    (sine, cosine)
+}
+
+/// Tangent.
+#[inline(always)]
+pub fn tan<W: Word>(x: W) -> W {
+    let angle = x.abs();
+    let tiny = is_tiny(angle);
+    if W::LANES == 1 && tiny.all() {
+        return x;
+    }
+    let (n, r, tail) = reduce(unless(tiny, angle));
+    let y = W::select(tiny, x, slope(n, r, tail, sign_bit(x)));
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, tan_of_large);
+    }
+    y
+}
+
+/// [`reduce`] for every angle beyond [`LARGE`]; NaN where it is not finite.
+fn reduce_large(angle: f64) -> (u64, f64, f64) {
+    if angle.is_finite() {
+        let (n, (r, tail)) = reduction::reduce_large(angle);
+        (n, r, tail)
+    } else {
+        (0, f64::NAN, f64::NAN)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn sin_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_large(x.abs());
+    sine_in(n, r, tail, sign_bit(x))
+}
+
+#[cold]
+#[inline(never)]
+fn cos_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_large(x.abs());
+    sine_in(n + 1, r, tail, 0)
+}
+
+#[cold]
+#[inline(never)]
+fn tan_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_large(x.abs());
+    slope(n, r, tail, sign_bit(x))
+}

@@ -1,0 +1,52 @@
+//! Elementary functions: the same bits in a single run, in a lane and on every machine.
+//!
+//! Input: a [`Word`](crate::word::Word), that is `f64` or a pack of them. Output: the function's
+//! value. Invariant: nothing but the operations of `Word` is used, which IEEE 754 defines to the
+//! last bit; no table is looked up; arguments that need more than the common path (large angles,
+//! subnormals, ends of the range) are recomputed lane by lane by cold functions of one `f64`.
+//! `f32` rounds the values of `f64`.
+
+pub mod angle;
+pub mod arc;
+pub mod error;
+pub mod exponential;
+pub mod logarithm;
+pub mod power;
+
+pub mod exact;
+pub mod reduction;
+pub(crate) mod root;
+
+mod coefficients;
+mod pairs;
+
+/// The methods of [`Real`](crate::Real) that are elementary functions, for a
+/// [`Word`](crate::word::Word): `elementary! { #[…] }` with the attribute of the long ones.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! elementary {
+    (#[$long:meta]) => {
+        $crate::elementary! { @one inline(always):
+            angle { sin cos } exponential { exp exp_m1 } logarithm { ln ln_1p } }
+        $crate::elementary! { @one $long:
+            angle { tan } exponential { sinh cosh tanh } logarithm { asinh acosh atanh }
+            power { cbrt } arc { asin acos atan } error { erf erfc } }
+        $crate::elementary! { @two $long: power { pow hypot } arc { atan2 } }
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $crate::elementary::angle::sin_cos(self)
+        }
+    };
+    (@one $inline:meta: $($module:ident { $($name:ident)* })*) => {
+        $($($crate::elementary! { @method $inline, $module $name(self) })*)*
+    };
+    (@two $inline:meta: $($module:ident { $($name:ident)* })*) => {
+        $($($crate::elementary! { @method $inline, $module $name(self, other) })*)*
+    };
+    (@method $inline:meta, $module:ident $name:ident($this:ident $(, $other:ident)?)) => {
+        #[$inline]
+        fn $name($this $(, $other: Self)?) -> Self {
+            $crate::elementary::$module::$name($this $(, $other)?)
+        }
+    };
+}

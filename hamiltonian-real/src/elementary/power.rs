@@ -1,0 +1,220 @@
+//! Powers, cube root, distance.
+//!
+//! Input: any doubles. Output: the function's value. Invariant: `x^y = exp(y·ln x)` with the
+//! logarithm and the product of two words; the cube root and the distance correct a first value by
+//! an exact remainder. Bases that are not positive, normal and finite, and results near or beyond
+//! the ends of the range, go lane by lane.
+
+use super::coefficients::*;
+use super::exponential::{exp_any, exp_parts, scale_normal};
+use super::logarithm::ln_pair;
+use super::pairs::{
+    fast_two_sum, flip, sign_bit, square_root, times_two_to_52, two_product, two_square, unless,
+};
+use crate::real::Mask;
+use crate::word::{Bits, Word};
+
+const TWO_TO_52: f64 = (1u64 << 52) as f64;
+
+/// Whether `x` is positive, normal and finite.
+#[inline(always)]
+fn is_plain<W: Word>(x: W) -> W::Mask {
+    W::splat(f64::MIN_POSITIVE).le(x) & x.le(W::splat(f64::MAX))
+}
+
+/// `y·ln x` of two words, for a positive normal `x`.
+#[inline(always)]
+fn exponent<W: Word>(x: W, y: W, shift: W) -> (W, W) {
+    let (high, low) = ln_pair(x, shift);
+    let (product, cut) = two_product(y, high);
+    (product, y.fma(low, cut))
+}
+
+/// Below it an exponent is as good as 0.
+const TINY_EXPONENT: f64 = 1.0 / (1u128 << 70) as f64;
+
+/// `x^y`.
+#[inline(always)]
+pub fn pow<W: Word>(x: W, y: W) -> W {
+    // The power is 1 to the last bit for every `x`, whose logarithm is below 2¹⁰.
+    let tiny = y.abs().lt(W::splat(TINY_EXPONENT));
+    let (high, low) = exponent(x, unless(tiny, y), W::zero());
+    let (power, one, rest) = exp_parts(high, low);
+    let value = scale_normal(one + rest, power);
+    // Splitting the largest exponents overflows.
+    let plain = is_plain(x) & high.abs().le(W::splat(708.0)) & y.abs().le(W::splat(1e300));
+    value.or_rare2(plain, x, y, pow_of_rare)
+}
+
+/// The special cases of C17, annex F.10.4.4.
+#[cold]
+#[inline(never)]
+fn pow_of_rare(x: f64, y: f64) -> f64 {
+    if y == 0.0 || x == 1.0 {
+        return 1.0;
+    }
+    if x.is_nan() || y.is_nan() {
+        return x + y;
+    }
+    let size = x.abs();
+    if y.is_infinite() {
+        return if size == 1.0 {
+            1.0
+        } else if (size > 1.0) == (y > 0.0) {
+            f64::INFINITY
+        } else {
+            0.0
+        };
+    }
+    let (integer, odd) = parity(y);
+    let negative = sign_bit(x) != 0;
+    let sign = if negative && odd { 1 << 63 } else { 0 };
+    if size == 0.0 || size.is_infinite() {
+        let grows = (size == 0.0) == (y < 0.0);
+        return flip(if grows { f64::INFINITY } else { 0.0 }, sign);
+    }
+    if negative && !integer {
+        return f64::NAN;
+    }
+    // |ln x| is at least half of this.
+    let distance = (size - 1.0).abs().min(0.5);
+    if distance > 0.0 && y.abs() > 2.0 * 800.0 / distance {
+        let grows = (size > 1.0) == (y > 0.0);
+        return flip(if grows { f64::INFINITY } else { 0.0 }, sign);
+    }
+    // −1 alone has a power that is neither 0 nor infinite.
+    let y = y.clamp(-1e25, 1e25);
+    let (high, low) = if size < f64::MIN_POSITIVE {
+        exponent(times_two_to_52(size), y, -52.0)
+    } else {
+        exponent(size, y, 0.0)
+    };
+    flip(exp_any(high, low, 0), sign)
+}
+
+/// Whether a finite number is an integer, and whether an odd one.
+fn parity(y: f64) -> (bool, bool) {
+    let size = y.abs();
+    if size >= TWO_TO_52 {
+        // The last bit is worth 1 below 2⁵³, and 2 or more above.
+        return (true, size < 2.0 * TWO_TO_52 && size.to_bits() & 1 == 1);
+    }
+    let whole = size as u64;
+    let integer = whole as f64 == size;
+    (integer, integer && whole & 1 == 1)
+}
+
+/// A third of the upper bits of `x`, with an offset that makes `x^(−1/3)` to within 3.5 %.
+#[inline(always)]
+fn guess_inverse_cube_root<W: Word>(x: W) -> W {
+    let third = W::third(x.bits().shr::<32>());
+    W::from_bits(W::Bits::splat(CUBE_ROOT_OFFSET).minus(third).shl::<32>())
+}
+
+/// The cube root of a positive normal number. With `e = 1 − x·y³`, x^(−1/3) is
+/// y·(1 − e)^(−1/3) = y·(1 + e/3 + 2e²/9 + 14e³/81 + …), twice over; the second time around a
+/// root `c` of 17 bits, whose cube is exact.
+#[inline(always)]
+fn cube_root<W: Word>(x: W) -> W {
+    let (a1, a2) = (W::splat(1.0 / 3.0), W::splat(2.0 / 9.0));
+    let (a3, a4) = (W::splat(14.0 / 81.0), W::splat(35.0 / 243.0));
+    // Long done when it is needed.
+    let inverse = W::one() / x;
+    let y = guess_inverse_cube_root(x);
+    let e = W::one() - (x * y) * (y * y);
+    let (square, step) = (e * e, y * e);
+    let y = (step * square).fma(e.fma(a4, a3), step.fma(e.fma(a2, a1), y));
+    // Cut off to 17 bits: within 2⁻¹⁵·⁷ of the root.
+    let c = (x * (y * y)).cut::<36>();
+    // cbrt x = c·(1 − d)^(−1/3) with d = (x − c³)/x; the remainder is exact.
+    let d = (x - c * c * c) * inverse;
+    (c * d).fma((d * d).fma(a3, d.fma(a2, a1)), c)
+}
+
+/// Between its inverse and this every term of the cube root is normal: 2⁹⁶⁰, the cube of 2³²⁰.
+const CUBABLE: f64 = f64::from_bits((1023 + 960) << 52);
+const CUBABLE_ROOT: f64 = f64::from_bits((1023 + 320) << 52);
+
+/// Cube root.
+#[inline(always)]
+pub fn cbrt<W: Word>(x: W) -> W {
+    let size = x.abs();
+    let plain = W::splat(1.0 / CUBABLE).le(size) & size.le(W::splat(CUBABLE));
+    if W::LANES == 1 && !plain.all() {
+        return x.replace(W::Mask::splat(true), x, cbrt_of_rare);
+    }
+    let y = flip(cube_root(size), sign_bit(x));
+    y.or_rare(plain, x, cbrt_of_rare)
+}
+
+#[cold]
+#[inline(never)]
+fn cbrt_of_rare(x: f64) -> f64 {
+    let size = x.abs();
+    let root = if size == 0.0 || !size.is_finite() {
+        return x;
+    } else if size > 1.0 {
+        cube_root(size / CUBABLE) * CUBABLE_ROOT
+    } else if size < f64::MIN_POSITIVE {
+        // 2⁵⁴ is the cube of 2¹⁸.
+        cube_root(4.0 * times_two_to_52(size)) / (1u64 << 18) as f64
+    } else {
+        cube_root(size * CUBABLE) / CUBABLE_ROOT
+    };
+    flip(root, sign_bit(x))
+}
+
+/// Between its inverse and this, squares neither overflow nor lose what they cut off.
+const SQUARABLE: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 << 127) as f64;
+
+/// Beside every number that is squarable, a smaller one is as good as 0.
+const NEGLIGIBLE: f64 = 1.0 / SQUARABLE / (1u128 << 69) as f64;
+
+/// `√(large² + small²)` for 0 ≤ small ≤ large within `SQUARABLE`.
+#[inline(always)]
+fn distance<W: Word>(large: W, small: W) -> W {
+    let (a, a_cut) = two_square(large);
+    let small = unless(small.lt(W::splat(NEGLIGIBLE)), small);
+    let (b, b_cut) = two_square(small);
+    let (sum, cut) = fast_two_sum(a, b);
+    let (root, rest) = square_root((sum, cut + (a_cut + b_cut)));
+    root + rest
+}
+
+/// `√(x² + y²)`.
+#[inline(always)]
+pub fn hypot<W: Word>(x: W, y: W) -> W {
+    let (x_size, y_size) = (x.abs(), y.abs());
+    let x_larger = y_size.le(x_size);
+    let large = W::select(x_larger, x_size, y_size);
+    let small = W::select(x_larger, y_size, x_size);
+    // A NaN as the smaller one is rare: the comparison that orders them is false.
+    let plain =
+        large.le(W::splat(SQUARABLE)) & W::splat(1.0 / SQUARABLE).le(large) & small.le(large);
+    if W::LANES == 1 && !plain.all() {
+        return x.replace2(W::Mask::splat(true), x, y, hypot_of_rare);
+    }
+    distance(large, small).or_rare2(plain, x, y, hypot_of_rare)
+}
+
+#[cold]
+#[inline(never)]
+fn hypot_of_rare(x: f64, y: f64) -> f64 {
+    let (x, y) = (x.abs(), y.abs());
+    if x.is_infinite() || y.is_infinite() {
+        return f64::INFINITY;
+    }
+    if x.is_nan() || y.is_nan() {
+        return x + y;
+    }
+    let (large, small) = if x < y { (y, x) } else { (x, y) };
+    if small == 0.0 {
+        return large;
+    }
+    let scale = if large > 1.0 {
+        1.0 / (2.0 * SQUARABLE * SQUARABLE)
+    } else {
+        2.0 * SQUARABLE * SQUARABLE
+    };
+    distance(large * scale, small * scale) / scale
+}

@@ -1,0 +1,147 @@
+//! The operations that elementary functions are written over.
+//!
+//! Input: [`Real`]. Output: [`Word`], lanes of `f64` whose bits can be computed with; implemented
+//! for `f64` here and for every pack beside it. Invariant: a lane's result depends on that lane's
+//! operands alone, so a function written over `Word` gives the same bits in a scalar and in a lane
+//! of every type that fuses alike.
+
+use core::ops::{BitAnd, BitOr, BitXor};
+
+use crate::real::{Mask, Real};
+
+/// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
+pub trait Bits:
+    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self>
+{
+    /// Every lane `x`.
+    fn splat(x: u64) -> Self;
+    /// The sum modulo 2⁶⁴.
+    fn plus(self, other: Self) -> Self;
+    /// The difference modulo 2⁶⁴.
+    fn minus(self, other: Self) -> Self;
+    /// Towards higher bits, by `K < 64`.
+    fn shl<const K: u32>(self) -> Self;
+    /// Towards lower bits, zeros from above, by `K < 64`.
+    fn shr<const K: u32>(self) -> Self;
+}
+
+/// One `f64` a lane, with its bits. Operators are rounded one by one; [`Real::fma`] is fused where
+/// [`Word::FUSED`] says so and is `self * b + c` elsewhere.
+pub trait Word: Real {
+    /// The lanes' bits.
+    type Bits: Bits;
+    /// Whether [`Real::fma`] rounds once.
+    const FUSED: bool;
+
+    /// The lanes' bits.
+    fn bits(self) -> Self::Bits;
+    /// The lanes of which these are the bits.
+    fn from_bits(bits: Self::Bits) -> Self;
+    /// Set where the lowest bit is.
+    fn odd(bits: Self::Bits) -> Self::Mask;
+    /// The number whose last `K` bits are 0 instead.
+    #[inline(always)]
+    fn cut<const K: u32>(self) -> Self {
+        Self::from_bits(self.bits() & Self::Bits::splat(u64::MAX << K))
+    }
+    /// A third of numbers below 2³², rounded to nearest, in the lowest 32 bits.
+    #[inline(always)]
+    fn third(bits: Self::Bits) -> Self::Bits {
+        const TWO_TO_52: f64 = (1u64 << 52) as f64;
+        // The bits of 2⁵² and an integer: a quotient is a third away from a tie, or farther.
+        let x = Self::from_bits(bits | Self::Bits::splat(TWO_TO_52.to_bits()));
+        let x = x - Self::splat(TWO_TO_52);
+        x.fma(Self::splat(1.0 / 3.0), Self::splat(TWO_TO_52)).bits()
+    }
+    /// `self·2^k` rounded once, for `0 < self ≤ 2` and an integer `k`, infinity or NaN, on levels that
+    /// have an instruction for it; where `k` is not between −1100 and 1100, anything else serves for
+    /// `self`.
+    #[inline(always)]
+    fn scaled(self, _k: Self) -> Option<Self> {
+        None
+    }
+    /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
+    /// To be called where some lane is set, and never inlined (`#[cold]`).
+    fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;
+    /// [`Word::replace`] for functions of two arguments.
+    fn replace2(self, mask: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self;
+
+    /// `self` where `plain` is set and `f(x)` elsewhere: on the common path one test.
+    #[inline(always)]
+    fn or_rare(self, plain: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self {
+        let rare = !plain;
+        if rare.any() {
+            return self.replace(rare, x, f);
+        }
+        self
+    }
+    /// [`Word::or_rare`] for functions of two arguments.
+    #[inline(always)]
+    fn or_rare2(self, plain: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self {
+        let rare = !plain;
+        if rare.any() {
+            return self.replace2(rare, x, y, f);
+        }
+        self
+    }
+
+    /// Every lane `x`.
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self::constant(x, 0.0)
+    }
+}
+
+impl Bits for u64 {
+    #[inline(always)]
+    fn splat(x: u64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self.wrapping_add(other)
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self.wrapping_sub(other)
+    }
+    #[inline(always)]
+    fn shl<const K: u32>(self) -> Self {
+        self << K
+    }
+    #[inline(always)]
+    fn shr<const K: u32>(self) -> Self {
+        self >> K
+    }
+}
+
+impl Word for f64 {
+    type Bits = u64;
+    const FUSED: bool = false;
+
+    #[inline(always)]
+    fn bits(self) -> u64 {
+        self.to_bits()
+    }
+    #[inline(always)]
+    fn from_bits(bits: u64) -> Self {
+        Self::from_bits(bits)
+    }
+    #[inline(always)]
+    fn odd(bits: u64) -> bool {
+        bits & 1 != 0
+    }
+    #[inline(always)]
+    fn third(bits: u64) -> u64 {
+        // Without the way through a float and back.
+        (bits + 1) / 3
+    }
+    #[inline(always)]
+    fn replace(self, mask: bool, x: Self, f: fn(f64) -> f64) -> Self {
+        if mask { f(x) } else { self }
+    }
+    #[inline(always)]
+    fn replace2(self, mask: bool, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self {
+        if mask { f(x, y) } else { self }
+    }
+}

@@ -1,0 +1,237 @@
+//! In each folder the files and subfolders use each other in no circle.
+//!
+//! An entry of a folder is a file with its own subfolder, or a subfolder with a `mod.rs`. Parent and
+//! child may name each other; a re-exported name counts as its defining file.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The crates without a circle. One that is rid of its circles is added here.
+const CRATES: [&str; 2] = ["hamiltonian-real", "hamiltonian-lanes"];
+
+/// The path of a module, from the root of its crate.
+type Module = Vec<String>;
+
+/// The text of every module of a crate, without comments.
+type Texts = BTreeMap<Module, String>;
+
+/// Reads the modules below a folder, whose own module is `at`.
+fn read(folder: &Path, at: &Module, texts: &mut Texts) {
+    for entry in fs::read_dir(folder).expect("it can be listed") {
+        let path = entry.expect("it can be listed").path();
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let mut module = at.clone();
+        if path.is_dir() {
+            module.push(name.into());
+            read(&path, &module, texts);
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            if !matches!(&*name, "lib" | "main" | "mod") {
+                module.push(name.into());
+            }
+            let text = fs::read_to_string(&path).expect("it can be read");
+            let code = text
+                .lines()
+                .map(|line| line.split("//").next().unwrap_or_default());
+            texts.insert(module, code.collect::<Vec<_>>().join("\n"));
+        }
+    }
+}
+
+/// Every path in a text that begins with `crate`, `super`, `self` or, in a `use`, a child module; with
+/// the lists in braces written out.
+fn paths(text: &str, module: &Module, texts: &Texts) -> Vec<Vec<String>> {
+    let mut found = vec![];
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    for (at, _) in text.char_indices() {
+        let (before, rest) = text.split_at(at);
+        if before.ends_with(|c| is_word(c) || c == ':') || !rest.starts_with(is_word) {
+            continue;
+        }
+        let end = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
+        let first = &rest[..end];
+        let in_use = before.trim_end().ends_with("use");
+        let mut child = module.clone();
+        child.push(first.into());
+        if rest[end..].starts_with("::")
+            && (matches!(first, "crate" | "super" | "self") || in_use && texts.contains_key(&child))
+        {
+            expand(rest, &mut vec![], &mut found);
+        }
+    }
+    found
+}
+
+/// Reads one path, or a list of them in braces, behind `before`; returns what is left of the text.
+fn expand<'a>(text: &'a str, before: &mut Vec<String>, found: &mut Vec<Vec<String>>) -> &'a str {
+    let text = text.trim_start();
+    if let Some(mut list) = text.strip_prefix('{') {
+        loop {
+            list = list.trim_start().trim_start_matches(',').trim_start();
+            if list.is_empty() || list.starts_with('}') {
+                return list.strip_prefix('}').unwrap_or(list);
+            }
+            let rest = expand(list, &mut before.clone(), found);
+            if rest.len() == list.len() {
+                return rest;
+            }
+            list = rest;
+        }
+    }
+    let end = text
+        .find(|c: char| !c.is_alphanumeric() && c != '_')
+        .unwrap_or(text.len());
+    before.push(text[..end].into());
+    match text[end..].strip_prefix("::") {
+        Some(rest) if rest.starts_with(|c: char| c.is_alphabetic() || c == '_' || c == '{') => {
+            expand(rest, before, found)
+        }
+        _ => {
+            found.push(before.clone());
+            // `as Other`
+            let rest = &text[end..];
+            let renamed = rest.trim_start().strip_prefix("as ");
+            renamed.map_or(rest, |rest| {
+                rest.trim_start()
+                    .trim_start_matches(|c: char| c.is_alphanumeric() || c == '_')
+            })
+        }
+    }
+}
+
+/// The module that defines what a path in `module` names.
+fn definition(path: &[String], module: &Module, texts: &Texts, depth: usize) -> Module {
+    let mut at = module.clone();
+    let mut names = path.iter().peekable();
+    while let Some(name) = names.next_if(|name| matches!(name.as_str(), "crate" | "super" | "self"))
+    {
+        match name.as_str() {
+            "crate" => at.clear(),
+            "super" => drop(at.pop()),
+            _ => {}
+        }
+    }
+    for name in names {
+        let mut child = at.clone();
+        child.push(name.clone());
+        if texts.contains_key(&child) {
+            at = child;
+            continue;
+        }
+        // Followed through a `pub use` of the module, which may name another one.
+        let text = texts.get(&at).map_or("", String::as_str);
+        for (start, _) in text.match_indices("use ") {
+            if depth == 0 || !text[..start].trim_end().ends_with(['b', ')']) {
+                continue;
+            }
+            let mut exported = vec![];
+            expand(&text[start + 4..], &mut vec![], &mut exported);
+            if let Some(path) = exported.iter().find(|path| path.last() == Some(name)) {
+                let known = matches!(path[0].as_str(), "crate" | "super" | "self");
+                let mut child = at.clone();
+                child.push(path[0].clone());
+                if known || texts.contains_key(&child) {
+                    return definition(path, &at, texts, depth - 1);
+                }
+            }
+        }
+        break;
+    }
+    at
+}
+
+/// The entries of each folder that another entry of the same folder names.
+fn uses(texts: &Texts) -> BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> {
+    let mut graphs: BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
+    for (module, text) in texts {
+        for path in paths(text, module, texts) {
+            let used = definition(&path, module, texts, 8);
+            let common = (module.iter().zip(&used))
+                .take_while(|(a, b)| a == b)
+                .count();
+            // Parent and child may name each other.
+            if let (Some(from), Some(to)) = (module.get(common), used.get(common)) {
+                let graph = graphs.entry(module[..common].to_vec()).or_default();
+                graph.entry(from.clone()).or_default().insert(to.clone());
+            }
+        }
+    }
+    graphs
+}
+
+/// Entries of a graph that are on a circle.
+fn on_circles(graph: &BTreeMap<String, BTreeSet<String>>) -> Vec<String> {
+    let reached = |start: &String| {
+        let (mut seen, mut ahead) = (BTreeSet::new(), vec![start]);
+        while let Some(next) = ahead.pop() {
+            for used in graph.get(next).into_iter().flatten() {
+                if seen.insert(used) {
+                    ahead.push(used);
+                }
+            }
+        }
+        seen
+    };
+    let names = graph.keys();
+    names
+        .filter(|name| reached(name).contains(name))
+        .cloned()
+        .collect()
+}
+
+fn circles(texts: &Texts) -> Vec<String> {
+    let found = uses(texts).into_iter().filter_map(|(folder, graph)| {
+        let names = on_circles(&graph);
+        (!names.is_empty()).then(|| format!("{}: {}", folder.join("/"), names.join(", ")))
+    });
+    found.collect()
+}
+
+#[test]
+fn no_folder_names_itself_in_a_circle() {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    for name in CRATES {
+        let mut texts = Texts::new();
+        read(&root.join(name).join("src"), &vec![], &mut texts);
+        assert!(texts.len() > 5, "{name}: nothing was read");
+        let found = circles(&texts);
+        assert!(found.is_empty(), "{name}: {found:#?}");
+    }
+}
+
+#[test]
+fn circles_are_found() {
+    let texts = |modules: &[(&str, &str)]| -> Texts {
+        let named = |path: &str| -> Module {
+            let names = path.split('/').filter(|name| !name.is_empty());
+            names.map(String::from).collect()
+        };
+        let texts = modules
+            .iter()
+            .map(|(path, text)| (named(path), text.to_string()));
+        texts.collect()
+    };
+    let one_way = texts(&[("", ""), ("a", "use crate::b::B;"), ("b", "pub struct B;")]);
+    assert!(circles(&one_way).is_empty());
+    let direct = texts(&[
+        ("", ""),
+        ("a", "use super::b::{B, C as D};"),
+        ("b", "crate::a::f()"),
+    ]);
+    assert_eq!(circles(&direct), [": a, b"]);
+    // By a name that the root hands on, and by a file of a subfolder.
+    let hidden = texts(&[
+        ("", "mod a; mod b; pub use b::{x, B};"),
+        ("a", ""),
+        ("a/inner", "use crate::{B};"),
+        ("b", "use super::a::A;"),
+    ]);
+    assert_eq!(circles(&hidden), [": a, b"]);
+    // Parent and child.
+    let family = texts(&[
+        ("", "use a::A;"),
+        ("a", "use inner::B;"),
+        ("a/inner", "use super::A;"),
+    ]);
+    assert!(circles(&family).is_empty());
+}

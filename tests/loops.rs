@@ -1,0 +1,236 @@
+//! Loops in lanes: the bits of iterations one by one, on every level, at every length, and of the
+//! interpreter.
+//!
+//! `Called<false>` is an `f64` that has no form in lanes: its loops go one by one.
+
+use crate::arrays;
+use crate::common::derivatives::numbers;
+use crate::counting::counted::Called;
+use crate::eval;
+use crate::symbolic;
+use hamiltonian::prelude::*;
+use hamiltonian::{Dynamics, Vector, VectorField};
+use hamiltonian_lanes::Cpu;
+use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::pipeline::derive;
+use hamiltonian_symbolic::program::{Purpose, Target};
+use hamiltonian_symbolic::structure;
+
+hamiltonian! {
+    /// Neighbours at several distances, forwards and backwards.
+    pub struct Ring { n: usize, k: [n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }
+        + sum(i in 0..n) { k[i]*cos(q[(i - 2) % n] - q[i])/4 + q[i]^2*q[(i + 5) % n]*(i + 1)/100 }
+}
+
+hamiltonian! {
+    /// Open ends, second neighbours, and a condition.
+    pub struct Open { n: usize }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n - 2) { (q[i + 2] - q[i])^4/4 }
+        + sum(i in 1..n) { if q[i] < q[i - 1] { (q[i] - q[i - 1])^2/2 } else { sin(q[i])*q[i - 1] } }
+}
+
+hamiltonian! {
+    /// Pairs of points of a plane, each after the other and all with all.
+    pub struct Pairs { n: usize, G = 0.5, m: [n] }
+    H(q[n][2]; p[n][2]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - G*sum(i in 0..n, j in i + 1..n) { m[i]*m[j]/sqrt(norm_squared(q[i] - q[j]) + 1/10) }
+        + sum(i in 0..n, j in 0..n) { sin(q[i][0] - q[j][1])/100 }
+}
+
+hamiltonian! {
+    /// Stores in a column that lie further apart than is settled at once, and sums inside functions.
+    pub struct Far { n: usize }
+    H(q[n]; p[n]) = sqrt(1 + sum(i in 0..n) { p[i]^2 }) + sum(i in 0..n) { q[i]*q[(i + 40) % n]^2 }
+        + sum(i in 0..n) { q[i]*q[(n - 1 - i) % n]^2*p[(2*i + 1) % n] }/10
+}
+
+/// Every output of a system: values, then elements.
+fn outputs<T, S>(system: &S, seed: u64, word: fn(T) -> f64, number: fn(f64) -> T) -> Vec<u64>
+where
+    T: Real,
+    S: System<T>,
+{
+    let prepared = system.prepare();
+    let mut some = numbers(seed);
+    let mut vector = || {
+        let mut vector = system.zeros();
+        for k in 0..<S::Vector as Vector>::PARTS {
+            for (to, from) in vector.part_mut(k).iter_mut().zip(&mut some) {
+                *to = number(from);
+            }
+        }
+        vector
+    };
+    let [q, p, vq, vp, mut a, mut b] = [(); 6].map(|()| vector());
+    let t = number(0.25);
+    let mut words = vec![prepared.energy(t, &q, &p)];
+    let push = |words: &mut Vec<T>, a: &S::Vector, b: &S::Vector| {
+        for vector in [a, b] {
+            (0..<S::Vector as Vector>::PARTS).for_each(|k| words.extend(vector.part(k)));
+        }
+    };
+    prepared.field(number(0.125)).add(t, &q, &p, &mut a, &mut b);
+    push(&mut words, &a, &b);
+    words.push(prepared.energy_and_gradient(t, &q, &p, &mut a, &mut b));
+    push(&mut words, &a, &b);
+    prepared.gradient_q(t, &q, &p, &mut a);
+    prepared.gradient_p(t, &q, &p, &mut b);
+    push(&mut words, &a, &b);
+    prepared.gradient(t, &q, &p, &mut a, &mut b);
+    push(&mut words, &a, &b);
+    prepared.hessian_vector(t, &q, &p, &vq, &vp, &mut a, &mut b);
+    push(&mut words, &a, &b);
+    words
+        .into_iter()
+        .map(|value| word(value).to_bits())
+        .collect()
+}
+
+/// The lengths of loops: all tails, and blocks with and without a rest.
+fn lengths() -> impl Iterator<Item = usize> {
+    (1..=40).chain([63, 64, 65, 127, 128, 129, 136, 200, 257, 300])
+}
+
+/// The bits of a system over `f64` on every level, and one by one.
+#[track_caller]
+fn check<S: System<f64> + System<Called<false>>>(system: &S, seed: u64) {
+    let expected = outputs::<Called<false>, S>(system, seed, |x| x.0, Called);
+    for limit in Cpu::available() {
+        Cpu::limit_to(limit);
+        let found = outputs::<f64, S>(system, seed, |x| x, |x| x);
+        let differ = expected.iter().zip(&found).position(|(a, b)| a != b);
+        assert_eq!(differ, None, "{limit:?}, {} words", expected.len());
+    }
+    Cpu::limit_to(Cpu::Avx512);
+}
+
+fn some(n: usize) -> Vec<f64> {
+    numbers(7).map(f64::abs).take(n).collect()
+}
+
+#[test]
+fn lanes_have_the_bits_of_iterations_one_by_one() {
+    for n in lengths() {
+        let seed = n as u64;
+        check(&Ring::new(n, some(n)).unwrap(), seed);
+        check(&Pairs::new(n, some(n)).unwrap(), seed);
+        check(&arrays::Gravity::new(n, some(n)).unwrap(), seed);
+        check(&arrays::Fput::new(n).unwrap(), seed);
+        check(&Far::new(n).unwrap(), seed);
+        if n > 2 {
+            check(&Open::new(n).unwrap(), seed);
+        }
+    }
+    check(&arrays::Chain::<64> {}, 1);
+    check(&arrays::Wraps::<67> { a: 0.5 }, 2);
+    check(&arrays::Walls::<100> { k: 3.0 }, 3);
+}
+
+#[test]
+fn long_sums_are_eight_partial_sums_and_a_tree() {
+    let n = 100;
+    let q: Vec<f64> = numbers(3).take(n).collect();
+    let fput = arrays::Fput::new(n).unwrap();
+    let at = State::new(vec![0.0; n], q.clone());
+    let mut parts = [0.0; 8];
+    let mut one_by_one = 0.0;
+    for (k, x) in q.iter().enumerate() {
+        parts[k % 8] += x * x;
+        one_by_one += x * x;
+    }
+    let [a, b, c, d, e, f, g, h] = parts;
+    let tree = ((a + e) + (c + g)) + ((b + f) + (d + h));
+    assert_eq!(fput.energy(&at), 0.5 * tree);
+    // The test tells the two apart.
+    assert_ne!(tree, one_by_one);
+}
+
+/// A system as the macro reads it and as the tests' reader does: its outputs are equal to the bit.
+#[track_caller]
+fn interpreted<S>(system: &S, n: usize, [signature, parameters, h]: [&str; 3], arrays: &[Vec<f64>])
+where
+    S: System<f64, Vector = hamiltonian::private::DVector<f64>>,
+{
+    let mut model = symbolic::system(signature, "n", parameters, h);
+    let structure = structure::analyse(&mut model);
+    assert!(structure.separable.is_ok());
+    let purposes = [
+        Purpose::Energy,
+        Purpose::EnergyAndGradient,
+        Purpose::TimeDerivative,
+        Purpose::HessianVector,
+        Purpose::GradientQ,
+        Purpose::GradientP,
+        Purpose::Gradient,
+        Purpose::VectorField,
+        Purpose::Kick,
+        Purpose::Drift,
+    ];
+    let program = derive(&mut model, &purposes).expect("a program");
+    let mut some = numbers(n as u64);
+    let [q, p, vq, vp] = [(); 4].map(|()| some.by_ref().take(n).collect::<Vec<f64>>());
+    let mut point = eval::Point::<f64>::new();
+    point.sizes = vec![n];
+    point.scalars = vec![0.0; arrays.len()];
+    for (number, values) in arrays.iter().enumerate() {
+        let parameter = Array::Parameter(Parameter(number as u16));
+        point.arrays.insert(parameter, vec![values.clone()]);
+    }
+    for (side, [at, direction]) in [(Side::Q, [&q, &vq]), (Side::P, [&p, &vp])] {
+        let column = Column::first(side, 0);
+        point.arrays.insert(Array::Phase(column), vec![at.clone()]);
+        point
+            .arrays
+            .insert(Array::Direction(column), vec![direction.clone()]);
+        point
+            .outputs
+            .insert(Target::Phase(column), vec![vec![0.0; n]]);
+    }
+    let outcome = |purpose| {
+        let function = program.function(purpose).expect("it was asked for");
+        eval::run(&program, function, &point)
+    };
+    let column = |outcome: &eval::Outcome<f64>, side| {
+        outcome.outputs[&Target::Phase(Column::first(side, 0))][0].clone()
+    };
+    let prepared = system.prepare();
+    let [q, p, vq, vp] = [q, p, vq, vp].map(hamiltonian::private::DVector::from);
+    let (mut a, mut b) = (system.zeros(), system.zeros());
+    let energy = prepared.energy_and_gradient(0.0, &q, &p, &mut a, &mut b);
+    let expected = outcome(Purpose::EnergyAndGradient);
+    assert_eq!(expected.results, [energy], "energy, n = {n}");
+    assert_eq!(expected.results, outcome(Purpose::Energy).results);
+    assert_eq!(
+        column(&expected, Side::Q),
+        a.as_slice(),
+        "gradient, n = {n}"
+    );
+    assert_eq!(
+        column(&expected, Side::P),
+        b.as_slice(),
+        "gradient, n = {n}"
+    );
+    prepared.hessian_vector(0.0, &q, &p, &vq, &vp, &mut a, &mut b);
+    let expected = outcome(Purpose::HessianVector);
+    assert_eq!(column(&expected, Side::Q), a.as_slice(), "Hessian, n = {n}");
+    assert_eq!(column(&expected, Side::P), b.as_slice(), "Hessian, n = {n}");
+    (a, b) = (system.zeros(), system.zeros());
+    prepared.field(1.0).add(0.0, &q, &p, &mut a, &mut b);
+    let expected = outcome(Purpose::VectorField);
+    assert_eq!(column(&expected, Side::Q), a.as_slice(), "field, n = {n}");
+    assert_eq!(column(&expected, Side::P), b.as_slice(), "field, n = {n}");
+}
+
+#[test]
+fn the_interpreter_sums_in_the_same_order() {
+    for n in lengths().filter(|n| *n > 2) {
+        let ring = [
+            "q[n]; p[n]",
+            "k[n]",
+            "sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) } \
+             + sum(i in 0..n) { k[i]*cos(q[(i - 2) % n] - q[i])/4 + q[i]^2*q[(i + 5) % n]*(i + 1)/100 }",
+        ];
+        interpreted(&Ring::new(n, some(n)).unwrap(), n, ring, &[some(n)]);
+    }
+}

@@ -57,7 +57,7 @@ fn steps<T: Pack>(system: &Pendulum, states: &mut States, n: u64) {
     };
     let lanes = T::LANES as usize;
     for (some_q, some_p) in states.q.chunks_mut(lanes).zip(states.p.chunks_mut(lanes)) {
-        let start = State::new([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
+        let start = State::over([T::load(some_q, 0.0)], [T::load(some_p, 0.0)]);
         let mut carried = Scheme::<T, Pendulum>::start(&scheme, &prepared, &start, h);
         // The scratch of a splitting is nothing.
         #[allow(clippy::let_unit_value)]

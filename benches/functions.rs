@@ -9,6 +9,10 @@
 //! so are functions that neither `std` nor `wide` has.) Each number is the least of many short
 //! rounds, which alternate between the rivals, so that only ratios within one line matter.
 //!
+//! With `-- --decades`, instead, what the decades of arguments from 1e-307 to 1e307 cost, of either sign:
+//! the usual nanoseconds, those at 1, and each band of decades in which a value takes more than four
+//! times as long. A star says that results there leave the normal numbers.
+//!
 //! The last line is W1, the pendulum by Störmer–Verlet with one state: the same loop with the sine
 //! of this library and with that of the standard library.
 
@@ -201,12 +205,22 @@ struct Rival<'a> {
 
 struct Report {
     json: bool,
+    decades: bool,
     only: Vec<String>,
 }
 
 impl Report {
     fn function<F: Function>(&mut self) {
         if !self.only.is_empty() && !self.only.iter().any(|name| name == F::NAME) {
+            return;
+        }
+        if self.decades {
+            bands::<F>("scalar", &mut |from, into| {
+                each!(x => F::ours(x))(from, into)
+            });
+            bands::<F>("pack", &mut |from, into| {
+                on_level::<F>(Cpu::best(), Shape::Pack, from, into);
+            });
             return;
         }
         let (low, high) = F::RANGE;
@@ -308,6 +322,49 @@ impl Report {
     }
 }
 
+/// Values of a decade, a multiple of the lanes of every pack.
+const DECADE: usize = 64;
+
+/// Prints the decades of arguments that are dearer than the usual.
+fn bands<F: Function>(name: &str, pass: &mut dyn FnMut(&[f64], &mut [f64])) {
+    let mut into = [0.0; DECADE];
+    let mut cost = |k: i32| {
+        let scale: f64 = format!("1e{k}").parse().unwrap();
+        let from: [f64; DECADE] = std::array::from_fn(|i| {
+            let size = scale * (1.0 + 8.0 * (i * 37 % DECADE) as f64 / DECADE as f64);
+            if i % 2 == 0 { size } else { -size }
+        });
+        let mut least = f64::INFINITY;
+        for _ in 0..9 {
+            let start = Instant::now();
+            for _ in 0..PASSES {
+                pass(black_box(&from), black_box(&mut into));
+            }
+            least = least.min(start.elapsed().as_secs_f64());
+        }
+        let leaves = into.iter().any(|y| !y.is_normal());
+        (least * 1e9 / (DECADE * PASSES) as f64, leaves)
+    };
+    let usual = cost(0).0;
+    let mut bands: Vec<(i32, i32, f64, bool)> = vec![];
+    for k in -307..=307 {
+        let (ns, leaves) = cost(k);
+        if ns <= 4.0 * usual {
+            continue;
+        }
+        match bands.last_mut().filter(|band| band.1 == k - 1) {
+            Some(band) => *band = (band.0, k, ns.max(band.2), leaves | band.3),
+            None => bands.push((k, k, ns, leaves)),
+        }
+    }
+    print!("{:8} {name:6} {usual:6.2} ns", F::NAME);
+    for (low, high, ns, leaves) in bands {
+        let star = if leaves { "*" } else { "" };
+        print!("  1e{low} to 1e{high}: {:.0}×{star}", ns / usual);
+    }
+    println!();
+}
+
 /// W1: steps of a pendulum with the given sine, kick–drift form.
 #[inline(always)]
 fn pendulum(sine: impl Fn(f64) -> f64, start: (f64, f64), n: u32) -> (f64, f64) {
@@ -333,12 +390,20 @@ fn pendulum_std(start: (f64, f64), n: u32) -> (f64, f64) {
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let json = arguments.iter().any(|argument| argument == "--json");
+    let decades = arguments.iter().any(|argument| argument == "--decades");
     let only = arguments
         .into_iter()
         .filter(|argument| !argument.starts_with("--"))
         .collect();
-    let mut report = Report { json, only };
+    let mut report = Report {
+        json,
+        decades,
+        only,
+    };
     all(&mut report);
+    if decades {
+        return;
+    }
 
     let n = 2000;
     let mut least = [f64::INFINITY; 2];

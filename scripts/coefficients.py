@@ -25,7 +25,7 @@ The conditions of each class:
 import sys
 from functools import lru_cache
 
-from mpmath import cbrt, fabs, matrix, mp, mpf, sqrt
+from mpmath import cbrt, fabs, factorial, matrix, mp, mpf, sinh, sqrt, taylor
 
 mp.dps = 60
 SLACK = mpf(10) ** -50
@@ -68,7 +68,7 @@ def defects(factors, letters, order, target):
 
 def general(table, x, order):
     first = lambda k: mpf(k == 1)
-    if table.layout == "symmetric":
+    if table.is_symmetric_composition():
         odd = tuple(range(1, order + 1, 2))
         return defects([lambda k, g=g: g**k for g in table.full(x)], odd, order, first)
     pairs = table.zigzag(x)
@@ -168,6 +168,9 @@ class Table:
         if complete:
             self.digits.append(1 - 2 * sum(self.digits))
 
+    def is_symmetric_composition(self):
+        return self.layout == "symmetric"
+
     def full(self, x):
         if self.layout == "chi":
             return x + x[::-1]
@@ -177,11 +180,7 @@ class Table:
         """Weights of the first and the second piece in turn."""
         if self.layout == "strokes":
             return self.full(x)
-        if self.layout == "symmetric":
-            half = [g / 2 for g in self.full(x)]
-            chi = [a for g in half for a in (g, g)]
-        else:
-            chi = self.full(x)
+        chi = [c for pair in self.zigzag(x) for c in pair]
         return [chi[0]] + [a + b for a, b in zip(chi, chi[1:])] + [chi[-1]]
 
     def zigzag(self, x):
@@ -192,6 +191,8 @@ class Table:
                 flat.append(previous)
             if len(flat) % 2:
                 flat.pop()
+        elif self.layout == "symmetric":
+            flat = [g / 2 for g in self.full(x) for _ in "du"]
         else:
             flat = self.full(x)
         return list(zip(flat[::2], flat[1::2]))
@@ -199,6 +200,53 @@ class Table:
     def conditions(self, x):
         check = {"general": general, "nystrom": nystrom, "near-integrable": near_integrable}
         return check[self.kind](self, list(x), self.order)
+
+
+class Processed(Table):
+    """`kernel` as a table; `processor` the durations d₁ u₁ d₂ u₂ … of its stages, but for the last, which
+    makes their sum zero. `layout` "twice" adds the same stages with −h, which makes most odd terms vanish;
+    "symmetric" does it with steps γ₁h, γ₂h, … of a symmetric map. With `fixed` the kernel is not moved.
+    """
+
+    def __init__(self, name, kind, order, kernel, processor, *, layout="strokes", fixed=False):
+        self.name, self.kind, self.order = name, kind, order
+        self.kernel, self.processor_layout, self.fixed = kernel, layout, fixed
+        self.layout, self.first = "processed", kernel.first
+        self.digits = ([] if fixed else kernel.digits) + [mpf(n) for n in processor]
+
+    def parts(self, x):
+        """The numbers of the kernel and the durations of the processor, in turn down and up."""
+        count = 0 if self.fixed else len(self.kernel.digits)
+        kernel, processor = (self.kernel.digits if self.fixed else x[:count]), x[count:]
+        return kernel, processor + [-sum(processor)]
+
+    def is_symmetric_composition(self):
+        return self.kernel.layout == "symmetric" and self.processor_layout == "symmetric"
+
+    def chi(self, x):
+        """π⁻¹, K, π as durations, in turn down and up."""
+        kernel, processor = self.parts(x)
+        if self.processor_layout == "symmetric":
+            processor = [g / 2 for g in processor for _ in "du"]
+        if self.processor_layout != "strokes":
+            processor = processor + [-c for c in processor]
+        flat = [c for pair in self.kernel.zigzag(kernel) for c in pair]
+        return [-c for c in processor[::-1]] + flat + processor
+
+    def full(self, x):
+        return [2 * c for c in self.chi(x)[::2]]
+
+    def zigzag(self, x):
+        flat = self.chi(x)
+        return list(zip(flat[::2], flat[1::2]))
+
+    def strokes(self, x):
+        chi = self.chi(x)
+        return [chi[0]] + [a + b for a, b in zip(chi, chi[1:])] + [chi[-1]]
+
+    def rust(self, x):
+        kernel, processor = self.parts(list(x))
+        return f"{rust(self.kernel, kernel)}\n{self.name}: {weights(processor)}"
 
 
 # --- polishing -----------------------------------------------------------------------------------
@@ -267,9 +315,14 @@ def words_of(value):
     return high, float(value - mpf(high))
 
 
+def weights(numbers):
+    return "[" + ", ".join("Weight({!r}, {!r})".format(*words_of(number)) for number in numbers) + "]"
+
+
 def rust(table, x):
-    weights = ", ".join("Weight({!r}, {!r})".format(*words_of(value)) for value in x)
-    return f"{table.name}: [{weights}]"
+    if isinstance(table, Processed):
+        return table.rust(x)
+    return f"{table.name}: {weights(x)}"
 
 
 # --- the tables as published ---------------------------------------------------------------------
@@ -385,6 +438,62 @@ TABLES += [
           "0.09585888083707521061077150377145884776921 0.2044461531429987806805077839164344779763 "
           "0.2170703479789911017143385924306336714532 -0.01737538195906509300561788011852699719871".split())),
 ]
+
+TABLES += [
+    Processed("PROCESSED_4", "general", 4,
+              Table("PROCESSED_4", "general", 4, "chi",
+                    "0.18942387299348393 0.22664306546899612 0.15009665742897568 0.29792623628756193 "
+                    "-0.3640898321790176".split()),
+              "-0.03381636923401766 0.41079318130411496 -0.39058390449081315 -0.2265228565118507 "
+              "-0.09543418099840181 -0.1786572773459443 0.10672492980681786 0.21633009791857474 "
+              "-0.2208364123696032 0.04470258039852269 0.2889941124285591".split(), layout="twice"),
+    Processed("PROCESSED_6", "general", 6,
+              Table("PROCESSED_6", "general", 6, "chi",
+                    "0.41235344470350144 -0.3988455639773201 0.1797604917202067 -0.29777475418012955 "
+                    "0.161460251609708 0.14360883079017303 0.15677272536138287 0.14266457397247756".split()),
+              "0.19942106668526377 -0.24520512908294406 0.3731282513951695 -0.33972887794068746 "
+              "0.05856291430363041 -0.07944300914711097 -0.25185517486609116 0.14460461604440666 "
+              "0.3940476382805705 -0.3903824878114566 -0.29599850408171746 0.32887574004202624 "
+              "0.0961158829694107 0.2994991469787901 -0.14069383219797005 0.21113373316350098 "
+              "0.41766056686162745 -0.41734517723591424 -0.3027273941637407 -0.34239466006050373 "
+              "-0.20884973485118516 0.21245708590647622 0.3067974846170819".split(), layout="twice"),
+    Processed("BLANES_CASAS_MURUA_8", "general", 8,
+              Table("BLANES_CASAS_MURUA_8", "general", 8, "symmetric",
+                    "0.168 0.168 0.585550530805562 -0.460090457516872 0.172863148729731 "
+                    "0.179664539695039".split(), complete=True),
+              "-0.543415765371656 0.598212975943381 0.236885952363384 -0.511744926116413 "
+              "0.162324207599241 0.588351189003849 0.333987768164597 -0.337188967354338 "
+              "-0.008488123494574411".split(), layout="symmetric"),
+]
+
+
+def corrector(name, pairs):
+    """Wisdom's corrector of order 2·pairs + 1 of Strang's splitting A(h/2) B(h) A(h/2).
+
+    To first order in ε Strang's splitting moves along B' = y/sinh(y) B, y = h ad_A/2, and the corrector
+    ∏ A(a) B(b) A(−2a) B(−b) A(a), a = k √(7/40), is exp(Σ 2 b sinh(a h ad_A) B). It takes B' to
+    B' + h ad_A Σ 2 b sinh(a h ad_A) B, which is B up to (h ad_A)^(2·pairs).
+    """
+    spacing = sqrt(mpf(7) / 40)
+    times = [k * spacing for k in range(1, pairs + 1)]
+    half = taylor(lambda y: y / sinh(y) if y else mpf(1), 0, 2 * pairs)
+    wanted = [-half[2 * k] / mpf(4) ** k for k in range(1, pairs + 1)]
+    powers = range(1, 2 * pairs, 2)
+    rows = matrix([[2 * a**k / factorial(k) for a in times] for k in powers])
+    kicks = mp.lu_solve(rows, matrix(wanted))
+    strokes = [mpf(0)]
+    for a, b in reversed(list(zip(times, kicks))):
+        strokes[-1] += a
+        strokes += [b, -2 * a, -b, a]
+    durations, previous = [], mpf(0)
+    for stroke in strokes[:-1]:
+        previous = stroke - previous
+        durations.append(previous)
+    strang = Table("STRANG", "near-integrable", (2, 2), "strokes", [mpf(1) / 2, 1])
+    return Processed(name, "near-integrable", (2 * pairs + 2, 2), strang, durations[:-1], fixed=True)
+
+
+TABLES += [corrector(f"CORRECTOR_{2 * pairs + 1}", pairs) for pairs in (1, 2, 3, 5, 8)]
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits the polynomials of the elementary functions and prints their Rust tables.
 
-Usage: python3 scripts/fit_functions.py > hamiltonian-lanes/src/elementary/coefficients.rs
+Usage: python3 scripts/fit_functions.py > hamiltonian-real/src/elementary/coefficients.rs
 Needs mpmath (any version since 1.0). Every number is computed here with 50 digits.
 
 Method: E. Y. Remez's exchange (C. R. Acad. Sci. 199, 337, 1934) for the weighted error

@@ -6,7 +6,7 @@ loops it has; the exit status says whether one of them calls anything. A lane lo
 loop with packed arithmetic. The cold functions that recompute rare arguments lane by lane
 (`replace…`) are allowed: they are reached by a branch that is not taken.
 
-    python3 scripts/lane_calls.py [BENCH …]        (by default: ensemble functions)
+    python3 scripts/lane_calls.py [BENCH …]        (by default: ensemble functions stages)
 
 A call in such a loop costs a factor of up to a hundred: what is not inlined is compiled without the
 level's instructions and passes its packs through memory.
@@ -150,7 +150,7 @@ def main():
     assert list(examine(SAMPLE.format("replace_in_packs"))) == [("Avx2", 1, [])]
 
     failed = False
-    for bench in sys.argv[1:] or ["ensemble", "functions"]:
+    for bench in sys.argv[1:] or ["ensemble", "functions", "stages"]:
         total = 0
         for level, lane_loops, calls in examine(assembly(bench)):
             total += lane_loops

@@ -1,0 +1,172 @@
+//! Every scheme of the catalogue in lanes, on every level of this CPU, against scalar runs.
+//!
+//! `cargo bench --bench catalogue` prints, for each scheme and level, how many times a scalar run an
+//! ensemble is on one thread, fused and reproducible; with `-- --check` it fails below the ratios of
+//! [`least`]. Before anything is timed, members of reproducible ensembles are compared with single runs:
+//! the same bits. With a name, `-- Gauss`, it does the schemes whose entry begins with it.
+
+use std::time::Instant;
+
+use hamiltonian::lanes::Cpu;
+use hamiltonian::prelude::*;
+use hamiltonian::{Ensembles, Vector};
+
+hamiltonian! {
+    /// Hénon–Heiles.
+    pub struct HenonHeiles {}
+    H(x, y; u, v) = (u^2 + v^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3
+}
+
+hamiltonian! {
+    /// Not separable, with exact flows.
+    pub struct Mixture {}
+    H(q; p) = (q^2 + 1)*(p^2 + 1)/2
+}
+
+const MEMBERS: usize = 640;
+const STEPS: u64 = 20;
+
+/// The ratio that a scheme must reach on a level.
+fn least(name: &str, cpu: Cpu) -> f64 {
+    let iterates = [
+        "Gauss",
+        "ImplicitMidpoint",
+        "Variational",
+        "MomentumVariational",
+        "DiscreteGradient",
+        "MidpointProjected",
+        "Semiexplicit",
+    ];
+    match cpu {
+        Cpu::Avx2 | Cpu::Avx512 if iterates.iter().any(|start| name.starts_with(start)) => 1.2,
+        Cpu::Avx2 | Cpu::Avx512 => 2.0,
+        _ => 0.0,
+    }
+}
+
+fn henon_heiles(member: Member) -> (HenonHeiles, StateOf<HenonHeiles>) {
+    let at = member.index as f64 / MEMBERS as f64;
+    (HenonHeiles {}, State::new([0.2 * at, 0.1], [0.1, 0.3 * at]))
+}
+
+fn mixture(member: Member) -> (Mixture, StateOf<Mixture>) {
+    let at = member.index as f64 / MEMBERS as f64;
+    (Mixture {}, State::new([at], [0.5 - at]))
+}
+
+struct Bench {
+    check: bool,
+    only: Option<String>,
+    failed: bool,
+}
+
+impl Bench {
+    fn time<S, M>(&mut self, make: fn(Member) -> (S, StateOf<S>), scheme: M)
+    where
+        S: System<f64>,
+        M: Ensembles<S>,
+    {
+        let name = scheme.entry().to_string();
+        if self
+            .only
+            .as_ref()
+            .is_some_and(|only| !name.starts_with(only))
+        {
+            return;
+        }
+        let h = 0.03125;
+        let alone = |index: usize| {
+            let (system, start) = make(Member::new(index, 0));
+            Integrator::new(&system, scheme.clone(), start, h)
+                .expect("a good start")
+                .lanes(false)
+        };
+        let mut singles: Vec<_> = (0..16).map(alone).collect();
+        let best = Cpu::best();
+        for cpu in [Cpu::Sse2, Cpu::Avx2, Cpu::Avx512] {
+            if cpu > best {
+                continue;
+            }
+            Cpu::limit_to(cpu);
+            let swarm = || {
+                Ensemble::new(MEMBERS, make, scheme.clone(), h)
+                    .expect("members")
+                    .threads(1)
+            };
+            let mut swarms = [swarm(), swarm().reproducible()];
+            for swarm in &mut swarms {
+                swarm.advance(STEPS);
+            }
+            for (index, end) in swarms[1].states().enumerate().step_by(37) {
+                let (end, mut run) = (end.expect("finite"), alone(index));
+                let expected = run.advance(STEPS).expect("finite");
+                let pairs = end.q.components().zip(expected.q.components());
+                for (found, expected) in
+                    pairs.chain(end.p.components().zip(expected.p.components()))
+                {
+                    assert_eq!(
+                        found.to_bits(),
+                        expected.to_bits(),
+                        "{name} on {cpu:?}, member {index}"
+                    );
+                }
+            }
+            // Nanoseconds a step of one member: the least of many short rounds.
+            let mut times = [f64::INFINITY; 3];
+            for _ in 0..12 {
+                let begin = Instant::now();
+                for run in &mut singles {
+                    run.advance(STEPS).expect("finite");
+                }
+                let steps = (singles.len() as u64 * STEPS) as f64;
+                times[0] = times[0].min(begin.elapsed().as_secs_f64() * 1e9 / steps);
+                for (k, swarm) in swarms.iter_mut().enumerate() {
+                    let begin = Instant::now();
+                    swarm.advance(STEPS);
+                    let steps = (MEMBERS as u64 * STEPS) as f64;
+                    times[k + 1] = times[k + 1].min(begin.elapsed().as_secs_f64() * 1e9 / steps);
+                }
+            }
+            let [single, fused, exact] = times;
+            let (ratio, due) = (single / fused, least(&name, cpu));
+            let verdict = if ratio < due { "  BELOW" } else { "" };
+            println!(
+                "{name:<48} {cpu:?}: {single:>8.2} ns alone, {ratio:>6.2} ×, reproducible {:>6.2} ×{verdict}",
+                single / exact
+            );
+            self.failed |= self.check && ratio < due;
+        }
+        Cpu::limit_to(best);
+    }
+}
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let mut bench = Bench {
+        check: arguments.iter().any(|argument| argument == "--check"),
+        only: arguments
+            .into_iter()
+            .find(|argument| !argument.starts_with("--")),
+        failed: false,
+    };
+    macro_rules! all {
+        ($make:ident: $($scheme:expr,)*) => { $(bench.time($make, $scheme);)* };
+    }
+    all! { mixture:
+        RungeKutta4, Strang, Ruth3, Yoshida4, Suzuki4, BlanesMoan4, Yoshida6, KahanLi6, BlanesMoan6,
+        McLachlan8, KahanLi8, SofroniouSpaletta8, SofroniouSpaletta10, Saba2, Saba3, Saba4, Aba104, Aba864,
+        Aba1064, Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
+        TwoStepMidpoint { start: Start::SecondOrder }, ConsecutiveSubTrajectories { start: Start::SecondOrder },
+        IntersectingSubTrajectories { start: Start::SecondOrder }, ImplicitMidpoint::default(),
+        Tao::default(), Mixed::<Strang>::default(), MidpointProjected::<Strang>::default(),
+        Semiexplicit::<Strang>::default(),
+    }
+    all! { henon_heiles:
+        StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift, SymplecticEuler::KickDrift,
+        SymplecticEuler::DriftKick, Srkn6b, Srkn11b, Srkn14a, BlanesCasasEscorihuela8, Compensated(Strang),
+        GaussNystrom::<2>::default(), Gauss::<2>::default(), Gauss::<4>::default(),
+        Variational::<1, 2>::lobatto(), Variational::<2, 2>::lobatto(), MomentumVariational::<2>::default(),
+        DiscreteGradient::default(),
+    }
+    std::process::exit(i32::from(bench.failed));
+}

@@ -1,0 +1,369 @@
+//! Loops over arrays in one run, against loops by hand in lanes and against scalar loops by hand.
+//!
+//! `cargo bench --bench loops` prints ns per unit of work and the ratios of times, which are the
+//! fastest of many short alternating rounds in one process. All three compute the same functions, unfused:
+//! `/`, `sqrt` and the elementary functions of the library. With `-- --check` nothing is timed, and it
+//! fails where the three do not reach the same end.
+
+use hamiltonian::prelude::*;
+use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch};
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+hamiltonian::hamiltonian! {
+    /// A periodic Toda lattice.
+    pub struct Toda { n: usize }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + exp(q[i] - q[(i + 1) % n]) }
+}
+
+hamiltonian::hamiltonian! {
+    /// A periodic FPUT chain.
+    pub struct Fput { n: usize, alpha = 0.25 }
+    let V(r) = r^2/2 + alpha*r^3/3;
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 + V(q[(i + 1) % n] - q[i]) }
+}
+
+hamiltonian::hamiltonian! {
+    /// Point masses.
+    pub struct Gravity { n: usize, G = 1.0, m: [n] }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
+        - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }
+}
+
+const H: f64 = 1e-3;
+
+/// A pseudorandom number in [−½, ½).
+fn noise(k: usize) -> f64 {
+    let bits = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let bits = (bits ^ (bits >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5
+}
+
+/// A force on the momenta and a drift of the coordinates, by hand: arrays of `f64`, by columns.
+trait ByHand: Copy {
+    /// p += c·f(q).
+    fn kick<P: Pack>(self, q: &[f64], p: &mut [f64], work: &mut [f64], c: f64);
+    /// q += c·∂T/∂p.
+    fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64);
+}
+
+/// Störmer–Verlet steps with fused kicks.
+struct Steps<'a, S> {
+    system: S,
+    q: &'a mut [f64],
+    p: &'a mut [f64],
+    work: &'a mut [f64],
+    count: usize,
+}
+
+impl<S: ByHand> Steps<'_, S> {
+    #[inline(always)]
+    fn over<P: Pack>(self) {
+        let Steps {
+            system,
+            q,
+            p,
+            work,
+            count,
+        } = self;
+        system.kick::<P>(q, p, work, 0.5 * H);
+        for k in 1..=count {
+            system.drift::<P>(q, p, H);
+            let c = if k == count { 0.5 * H } else { H };
+            system.kick::<P>(q, p, work, c);
+        }
+    }
+}
+
+impl<S: ByHand> Kernel for Steps<'_, S> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        self.over::<Nf<L::Eight>>();
+    }
+}
+
+/// `into += c·by`, one after the other.
+#[inline(always)]
+fn add<P: Pack>(into: &mut [f64], by: &[f64], c: f64) {
+    let lanes = P::LANES as usize;
+    let c = P::constant(c, 0.0);
+    for (to, from) in into.chunks_mut(lanes).zip(by.chunks(lanes)) {
+        c.fma(P::load(from, 0.0), P::load(to, 0.0)).store(to);
+    }
+}
+
+/// A chain of equal bonds.
+#[inline(always)]
+fn chain<P: Pack, B: Bond>(q: &[f64], p: &mut [f64], work: &mut [f64], c: f64, bond: B) {
+    let (n, lanes) = (q.len(), P::LANES as usize);
+    let c = P::constant(c, 0.0);
+    let work = &mut work[..n];
+    let chunks = work[..n - 1].chunks_mut(lanes);
+    for ((to, a), b) in chunks.zip(q.chunks(lanes)).zip(q[1..].chunks(lanes)) {
+        (c * bond.slope(P::load(b, 0.0) - P::load(a, 0.0))).store(to);
+    }
+    work[n - 1] = (c * bond.slope(P::constant(q[0] - q[n - 1], 0.0))).lane(0);
+    p[0] += work[0] - work[n - 1];
+    let chunks = p[1..].chunks_mut(lanes);
+    for ((to, a), b) in chunks.zip(work.chunks(lanes)).zip(work[1..].chunks(lanes)) {
+        (P::load(to, 0.0) + (P::load(b, 0.0) - P::load(a, 0.0))).store(to);
+    }
+}
+
+/// The derivative of the potential of a bond by its stretch r = q[i+1] − q[i].
+trait Bond: Copy {
+    fn slope<P: Pack>(self, r: P) -> P;
+}
+
+/// e^{−r}: Toda's bond.
+#[derive(Clone, Copy)]
+struct Exponential;
+
+impl Bond for Exponential {
+    #[inline(always)]
+    fn slope<P: Pack>(self, r: P) -> P {
+        -(-r).exp()
+    }
+}
+
+/// r²/2 + r³/12: a bond of the FPUT chain.
+#[derive(Clone, Copy)]
+struct Cubic;
+
+impl Bond for Cubic {
+    #[inline(always)]
+    fn slope<P: Pack>(self, r: P) -> P {
+        r + P::constant(0.25, 0.0) * r * r
+    }
+}
+
+impl<B: Bond> ByHand for B {
+    #[inline(always)]
+    fn kick<P: Pack>(self, q: &[f64], p: &mut [f64], work: &mut [f64], c: f64) {
+        chain::<P, B>(q, p, work, c, self);
+    }
+    #[inline(always)]
+    fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64) {
+        add::<P>(q, p, c);
+    }
+}
+
+/// Bodies of mass 1/n.
+#[derive(Clone, Copy)]
+struct Gravitating;
+
+impl ByHand for Gravitating {
+    #[inline(always)]
+    fn kick<P: Pack>(self, q: &[f64], p: &mut [f64], m: &mut [f64], c: f64) {
+        let (n, lanes) = (q.len() / 3, P::LANES as usize);
+        let (x, yz) = q.split_at(n);
+        let (y, z) = yz.split_at(n);
+        let (px, pyz) = p.split_at_mut(n);
+        let (py, pz) = pyz.split_at_mut(n);
+        let mut i = 0;
+        while i < n {
+            let [xi, yi, zi] = [
+                P::constant(x[i], 0.0),
+                P::constant(y[i], 0.0),
+                P::constant(z[i], 0.0),
+            ];
+            let ci = P::constant(c * m[i], 0.0);
+            let mut sum = [P::zero(); 3];
+            let mut rest = [0.0; 3];
+            let mut k = 0;
+            while k < i {
+                let end = if k + lanes <= i { k + lanes } else { i };
+                let dx = xi - P::load(&x[k..end], 0.0);
+                let dy = yi - P::load(&y[k..end], 0.0);
+                let dz = zi - P::load(&z[k..end], 0.0);
+                let r2 = dx * dx + dy * dy + dz * dz;
+                let f = ci * P::load(&m[k..end], 0.0) / (r2 * r2.sqrt());
+                let (fx, fy, fz) = (f * dx, f * dy, f * dz);
+                (P::load(&px[k..end], 0.0) + fx).store(&mut px[k..end]);
+                (P::load(&py[k..end], 0.0) + fy).store(&mut py[k..end]);
+                (P::load(&pz[k..end], 0.0) + fz).store(&mut pz[k..end]);
+                if end - k == lanes {
+                    sum = [sum[0] + fx, sum[1] + fy, sum[2] + fz];
+                } else {
+                    let mut lane = 0;
+                    while lane < (end - k) as u32 {
+                        rest[0] += fx.lane(lane);
+                        rest[1] += fy.lane(lane);
+                        rest[2] += fz.lane(lane);
+                        lane += 1;
+                    }
+                }
+                k += lanes;
+            }
+            let mut lane = 0;
+            while lane < P::LANES {
+                rest[0] += sum[0].lane(lane);
+                rest[1] += sum[1].lane(lane);
+                rest[2] += sum[2].lane(lane);
+                lane += 1;
+            }
+            px[i] -= rest[0];
+            py[i] -= rest[1];
+            pz[i] -= rest[2];
+            i += 1;
+        }
+    }
+    #[inline(always)]
+    fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64) {
+        add::<P>(q, p, c * (q.len() / 3) as f64);
+    }
+}
+
+/// A workload: its units of work in a step, the number of steps of a round, and three runs of it.
+struct Workload {
+    name: &'static str,
+    units: f64,
+    steps: usize,
+    library: fn(usize) -> Vec<f64>,
+    lanes: fn(usize) -> Vec<f64>,
+    scalar: fn(usize) -> Vec<f64>,
+}
+
+fn start(n: usize, columns: usize) -> (Vec<f64>, Vec<f64>) {
+    let numbers = |from: usize| (0..n * columns).map(|k| noise(from + k)).collect();
+    (numbers(0), numbers(1 << 20))
+}
+
+fn run<S>(system: &S, start: (Vec<f64>, Vec<f64>), steps: usize) -> Vec<f64>
+where
+    S: System<f64>,
+    StormerVerlet: hamiltonian::Scheme<f64, S>,
+{
+    let mut state = State {
+        q: system.zeros(),
+        p: system.zeros(),
+        t: 0.0,
+    };
+    hamiltonian::Vector::part_mut(&mut state.q, 0).copy_from_slice(&start.0);
+    hamiltonian::Vector::part_mut(&mut state.p, 0).copy_from_slice(&start.1);
+    let mut run = Integrator::new(system, StormerVerlet::default(), state, H).unwrap();
+    run.advance(steps as u64).unwrap();
+    let end = run.state();
+    [
+        hamiltonian::Vector::part(&end.q, 0),
+        hamiltonian::Vector::part(&end.p, 0),
+    ]
+    .concat()
+}
+
+fn by_hand<S: ByHand>(
+    system: S,
+    start: (Vec<f64>, Vec<f64>),
+    mut work: Vec<f64>,
+    steps: usize,
+    lanes: bool,
+) -> Vec<f64> {
+    let (mut q, mut p) = start;
+    let all = Steps {
+        system,
+        q: &mut q,
+        p: &mut p,
+        work: &mut work,
+        count: steps,
+    };
+    if lanes {
+        dispatch(all);
+    } else {
+        all.over::<f64>();
+    }
+    [q, p].concat()
+}
+
+const SITES: usize = 1024;
+const BODIES: usize = 1000;
+
+fn masses() -> Vec<f64> {
+    vec![1.0 / BODIES as f64; BODIES]
+}
+
+const ALL: &[Workload] = &[
+    Workload {
+        name: "Toda, 1024 sites",
+        units: SITES as f64,
+        steps: 400,
+        library: |steps| run(&Toda::new(SITES).unwrap(), start(SITES, 1), steps),
+        lanes: |steps| by_hand(Exponential, start(SITES, 1), vec![0.0; SITES], steps, true),
+        scalar: |steps| by_hand(Exponential, start(SITES, 1), vec![0.0; SITES], steps, false),
+    },
+    Workload {
+        name: "FPUT, 1024 sites",
+        units: SITES as f64,
+        steps: 1600,
+        library: |steps| run(&Fput::new(SITES).unwrap(), start(SITES, 1), steps),
+        lanes: |steps| by_hand(Cubic, start(SITES, 1), vec![0.0; SITES], steps, true),
+        scalar: |steps| by_hand(Cubic, start(SITES, 1), vec![0.0; SITES], steps, false),
+    },
+    Workload {
+        name: "gravity, 1000 bodies (pairs)",
+        units: (BODIES * (BODIES - 1) / 2) as f64,
+        steps: 2,
+        library: |steps| {
+            let bodies = Gravity::new(BODIES, masses()).unwrap();
+            run(&bodies, start(BODIES, 3), steps)
+        },
+        lanes: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, true),
+        scalar: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, false),
+    },
+];
+
+/// The time of a round: short, so that the fastest of many is not disturbed by other processes.
+fn time(run: fn(usize) -> Vec<f64>, steps: usize) -> Duration {
+    let start = Instant::now();
+    black_box(run(black_box(steps)));
+    start.elapsed()
+}
+
+fn main() {
+    let check = std::env::args().any(|argument| argument == "--check");
+    let mut failed = 0;
+    for workload in ALL {
+        let ends = [workload.library, workload.lanes, workload.scalar].map(|run| run(10));
+        for end in &ends[1..] {
+            let distance = (ends[0].iter().zip(end)).map(|(a, b)| (a - b).abs());
+            let most = distance.fold(0.0, f64::max);
+            // Roundings of ten steps in other orders.
+            if most >= 1e-11 || most.is_nan() {
+                println!("FAILED {}: ends differ by {most:e}", workload.name);
+                failed += 1;
+            }
+        }
+    }
+    if check {
+        println!("{} workloads, {failed} failed", ALL.len());
+        std::process::exit(i32::from(failed > 0));
+    }
+    println!(
+        "{:<30} {:>8} {:>10} {:>10} {:>10} {:>12} {:>12}",
+        "workload", "level", "library ns", "lanes ns", "scalar ns", "× of lanes", "× of scalar"
+    );
+    for limit in Cpu::available().collect::<Vec<_>>().into_iter().rev() {
+        Cpu::limit_to(limit);
+        if limit == Cpu::Portable {
+            continue;
+        }
+        for workload in ALL {
+            let runs = [workload.library, workload.lanes, workload.scalar];
+            let mut fastest = [Duration::MAX; 3];
+            for _ in 0..60 {
+                for (fastest, run) in fastest.iter_mut().zip(runs) {
+                    *fastest = (*fastest).min(time(run, workload.steps));
+                }
+            }
+            let work = workload.units * workload.steps as f64;
+            let [library, lanes, scalar] = fastest.map(|t| t.as_secs_f64() * 1e9 / work);
+            println!(
+                "{:<30} {:>8} {library:>10.3} {lanes:>10.3} {scalar:>10.3} {:>12.2} {:>12.2}",
+                workload.name,
+                format!("{limit:?}"),
+                lanes / library,
+                scalar / library
+            );
+        }
+    }
+}

@@ -1,0 +1,191 @@
+//! Ensembles through the public API, on every level of this CPU, against the kernel one writes by hand.
+//!
+//! `cargo bench --bench members` prints, for pendulums and Störmer–Verlet, million trajectory-steps a
+//! second: the kernel of `benches/ensemble.rs`, [`Ensemble`] on one thread, and what parameters per member,
+//! `reproducible`, failing members, time in H and an observer of the energy at each step cost. Rounds
+//! alternate, and CPU time is compared; two threads are compared by wall time.
+
+use std::hint::black_box;
+use std::time::Instant;
+
+use hamiltonian::lanes::{Cpu, Kernel, Level, Pack, dispatch};
+use hamiltonian::prelude::*;
+use hamiltonian::{Carried, Clock, Map, Scheme, Scratch, Step};
+
+hamiltonian! {
+    /// A planar pendulum.
+    pub struct Pendulum { m = 1.0, l = 10.0, g = 9.81 }
+    H(q; p) = p^2/(2*m*l^2) - m*g*l*cos(q)
+}
+
+hamiltonian! {
+    /// A pendulum that is pushed more and more.
+    pub struct Pushed { m = 1.0, l = 10.0, g = 9.81, a = 0.1 }
+    H(q; p; t) = p^2/(2*m*l^2) - m*g*l*cos(q) - a*q*t
+}
+
+const COUNT: usize = 100_000;
+const STEPS: u64 = 1_000;
+const STEP: f64 = 1e-3;
+
+/// All trajectories by the scheme's own map.
+struct Steps<'a> {
+    system: &'a Pendulum,
+    q: &'a mut [f64],
+    p: &'a mut [f64],
+}
+
+impl Kernel for Steps<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let h = L::Wide::constant(STEP, 0.0);
+        let prepared = <Pendulum as System<L::Wide>>::prepare(self.system);
+        let scheme = StormerVerlet::default();
+        let map = Scheme::<L::Wide, Pendulum>::prepare(&scheme, &prepared, Step::of(h));
+        let clock = Clock {
+            start: L::Wide::zero(),
+            interval: h,
+        };
+        let lanes = L::Wide::LANES as usize;
+        for (some_q, some_p) in self.q.chunks_mut(lanes).zip(self.p.chunks_mut(lanes)) {
+            let start = State::over([L::Wide::load(some_q, 0.0)], [L::Wide::load(some_p, 0.0)]);
+            let mut carried = Scheme::<L::Wide, Pendulum>::start(&scheme, &prepared, &start, h);
+            // The scratch of a splitting is nothing.
+            #[allow(clippy::let_unit_value)]
+            let mut work = Scratch::like(&carried);
+            map.run(clock, 0, STEPS, &mut carried, &mut work);
+            map.close(clock.at(STEPS), &mut carried, &mut work);
+            let point = carried.point();
+            point.q[0].store(some_q);
+            point.p[0].store(some_p);
+        }
+    }
+}
+
+fn start(index: usize) -> [f64; 2] {
+    let at = index as f64 / COUNT as f64;
+    [3.0 * at - 1.5, 20.0 * (at - 0.5)]
+}
+
+/// Seconds that the work takes: of this thread on the CPU, where Linux tells; else of wall time.
+fn seconds(work: impl FnOnce()) -> f64 {
+    let clock = Instant::now();
+    let now = || {
+        let line = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+        let first = line.as_deref().and_then(|line| line.split(' ').next());
+        let nanoseconds = first.and_then(|first| first.parse::<f64>().ok());
+        nanoseconds.map_or_else(|| clock.elapsed().as_secs_f64(), |n| n * 1e-9)
+    };
+    let begin = now();
+    work();
+    now() - begin
+}
+
+fn main() {
+    let best = Cpu::best();
+    let state = |member: Member| {
+        let [q, p] = start(member.index);
+        State::new([q], [p])
+    };
+    let plain = |member: Member| (Pendulum::default(), state(member));
+    let each = |member: Member| {
+        let l = 10.0 + 1e-6 * member.index as f64;
+        (
+            Pendulum {
+                l,
+                ..Default::default()
+            },
+            state(member),
+        )
+    };
+    let failing = |member: Member| {
+        let (system, mut state) = plain(member);
+        if member.index % 100 == 50 {
+            state.p[0] = 1e305; // the angle overflows on the way
+        }
+        (system, state)
+    };
+    let pushed = |member: Member| (Pushed::default(), state(member));
+    let scheme = StormerVerlet::default;
+    for cpu in [Cpu::Sse2, Cpu::Avx2, Cpu::Avx512] {
+        if cpu > best {
+            continue;
+        }
+        Cpu::limit_to(cpu);
+        let swarm = |make: &dyn Fn(Member) -> (Pendulum, StateOf<Pendulum>)| {
+            Ensemble::new(COUNT, make, scheme(), STEP)
+                .expect("there are members")
+                .threads(1)
+        };
+        let mut all = [
+            ("set-up", swarm(&plain)),
+            ("ensemble", swarm(&plain)),
+            ("reproducible", swarm(&plain).reproducible()),
+            ("parameters per member", swarm(&each)),
+            ("1 % failing", swarm(&failing)),
+        ];
+        let mut timed = Ensemble::new(COUNT, pushed, scheme(), STEP)
+            .expect("there are members")
+            .threads(1);
+        let (mut q, mut p): (Vec<f64>, Vec<f64>) = (0..COUNT).map(|k| start(k).into()).unzip();
+        let mut least = [f64::INFINITY; 9];
+        let mut drifts = swarm(&plain).observe(|_| EnergyDrift::new());
+        let mut two = swarm(&plain).threads(2);
+        let mut walls = [f64::INFINITY; 2];
+        let system = black_box(Pendulum::default());
+        for _ in 0..5 {
+            let mut times = [0.0; 9];
+            times[0] = seconds(|| {
+                dispatch(Steps {
+                    system: &system,
+                    q: &mut q,
+                    p: &mut p,
+                });
+            });
+            for (k, (name, swarm)) in all.iter_mut().enumerate() {
+                times[k + 1] = seconds(|| match *name {
+                    "set-up" => {
+                        *swarm =
+                            Ensemble::new(COUNT, plain, scheme(), STEP).expect("there are members");
+                    }
+                    _ => {
+                        swarm.advance(STEPS);
+                    }
+                });
+            }
+            times[6] = seconds(|| {
+                timed.advance(STEPS);
+            });
+            times[7] = seconds(|| {
+                drifts.advance(STEPS);
+            });
+            for (swarm, least) in [&mut all[1].1, &mut two].into_iter().zip(&mut walls) {
+                let begin = Instant::now();
+                swarm.advance(STEPS);
+                *least = begin.elapsed().as_secs_f64().min(*least);
+            }
+            for (least, time) in least.iter_mut().zip(times) {
+                *least = time.min(*least);
+            }
+        }
+        let names = ["kernel by hand"]
+            .into_iter()
+            .chain(all.iter().map(|(name, _)| *name))
+            .chain(["time-dependent", "EnergyDrift at each step"]);
+        println!("{cpu:?} two threads: {:.2} × one", walls[0] / walls[1]);
+        for (name, time) in names.zip(least) {
+            let rate = COUNT as f64 * STEPS as f64 / time / 1e6;
+            match name {
+                "set-up" => println!(
+                    "{cpu:?} set-up: {:.1} steps of a member",
+                    time / least[2] * STEPS as f64
+                ),
+                _ => println!(
+                    "{cpu:?} {name}: {rate:.1} M steps/s, {:.3} of the kernel",
+                    least[0] / time
+                ),
+            }
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! This library on the problems of the comparison with its peers.
+//!
+//! `peers-ours problems` prints the problems with their references, `peers-ours rows` the results of this
+//! library; both print one JSON object a line. References are made in double-double (106 bits) with Gauss's
+//! collocation of order 32, and once more with half the step: `uncertainty` is the difference. With a name as
+//! second argument only that problem is treated.
+
+mod problems;
+
+use hamiltonian::prelude::*;
+use hamiltonian::{Scheme, Vector, lanes};
+use problems::*;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::fmt::Write;
+use std::time::Instant;
+
+/// Bodies of the cluster.
+const BODIES: usize = 1000;
+/// Particles of the ring.
+const RING: usize = 1024;
+/// Particles of the chain.
+const CHAIN: usize = 31;
+/// Pendulums of the ensemble.
+const PENDULUMS: usize = 1000;
+/// Runs of which the median is taken.
+const RUNS: usize = 5;
+/// A time that clocks resolve well; shorter runs are repeated within a measurement.
+const SECONDS: f64 = 0.05;
+
+/// CPU seconds of this thread; elsewhere than on Linux wall-clock seconds.
+fn clock(began: Instant) -> f64 {
+    let of_thread = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = of_thread.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| began.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
+}
+
+/// The median CPU time of a run.
+fn time(mut run: impl FnMut()) -> f64 {
+    let began = Instant::now();
+    let mut times: Vec<f64> = (0..RUNS)
+        .map(|_| {
+            let begin = clock(began);
+            let mut count = 0.0;
+            loop {
+                run();
+                count += 1.0;
+                let seconds = clock(began) - begin;
+                if seconds >= SECONDS {
+                    return seconds / count;
+                }
+            }
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[RUNS / 2]
+}
+
+fn list(numbers: impl IntoIterator<Item = f64>) -> String {
+    let mut text = String::from("[");
+    for (i, number) in numbers.into_iter().enumerate() {
+        let comma = if i > 0 { "," } else { "" };
+        let _ = write!(text, "{comma}{number:e}");
+    }
+    text + "]"
+}
+
+/// The components of q, then those of p.
+fn numbers<V: Vector>(state: &State<V>) -> Vec<V::Scalar> {
+    let (q, p) = (state.q.components(), state.p.components());
+    q.chain(p).copied().collect()
+}
+
+/// The largest difference from the reference.
+fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
+    let difference = |(a, b): (&f64, &DoubleDouble)| (DoubleDouble::from(*a) - *b).hi().abs();
+    end.iter().zip(exact).map(difference).fold(0.0, f64::max)
+}
+
+/// What the command line asks for.
+struct Task {
+    rows: bool,
+    only: Option<String>,
+}
+
+/// The results of one scheme: steps doubled from run to run, until the error is that of rounding or runs take
+/// too long.
+fn race<S: System<f64>, M: Scheme<f64, S>>(
+    problem: &str,
+    system: &S,
+    scheme: M,
+    (start, end, exact): (&State<S::Vector>, f64, &[DoubleDouble]),
+    first: u64,
+) {
+    let entry = scheme.entry();
+    let mut steps = first;
+    let mut best = f64::INFINITY;
+    for _ in 0..12 {
+        let begin = || Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
+        // A step too long to be solved is no result.
+        if let Ok(mut run) = begin()
+            && run.advance(steps).is_ok()
+        {
+            let error = apart(&numbers(run.state()), exact);
+            let moved = (run.energy() / system.energy(start) - 1.0).abs();
+            let seconds = time(|| {
+                let mut run = begin().expect("it began before");
+                let _ = run.advance(steps);
+            });
+            println!(
+                "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"method\":\"{entry}\",\
+                 \"setting\":\"{steps} steps\",\"error\":{error:e},\"energy\":{moved:e},\
+                 \"seconds\":{seconds:e}}}"
+            );
+            // Rounding: halving the step gains nothing more.
+            if seconds > 3.0 || error > 0.5 * best && best < 1e-9 || error < 1e-15 {
+                break;
+            }
+            best = best.min(error);
+        }
+        steps *= 2;
+    }
+}
+
+/// A problem: its reference, or the rows of the schemes. `$n` lifts a number to the scalar of the state.
+macro_rules! problem {
+    ($task:ident, $name:literal, $system:expr, [$($key:literal: $value:expr),*], $rows:expr, $end:expr,
+     reference $steps:literal, $n:ident => $start:expr,
+     [$($scheme:expr, $first:expr;)+]) => {
+        if $task.only.as_deref().is_none_or(|only| only == $name) {
+            let system = $system;
+            let end: f64 = $end;
+            let start = {
+                let $n = |x: f64| x;
+                $start
+            };
+            let reference = |steps: u64| {
+                let $n = |x: f64| DoubleDouble::from(x);
+                let step = DoubleDouble::from(end) / DoubleDouble::from(steps as f64);
+                let run = Integrator::new(&system, Gauss::<16>::default(), $start, step);
+                numbers(run.expect("a good start").advance(steps).expect("good steps"))
+            };
+            let fine = reference(2 * $steps);
+            if $task.rows {
+                let goal = (&start, end, &fine[..]);
+                $(race($name, &system, $scheme, goal, $first);)+
+            } else {
+                let coarse = reference($steps);
+                let uncertainty = (coarse.iter().zip(&fine))
+                    .map(|(a, b)| (*a - *b).hi().abs())
+                    .fold(0.0, f64::max);
+                let parameters: &[(&str, String)] = &[$(($key, list($value))),*];
+                let parameters: Vec<_> =
+                    parameters.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
+                println!(
+                    "{{\"problem\":\"{}\",\"parameters\":{{{}}},\"rows\":{},\"end\":{end:e},\
+                     \"start\":{},\"reference\":{},\"reference_low\":{},\"uncertainty\":{uncertainty:e}}}",
+                    $name,
+                    parameters.join(","),
+                    $rows,
+                    list(numbers(&start)),
+                    list(fine.iter().map(|x| x.hi())),
+                    list(fine.iter().map(|x| x.lo())),
+                );
+            }
+        }
+    };
+}
+
+/// The Sun and the outer planets on 5 September 1994 (Hairer, Lubich, Wanner, Geometric Numerical Integration,
+/// 2006, table I.2.2): mass, position, velocity.
+#[rustfmt::skip]
+const PLANETS: [(f64, [f64; 3], [f64; 3]); 6] = [
+    (1.00000597682, [0.0; 3], [0.0; 3]),
+    (0.000954786104043, [-3.5023653, -3.8169847, -1.5507963], [0.00565429, -0.00412490, -0.00190589]),
+    (0.000285583733151, [9.0755314, -3.0458353, -1.6483708], [0.00168318, 0.00483525, 0.00192462]),
+    (0.0000437273164546, [8.3101420, -16.2901086, -7.2521278], [0.00354178, 0.00137102, 0.00055029]),
+    (0.0000517759138449, [11.4707666, -25.7294829, -10.8169456], [0.00288930, 0.00114527, 0.00039677]),
+    (1.0 / 1.3e8, [-15.5387357, -25.2225594, -3.1902382], [0.00276725, -0.00170702, -0.00136504]),
+];
+
+/// Numbers in (−1, 1) that are the same everywhere.
+fn scattered(count: usize) -> Vec<f64> {
+    let mut state = 1_u64;
+    let mut next = || {
+        // D. E. Knuth's generator MMIX.
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    };
+    (0..count).map(|_| next()).collect()
+}
+
+fn main() {
+    let mut arguments = std::env::args().skip(1);
+    let task = Task {
+        rows: arguments.next().as_deref() == Some("rows"),
+        only: arguments.next(),
+    };
+    problem!(task, "kepler", Kepler {}, [], 2, 1000.0 * TAU, reference 60_000,
+        n => State::over([n(0.4), n(0.0)], [n(0.0), n(2.0)]),
+        [GaussNystrom::<8>::default(), 15_000; GaussNystrom::<4>::default(), 40_000;
+         BlanesCasasEscorihuela8, 20_000; Srkn11b, 40_000; Processed6::default(), 50_000;
+         StormerVerlet::default(), 1_000_000;]);
+    problem!(task, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
+        n => State::over([n(0.12), n(0.23)], [n(0.31), n(-0.17)]),
+        [GaussNystrom::<8>::default(), 3_000; GaussNystrom::<4>::default(), 10_000;
+         BlanesCasasEscorihuela8, 5_000; Srkn11b, 10_000; Processed6::default(), 10_000;
+         StormerVerlet::default(), 100_000;]);
+    problem!(task, "pendulum", Pendulum {}, [], 1, 1e4, reference 20_000,
+        n => State::over([n(1.5)], [n(0.0)]),
+        [GaussNystrom::<8>::default(), 3_000; GaussNystrom::<4>::default(), 10_000;
+         BlanesCasasEscorihuela8, 5_000; Srkn11b, 10_000; Processed6::default(), 10_000;
+         StormerVerlet::default(), 100_000;]);
+    problem!(task, "coupled", Coupled {}, [], 1, 1e4, reference 60_000,
+        n => State::over([n(-3.0)], [n(0.0)]),
+        [Gauss::<8>::default(), 10_000; Gauss::<4>::default(), 40_000; Processed6::default(), 40_000;
+         KahanLi8, 20_000; Strang, 400_000;]);
+    let masses = PLANETS.map(|(mass, ..)| mass);
+    problem!(task, "planets", Planets::new(masses), ["G": [2.95912208286e-4], "m": masses], 6, 365_250.0,
+        reference 6_000,
+        n => State::over(
+            PLANETS.map(|(_, q, _)| q.map(n)),
+            PLANETS.map(|(mass, _, v)| v.map(|v| n(mass * v))),
+        ),
+        [GaussNystrom::<8>::default(), 400; GaussNystrom::<4>::default(), 1_500;
+         BlanesCasasEscorihuela8, 1_000; Srkn11b, 2_000; Processed6::default(), 2_000;
+         StormerVerlet::default(), 20_000;]);
+    problem!(task, "black_hole", BlackHole::default(), ["E": [0.995], "L": [4.6]], 2, 1e4, reference 4_000,
+        n => State::over([n(11.0), n(FRAC_PI_2)], [n(0.0), n(2.062_449_325_976_816)]),
+        [Gauss::<8>::default(), 200; Gauss::<4>::default(), 500; Processed6::default(), 500;
+         KahanLi8, 400; Strang, 10_000;]);
+    let wave = |i: usize| {
+        0.5 * (TAU * i as f64 / RING as f64).cos()
+            + 0.3 * (TAU * 7.0 * i as f64 / RING as f64).sin()
+    };
+    let waves: [f64; RING] = std::array::from_fn(wave);
+    problem!(task, "toda", Toda::<RING> {}, [], RING, 20.0, reference 30,
+        n => State::over([n(0.0); RING], waves.map(n)),
+        [GaussNystrom::<8>::default(), 10; BlanesCasasEscorihuela8, 10; Srkn11b, 20;
+         Processed6::default(), 20; StormerVerlet::default(), 200;]);
+    let mode: [f64; CHAIN] =
+        std::array::from_fn(|i| (PI * (i + 1) as f64 / (CHAIN + 1) as f64).sin());
+    problem!(task, "fput", Fput::<CHAIN>::default(), ["alpha": [0.25]], CHAIN, 1000.0, reference 2_000,
+        n => State::over(mode.map(n), [n(0.0); CHAIN]),
+        [GaussNystrom::<8>::default(), 300; GaussNystrom::<4>::default(), 1_000;
+         BlanesCasasEscorihuela8, 500; Srkn11b, 1_000; Processed6::default(), 1_000;
+         StormerVerlet::default(), 10_000;]);
+    let places = scattered(3 * BODIES);
+    let cluster = Cluster::new(BODIES, 1e-3, 2.5e-3).expect("as many bodies as places");
+    problem!(task, "cluster", &cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
+        n => State::over(
+            places.chunks(3).map(|q| [n(q[0]), n(q[1]), n(q[2])]).collect::<Vec<_>>(),
+            places.chunks(3).map(|q| [n(-1e-3 * q[1]), n(1e-3 * q[0]), n(0.0)]).collect::<Vec<_>>(),
+        ),
+        [BlanesCasasEscorihuela8, 1; Srkn11b, 2; StormerVerlet::default(), 8;]);
+    ensemble(&task);
+}
+
+/// Pendulums that start apart, in the lanes of packs.
+fn ensemble(task: &Task) {
+    const END: f64 = 100.0;
+    if task.only.as_deref().is_some_and(|only| only != "ensemble") {
+        return;
+    }
+    let start = |k: usize| {
+        let at = k as f64 / PENDULUMS as f64;
+        (3.0 * at - 1.5, 2.0 * (at - 0.5))
+    };
+    let exact: Vec<(DoubleDouble, DoubleDouble)> = (0..PENDULUMS)
+        .map(|k| {
+            let (q, p) = start(k);
+            let start = State::over([DoubleDouble::from(q)], [DoubleDouble::from(p)]);
+            let step = DoubleDouble::from(END / 256.0);
+            let run = Integrator::new(&Pendulum {}, Gauss::<16>::default(), start, step);
+            let mut run = run.expect("a good start");
+            let end = run.advance(256).expect("good steps");
+            (end.q[0], end.p[0])
+        })
+        .collect();
+    if !task.rows {
+        let of = |part: fn(&(DoubleDouble, DoubleDouble)) -> f64| list(exact.iter().map(part));
+        println!(
+            "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{END:e},\"start\":{},\
+             \"reference\":{},\"uncertainty\":0e0}}",
+            list(
+                (0..PENDULUMS)
+                    .map(|k| start(k).0)
+                    .chain((0..PENDULUMS).map(|k| start(k).1))
+            ),
+            of(|end| end.0.hi()).replace(']', ",") + &of(|end| end.1.hi())[1..],
+        );
+        return;
+    }
+    let exact: Vec<DoubleDouble> = exact
+        .iter()
+        .map(|end| end.0)
+        .chain(exact.iter().map(|end| end.1))
+        .collect();
+    for steps in [100_u64, 200, 400, 800, 1600] {
+        let run = || {
+            lanes::dispatch(Swing {
+                steps,
+                end: END,
+                start,
+            })
+        };
+        let error = apart(&run(), &exact);
+        let seconds = time(|| {
+            let _ = run();
+        });
+        println!(
+            "{{\"problem\":\"ensemble\",\"peer\":\"hamiltonian\",\"method\":\"Srkn11b\",\
+             \"setting\":\"{steps} steps\",\"error\":{error:e},\"energy\":null,\"seconds\":{seconds:e}}}"
+        );
+    }
+}
+
+/// All pendulums on a level of this CPU.
+struct Swing<F> {
+    steps: u64,
+    end: f64,
+    start: F,
+}
+
+impl<F: Fn(usize) -> (f64, f64)> lanes::Kernel for Swing<F> {
+    type Output = Vec<f64>;
+    #[inline(always)]
+    fn run<L: lanes::Level>(self) -> Vec<f64> {
+        swing::<L::Wide>(self.steps, self.end, self.start)
+    }
+}
+
+#[inline(always)]
+fn swing<T: lanes::Pack>(steps: u64, end: f64, start: impl Fn(usize) -> (f64, f64)) -> Vec<f64> {
+    let lanes = T::LANES as usize;
+    let (q, p): (Vec<f64>, Vec<f64>) = (0..PENDULUMS).map(start).unzip();
+    let mut ends = vec![0.0; 2 * PENDULUMS];
+    let (end_q, end_p) = ends.split_at_mut(PENDULUMS);
+    let blocks = q
+        .chunks(lanes)
+        .zip(p.chunks(lanes))
+        .zip(end_q.chunks_mut(lanes).zip(end_p.chunks_mut(lanes)));
+    for ((q, p), (end_q, end_p)) in blocks {
+        let start = State::over([T::load(q, 0.0)], [T::load(p, 0.0)]);
+        let step = T::constant(end / steps as f64, 0.0);
+        let run = Integrator::new(&Pendulum {}, Srkn11b, start, step);
+        if let Ok(mut run) = run
+            && let Ok(state) = run.advance(steps)
+        {
+            state.q[0].store(end_q);
+            state.p[0].store(end_p);
+        }
+    }
+    ends
+}

@@ -1,0 +1,154 @@
+"""BENCHMARKS.md and its figures from the rows of all peers.
+
+A curve of a peer is the lower left edge of its rows: the least time for each error, over methods and settings.
+"""
+
+import math
+
+TITLES = {
+    "kepler": "Kepler's problem, e = 0.6, 1000 periods",
+    "henon_heiles": "Hénon–Heiles, to t = 10⁴",
+    "pendulum": "A pendulum, to t = 10⁴",
+    "coupled": "H = ½(q² + 1)(p² + 1), to t = 10⁴",
+    "planets": "The outer solar system, 1000 years",
+    "black_hole": "An orbit round a black hole, to τ = 10⁴",
+    "toda": "A Toda ring of 1024 particles, to t = 20",
+    "fput": "The chain of Fermi, Pasta, Ulam and Tsingou, 31 particles, to t = 1000",
+    "cluster": "1000 bodies with softened gravity, to t = 0.25",
+    "ensemble": "1000 pendulums, to t = 100",
+}
+GOALS = (1e-3, 1e-6, 1e-9, 1e-11)
+COLOURS = {"hamiltonian": "#1f4e9c", "heyoka": "#c8442c", "REBOUND": "#2c8a4b", "SciPy": "#8a6d1f", "numba": "#7a3e98",
+           "diffsol": "#444444", "Julia": "#c2389a"}
+WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 640, 400, 64, 48, 36, 130
+
+
+def edge(rows):
+    """Rows that no other row of the peer beats in error and time."""
+    best, kept = math.inf, []
+    for row in sorted(rows, key=lambda row: (row["seconds"], row["error"])):
+        if row["error"] < best:
+            best = row["error"]
+            kept.append(row)
+    return kept
+
+
+def groups(rows):
+    """Rows with an error, by problem and peer."""
+    found = {}
+    for row in rows:
+        if "seconds" in row and row["error"] is not None and math.isfinite(row["error"]):
+            found.setdefault(row["problem"], {}).setdefault(row["peer"], []).append(row)
+    return found
+
+
+def figure(title, peers):
+    """Error of the end point against CPU time, both logarithmic."""
+    points = [(row["seconds"], max(row["error"], 1e-17)) for rows in peers.values() for row in edge(rows)]
+    ends = []
+    for axis in (0, 1):
+        logs = [math.log10(point[axis]) for point in points]
+        ends.append((math.floor(min(logs)), max(math.ceil(max(logs)), math.floor(min(logs)) + 1)))
+    (x0, x1), (y0, y1) = ends
+    x = lambda value: LEFT + (math.log10(value) - x0) / (x1 - x0) * (WIDTH - LEFT - RIGHT)
+    y = lambda value: HEIGHT - BOTTOM - (math.log10(value) - y0) / (y1 - y0) * (HEIGHT - TOP - BOTTOM)
+    power = lambda n: f"10<tspan dy='-5' font-size='9'>{n}</tspan>".replace("-", "−").replace("dy='−", "dy='-")
+    out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" '
+           f'font-size="12"><rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>'
+           f'<text x="{LEFT}" y="20" font-size="14">{title}</text>']
+    for n in range(x0, x1 + 1):
+        at = x(10.0**n)
+        out.append(f'<path d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}" stroke="#ddd"/>'
+                   f'<text x="{at:.1f}" y="{HEIGHT - BOTTOM + 16}" text-anchor="middle">{power(n)}</text>')
+    every = max(1, (y1 - y0) // 8)
+    for n in range(y0, y1 + 1, every):
+        at = y(10.0**n)
+        out.append(f'<path d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}" stroke="#ddd"/>'
+                   f'<text x="{LEFT - 6}" y="{at + 4:.1f}" text-anchor="end">{power(n)}</text>')
+    out.append(f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 8}" text-anchor="middle">CPU seconds</text>'
+               f'<text transform="translate(14 {HEIGHT / 2}) rotate(-90)" text-anchor="middle">error of the end point</text>')
+    for i, (peer, rows) in enumerate(peers.items()):
+        colour = COLOURS.get(peer, "black")
+        places = [(x(row["seconds"]), y(max(row["error"], 1e-17))) for row in edge(rows)]
+        path = "M" + "L".join(f"{a:.1f} {b:.1f}" for a, b in places)
+        dots = "".join(f'<circle cx="{a:.1f}" cy="{b:.1f}" r="2.5"/>' for a, b in places)
+        out.append(f'<path d="{path}" fill="none" stroke="{colour}" stroke-width="1.5"/><g fill="{colour}">{dots}</g>'
+                   f'<text x="{WIDTH - RIGHT + 10}" y="{TOP + 14 + 18 * i}" fill="{colour}">{peer}</text>')
+    return "\n".join(out) + "\n</svg>\n"
+
+
+def fastest(rows, goal):
+    reached = [row for row in rows if row["error"] <= goal]
+    return min(reached, key=lambda row: row["seconds"], default=None)
+
+
+def table(peers):
+    head = "| | " + " | ".join(f"{goal:.0e}".replace("e-0", "e-") for goal in GOALS) + " |"
+    out = [head, "|---|" + "---|" * len(GOALS)]
+    least = [min((row["seconds"] for rows in peers.values() if (row := fastest(rows, goal))), default=None)
+             for goal in GOALS]
+    for peer, rows in peers.items():
+        cells = []
+        for goal, best in zip(GOALS, least):
+            row = fastest(rows, goal)
+            if row is None:
+                cells.append("–")
+                continue
+            text = f"{1e3 * row['seconds']:.3g} ms, {row['method']}"
+            cells.append(f"**{text}**" if row["seconds"] == best else text)
+        out.append(f"| {peer} | " + " | ".join(cells) + " |")
+    return "\n".join(out)
+
+
+def sentences(name, peers):
+    """Who wins where, in words made of the numbers."""
+    said = []
+    for goal in GOALS:
+        found = {peer: fastest(rows, goal) for peer, rows in peers.items()}
+        found = {peer: row for peer, row in found.items() if row}
+        ours = found.pop("hamiltonian", None)
+        if not found:
+            continue
+        peer, best = min(found.items(), key=lambda item: item[1]["seconds"])
+        goal = f"{goal:.0e}".replace("e-0", "e-")
+        if ours is None:
+            said.append(f"Only {peer} and not this library reaches {goal} here.")
+        elif best["seconds"] < ours["seconds"]:
+            said.append(f"At {goal} {peer} is {ours['seconds'] / best['seconds']:.1f} times as fast as this library.")
+        else:
+            said.append(f"At {goal} this library is {best['seconds'] / ours['seconds']:.1f} times as fast as {peer}.")
+    return " ".join(said)
+
+
+def write(problems, rows, machine, root):
+    found = groups(rows)
+    versions = sorted({(row["peer"], row["version"]) for row in rows if "version" in row})
+    known = {problem["problem"]: problem for problem in problems}
+    (root / "figures").mkdir(exist_ok=True)
+    out = ["# This library and its peers", "",
+           "CPU time of one thread on one core against the error of the end point: the largest difference of a "
+           "component from a reference in double-double arithmetic (106 bits), whose own error is given. Each time is "
+           "the median of five measurements; each cell is the fastest setting of the method that reaches the error of "
+           "its column. `python3 benches/peers/run.py` makes these numbers again.", "",
+           f"Machine: {machine}. " + ", ".join(f"{peer} {version}" for peer, version in versions) + ".", "",
+           "Not compared: the time of compilation, of `hamiltonian!` by rustc and of heyoka and numba at run time; "
+           "adaptive steps, dense output and events; ensembles on several threads and on graphics processors; stiff "
+           "problems, for which diffsol, SciPy's LSODA and Julia's solvers are made; collisions and additional forces, "
+           "for which REBOUND is. SciPy calls a Python function for each evaluation, as most of its users do.", ""]
+    for name, title in TITLES.items():
+        if name not in found:
+            continue
+        peers = {peer: found[name][peer] for peer in COLOURS if peer in found[name]}
+        path = root / "figures" / f"peers_{name}.svg"
+        text = figure(title, peers)
+        assert len(text) <= 50_000, f"{path} has {len(text)} bytes"
+        path.write_text(text, encoding="utf-8")
+        out += [f"## {title}", "", f"![{title}: error of the end point against CPU time](figures/peers_{name}.svg)", "",
+                table(peers), "", sentences(name, peers), "",
+                f"The reference is known to {known[name]['uncertainty']:.0e}.", ""]
+    failed = [row for row in rows if "failed" in row]
+    if failed:
+        out += ["## What failed", ""]
+        out += sorted({f"- {row['peer']}, {row['problem']}, {row['method']}, {row['setting']}: {row['failed']}"
+                       for row in failed}) + [""]
+    (root / "BENCHMARKS.md").write_text("\n".join(out), encoding="utf-8")

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Runs the comparison with other programs and writes BENCHMARKS.md.
+
+    python3 benches/peers/run.py            all peers, all problems
+    python3 benches/peers/run.py kepler     one problem, its old rows replaced
+    python3 benches/peers/run.py --report   the report from the rows that are there
+
+Everything is pinned: packages from PyPI in a virtual environment of `requirements.txt`, Rust packages by their
+`Cargo.lock`, Julia's by `Project.toml` where Julia is installed. One process runs at a time, with one thread, on one
+core. Results are kept in `target/peers/`; run it when nothing else runs.
+"""
+
+import json
+import os
+import platform
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import report
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+OUT = ROOT / "target" / "peers"
+PROBLEMS, ROWS = OUT / "problems.jsonl", OUT / "rows.jsonl"
+SCRIPTS = ("heyoka_peer.py", "rebound_peer.py", "scipy_peer.py", "numba_peer.py")
+
+
+def pinned(command, **options):
+    """The command on one core, with one thread."""
+    if shutil.which("taskset"):
+        core = max(os.sched_getaffinity(0))
+        command = ["taskset", "-c", str(core), *command]
+    threads = {name: "1" for name in (
+        "OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "RAYON_NUM_THREADS",
+        "JULIA_NUM_THREADS")}
+    environment = {**os.environ, **threads, "PROBLEMS": str(PROBLEMS)}
+    return subprocess.run([str(part) for part in command], env=environment, text=True, cwd=HERE, **options)
+
+
+def environment():
+    """The Python of the virtual environment."""
+    folder = OUT / "venv"
+    python = folder / "bin" / "python"
+    if not python.exists():
+        subprocess.run([sys.executable, "-m", "venv", folder], check=True)
+    subprocess.run([python, "-m", "pip", "install", "--quiet", "-r", HERE / "requirements.txt"], check=True)
+    return python
+
+
+def built(name):
+    target = OUT / "rust"
+    manifest = HERE / name / "Cargo.toml"
+    subprocess.run(["cargo", "build", "--release", "--manifest-path", manifest, "--target-dir", target], check=True)
+    return target / "release" / f"peers-{name}"
+
+
+def lines(text):
+    return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
+
+
+def main():
+    wanted = [word for word in sys.argv[1:] if not word.startswith("--")]
+    OUT.mkdir(parents=True, exist_ok=True)
+    if "--report" not in sys.argv:
+        ours = built("ours")
+        if not PROBLEMS.exists():
+            print("references", flush=True)
+            made = pinned([ours, "problems"], check=True, stdout=subprocess.PIPE).stdout
+            PROBLEMS.write_text(made, encoding="utf-8")
+        python = environment()
+        commands = [("hamiltonian", [ours, "rows"]), ("diffsol", [built("diffsol")])]
+        commands += [(script, [python, HERE / script]) for script in SCRIPTS]
+        if shutil.which("julia"):
+            setup = ["julia", f"--project={HERE}", "-e", "using Pkg; Pkg.instantiate()"]
+            subprocess.run(setup, check=True)
+            commands.append(("julia", ["julia", f"--project={HERE}", HERE / "julia_peer.jl"]))
+        rows = lines(ROWS.read_text(encoding="utf-8")) if ROWS.exists() and wanted else []
+        rows = [row for row in rows if row["problem"] not in wanted]
+        for name, command in commands:
+            for problem in wanted or [""]:
+                print(name, problem, flush=True)
+                done = pinned([*command, *([problem] if problem else [])], stdout=subprocess.PIPE)
+                if done.returncode:
+                    print(f"{name} ended with status {done.returncode}: its rows so far are kept")
+                rows += lines(done.stdout)
+                ROWS.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+    report.write(lines(PROBLEMS.read_text(encoding="utf-8")), lines(ROWS.read_text(encoding="utf-8")), machine(), ROOT)
+
+
+def machine():
+    """The processor's name."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8")
+        names = [line.split(":")[1].strip() for line in text.splitlines() if line.startswith("model name")]
+        return names[0]
+    except (OSError, IndexError):
+        return platform.processor() or platform.machine()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Runs the examples and puts their pictures, made small, into the book.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+to=book/src/images
+mkdir -p "$to"
+large=0
+while read -r name example picture; do
+    cargo run --release --quiet --example "$example" > /dev/null
+    python3 scripts/compact_svg.py "target/$example/$picture" "$to/$name.svg"
+    size=$(wc -c < "$to/$name.svg")
+    if [ "$size" -gt 51200 ]; then
+        echo "$name.svg has $size bytes; the book takes 51200 at most" >&2
+        large=1
+    fi
+done << 'LIST'
+henon_heiles henon_heiles section.svg
+kerr kerr torus.svg
+driven_pendulum driven_pendulum section.svg
+double_pendulum double_pendulum paths.svg
+dipole dipole meridian.svg
+fput fput modes.svg
+nbody_eight nbody eight.svg
+nbody_collapse nbody collapse.svg
+paper paper figure4.svg
+LIST
+exit "$large"

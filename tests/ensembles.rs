@@ -4,6 +4,7 @@ use hamiltonian::Status;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{PoisonError, RwLock};
 
 hamiltonian! {
     /// A pendulum whose weight sways.
@@ -111,22 +112,21 @@ where
     assert_eq!(members, COUNT);
 }
 
-/// Serialises the tests that hide levels from the process, and those whose stores name the level.
-fn alone() -> std::sync::MutexGuard<'static, ()> {
-    static ONE: std::sync::Mutex<()> = std::sync::Mutex::new(());
-    ONE.lock()
-        .unwrap_or_else(std::sync::PoisonError::into_inner)
+/// Held to write while levels are hidden from this process, and to read by each test whose bits or whose
+/// stores depend on the level.
+static LEVEL: RwLock<()> = RwLock::new(());
+
+/// Keeps the level of this process as it is.
+fn one_level() -> std::sync::RwLockReadGuard<'static, ()> {
+    LEVEL.read().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Runs a test on each level of this CPU.
 fn at_each_level(test: impl Fn(Cpu)) {
-    let _one = alone();
-    let best = Cpu::best();
-    for cpu in [Cpu::Sse2, Cpu::Avx2, Cpu::Avx512] {
-        if cpu <= best {
-            Cpu::limit_to(cpu);
-            test(cpu);
-        }
+    let _alone = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
+    for cpu in Cpu::available() {
+        Cpu::limit_to(cpu);
+        test(cpu);
     }
     Cpu::limit_to(Cpu::Avx512);
 }
@@ -177,6 +177,7 @@ fn neither_threads_nor_calls_nor_neighbours_change_a_bit() {
 
 #[test]
 fn a_failing_member_says_where_and_disturbs_nobody() {
+    let _level = one_level();
     let holes = |member: Member| {
         // Every seventh falls into the hole; one starts outside of it.
         let q = match member.index {
@@ -235,6 +236,7 @@ fn a_failing_member_says_where_and_disturbs_nobody() {
 
 #[test]
 fn observers_of_members_are_those_of_single_runs() {
+    let _level = one_level();
     let observer = |_: Member| (EnergyDrift::new(), every(3, Recorder::new()));
     let ending = |member: Member| {
         Events::new([Event::named("bottom").ending_after(1 + member.index as u64 % 3)])
@@ -277,6 +279,7 @@ fn observers_of_members_are_those_of_single_runs() {
 
 #[test]
 fn a_saved_ensemble_goes_on_with_the_same_bits() {
+    let _level = one_level();
     let ensemble = || {
         Ensemble::new(COUNT, pendulum, StormerVerlet::default(), 0.05).expect("there are members")
     };
@@ -328,6 +331,7 @@ fn rows<O: Observer<f64, Pendulum>>(
 
 #[test]
 fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
+    let _level = one_level();
     // Ends and steps of each member: lanes change hands at different steps.
     let end = |member: Member| 3.0 + 2.0 * part(member.index);
     let step = |member: Member| 0.01 + 0.01 * part(COUNT - member.index);
@@ -379,6 +383,7 @@ fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
 
 #[test]
 fn sweeps_record_at_times_and_sections() {
+    let _level = one_level();
     let times = [0.0, 0.011, 0.012, 0.5, 2.0];
     let start = |member: Member| (Pendulum::default(), State::new([part(member.index)], [0.3]));
     let sweep = Sweep::new(COUNT, start, StormerVerlet::default(), 0.02).reproducible();
@@ -415,6 +420,7 @@ fn sweeps_record_at_times_and_sections() {
 
 #[test]
 fn bad_input_is_a_typed_error() {
+    let _level = one_level();
     let none = Ensemble::new(0, pendulum, StormerVerlet::default(), 0.1);
     assert!(matches!(none, Err(Error::NoMembers)));
     assert!(matches!(
@@ -486,7 +492,7 @@ fn bad_input_is_a_typed_error() {
 
 #[test]
 fn a_store_goes_on_where_it_stopped() {
-    let _one = alone();
+    let _level = one_level();
     let path = std::env::temp_dir().join(format!("hamiltonian-sweep-{}.zarr", std::process::id()));
     let _ = std::fs::remove_dir_all(&path);
     let sweep = |seed| {
@@ -565,6 +571,7 @@ fn files(root: &std::path::Path) -> std::collections::BTreeMap<std::path::PathBu
 
 #[test]
 fn killed_processes_lose_and_double_nothing() {
+    let _level = one_level();
     let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some();
     let kills = if heavy { 100 } else { 10 };
     let place = |name: &str| {

@@ -177,7 +177,6 @@ fn neither_threads_nor_calls_nor_neighbours_change_a_bit() {
 
 #[test]
 fn a_failing_member_says_where_and_disturbs_nobody() {
-    let _level = one_level();
     let holes = |member: Member| {
         // Every seventh falls into the hole; one starts outside of it.
         let q = match member.index {
@@ -331,7 +330,6 @@ fn rows<O: Observer<f64, Pendulum>>(
 
 #[test]
 fn a_sweep_has_the_bits_of_single_runs_whatever_its_layout() {
-    let _level = one_level();
     // Ends and steps of each member: lanes change hands at different steps.
     let end = |member: Member| 3.0 + 2.0 * part(member.index);
     let step = |member: Member| 0.01 + 0.01 * part(COUNT - member.index);

@@ -3,10 +3,17 @@
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
 
-use crate::shard::ShardError;
+mod nearest;
+mod shard;
 #[cfg(feature = "std")]
-use crate::store::StoreError;
-use crate::table::TableError;
+mod store;
+mod table;
+
+pub use shard::ShardError;
+#[cfg(feature = "std")]
+pub use store::StoreError;
+pub use table::TableError;
+
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -8,17 +8,18 @@ mod advance;
 mod checks;
 mod estimate;
 mod inspect;
+mod part;
 
 pub use advance::States;
 pub(crate) use checks::{check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
+pub(crate) use part::{Part, Recipe};
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
-use crate::part::{Part, Recipe};
 use crate::scheme::{Entry, Scheme};
 use crate::state::{Carried, State};
 use crate::system::{Arithmetic, Dynamics, System};

@@ -31,6 +31,7 @@ mod vector;
 mod state;
 
 mod system;
+pub use system::gather;
 
 mod exponential;
 mod flow;
@@ -42,7 +43,6 @@ mod scheme;
 pub mod schemes;
 
 mod integrator;
-mod part;
 
 mod events;
 mod observe;
@@ -66,8 +66,6 @@ mod resume;
 
 mod any;
 
-pub mod gather;
-
 mod ensemble;
 
 mod loops;
@@ -90,10 +88,11 @@ pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
 pub use derivatives::{WrongDerivative, check_derivatives};
 pub use ensemble::{End, Ensemble, Ensembles, Member, Record, Row, Status, Sweep};
-pub use error::{CheckpointError, Error};
+#[cfg(feature = "std")]
+pub use error::StoreError;
+pub use error::{CheckpointError, Error, ShardError, TableError};
 pub use events::{Event, Events, Located};
 pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorField};
-pub use gather::{Gather, InLanes, Kept};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
 pub use integrator::{ErrorEstimate, Integrator, MapOf, Run, States};
 pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
@@ -107,15 +106,16 @@ pub use output::Recorder;
 pub use progress::Progress;
 pub use push::{Both, Coupled, SubStep};
 pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
-pub use shard::{Shard, ShardError};
+pub use shard::Shard;
 pub use state::{Carried, Gradient, Pair, Plain, Point, State};
 #[cfg(feature = "std")]
-pub use store::{Attribute, ChunkData, Completeness, Layout, Rows, Store, StoreError};
+pub use store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
+pub use system::gather::{Gather, InLanes, Kept};
 pub use system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
 };
-pub use table::{Table, TableError};
+pub use table::Table;
 pub use tangent::{Tangent, monodromy, multipliers, symplectic_defect};
 pub use times::{AtTimes, at_times};
 pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};

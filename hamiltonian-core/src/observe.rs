@@ -4,8 +4,13 @@
 //! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
 //! changes no bit of the run.
 
+mod follow;
+
+#[doc(hidden)]
+pub use follow::{Follower, Quantity};
+pub(crate) use follow::{Track, Tracker};
+
 use crate::checkpoint::Memory;
-use crate::ensemble::{Follower, Quantity};
 use crate::error::Error;
 use crate::state::State;
 use crate::system::{Dynamics, ObservableKind, System, declared_energy};

@@ -5,11 +5,11 @@
 //! body, or the columns selected, in their order.
 
 use crate::checkpoint::{Checkpoint, Memory};
-use crate::error::Error;
+use crate::error::{Error, TableError};
 use crate::observe::{Observer, View, one_trajectory};
 use crate::state::State;
 use crate::system::{Group, System, clock};
-use crate::table::{Table, TableError, wrapped};
+use crate::table::{Table, wrapped};
 use crate::vector::Vector;
 use alloc::format;
 use alloc::string::{String, ToString};

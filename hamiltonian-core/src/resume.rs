@@ -5,10 +5,10 @@
 
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{CheckpointError, Error};
+use crate::integrator::Recipe;
 use crate::integrator::{Integrator, MapOf, SystemText};
 use crate::map::Clock;
 use crate::observe::Observer;
-use crate::part::Recipe;
 use crate::scheme::Scheme;
 use crate::state::State;
 use crate::system::{Arithmetic, Dynamics, System};

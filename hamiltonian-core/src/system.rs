@@ -8,9 +8,11 @@
 
 use crate::error::Error;
 use crate::flow::{Piece, Pieces, VectorField};
-use crate::gather::{InLanes, Kept};
+pub mod gather;
+
 use crate::state::{Gradient, Point, State};
 use crate::vector::Vector;
+use gather::{InLanes, Kept};
 use hamiltonian_lanes::{Dual, Real};
 
 /// One group of coordinates as it was declared: `q`, `x[N]`, `q[n][3]`.

@@ -4,6 +4,7 @@ mod accepted;
 mod builds;
 mod diagnostics;
 mod docs;
+mod emitted;
 mod lengths;
 mod limits;
 mod nests;

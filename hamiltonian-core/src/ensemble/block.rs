@@ -4,8 +4,8 @@
 //! bits of a lane depend on that lane alone, and are those of [`Map::run`] however steps are cut into
 //! blocks.
 
-use super::follow::Tracker;
 use crate::map::Map;
+use crate::observe::Tracker;
 use crate::state::{Carried, State};
 use crate::system::System;
 use crate::vector::Vector;

@@ -4,11 +4,11 @@
 //! scheme carries, the parameters (once, if all are equal), an observer a member, and nothing else that
 //! grows with the number of members.
 
-use super::follow::{Follower, Track};
 use super::guard::guard;
 use super::seat::{Host, Seat};
 use crate::error::Error;
 use crate::map::Clock;
+use crate::observe::{Follower, Track};
 use crate::observe::{Observer, View};
 use crate::state::State;
 use crate::system::System;

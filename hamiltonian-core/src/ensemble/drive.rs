@@ -6,15 +6,15 @@
 
 use super::block::{Block, Followed, Opening, Times};
 use super::crew::Crew;
-use super::follow::Tracker;
 use super::seat::{Host, Seat};
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::flow::Scratch;
 use crate::gather::{self, Gather, VectorOver};
+use crate::integrator::{Part, Recipe};
 use crate::map::{Map, Step};
+use crate::observe::Tracker;
 use crate::observe::View;
-use crate::part::{Part, Recipe};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
 use crate::system::{System, clock};

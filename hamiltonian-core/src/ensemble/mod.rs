@@ -6,7 +6,8 @@
 //!
 //! The modules follow the data: a member at its seat ([`seat`]), the crew of a pack ([`crew`]), a block of
 //! steps ([`block`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
-//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`]), and members that leave a record ([`sweep`], [`running`],
+//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`]), and members that leave a
+//! record ([`sweep`], [`sweep::running`],
 //! [`record`]).
 
 mod block;
@@ -14,12 +15,10 @@ mod bound;
 mod chunk;
 mod crew;
 mod drive;
-mod follow;
 mod guard;
 mod hash;
 mod ordered;
 mod record;
-mod running;
 mod saved;
 mod seat;
 #[cfg(feature = "std")]
@@ -29,8 +28,6 @@ mod sweep;
 mod threads;
 
 pub use bound::Ensembles;
-#[doc(hidden)]
-pub use follow::{Follower, Quantity};
 pub use record::{End, Record, Row, Status};
 pub use swarm::Ensemble;
 pub use sweep::Sweep;

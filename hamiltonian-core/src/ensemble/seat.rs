@@ -4,9 +4,9 @@
 //! seat holds all that makes a member go on, over its own scalar: nothing in it depends on the level, the
 //! lane or the neighbours.
 
-use super::follow::Track;
 use crate::error::Error;
 use crate::map::Clock;
+use crate::observe::Track;
 use crate::observe::View;
 use crate::state::State;
 use crate::system::System;

@@ -3,11 +3,12 @@
 //! Input: a system and a start for each index, a scheme, a step, an end, a record. Output: rows in the
 //! order of the index. Invariant: only chunks in work are in memory.
 
+mod running;
+
 use super::Member;
 use super::bound::{Engine, Ensembles};
 use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
-use super::running::Running;
 use super::threads;
 use crate::error::Error;
 use crate::observe::Observer;
@@ -21,6 +22,7 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::ops::{ControlFlow, Range};
 use core::sync::atomic::{AtomicBool, Ordering};
+use running::Running;
 
 /// Makes the system and the start of a member.
 type Make<'a, S> =

@@ -4,11 +4,11 @@
 //! Invariant: a state that is not finite is never shown; a run that failed stands at the last good
 //! state.
 
+use super::part::Part;
 use super::{Integrator, MapOf, numbers};
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::observe::{Observer, View};
-use crate::part::Part;
 use crate::state::{Carried, State};
 use crate::system::{System, clock};
 use crate::vector::Vector;

@@ -77,10 +77,8 @@ pub mod collocation;
 mod gauss;
 mod iterate;
 mod midpoint;
-mod newton;
 mod rows;
 mod second_order;
-mod slopes;
 mod stages;
 mod variational;
 

@@ -11,12 +11,13 @@
 //! slopes of q are the coefficients of the polynomial dq/dt and of the part of Pᵢ that no such
 //! polynomial sees, and dq/dt = ∂H/∂p at the nodes is left to Newton's method.
 
+mod newton;
+mod slopes;
+
 use super::collocation::{Collocation, constant};
 use super::compensated::carry;
 use super::iterate::{Contraction, Outcome, iterate};
-use super::newton::{Entries, Linear};
 use super::rows::{Apart, LANES};
-use super::slopes::{StepsBeside, Tableau, finish, fixed_point};
 use crate::flow::{Scratch, VectorField};
 use crate::gather::Kept;
 use crate::map::{Cause, Clock, Map, Step};
@@ -25,6 +26,8 @@ use crate::system::Dynamics;
 use crate::vector::Vector;
 use core::ops::Range;
 use hamiltonian_lanes::{Mask, Real};
+use newton::{Entries, Linear};
+use slopes::{StepsBeside, Tableau, finish, fixed_point};
 
 /// One vector a stage, as one vector.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,8 +3,8 @@
 //! A file is written beside its place and renamed. What a killed process was writing stays in the
 //! directory `status/parts` until the store is complete: readers of Zarr never look there.
 
-use super::error::StoreError;
 use crate::error::Error;
+use crate::error::StoreError;
 use std::collections::hash_map::RandomState;
 use std::fs::{self, File};
 use std::hash::{BuildHasher, Hasher};

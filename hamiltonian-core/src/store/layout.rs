@@ -3,8 +3,8 @@
 //! Input: a [`Layout`]. Output: the metadata of its arrays, as Zarr v3 has them.
 //! Source: A. Miles, R. Abernathey et al., "Zarr core specification", version 3.0 (2023).
 
-use super::error::StoreError;
 use super::json::Json;
+use crate::error::StoreError;
 
 /// What a store holds.
 #[derive(Debug, Clone, PartialEq)]

@@ -9,16 +9,14 @@
 //! last: a chunk counts as present if its status is there. A process that is killed leaves files of
 //! chunks that do not count; whoever writes such a chunk again writes the same bytes.
 
-mod error;
 mod files;
 mod json;
 mod layout;
 
-pub use error::StoreError;
 pub use layout::{Attribute, Layout, Rows};
 
 use crate::checkpoint::differing;
-use crate::error::Error;
+use crate::error::{Error, StoreError};
 use core::fmt;
 use core::ops::Range;
 use files::{Parts, failed};

@@ -6,15 +6,10 @@
 
 #[cfg(feature = "std")]
 mod csv;
-mod error;
-mod nearest;
 #[cfg(feature = "std")]
 mod npy;
 
-pub use error::TableError;
-pub(crate) use nearest::nearest;
-
-use crate::error::Error;
+use crate::error::{Error, TableError};
 use alloc::string::String;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;

@@ -46,9 +46,6 @@ mod stretch;
 mod values;
 mod vectors;
 
-#[cfg(test)]
-mod tests;
-
 pub use declared::Declared;
 pub use number::closed;
 

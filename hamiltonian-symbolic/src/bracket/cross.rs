@@ -5,7 +5,9 @@
 //! one of the rules of [`Claim::passes`] applies, or the part that stands in the way, and why.
 //! Invariant: no rule here looks at points, and each states what it assumes.
 
-use super::{branches, derivative, orbits};
+pub(super) mod orbits;
+
+use super::{branches, derivative};
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, Locus, Regular};
 use crate::model::Model;

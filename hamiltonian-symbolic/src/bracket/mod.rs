@@ -8,7 +8,6 @@
 mod branches;
 mod cross;
 mod lagrange;
-mod orbits;
 mod pair;
 mod shell;
 
@@ -25,6 +24,7 @@ use crate::normal_form::{
 use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand_within;
+use cross::orbits;
 
 /// The verdict on a claimed invariant.
 #[derive(Clone, PartialEq, Debug)]

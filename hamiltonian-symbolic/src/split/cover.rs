@@ -3,10 +3,10 @@
 //! Input: the units of H. Output: candidates, each a list of [`Block`]s. Invariant: the blocks of a
 //! candidate are disjoint and hold every unit; each has a flow; at most [`BLOCKS`] are tried.
 
-use super::rows::is_quadratic;
+use super::solve::rows::is_quadratic;
+use super::solve::units::{Unit, Units};
 use super::solve::{exponential, flow};
 use super::space::{Set, Space};
-use super::units::{Unit, Units};
 use crate::dag::{Map, Node};
 use crate::flow::Flow;
 

@@ -8,14 +8,12 @@ mod breaks;
 mod cover;
 mod growth;
 mod rank;
-mod rows;
 mod solve;
 mod space;
 mod sweep;
 mod tape;
-mod units;
 
-pub use rows::{ROWS, Row};
+pub use solve::rows::{ROWS, Row};
 pub use space::NODES;
 
 use crate::dag::Node;
@@ -23,6 +21,7 @@ use crate::flow::{ExactFlow, Flow, Piece};
 use crate::model::{Model, ObservableKind};
 use crate::print;
 use crate::transform::check_split;
+use solve::units;
 use space::Space;
 
 /// H as a sum of pieces, outermost first.

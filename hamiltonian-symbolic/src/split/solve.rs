@@ -4,11 +4,14 @@
 //! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
 //! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
 
-use super::rows::{Axes, Moved, ROWS, Solve, is_constant_form};
+pub(super) mod rows;
+pub(super) mod units;
+
 use super::space::{Set, Space, bits, differ};
 use crate::dag::{Kind, Map, Node};
 use crate::flow::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
+use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
 
 /// The flow of h for the time s; `None` where no row takes it.
 pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {

@@ -6,8 +6,8 @@
 //! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
 use super::solve::shear;
+use super::solve::units::{Term, terms};
 use super::space::Space;
-use super::units::{Term, terms};
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};

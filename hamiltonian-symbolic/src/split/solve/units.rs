@@ -4,11 +4,11 @@
 //! conjugate pair meets stays as it was written; products are multiplied out only where no row
 //! takes them, and only where that loses few digits.
 
-use super::solve::flow;
-use super::space::Space;
+use super::flow;
 use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::index::Domain;
 use crate::rational::Rational;
+use crate::split::space::Space;
 use crate::structure::expand;
 
 /// The most digits that multiplying out may lose, as a factor.
@@ -124,16 +124,16 @@ fn written(space: &mut Space, h: Node) -> Units {
 
 /// A term of H: a summand and its loops.
 #[derive(Clone, Debug)]
-pub(super) struct Term {
+pub(in crate::split) struct Term {
     /// The loops around it, outermost first.
-    pub(super) chain: Vec<Domain>,
-    pub(super) body: Node,
+    pub(in crate::split) chain: Vec<Domain>,
+    pub(in crate::split) body: Node,
     /// The term as it was written: outside of loops the body.
-    pub(super) source: Node,
+    pub(in crate::split) source: Node,
 }
 
 /// H by terms: through sums, loops and factors that do not move.
-pub(super) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
+pub(in crate::split) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
     let mut found = Vec::new();
     let mut left = vec![Term {
         chain: Vec::new(),
@@ -202,7 +202,7 @@ fn opened(dag: &mut Dag, node: Node) -> (Node, Node) {
 }
 
 /// A sum times a factor, term by term; another expression is a sum of one term.
-pub(super) fn distributed(dag: &mut Dag, sum: Node, factor: Node) -> Vec<Node> {
+pub(in crate::split) fn distributed(dag: &mut Dag, sum: Node, factor: Node) -> Vec<Node> {
     let Kind::Sum(c, terms) = dag.kind(sum).clone() else {
         return vec![dag.mul(&[factor, sum])];
     };

@@ -8,8 +8,8 @@ use crate::formula::Names;
 use crate::rational::Rational;
 use crate::split::growth::{arctangent, near_zero};
 use crate::split::solve::flow;
+use crate::split::solve::units::distributed;
 use crate::split::space::{Space, differ};
-use crate::split::units::distributed;
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);

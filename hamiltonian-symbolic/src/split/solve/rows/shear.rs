@@ -62,7 +62,7 @@ fn linear(
     let swept = axes.signed(space, swept);
     motion.add(space.dag(), axes.leaf, swept);
     let rest = space.set(h) & !(x_set | y_set);
-    for bit in super::super::space::bits(rest) {
+    for bit in crate::split::space::bits(rest) {
         let inert = space.variable(bit);
         let slope = space.d(h, inert);
         let kick = self::swept(space, slope, axes.x, beta, s)?;
@@ -163,7 +163,7 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     motion.add(space.dag(), axes.x, step);
     motion.add(space.dag(), axes.leaf, gained);
     let rest = space.set(h) & !(x_set | y_set);
-    for bit in super::super::space::bits(rest) {
+    for bit in crate::split::space::bits(rest) {
         let inert = space.variable(bit);
         let kick = space.d(general, inert);
         let kick = in_y(space, kick);

@@ -4,9 +4,9 @@
 //! said to be constant is proven to be so by the rules of [`Claim`]; what is said not to be 0 is
 //! an infinity of a conserved H for all parameters.
 
-use super::branches::STEP;
-use super::cross::Claim;
-use super::derivative;
+use super::Claim;
+use crate::bracket::branches::STEP;
+use crate::bracket::derivative;
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Part};
 use crate::facts::{Facts, Given};
 use crate::model::Model;
@@ -73,7 +73,11 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool
 
 /// An expression with a constant in the place of H, if it reads H: {H, H} = 0 without expansion. Assumes
 /// an H that does not depend on time, and no force.
-pub(super) fn without_energy(model: &mut Model, expression: Node, h: Node) -> Option<Node> {
+pub(in crate::bracket) fn without_energy(
+    model: &mut Model,
+    expression: Node,
+    h: Node,
+) -> Option<Node> {
     let has_time = model.dag.dependence(h).on(Dependence::TIME);
     if !model.force.is_empty() || has_time {
         return None;

@@ -3,16 +3,16 @@
 //! Input: the numbers of a method, a vector field, the point. Output: the slopes, and the step they make.
 //! Invariant: the bits do not depend on the [`Layout`].
 
-use super::compensated::carry;
-use super::iterate::Outcome;
-use super::rows::{
-    Beside, Equations, Layout, in_rows, load, matrix_in_rows, multiply, product, rows, solve,
-    spread, store, sum,
-};
-use super::stages::{Carries, Collocated, Stages};
+use super::{Carries, Collocated, Stages};
 use crate::flow::VectorField;
 use crate::gather::{InLanes, Kept};
 use crate::map::Clock;
+use crate::schemes::compensated::carry;
+use crate::schemes::iterate::Outcome;
+use crate::schemes::rows::{
+    Beside, Equations, Layout, in_rows, load, matrix_in_rows, multiply, product, rows, solve,
+    spread, store, sum,
+};
 use crate::state::{Pair, Point};
 use crate::system::Dynamics;
 use crate::vector::Vector;

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 /// The candidate nearest to `name`, if one is near: equal but for case, or at most one edit in three
 /// letters away. The first of several equally near.
-pub(crate) fn nearest<'a>(
+pub(super) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {

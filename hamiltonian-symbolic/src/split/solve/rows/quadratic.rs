@@ -192,7 +192,7 @@ pub(in crate::split) fn is_constant_form(space: &mut Space, h: Node) -> bool {
 /// Whether an expression is a polynomial of second degree.
 pub(in crate::split) fn is_quadratic(space: &mut Space, h: Node) -> bool {
     let set = space.set(h);
-    let z: Vec<Node> = super::super::space::bits(set)
+    let z: Vec<Node> = crate::split::space::bits(set)
         .map(|bit| space.variable(bit))
         .collect();
     coefficients(space, h, set, &z).is_some()

@@ -3,16 +3,16 @@
 //! Input: indices. Output: a [`Batch`] of records. Invariant: a member's numbers depend on its index, the
 //! sweep and its seed alone.
 
-use super::Member;
-use super::follow::{Follower, Track};
-use super::guard::guard;
-use super::hash::hash_of;
-use super::record::{Batch, End, Outcome, Record, Status};
-use super::seat::{Host, Seat};
-use super::sweep::{Aim, Sweep};
+use super::{Aim, Sweep};
+use crate::ensemble::Member;
+use crate::ensemble::guard::guard;
+use crate::ensemble::hash::hash_of;
+use crate::ensemble::record::{Batch, End, Outcome, Record, Status};
+use crate::ensemble::seat::{Host, Seat};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
+use crate::observe::{Follower, Track};
 use crate::observe::{Observer, View};
 use crate::state::State;
 use crate::system::{System, clock};

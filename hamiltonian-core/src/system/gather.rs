@@ -8,7 +8,7 @@
 //! or a loop of a single run hands a [`InLanes`] kernel to [`Dynamics::in_lanes`], which gathers one
 //! system into all lanes at the level of the CPU.
 
-use crate::system::Dynamics;
+use super::Dynamics;
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use core::any::Any;

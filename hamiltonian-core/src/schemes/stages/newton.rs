@@ -3,7 +3,7 @@
 //! Input: a prepared system, the stages' points, their equations. Output: the slopes one Newton step
 //! further. Invariant: lanes do not mix; rows are exchanged lane by lane.
 
-use super::stages::Stages;
+use super::Stages;
 use crate::state::Point;
 use crate::system::Dynamics;
 use crate::vector::Vector;

@@ -17,12 +17,12 @@ mod shear;
 mod spin;
 mod square;
 
-pub(super) use quadratic::{is_constant_form, is_quadratic};
+pub(in crate::split) use quadratic::{is_constant_form, is_quadratic};
 
-use super::space::Space;
 use crate::dag::Node;
 use crate::flow::{EXPONENTIAL, Motion};
 use crate::rational::Rational;
+use crate::split::space::Space;
 
 /// One pair as a row sees it: a position x and its momentum y, which are (q, p) or (p, −q).
 #[derive(Clone, Copy, Debug)]

@@ -3,10 +3,10 @@
 //! Input: the present state of a run and a time. Output: the state at that time, by one step of
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
+use super::{Integrator, MapOf, numbers};
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::flow::Scratch;
-use crate::integrator::{Integrator, MapOf, numbers};
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Between, Observer};
 use crate::scheme::Scheme;
@@ -221,7 +221,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// step of a copy: of the scheme's own order, and without a changed bit in the run.
     ///
     /// ```
-    #[doc = include_str!("doc/oscillator.md")]
+    #[doc = include_str!("../doc/oscillator.md")]
     /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
     ///
     /// let start = State::new([1.0], [0.0]);
@@ -334,7 +334,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     /// observer ends the run. The first error is the last item.
     ///
     /// ```
-    #[doc = include_str!("doc/oscillator.md")]
+    #[doc = include_str!("../doc/oscillator.md")]
     /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
     ///
     /// let start = State::new([1.0], [0.0]);

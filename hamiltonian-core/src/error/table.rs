@@ -1,6 +1,6 @@
 //! Errors of tables.
 
-use super::nearest;
+use super::nearest::nearest;
 use alloc::borrow::ToOwned;
 use alloc::string::String;
 use alloc::vec::Vec;

@@ -1,0 +1,89 @@
+//! Errors of shards.
+
+use alloc::string::String;
+use core::fmt;
+
+/// A part of a sweep that does not exist, or cannot be found out.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShardError {
+    /// There is no part of that number.
+    #[error("shard {index}/{count}{} does not exist\nhelp: {}", From(.variable), Parts(*.count))]
+    Range {
+        /// The number of the part, counted from 0.
+        index: u64,
+        /// The number of parts.
+        count: u64,
+        /// The variable that holds the number of the part, if the environment gives it.
+        variable: Option<&'static str>,
+    },
+    /// A text or a variable has another form than its own.
+    #[error("{}`{text}`, and must be {expected}", Named(.variable))]
+    Form {
+        /// The variable, if the environment gives it.
+        variable: Option<&'static str>,
+        /// Its text.
+        text: String,
+        /// The form it must have.
+        expected: &'static str,
+    },
+    /// A variable is set, and another one that belongs to it is not.
+    #[error("`{variable}` is set, but `{missing}` is not\nhelp: {remedy}")]
+    Missing {
+        /// The variable that is set.
+        variable: &'static str,
+        /// The variable that is missing.
+        missing: &'static str,
+        /// The way out.
+        remedy: &'static str,
+    },
+    /// Two variables contradict each other.
+    #[error(
+        "`{one}` contradicts `{other}`: {reason}\nhelp: set `HAMILTONIAN_SHARD=k/n` for each process"
+    )]
+    Contradiction {
+        /// A variable with its value.
+        one: String,
+        /// Another one with its value.
+        other: String,
+        /// Why the two do not fit.
+        reason: &'static str,
+    },
+}
+
+/// ` (from …)` for a variable.
+struct From<'a>(&'a Option<&'static str>);
+
+impl fmt::Display for From<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(variable) => write!(f, " (from `{variable}`)"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// `… is ` for a variable.
+struct Named<'a>(&'a Option<&'static str>);
+
+impl fmt::Display for Named<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(variable) => write!(f, "`{variable}` is "),
+            None => write!(f, "the shard is "),
+        }
+    }
+}
+
+/// The parts that exist.
+struct Parts(u64);
+
+impl fmt::Display for Parts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            0 => write!(f, "a sweep has at least one shard, 0/1"),
+            1 => write!(f, "the only shard is 0/1"),
+            n => write!(f, "shards of {n} are 0/{n} to {}/{n}", n - 1),
+        }
+    }
+}

@@ -37,6 +37,7 @@ mod nystrom;
 pub mod order;
 pub mod paper;
 pub mod planets;
+mod potentials;
 mod processed;
 pub mod readme;
 pub mod sizes;

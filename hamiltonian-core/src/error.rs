@@ -3,12 +3,14 @@
 //! Input: nothing. Output: [`Error`]. Invariant: a variant carries the values that went wrong, as
 //! `f64` whatever the scalar of the run, so that the error is one type.
 
+mod knots;
 mod nearest;
 mod shard;
 #[cfg(feature = "std")]
 mod store;
 mod table;
 
+pub use knots::KnotError;
 pub use shard::ShardError;
 #[cfg(feature = "std")]
 pub use store::StoreError;
@@ -288,9 +290,9 @@ pub enum Error {
     /// An ensemble or a sweep of no members.
     #[error("an ensemble has at least one member, found 0")]
     NoMembers,
-    /// A member with run-time sizes other than those of the first.
+    /// A member with run-time sizes, or functions as parameters, other than those of the first.
     #[error(
-        "`{system}` has other sizes than in member 0: members of one ensemble have the same sizes"
+        "`{system}` has other sizes or functions than in member 0: members of one ensemble have the same"
     )]
     OtherSizes {
         /// The system.
@@ -322,6 +324,9 @@ pub enum Error {
     /// A column that there is not, or a row that does not fit.
     #[error("{0}")]
     Table(#[from] TableError),
+    /// Knots that no spline passes through.
+    #[error("{0}")]
+    Knots(#[from] KnotError),
     /// A part of a sweep that does not exist, or cannot be found out.
     #[error("{0}")]
     Shard(#[from] ShardError),

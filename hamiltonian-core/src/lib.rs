@@ -70,6 +70,8 @@ mod ensemble;
 
 mod loops;
 
+pub mod function;
+
 pub mod start;
 
 pub mod coordinates;
@@ -90,9 +92,10 @@ pub use derivatives::{WrongDerivative, check_derivatives};
 pub use ensemble::{End, Ensemble, Ensembles, Member, Record, Row, Status, Sweep};
 #[cfg(feature = "std")]
 pub use error::StoreError;
-pub use error::{CheckpointError, Error, ShardError, TableError};
+pub use error::{CheckpointError, Error, KnotError, ShardError, TableError};
 pub use events::{Event, Events, Located};
 pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorField};
+pub use function::{Function, Grid, Spline};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
 pub use integrator::{ErrorEstimate, Integrator, MapOf, Run, States};
 pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
@@ -144,8 +147,8 @@ pub mod prelude {
     };
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error, Event,
-        Events, Gradient, Integrator, Member, Monitors, Observer, Real, Recorder, Run, Shard,
-        Split, State, StateOf, Status, Sweep, System, Tangent, TimeTransformed, at_times, every,
-        monodromy, symplectic_defect, watch,
+        Events, Function, Gradient, Grid, Integrator, Member, Monitors, Observer, Real, Recorder,
+        Run, Shard, Spline, Split, State, StateOf, Status, Sweep, System, Tangent, TimeTransformed,
+        at_times, every, monodromy, symplectic_defect, watch,
     };
 }

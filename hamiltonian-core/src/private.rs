@@ -11,7 +11,7 @@ pub extern crate alloc;
 pub use alloc::sync::Arc;
 pub use core;
 
-pub use hamiltonian_lanes::{Lift, Mask, Pack, Real};
+pub use hamiltonian_lanes::{Dual, Lift, Mask, Pack, Real};
 pub use nalgebra::{
     self, ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage,
 };
@@ -19,6 +19,7 @@ pub use nalgebra::{
 pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
+pub use crate::function::Function;
 pub use crate::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;

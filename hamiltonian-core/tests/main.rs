@@ -8,6 +8,7 @@ mod composition;
 mod estimate;
 mod events;
 mod exponential;
+mod function;
 mod lanes;
 mod observers;
 mod own;

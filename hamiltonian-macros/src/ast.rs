@@ -92,6 +92,8 @@ pub enum ParameterKind {
     Size,
     /// `name: [s]`, `name: [s][s]` or `name: [2] = [1.0, 2.0]`
     Array(Vec<Size>, Option<Expression>),
+    /// `name: fn(a, …)`
+    Function(Vec<Ident>),
 }
 
 /// A size where an array is declared.
@@ -193,17 +195,18 @@ pub enum StatementKind {
     },
 }
 
-/// `fn name(a, …) = value, (first, …)[, (second, …)]`: scalars to a scalar.
+/// `fn name(a, …) = value[, (first, …)[, (second, …)]]`, or a parameter `name: fn(a, …)`: scalars to a
+/// scalar. Derivatives that are not given are those of dual numbers.
 #[derive(Debug, Clone)]
 pub struct Function {
     /// The name it defines.
     pub name: Ident,
     /// Its arguments, at least one.
     pub arguments: Vec<Ident>,
-    /// The path of the function.
-    pub value: TokenStream,
+    /// The path of the function; `None` for a parameter, whose value the field of its name gives.
+    pub value: Option<TokenStream>,
     /// The partial derivatives, one an argument.
-    pub first: Paths,
+    pub first: Option<Paths>,
     /// The second partials: the upper triangle row by row (xx, xy, yy), `n(n+1)/2` of them.
     pub second: Option<Paths>,
 }

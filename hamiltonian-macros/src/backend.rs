@@ -199,7 +199,7 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 
-/// The program, without H's own second derivatives where a Rust function came without them.
+/// The program, without H's own second derivatives where they have third ones of a Rust function.
 fn derive(
     frame: &Frame,
     model: &mut Model,
@@ -211,11 +211,11 @@ fn derive(
     loop {
         match pipeline::derive(model, &wanted) {
             Ok(program) => return Some(program),
-            Err(Refusal::NoSecondDerivative { purpose, function }) => {
+            Err(Refusal::ThirdDerivative { purpose, function }) => {
                 wanted.retain(|other| *other != purpose);
                 if purpose != Purpose::HessianVector {
                     let asked = (purpose, function.as_str());
-                    blame::second_derivative(checked, model, asked, &mut blamed, report);
+                    blame::third_derivative(checked, model, asked, &mut blamed, report);
                 }
                 continue;
             }

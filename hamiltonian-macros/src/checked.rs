@@ -53,8 +53,10 @@ pub struct Checked {
     pub definition: Definition,
     /// Values named by `let`, in source order.
     pub lets: Vec<(Ident, NodeId)>,
-    /// Rust functions.
+    /// Rust functions; those that are parameters are the first, with the docs of their fields.
     pub functions: Vec<Function>,
+    /// The docs of the functions that are parameters, each with its `#`.
+    pub function_docs: Vec<Vec<TokenStream>>,
     /// Invariants, monitors and events in source order.
     pub observables: Vec<Observable>,
     /// `split { A = …; B = …; }`: scalars; empty without one.
@@ -98,6 +100,8 @@ pub enum Field {
     Size(Size),
     /// `name`, `name = 1.0`, `name: [s]`, `name: [s][s]`
     Parameter(ParameterId),
+    /// `name: fn(a, …)`
+    Function(FunctionId),
 }
 
 /// A size that is not a literal.

@@ -7,7 +7,7 @@
 //! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
 //! fields, one of whose const arguments is the last `compile_error!`.
 
-use crate::ast::{Ast, Header, Item, ParameterKind};
+use crate::ast::{Ast, Header, Item, Parameter, ParameterKind};
 use crate::names;
 use crate::report::Report;
 use crate::tokens::is_attribute;
@@ -46,7 +46,14 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
     let hidden = format_ident!("__{name}", span = name.span());
     let sizes = distinct(&item.generics, |name| name);
     let parameters = distinct(&item.parameters, |parameter| &parameter.name);
-    let is_number = |kind: &ParameterKind| !matches!(kind, ParameterKind::Size);
+    let is_number =
+        |kind: &ParameterKind| !matches!(kind, ParameterKind::Size | ParameterKind::Function(_));
+    let is_function =
+        |parameter: &&&Parameter| matches!(parameter.kind, ParameterKind::Function(_));
+    let functions = parameters.iter().filter(is_function);
+    let functions: Vec<Ident> = functions
+        .map(|parameter| format_ident!("__F{}", parameter.name))
+        .collect();
     let scalar = parameters
         .iter()
         .any(|parameter| is_number(&parameter.kind));
@@ -56,6 +63,10 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
             ParameterKind::Size => quote!(usize),
             ParameterKind::Scalar(_) => quote!(__P),
             ParameterKind::Array(..) => quote!([__P; __ERROR]),
+            ParameterKind::Function(_) => {
+                let function = format_ident!("__F{}", parameter.name);
+                quote!(#function)
+            }
         };
         quote!(#visibility #field: #ty)
     });
@@ -63,12 +74,12 @@ fn item_stub(item: &Item, error: TokenStream) -> TokenStream {
     let with_default = scalar.then(|| quote!(__P = f64,));
     quote! {
         #[doc(hidden)]
-        #visibility struct #hidden<#(const #sizes: usize,)* #parameter const __ERROR: usize> {
+        #visibility struct #hidden<#(const #sizes: usize,)* #(#functions,)* #parameter const __ERROR: usize> {
             #(#fields),*
         }
         #(#docs)*
-        #visibility type #name<#(const #sizes: usize,)* #with_default> =
-            #hidden<#(#sizes,)* #parameter { #error }>;
+        #visibility type #name<#(const #sizes: usize,)* #(#functions,)* #with_default> =
+            #hidden<#(#sizes,)* #(#functions,)* #parameter { #error }>;
     }
 }
 

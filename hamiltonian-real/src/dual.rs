@@ -300,6 +300,22 @@ impl<T: Real> Real for Dual<T> {
         self.eps.write_words(to);
     }
     #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        let mut values = [T::default(); M];
+        for (value, x) in values.iter_mut().zip(&at) {
+            *value = x.re;
+        }
+        let numbers = T::look_up(values, table);
+        let mut found = [Self::default(); N];
+        for (to, number) in found.iter_mut().zip(numbers) {
+            *to = Self::fixed(number);
+        }
+        found
+    }
+    #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         T::out_of_line(f)
     }

@@ -95,6 +95,13 @@ macro_rules! float {
                 $float::is_finite(self)
             }
             #[inline(always)]
+            fn look_up<const M: usize, const N: usize>(
+                at: [Self; M],
+                table: impl Fn([f64; M]) -> [f64; N],
+            ) -> [Self; N] {
+                table(at.map(f64::from)).map(|number| number as $float)
+            }
+            #[inline(always)]
             fn lane(self, k: u32) -> f64 {
                 if k == 0 { f64::from(self) } else { f64::NAN }
             }

@@ -46,6 +46,37 @@ pub enum Part {
     First(u16),
     /// ∂²/∂(argument i)∂(argument j), i ≤ j.
     Second(u16, u16),
+    /// A derivative of third or higher order, which proofs may meet and programs refuse.
+    Higher {
+        /// The order.
+        order: u16,
+        /// The sum of [`Part::mixed`] of the arguments: the same for each order of differentiation.
+        arguments: u64,
+    },
+}
+
+impl Part {
+    /// The derivative by argument i.
+    pub fn by(self, i: u16) -> Part {
+        let higher = |order: u16, arguments: u64| Part::Higher {
+            order,
+            arguments: arguments.wrapping_add(Part::mixed(i)),
+        };
+        match self {
+            Part::Value => Part::First(i),
+            Part::First(j) => Part::Second(i.min(j), i.max(j)),
+            Part::Second(j, k) => higher(3, Part::mixed(j).wrapping_add(Part::mixed(k))),
+            Part::Higher { order, arguments } => higher(order.saturating_add(1), arguments),
+        }
+    }
+
+    /// A number of an argument whose sums tell multisets of arguments apart (the finalizer of SplitMix64).
+    fn mixed(argument: u16) -> u64 {
+        let mut x = (u64::from(argument) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
 }
 
 /// The kind of a node.

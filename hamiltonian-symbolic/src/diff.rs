@@ -6,7 +6,7 @@
 //! element. Invariant: the branch of an `if` that is not taken never reaches a derivative: each
 //! branch is differentiated by itself and the derivatives are selected.
 
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Part};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
 use crate::index::Domain;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -210,13 +210,6 @@ fn sum_out(
     value
 }
 
-fn derivative_of(part: Part, i: u16) -> Part {
-    match part {
-        Part::Value => Part::First(i),
-        Part::First(j) | Part::Second(j, _) => Part::Second(i.min(j), i.max(j)),
-    }
-}
-
 /// The partial derivatives of a product or a function by its factors or arguments; of a product, by
 /// those that depend on `what`, and by x where a factor is (√x)ⁿ or (∛x)ⁿ with a derivative that has a
 /// value where x is 0. Long products are trees by now (see [`crate::balance`]); of one of its pairs, a
@@ -249,7 +242,7 @@ fn partials(dag: &mut Dag, node: Node, what: Dependence) -> Vec<(Node, Node)> {
         }
         Kind::External(function, part, arguments) => {
             for (&child, i) in arguments.iter().zip(0..) {
-                let partial = dag.external(function, derivative_of(part, i), &arguments);
+                let partial = dag.external(function, part.by(i), &arguments);
                 partials.push((child, partial));
             }
         }

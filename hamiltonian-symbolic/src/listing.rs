@@ -125,6 +125,7 @@ impl Display for Instruction {
                     Part::Value => write!(f, "f{function}(")?,
                     Part::First(i) => write!(f, "f{function}_{i}(")?,
                     Part::Second(i, j) => write!(f, "f{function}_{i}_{j}(")?,
+                    Part::Higher { order, .. } => write!(f, "f{function}^{order}(")?,
                 }
                 write!(f, "{})", listed(arguments))
             }

@@ -124,8 +124,6 @@ pub struct External {
     pub name: String,
     /// The names of its arguments.
     pub arguments: Vec<String>,
-    /// Whether its second derivatives were given.
-    pub second: bool,
 }
 
 /// The declaration of a named function of (t, q, p).

@@ -5,7 +5,7 @@
 
 use crate::balance::balance;
 use crate::count::work;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Side, Stage};
+use crate::dag::{Array, Dag, Dependence, Kind, Map, Node, Parameter, Part, Side, Stage};
 use crate::diff;
 use crate::factor::factor;
 use crate::flow::{ExactFlow, Motion, Piece};
@@ -42,8 +42,8 @@ pub enum Refusal {
         /// The fault of the program.
         fault: String,
     },
-    /// A second derivative of a Rust function that came without one, by name.
-    NoSecondDerivative {
+    /// A third, or higher, derivative of a Rust function, by name.
+    ThirdDerivative {
         /// The purpose that needs it.
         purpose: Purpose,
         /// The function's name.
@@ -164,14 +164,11 @@ fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), Refusal
         return Err(Refusal::TooManyLoops);
     }
     for node in model.dag.reachable(roots) {
-        if let Kind::External(function, part, _) = model.dag.kind(node) {
-            let external = &model.externals[*function as usize];
-            if matches!(part, crate::dag::Part::Second(..)) && !external.second {
-                return Err(Refusal::NoSecondDerivative {
-                    purpose,
-                    function: external.name.clone(),
-                });
-            }
+        if let Kind::External(function, Part::Higher { .. }, _) = model.dag.kind(node) {
+            return Err(Refusal::ThirdDerivative {
+                purpose,
+                function: model.externals[*function as usize].name.clone(),
+            });
         }
     }
     Ok(())

@@ -16,7 +16,7 @@ mod chunk;
 mod crew;
 mod drive;
 mod guard;
-mod hash;
+pub(crate) mod hash;
 mod ordered;
 mod record;
 mod saved;

@@ -63,6 +63,13 @@ impl Real for DoubleDouble {
         }
     }
     #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        table(at.map(|x| x.hi)).map(Self::from)
+    }
+    #[inline(always)]
     fn lane(self, k: u32) -> f64 {
         if k == 0 { self.hi } else { f64::NAN }
     }

@@ -1,7 +1,6 @@
 //! The place at which a program that could not be derived fails.
 //!
-//! Input: the function that needs a second derivative of a Rust function which came without one, or the
-//! number that does not fit. Output: an error at the statement that asks for the function, or at the
+//! Input: the function that needs a third derivative of a Rust function, or the number that does not fit. Output: an error at the statement that asks for the function, or at the
 //! expression that makes the number. Invariant: the narrowest place that is known.
 
 use super::definition;
@@ -12,9 +11,9 @@ use hamiltonian_symbolic::model::{Model, VectorUse};
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
 
-/// Reports that a purpose needs a second derivative of `function`, which was not given. `blamed` are the
-/// statements that did already: a monitor that has the derivative in it has it in its gradient too.
-pub fn second_derivative(
+/// Reports that a purpose needs a third derivative of `function`. `blamed` are the statements that did
+/// already: a monitor that has the derivative in it has it in its gradient too.
+pub fn third_derivative(
     checked: &Checked,
     model: &Model,
     (purpose, function): (Purpose, &str),
@@ -27,8 +26,8 @@ pub fn second_derivative(
     }
     report.error(
         spans,
-        format!("{what} needs a second derivative of `{function}`"),
-        format!("give the second partials after the first: `fn {function}(x) = f, (df), (ddf)`"),
+        format!("{what} needs a third derivative of `{function}`, and Rust functions have two"),
+        format!("write it in the language: `let {function}(x) = …`"),
     );
     blamed.push(what);
 }

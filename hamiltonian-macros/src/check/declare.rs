@@ -4,8 +4,10 @@
 //! the bindings of their names. Invariant: every name is declared once.
 
 use super::{Binding, Checker};
-use crate::ast::{ExprKind, Expression, ParameterKind, Size, StatementKind};
-use crate::checked::{Extent, Field, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, Type};
+use crate::ast::{ExprKind, Expression, Function, ParameterKind, Size, StatementKind};
+use crate::checked::{
+    Extent, Field, FunctionId, Kind, NodeId, Parameter, ParameterId, SizeDeclaration, Type,
+};
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
 
@@ -67,6 +69,20 @@ impl Checker<'_> {
                             .fields
                             .push(Field::Size(index::Size(next_size as u16)));
                         next_size += 1;
+                        continue;
+                    }
+                    ParameterKind::Function(arguments) => {
+                        let id = FunctionId(self.out.functions.len() as u32);
+                        self.declare(&parameter.name, Binding::Function(id));
+                        self.out.fields.push(Field::Function(id));
+                        self.out.function_docs.push(parameter.attributes.clone());
+                        self.out.functions.push(Function {
+                            name: parameter.name.clone(),
+                            arguments: arguments.clone(),
+                            value: None,
+                            first: None,
+                            second: None,
+                        });
                         continue;
                     }
                     ParameterKind::Scalar(_) => Some(Type::Scalar),

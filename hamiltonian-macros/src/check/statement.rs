@@ -98,11 +98,13 @@ impl<'a> Checker<'a> {
     }
 
     fn function(&mut self, function: &Function) {
-        let (name, first) = (&function.name, &function.first);
+        let name = &function.name;
         let arity = function.arguments.len();
         let pairs = arity * (arity + 1) / 2;
         let plural = |count: usize| if count == 1 { "" } else { "s" };
-        if first.paths.len() != arity {
+        if let Some(first) = &function.first
+            && first.paths.len() != arity
+        {
             let given = first.paths.len();
             let message = format!(
                 "`{name}` takes {arity} argument{}, but {given} partial derivative{} given",

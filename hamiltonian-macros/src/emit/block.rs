@@ -31,6 +31,7 @@ pub fn external(number: u16, part: Part) -> String {
         Part::Value => format!("__f{number}"),
         Part::First(i) => format!("__f{number}_{i}"),
         Part::Second(i, j) => format!("__f{number}_{i}_{j}"),
+        Part::Higher { order, .. } => unreachable!("derivatives of order {order} are refused"),
     }
 }
 
@@ -152,7 +153,10 @@ impl Writer<'_> {
             Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
             Instruction::PairedCos(a) => v(a),
             Instruction::External(function, part, arguments) => {
-                let arguments: Vec<String> = arguments.iter().map(v).collect();
+                let mut arguments: Vec<String> = arguments.iter().map(v).collect();
+                if self.context.is_parameter(*function) {
+                    arguments.insert(0, format!("_f{function}"));
+                }
                 format!("{}({})", external(*function, *part), arguments.join(", "))
             }
             Instruction::Compare(relation, a, b) => {

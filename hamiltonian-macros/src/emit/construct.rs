@@ -18,7 +18,8 @@ use std::fmt::Write;
 /// `Name { l: 2.0, ..Default::default() }` without methods such as `sqrt`.
 pub fn default(context: Context) -> String {
     let definition = context.definition;
-    if context.has_run_time_sizes() || definition.defaults.contains(&None) {
+    let has_functions = !context.generics.functions.is_empty();
+    if context.has_run_time_sizes() || has_functions || definition.defaults.contains(&None) {
         return String::new();
     }
     let generics = context.generics;
@@ -80,8 +81,8 @@ pub fn set_by_new(value: &str) -> String {
     format!("__h::SetByNew::new({value})")
 }
 
-/// `new`: sizes, then the parameters without a default, in the order of the fields; the rest gets its
-/// default. Where no argument tells the scalar of the parameters it is f64, as in `Default`.
+/// `new`: sizes, then functions, then the parameters without a default, each in the order of the fields; the
+/// rest gets its default. Where no argument tells the scalar of the parameters it is f64, as in `Default`.
 pub fn new(context: Context, item: &Header) -> TokenStream {
     let (definition, generics) = (context.definition, context.generics);
     let is_told = definition.defaults.contains(&None);
@@ -104,6 +105,14 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         lets.extend(quote! { let #local = #given; });
         names.push(name);
         let _ = write!(fields, "{name}: {}, ", set_by_new(&format!("_n{size}")));
+    }
+    for (at, (ty, _)) in generics.functions.iter().enumerate() {
+        let name = &definition.checked.functions[at].name;
+        let (local, given, ty) = (lex(&format!("_g{at}")), argument(name), lex(ty));
+        arguments.extend(quote! { #given: #ty, });
+        lets.extend(quote! { let #local = #given; });
+        names.push(name);
+        let _ = write!(fields, "{name}: _g{at}, ");
     }
     for (number, parameter) in definition.checked.parameters.iter().enumerate() {
         let name = &parameter.name;
@@ -170,8 +179,8 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         // Sizes that do not fit explain arrays that do not.
         let checks = lex(&(questions + &checks + &numbers));
         quote! {
-            /// The system of these sizes and parameters: the sizes first, then the parameters without a
-            /// default, in the order of their declaration.
+            /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
+            /// without a default, in the order of their declaration.
             #sets
             ///
             /// # Errors
@@ -187,8 +196,8 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         }
     } else {
         quote! {
-            /// The system with these parameters: those without a default, in the order of their
-            /// declaration.
+            /// The system with these parameters: functions first, then those without a default, in the order of
+            /// their declaration.
             #sets
             #allow
             #[must_use]
@@ -246,6 +255,8 @@ pub fn getters(context: Context, item: &Header) -> TokenStream {
                     quote! { * },
                 )
             }
+            // Public fields have no getter.
+            Field::Function(_) => continue,
             Field::Parameter(number) => {
                 let shape = &context.model.parameters[number.0 as usize].shape;
                 if !context.is_dynamic(shape) {

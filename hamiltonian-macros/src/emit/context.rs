@@ -86,6 +86,11 @@ impl<'a> Context<'a> {
         self.is_run_time.contains(&true)
     }
 
+    /// Whether a Rust function is a parameter; these are the first ones.
+    pub fn is_parameter(self, function: u16) -> bool {
+        usize::from(function) < self.generics.functions.len()
+    }
+
     /// The slice an array's elements are read from.
     pub fn read(self, array: Array) -> Slice {
         match array {

@@ -19,8 +19,8 @@ pub fn body(purpose: Purpose) -> String {
             format!("let mut _x = *_op;\nlet _ = {CALL} &mut _x, _op);")
         }
         Purpose::HessianVector => refusal(
-            "second derivatives of H are needed here, but a function of the system was declared \
-             without them: give them after the first, `fn f(x) = f, (df), (ddf)`",
+            "second derivatives of H are needed here, and they have a third derivative of a Rust \
+             function, which has two: write the function in the language, `let f(x) = …`",
         ),
         _ => refusal("this function of the system was not derived"),
     }

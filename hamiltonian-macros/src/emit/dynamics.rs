@@ -29,7 +29,7 @@ pub fn implementations(context: Context) -> (String, String) {
             context,
             parts: String::new(),
         },
-        vector: context.generics.holder_type("__Vector"),
+        vector: context.generics.vector_type_over("__Vector", "T"),
         out: String::new(),
     };
     emission.alias();
@@ -350,6 +350,14 @@ impl<'a> Emission<'a> {
                 "let _b = {value};\n__h::describe_parameter(_out, \"{name}\", {whole})?;"
             );
         }
+        for (at, (ty, arity)) in context.generics.functions.iter().enumerate() {
+            let name = &context.definition.checked.functions[at].name;
+            let _ = writeln!(
+                lines,
+                "__h::core::writeln!(_out, \"{name} = function {{:016x}}\", \
+                 <{ty} as __h::Function<{arity}>>::fingerprint(&self.{name}))?;"
+            );
+        }
         if lines.is_empty() {
             return lines;
         }
@@ -412,6 +420,13 @@ impl<'a> Emission<'a> {
         for size in context.run_time_sizes() {
             let name = &context.definition.checked.sizes[size].name;
             let _ = write!(fields, "{name}: {}, ", set_by_new(&format!("_n{size}")));
+        }
+        for at in 0..context.generics.functions.len() {
+            let name = &context.definition.checked.functions[at].name;
+            let _ = write!(
+                fields,
+                "{name}: __h::core::clone::Clone::clone(&_self.f{at}), "
+            );
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
             let zero = context.zero(&parameter.shape);

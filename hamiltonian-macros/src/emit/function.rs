@@ -47,6 +47,7 @@ impl Bodies<'_> {
         slices.sort_unstable();
         slices.dedup();
         receiver.bind_sizes(out, context);
+        receiver.bind_functions(out, context);
         context.bind(out, &slices);
         for slice in &slices {
             let name = slice.name();

@@ -19,6 +19,8 @@ pub struct Generics {
     pub constants: Vec<String>,
     /// The scalars of the parameters: one for all in item form, one a capture in expression form.
     pub scalars: Vec<String>,
+    /// The types of the functions that are parameters, each with its number of arguments.
+    pub functions: Vec<(String, usize)>,
     /// All sizes as they are called in bodies.
     pub sizes: Vec<String>,
     /// Whether each size is set at run time.
@@ -41,6 +43,7 @@ impl Generics {
                 whole: "HamiltonianValue".into(),
                 visibility: String::new(),
                 constants: Vec::new(),
+                functions: Vec::new(),
                 scalars: numbered("A").collect(),
                 sizes: Vec::new(),
                 is_run_time: Vec::new(),
@@ -59,10 +62,17 @@ impl Generics {
                 constants.push(sizes[at].clone());
             }
         }
+        let functions = checked.functions.iter().filter(|f| f.value.is_none());
+        let functions = functions.enumerate().map(|(at, function)| {
+            let arity = function.arguments.len();
+            (other_than(&name, &format!("F{at}")), arity)
+        });
+        let functions = functions.collect();
         let is_run_time = checked.sizes.iter().map(|size| size.run_time);
         let scalar = (!checked.parameters.is_empty()).then(|| other_than(&name, "P"));
         Generics {
             constants,
+            functions,
             scalars: scalar.into_iter().collect(),
             sizes,
             is_run_time: is_run_time.collect(),
@@ -85,6 +95,17 @@ impl Generics {
         list(constants.chain(more))
     }
 
+    /// `F0: Function<1>, …`
+    pub fn bounded_functions(&self) -> impl Iterator<Item = String> + '_ {
+        let functions = self.functions.iter();
+        functions.map(|(name, arity)| format!("{name}: __h::Function<{arity}>"))
+    }
+
+    /// `<const N0: usize, F0: Function<1>, …>` with more parameters after them.
+    fn declared_with_functions(&self, more: impl IntoIterator<Item = String>) -> String {
+        self.declared(self.bounded_functions().chain(more))
+    }
+
     fn bounded(&self) -> impl Iterator<Item = String> + '_ {
         let scalars = self.scalars.iter();
         scalars.map(|name| format!("{name}: {}", self.bound))
@@ -92,18 +113,18 @@ impl Generics {
 
     /// `<const N0: usize, P: Real>`
     pub fn declaration(&self) -> String {
-        self.declared(self.bounded())
+        self.declared_with_functions(self.bounded())
     }
 
     /// `<const N0: usize, P: Real, T: Real + Lift<P>>`
     pub fn declaration_with_scalar(&self) -> String {
         let state = format!("T: {}", self.state_bound());
-        self.declared(self.bounded().chain([state]))
+        self.declared_with_functions(self.bounded().chain([state]))
     }
 
     /// The generics of a marker that asks nothing of the parameters: `<const N0: usize, P>`
     pub fn declaration_without_bounds(&self) -> String {
-        self.declared(self.scalars.iter().cloned())
+        self.declared_with_functions(self.scalars.iter().cloned())
     }
 
     /// `Real + Lift<P>`
@@ -138,21 +159,33 @@ impl Generics {
     /// `<const N0: usize>` and `Name<N0, f64>`, for items of which nothing tells the scalar.
     pub fn over_f64(&self) -> (String, String) {
         let system = self.system_type_over("__h::core::primitive::f64");
-        (self.declared([]), system)
+        (self.declared_with_functions([]), system)
     }
 
-    /// A type of some name with the constants and these scalars as its arguments.
+    /// A type of some name with the constants, the functions and these scalars as its arguments.
     fn type_over(&self, name: &str, scalars: impl IntoIterator<Item = String>) -> String {
-        let arguments = self.constants.iter().cloned().chain(scalars);
-        format!("{name}{}", list(arguments))
+        let functions = self.functions.iter().map(|(name, _)| name.clone());
+        let arguments = self.constants.iter().cloned().chain(functions);
+        format!("{name}{}", list(arguments.chain(scalars)))
     }
 
     /// `<const N0: usize, T: Real>`
-    pub fn holder_declaration(&self) -> String {
+    pub fn vector_declaration(&self) -> String {
         self.declared(["T: __h::Real".to_owned()])
     }
 
-    /// `Name<N0, T>` of a holder, or of the struct of coordinates.
+    /// `Name<N0, T>` of the struct of coordinates, over a scalar.
+    pub fn vector_type_over(&self, name: &str, scalar: &str) -> String {
+        let arguments = self.constants.iter().cloned();
+        format!("{name}{}", list(arguments.chain([scalar.to_owned()])))
+    }
+
+    /// `<const N0: usize, F0: Function<1>, T: Real>`
+    pub fn holder_declaration(&self) -> String {
+        self.declared_with_functions(["T: __h::Real".to_owned()])
+    }
+
+    /// `Name<N0, F0, T>` of a holder.
     pub fn holder_type(&self, name: &str) -> String {
         self.holder_type_over(name, "T")
     }

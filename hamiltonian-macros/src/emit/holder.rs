@@ -3,7 +3,7 @@
 //!
 //! Input: the values, masks and parameter arrays that functions read. Output: struct declarations
 //! and the expressions that fill and read them. Invariant: a holder has the values its functions
-//! read and nothing else, but all run-time sizes.
+//! read and nothing else, but all run-time sizes and functions.
 
 use super::block::names;
 use super::context::Context;
@@ -78,6 +78,9 @@ impl Holder {
         for size in context.run_time_sizes() {
             let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
         }
+        for (at, (ty, _)) in generics.functions.iter().enumerate() {
+            let _ = writeln!(out, "f{at}: {ty},");
+        }
         for &array in &self.arrays {
             let shape = shape(context, array);
             let ty = context.storage(&shape, "T");
@@ -112,6 +115,9 @@ impl Holder {
         for size in context.run_time_sizes() {
             let _ = write!(out, "n{size}: _n{size}, ");
         }
+        for at in 0..context.generics.functions.len() {
+            let _ = write!(out, "f{at}: __h::core::clone::Clone::clone(_f{at}), ");
+        }
         for &own in &self.arrays {
             let _ = write!(out, "{}: {}, ", field(own), array(own));
         }
@@ -142,6 +148,14 @@ impl Holder {
         for size in context.run_time_sizes() {
             let _ = write!(fields, "n{size}: _of[0].n{size}, ");
             fit.push(format!("self.n{size} == _other.n{size}"));
+        }
+        for (at, (ty, arity)) in generics.functions.iter().enumerate() {
+            let _ = write!(
+                fields,
+                "f{at}: __h::core::clone::Clone::clone(&_of[0].f{at}), "
+            );
+            let print = format!("<{ty} as __h::Function<{arity}>>::fingerprint");
+            fit.push(format!("{print}(&self.f{at}) == {print}(&_other.f{at})"));
         }
         for &array in &self.arrays {
             let (name, shape) = (field(array), shape(context, array));
@@ -244,6 +258,18 @@ impl Receiver<'_> {
             let _ = match self {
                 Receiver::System => writeln!(out, "let _n{size} = *_self.{name};"),
                 Receiver::Holder(_) => writeln!(out, "let _n{size} = _self.n{size};"),
+            };
+        }
+    }
+
+    /// The `let`s of the functions that are parameters.
+    pub fn bind_functions(self, out: &mut String, context: Context) {
+        let functions = context.definition.checked.functions.iter();
+        let parameters = functions.filter(|function| function.value.is_none());
+        for (at, function) in parameters.enumerate() {
+            let _ = match self {
+                Receiver::System => writeln!(out, "let _f{at} = &_self.{};", function.name),
+                Receiver::Holder(_) => writeln!(out, "let _f{at} = &_self.f{at};"),
             };
         }
     }

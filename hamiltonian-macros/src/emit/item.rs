@@ -12,6 +12,7 @@ use super::{
 };
 use crate::ast::Header;
 use crate::checked::{Field, SizeDeclaration};
+use crate::names::listed;
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;
@@ -65,6 +66,10 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
         }
     }
     let mut parameters = quote! { #(const #constants: __h::core::primitive::usize,)* };
+    for bounded in context.generics.bounded_functions() {
+        let bounded = with_root(lex(&bounded), root);
+        parameters.extend(quote! { #bounded, });
+    }
     if let Some(scalar) = &scalar {
         let scalar = lex(scalar);
         parameters.extend(quote! { #scalar = __h::core::primitive::f64 });
@@ -95,7 +100,10 @@ fn declaration(context: Context, item: &Header, name: &Ident) -> TokenStream {
     };
     let docs = docs(context, item, name);
     let sizes = checked.sizes.iter().map(|size| &size.name);
+    let functions = checked.functions.iter().map(|function| &function.name);
+    let functions = functions.take(context.generics.functions.len());
     let names = sizes.chain(checked.parameters.iter().map(|p| &p.name));
+    let names = names.chain(functions);
     let allow = allowances(&names.collect::<Vec<_>>());
     let mut vectors = TokenStream::new();
     for mixed in declared::mixed(context) {
@@ -142,6 +150,14 @@ fn struct_field(context: Context, item: &Header, scalar: &str, field: Field) -> 
             let size = &definition.checked.sizes[usize::from(size.0)];
             let (name, attributes) = (&size.name, &size.attributes);
             quote! { #(#attributes)* #name: #root::private::SetByNew<#root::private::core::primitive::usize>, }
+        }
+        Field::Function(at) => {
+            let at = at.0 as usize;
+            let (function, visibility) = (&definition.checked.functions[at], &item.visibility);
+            let (name, ty) = (&function.name, lex(&context.generics.functions[at].0));
+            let text = format!(" The function `{name}({})`.", listed(&function.arguments));
+            let docs = documented(&definition.checked.function_docs[at], &text);
+            quote! { #docs #visibility #name: #ty, }
         }
         Field::Parameter(number) => {
             let parameter = &definition.checked.parameters[number.0 as usize];
@@ -285,6 +301,7 @@ fn pieces(context: Context, item: &Header) -> TokenStream {
     let field = |field: &Field| match *field {
         Field::Size(size) => &checked.sizes[usize::from(size.0)].name,
         Field::Parameter(number) => &checked.parameters[number.0 as usize].name,
+        Field::Function(at) => &checked.functions[at.0 as usize].name,
     };
     let fields: Vec<&Ident> = checked.fields.iter().map(field).collect();
     let arguments = context.generics.arguments();

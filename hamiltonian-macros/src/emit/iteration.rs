@@ -50,13 +50,24 @@ impl Writer<'_> {
             false => "T",
         };
         let function = format!("__body{}", first.0);
-        let declared: Vec<String> = (arguments.iter())
-            .map(|value| format!("{}: {}", name(*value), ty(value)))
+        let functions = &self.context.generics.functions;
+        let types = self.context.generics.bounded_functions();
+        let types: String = types.map(|ty| format!(", {ty}")).collect();
+        let passed = (0..functions.len()).map(|at| format!("_f{at}"));
+        let passed: Vec<String> = passed.chain(arguments.iter().map(|v| name(*v))).collect();
+        let given = functions.iter().enumerate();
+        let declared: Vec<String> = given
+            .map(|(at, (ty, _))| format!("_f{at}: &{ty}"))
+            .chain(
+                arguments
+                    .iter()
+                    .map(|value| format!("{}: {}", name(*value), ty(value))),
+            )
             .collect();
         line!(
             self,
             "#[inline(always)]\n#[allow(clippy::too_many_arguments)]\n\
-             fn {function}<T: __h::Real>({}) -> ({}) {{",
+             fn {function}<T: __h::Real{types}>({}) -> ({}) {{",
             declared.join(", "),
             "T, ".repeat(results.len())
         );
@@ -66,7 +77,7 @@ impl Writer<'_> {
             self,
             "let ({},) = {function}({});",
             names(&results),
-            names(&arguments)
+            passed.join(", ")
         );
         self.steps(&rest);
     }

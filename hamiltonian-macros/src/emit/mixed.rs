@@ -94,8 +94,8 @@ pub fn implementations(context: Context) -> String {
     let visibility = &context.generics.visibility;
     let ty = context.mixed_type();
     let name = context.mixed_name();
-    let over = context.generics.holder_type_over(&name, "__U");
-    let declaration = context.generics.holder_declaration();
+    let over = context.generics.vector_type_over(&name, "__U");
+    let declaration = context.generics.vector_declaration();
     let groups = context.groups;
     let Arguments {
         kinds,

@@ -119,7 +119,7 @@ impl Context<'_> {
 
     /// Its type over `T`.
     pub fn mixed_type(self) -> String {
-        self.generics.holder_type(&self.mixed_name())
+        self.generics.vector_type_over(&self.mixed_name(), "T")
     }
 
     /// The `let`s that bind slices at the top of a body. `slices` is sorted.

@@ -126,6 +126,10 @@ impl Writer<'_> {
                     }
                 }
                 instruction if instruction.is_number() => {}
+                // The arithmetic of a stretch has numbers alone.
+                Instruction::External(function, ..) if self.context.is_parameter(*function) => {
+                    return None;
+                }
                 _ => made.computed.push(step.clone()),
             }
             if made.name.is_empty() && !program.instruction(*value).is_number() {

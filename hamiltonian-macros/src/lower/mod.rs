@@ -300,7 +300,6 @@ fn declarations(checked: &Checked) -> Option<Model> {
             .map(|function| External {
                 name: function.name.to_string(),
                 arguments: function.arguments.iter().map(ToString::to_string).collect(),
-                second: function.second.is_some(),
             })
             .collect(),
         ..Model::default()

@@ -200,7 +200,8 @@ impl Parser<'_> {
 
     /// One parameter, up to its comma.
     fn parameter(&mut self) -> Result<Parameter> {
-        const FORM: &str = "write `name = 1.0`, `name`, `name: usize` or `name: [N]`";
+        const FORM: &str =
+            "write `name = 1.0`, `name`, `name: usize`, `name: [N]` or `name: fn(x)`";
         let attributes = self.attributes();
         for attribute in &attributes {
             if matches!(attribute.word.as_str(), "cfg" | "cfg_attr") {
@@ -266,7 +267,7 @@ impl Parser<'_> {
         self.right_side()
     }
 
-    /// `usize`, `[s]`, `[s][s]`, after the colon.
+    /// `usize`, `[s]`, `[s][s]`, `fn(a, …)`, after the colon.
     fn parameter_type(&mut self, name: &Ident) -> Result<ParameterKind> {
         if self.at_open(Delimiter::Bracket) {
             let sizes = self.sizes()?;
@@ -288,14 +289,30 @@ impl Parser<'_> {
             self.position += 1;
             return Ok(ParameterKind::Size);
         }
+        if token.text == "fn" {
+            self.position += 1;
+            if !self.at_open(Delimiter::Parenthesis) {
+                let message = format!("the arguments of `{name}` are missing");
+                return self.abort(name.span(), message, format!("write `{name}: fn(x)`"));
+            }
+            let arguments = self.arguments(name)?;
+            if self.at_equals(0) {
+                return self.abort(
+                    self.here(),
+                    "a parameter that is a function has no default",
+                    "remove it and give the function to `new`",
+                );
+            }
+            return Ok(ParameterKind::Function(arguments));
+        }
         self.abort(
             token.span,
             format!(
-                "`{name}` has no type of its own: `{}` is neither `usize` nor an array",
+                "`{name}` has no type of its own: `{}` is neither `usize`, nor `fn`, nor an array",
                 token.text
             ),
             format!(
-                "write `{name}` for a scalar, `{name} = 1.0` for one with a default, `{name}: [N]` for an array"
+                "write `{name}` for a scalar, `{name} = 1.0` for one with a default, `{name}: [N]` for an array, `{name}: fn(x)` for a function"
             ),
         )
     }

@@ -283,7 +283,8 @@ impl Parser<'_> {
     }
 
     /// `(a, b)`, names of arguments, each once.
-    fn arguments(&mut self, function: &Ident) -> Result<Vec<Ident>> {
+    pub(super) fn arguments(&mut self, function: &Ident) -> Result<Vec<Ident>> {
+        let is_parameter = self.tokens[self.position - 1].text == "fn";
         let form = format!("write `{function}(x)` or `{function}(x, y)`");
         let spans = self.group_spans();
         let arguments = self.members(&form, |parser| parser.declared("an argument", &form))?;
@@ -291,7 +292,10 @@ impl Parser<'_> {
             return self.abort(
                 spans,
                 "a function without arguments",
-                format!("write `let {function} = …`"),
+                match is_parameter {
+                    true => format!("write `{function}: fn(x)`, or `{function}` for a number"),
+                    false => format!("write `let {function} = …`"),
+                },
             );
         }
         for (index, argument) in arguments.iter().enumerate() {
@@ -437,9 +441,9 @@ impl Parser<'_> {
         Ok(StatementKind::Split { assumed, pieces })
     }
 
-    /// `name(a, …) = value, (first, …)[, (second, …)]`
+    /// `name(a, …) = value[, (first, …)[, (second, …)]]`
     fn function(&mut self) -> Result<StatementKind> {
-        const FORM: &str = "write `fn name(x) = value, (derivative)`, with paths of Rust functions";
+        const FORM: &str = "write `fn name(x) = value` or `fn name(x) = value, (derivative)`, with paths of Rust functions";
         self.refuse_word_before_hamiltonian("H(q; p) = …")?;
         let name = self.declared("a name", FORM)?;
         if !self.at_open(Delimiter::Parenthesis) {
@@ -456,7 +460,11 @@ impl Parser<'_> {
         }
         self.equals(&format!("fn {name}(…)"))?;
         let value = self.rust_path(FORM)?;
-        let first = self.path_list("the partial derivatives", FORM)?;
+        let first = if self.at_punct(',') || self.at_open(Delimiter::Parenthesis) {
+            Some(self.path_list("the partial derivatives", FORM)?)
+        } else {
+            None
+        };
         let second = if self.at_punct(',') {
             Some(self.path_list("the second partials", FORM)?)
         } else {
@@ -465,7 +473,7 @@ impl Parser<'_> {
         Ok(StatementKind::Function(Function {
             name,
             arguments,
-            value,
+            value: Some(value),
             first,
             second,
         }))

@@ -250,6 +250,43 @@ pub trait Real:
     /// ```
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self;
 
+    /// The numbers that a table holds for the point `at`: each lane reads those of its own values. They do
+    /// not vary with the point, so a dual number has them without derivative parts.
+    ///
+    /// ```
+    /// use hamiltonian_real::{Dual, Real};
+    ///
+    /// /// The line through the two points of a table around x, at x.
+    /// fn line<T: Real>(table: &[f64], x: T) -> T {
+    ///     let [start, left, right] = T::look_up([x], |[x]| {
+    ///         let cell = (x.floor().max(0.0) as usize).min(table.len() - 2);
+    ///         [cell as f64, table[cell], table[cell + 1]]
+    ///     });
+    ///     left + (right - left) * (x - start)
+    /// }
+    /// let y = line(&[1.0, 2.0, 5.0], Dual::variable(1.5));
+    /// assert_eq!((y.re, y.eps), (3.5, 3.0));
+    /// ```
+    #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        let mut found = [Self::default(); N];
+        for (n, to) in found.iter_mut().enumerate() {
+            let mut k = 0;
+            *to = Self::read_words(&mut || {
+                let mut point = [0.0; M];
+                for (number, x) in point.iter_mut().zip(&at) {
+                    *number = x.lane(k);
+                }
+                k += 1;
+                table(point)[n]
+            });
+        }
+        found
+    }
+
     /// `f()` in a function of its own, compiled with the instructions of this scalar. For parts of a
     /// body that is too long to be one function; whatever is left a plain call would lose the level of
     /// a pack (`Level` in `hamiltonian-lanes`).

@@ -422,6 +422,8 @@ impl Meaning for Numbers<'_> {
                     Part::Second(i, j) => {
                         scaled(-weight(usize::from(*i)) * weight(usize::from(*j)), f64::sin)
                     }
+                    // Its arguments are not known: points do not refute what has it.
+                    Part::Higher { .. } => exact(f64::NAN),
                 }
             }
             Kind::Compare(relation, a, b) => {

@@ -209,6 +209,8 @@ fn external(of: &External, part: Part) -> String {
         (Part::Second(i, j), _) if i == j => {
             partial("\\partial^{2}", format!("\\partial {}^{{2}}", argument(i)))
         }
+        (Part::Higher { order, .. }, 1) => format!("{name}^{{({order})}}"),
+        (Part::Higher { order, .. }, _) => format!("\\partial^{{{order}}} {name}"),
         (Part::Second(i, j), _) => partial(
             "\\partial^{2}",
             format!("\\partial {} \\, \\partial {}", argument(i), argument(j)),

@@ -94,6 +94,8 @@ fn external(of: &External, part: Part) -> String {
         (Part::Second(..), 1) => format!("{name}''"),
         (Part::First(i), _) => format!("(∂{name}/∂{})", argument(i)),
         (Part::Second(i, j), _) if i == j => format!("(∂²{name}/∂{}²)", argument(i)),
+        (Part::Higher { order, .. }, 1) => format!("{name}{}", "'".repeat(order.into())),
+        (Part::Higher { order, .. }, _) => format!("(∂^{order} {name})"),
         (Part::Second(i, j), _) => format!("(∂²{name}/∂{}∂{})", argument(i), argument(j)),
     }
 }

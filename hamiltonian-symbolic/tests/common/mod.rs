@@ -26,7 +26,6 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
                     .iter()
                     .map(|name| (*name).to_owned())
                     .collect(),
-                second: true,
             });
             continue;
         }

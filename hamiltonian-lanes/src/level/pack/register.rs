@@ -238,6 +238,33 @@ impl<R: Register> Real for V<R> {
         lanes.as_ref().get(k as usize).copied().unwrap_or(f64::NAN)
     }
     #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        let mut points = [R::Array::default(); M];
+        for (lanes, x) in points.iter_mut().zip(&at) {
+            *lanes = R::store(x.0);
+        }
+        let mut found = [R::Array::default(); N];
+        let mut k = 0;
+        while k < R::LANES as usize {
+            let mut point = [0.0; M];
+            for (number, lanes) in point.iter_mut().zip(&points) {
+                *number = lanes.as_ref()[k];
+            }
+            for (lanes, number) in found.iter_mut().zip(table(point)) {
+                lanes.as_mut()[k] = number;
+            }
+            k += 1;
+        }
+        let mut packs = [Self::default(); N];
+        for (pack, lanes) in packs.iter_mut().zip(&found) {
+            *pack = Self(R::load(lanes));
+        }
+        packs
+    }
+    #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         R::out_of_line(f)
     }

@@ -121,6 +121,22 @@ impl<P: Base> Real for Nf<P> {
         self.0.lane(k)
     }
     #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        let mut inner = [P::default(); M];
+        for (to, x) in inner.iter_mut().zip(&at) {
+            *to = x.0;
+        }
+        let numbers = P::look_up(inner, table);
+        let mut found = [Self::default(); N];
+        for (to, number) in found.iter_mut().zip(numbers) {
+            *to = Self(number);
+        }
+        found
+    }
+    #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         P::out_of_line(f)
     }

@@ -251,6 +251,25 @@ impl<P: Base, const K: usize> Real for W<P, K> {
         pack.map_or(f64::NAN, |pack| pack.lane(k % P::LANES))
     }
     #[inline(always)]
+    fn look_up<const M: usize, const N: usize>(
+        at: [Self; M],
+        table: impl Fn([f64; M]) -> [f64; N],
+    ) -> [Self; N] {
+        let mut found = [Self::default(); N];
+        let mut k = 0;
+        while k < K {
+            let mut inner = [P::default(); M];
+            for (to, x) in inner.iter_mut().zip(&at) {
+                *to = x.0[k];
+            }
+            for (to, number) in found.iter_mut().zip(P::look_up(inner, &table)) {
+                to.0[k] = number;
+            }
+            k += 1;
+        }
+        found
+    }
+    #[inline(always)]
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
         P::out_of_line(f)
     }

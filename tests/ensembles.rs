@@ -276,6 +276,155 @@ fn observers_of_members_are_those_of_single_runs() {
     assert!(ended > 50, "events end {ended} members");
 }
 
+/// Steps that vary in time, in principle.
+#[derive(Debug, Clone, Copy)]
+struct Steady;
+
+impl<V: hamiltonian::Vector> Density<V> for Steady {
+    fn rate(&self, _: V::Scalar, _: &V, _: &V, _: &V, _: &V) -> V::Scalar {
+        V::Scalar::zero()
+    }
+}
+
+#[test]
+fn members_reach_a_time_as_single_runs_do() {
+    let _level = one_level();
+    // One start for all; the events of some members end them on the way.
+    let together = |member: Member| {
+        let (system, start) = pendulum(member);
+        (system, start.at(0.25))
+    };
+    let ending = |member: Member| {
+        let ends = 1 + member.index as u64 % 4;
+        Events::new([Event::named("bottom").ending_after(ends)])
+    };
+    let mut swarm = Ensemble::new(COUNT, together, StormerVerlet::default(), 0.0625)
+        .expect("there are members")
+        .reproducible()
+        .observe(ending);
+    let mut runs: Vec<_> = (0..COUNT)
+        .map(|index| {
+            let member = Member::new(index, 0);
+            let (system, start) = together(member);
+            Integrator::new(&system, StormerVerlet::default(), start, 0.0625)
+                .expect("a good start")
+                .observe(ending(member))
+        })
+        .collect();
+    // On the grid, between two steps, twice in one step, and on.
+    for t in [2.25, 2.31, 2.3105, 6.0] {
+        let ends = swarm.advance_until(t).expect("ahead");
+        let mut on_the_way = 0;
+        for (end, run) in ends.zip(&mut runs) {
+            let end = end.expect("finite");
+            let expected = run.advance_until(t).expect("ahead");
+            assert_eq!(bits(&end), bits(&expected));
+            on_the_way += u32::from(end.t.to_bits() == t.to_bits());
+        }
+        assert!(on_the_way > 20, "{on_the_way} members are at t = {t}");
+    }
+    let steps = swarm.steps();
+    assert!(
+        matches!(swarm.advance_to(6.03), Err(Error::OffGrid { before, after, .. })
+        if (before, after) == (6.0, 6.0625))
+    );
+    assert!(matches!(swarm.advance_to(1.0), Err(Error::Behind { .. })));
+    assert!(matches!(
+        swarm.advance_until(f64::NAN).map(|_| ()),
+        Err(Error::Unreachable { .. })
+    ));
+    assert_eq!(swarm.steps(), steps);
+    let reached = swarm.advance_to(7.0).expect("on the grid");
+    assert_eq!(reached.steps(), steps + 16);
+
+    let mut apart =
+        Ensemble::new(COUNT, pendulum, StormerVerlet::default(), 0.1).expect("there are members");
+    assert!(matches!(apart.advance_to(2.0), Err(Error::Apart { .. })));
+    let varying = Paced {
+        scheme: StormerVerlet::default(),
+        density: Steady,
+    };
+    let mut varying = Ensemble::new(3, together, varying, 0.1).expect("there are members");
+    assert!(matches!(
+        varying.advance_until(2.0).map(|_| ()),
+        Err(Error::Apart { .. })
+    ));
+}
+
+/// Exponents of members in lanes have the bits of single tangents.
+fn deviates<S, M>(make: fn(Member) -> (S, StateOf<S>), scheme: M, deviations: usize)
+where
+    S: System<f64> + System<Dual<f64>>,
+    M: Ensembles<S, Dual<f64>>,
+{
+    let h = 0.0625;
+    let exponents = |count, threads| {
+        Lyapunov::new(count, make, scheme.clone(), h)
+            .deviations(deviations)
+            .steps(50)
+            .every(8)
+            .threads(threads)
+            .reproducible()
+            .collect()
+            .expect("there are members")
+    };
+    let all = exponents(COUNT, 2);
+    assert_eq!(all.len(), COUNT);
+    for (index, found) in all.iter().enumerate() {
+        let (system, start) = make(Member::new(index, 0));
+        let expected = Tangent::new(&system, scheme.clone(), start, h, deviations)
+            .and_then(|mut tangent| tangent.lyapunov(50, 8));
+        match (found, expected) {
+            (Ok(found), Ok(expected)) => assert_eq!(
+                found.iter().map(|rate| rate.to_bits()).collect::<Vec<_>>(),
+                expected
+                    .iter()
+                    .map(|rate| rate.to_bits())
+                    .collect::<Vec<_>>(),
+                "member {index}: {found:?} {expected:?}"
+            ),
+            (Err(Error::Member { index: of, error }), Err(expected)) => {
+                assert_eq!((*of, error.to_string()), (index, expected.to_string()));
+            }
+            (found, expected) => panic!("member {index}: {found:?}, alone {expected:?}"),
+        }
+    }
+    let few = exponents(3, 1).into_iter().map(Result::ok);
+    assert!(few.eq(all.into_iter().take(3).map(Result::ok)));
+}
+
+#[test]
+fn exponents_of_members_are_those_of_single_tangents() {
+    let falling = |member: Member| {
+        // Some fall into the hole on the way, one starts outside of it.
+        let q = if member.index == 11 {
+            -1.0
+        } else {
+            0.2 + 50.0 * part(member.index)
+        };
+        (Hole::default(), State::new([q], [0.0]))
+    };
+    at_each_level(|_| {
+        deviates(henon_heiles, StormerVerlet::default(), 3);
+        deviates(pendulum, Gauss::<2>::default(), 2);
+        deviates(falling, StormerVerlet::default(), 1);
+    });
+    let _level = one_level();
+    let of = || Lyapunov::new(2, mixture, ImplicitMidpoint::default(), 0.1);
+    assert!(matches!(of().collect(), Err(Error::NoSteps)));
+    let none = Lyapunov::new(0, mixture, ImplicitMidpoint::default(), 0.1).steps(1);
+    assert!(matches!(none.collect(), Err(Error::NoMembers)));
+    let many = of().steps(1).deviations(3).collect().expect("members");
+    assert!(
+        many.iter()
+            .all(|one| matches!(one, Err(Error::Member { error, .. })
+        if matches!(**error, Error::Deviations { most: 2, found: 3 })))
+    );
+    let stop = AtomicBool::new(true);
+    let stopped = of().steps(1).cancel(&stop).collect();
+    assert!(matches!(stopped, Err(Error::Cancelled { done: 0, of: 2 })));
+}
+
 #[test]
 fn a_saved_ensemble_goes_on_with_the_same_bits() {
     let _level = one_level();

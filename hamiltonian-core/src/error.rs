@@ -290,6 +290,14 @@ pub enum Error {
     /// An ensemble or a sweep of no members.
     #[error("an ensemble has at least one member, found 0")]
     NoMembers,
+    /// Members that no common number of steps leads to one time.
+    #[error(
+        "no number of steps leads all members to one time, since {reason}; a `Sweep` ends each at its time"
+    )]
+    Apart {
+        /// What differs between them.
+        reason: &'static str,
+    },
     /// A member with run-time sizes, or functions as parameters, other than those of the first.
     #[error(
         "`{system}` has other sizes or functions than in member 0: members of one ensemble have the same"

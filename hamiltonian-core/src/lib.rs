@@ -89,7 +89,7 @@ pub mod private;
 pub use any::AnyRun;
 pub use checkpoint::{Checkpoint, Memory};
 pub use derivatives::{WrongDerivative, check_derivatives};
-pub use ensemble::{End, Ensemble, Ensembles, Member, Record, Row, Status, Sweep};
+pub use ensemble::{End, Ensemble, Ensembles, Lyapunov, Member, Record, Row, Status, Sweep};
 #[cfg(feature = "std")]
 pub use error::StoreError;
 pub use error::{CheckpointError, Error, KnotError, ShardError, TableError};
@@ -147,8 +147,8 @@ pub mod prelude {
     };
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error, Event,
-        Events, Function, Gradient, Grid, Integrator, Member, Monitors, Observer, Real, Recorder,
-        Run, Shard, Spline, Split, State, StateOf, Status, Sweep, System, Tangent, TimeTransformed,
-        at_times, every, monodromy, symplectic_defect, watch,
+        Events, Function, Gradient, Grid, Integrator, Lyapunov, Member, Monitors, Observer, Real,
+        Recorder, Run, Shard, Spline, Split, State, StateOf, Status, Sweep, System, Tangent,
+        TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
     };
 }

@@ -62,32 +62,10 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         S: System<T>,
         M: Scheme<Dual<T>, S, Map = R>,
     {
-        System::<T>::check_shape(system, &start)?;
-        let zeros = || System::<Dual<T>>::zeros(system);
-        let mut lifted = State {
-            t: Dual::fixed(start.t),
-            q: zeros(),
-            p: zeros(),
-        };
-        for (to, from) in [(&mut lifted.q, &start.q), (&mut lifted.p, &start.p)] {
-            for index in 0..from.len() {
-                *to.component_mut(index) = Dual::fixed(from.component(index));
-            }
-        }
-        let n = lifted.q.len();
-        if deviations == 0 || deviations > 2 * n {
-            return Err(Error::Deviations {
-                most: 2 * n,
-                found: deviations,
-            });
-        }
+        let lifted = lifted::<T, S>(system, &start)?;
+        check_deviations(deviations, lifted.q.len())?;
         let run = |deviation: usize| {
-            let mut start = lifted.clone();
-            let (of, index) = match deviation < n {
-                true => (&mut start.q, deviation),
-                false => (&mut start.p, deviation - n),
-            };
-            of.component_mut(index).eps = T::one();
+            let start = towards(&lifted, deviation);
             Integrator::new(system, scheme.clone(), start, Dual::fixed(step))
         };
         let runs = (0..deviations).map(run).collect::<Result<_, Error>>()?;
@@ -282,10 +260,56 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     }
 }
 
+/// A state without deviation.
+pub(crate) fn lifted<T: Real, S: System<T> + System<Dual<T>>>(
+    system: &S,
+    start: &State<<S as System<T>>::Vector>,
+) -> Result<State<<S as System<Dual<T>>>::Vector>, Error> {
+    System::<T>::check_shape(system, start)?;
+    let zeros = || System::<Dual<T>>::zeros(system);
+    let mut lifted = State {
+        t: Dual::fixed(start.t),
+        q: zeros(),
+        p: zeros(),
+    };
+    for (to, from) in [(&mut lifted.q, &start.q), (&mut lifted.p, &start.p)] {
+        for index in 0..from.len() {
+            *to.component_mut(index) = Dual::fixed(from.component(index));
+        }
+    }
+    Ok(lifted)
+}
+
+/// A state whose deviation is the unit vector of that number: coordinates, then momenta.
+pub(crate) fn towards<T: Real, V: Vector<Scalar = Dual<T>>>(
+    lifted: &State<V>,
+    deviation: usize,
+) -> State<V> {
+    let mut start = lifted.clone();
+    let n = start.q.len();
+    let (of, index) = match deviation < n {
+        true => (&mut start.q, deviation),
+        false => (&mut start.p, deviation - n),
+    };
+    of.component_mut(index).eps = T::one();
+    start
+}
+
+/// An error for no deviation from a state of `n` coordinates, or more than there are directions.
+pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error> {
+    match deviations == 0 || deviations > 2 * n {
+        false => Ok(()),
+        true => Err(Error::Deviations {
+            most: 2 * n,
+            found: deviations,
+        }),
+    }
+}
+
 /// Makes columns orthonormal, each against those before it, twice, since once leaves what rounding
 /// did; returns their lengths before the last division. `done` is told every change of a column, which
 /// becomes a multiple of itself less one of another.
-fn gram_schmidt<T: Real>(
+pub(crate) fn gram_schmidt<T: Real>(
     matrix: &mut DMatrix<T>,
     mut done: impl FnMut(usize, T, Option<(usize, T)>),
 ) -> Vec<T> {

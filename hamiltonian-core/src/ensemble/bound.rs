@@ -16,11 +16,12 @@ use crate::system::System;
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
-use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, W};
+use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Real, W};
 
-/// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `f64` and packs.
+/// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of it.
 ///
-/// It is the one bound of code that is generic over systems and schemes:
+/// `T` is [`Dual<f64>`](crate::Dual) for members with deviations, see [`Lyapunov`](crate::Lyapunov). This is the one bound of
+/// code that is generic over systems and schemes:
 ///
 /// ```
 /// use hamiltonian_core::{Ensemble, Ensembles, Error, StateOf, System};
@@ -36,10 +37,10 @@ use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, W};
     note = "the scheme must take the system over `f64` and over packs of lanes; a system written by hand \
             also implements `Gather` for what it prepares"
 )]
-pub trait Ensembles<S: System<f64>>: Scheme<f64, S> {
+pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Drives the members of a host to their ends.
     #[doc(hidden)]
-    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool);
+    fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool);
     /// Whether two systems may stand in one pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
@@ -49,21 +50,22 @@ pub trait Ensembles<S: System<f64>>: Scheme<f64, S> {
 }
 
 /// The members of a host, to be driven at a level.
-pub struct Members<'a, S: System<f64>, M> {
+pub struct Members<'a, T: Real, S: System<T>, M> {
     scheme: &'a M,
-    host: &'a mut dyn Host<f64, S>,
+    host: &'a mut dyn Host<T, S>,
     fuses: bool,
 }
 
-impl<L, S, M> KernelAt<L> for Members<'_, S, M>
+impl<L, T, S, M> KernelAt<L> for Members<'_, T, S, M>
 where
     L: Level,
-    S: System<f64>,
-    M: Scheme<f64, S>
-        + InPack<f64, S, L::Wide>
-        + InPack<f64, S, Nf<L::Wide>>
-        + InPack<f64, S, W<L::Pack, 2>>
-        + InPack<f64, S, Nf<W<L::Pack, 2>>>,
+    T: Real,
+    S: System<T>,
+    M: Scheme<T, S>
+        + InPack<T, S, L::Wide>
+        + InPack<T, S, Nf<L::Wide>>
+        + InPack<T, S, W<L::Pack, 2>>
+        + InPack<T, S, Nf<W<L::Pack, 2>>>,
 {
     type Output = ();
     #[inline(always)]
@@ -75,34 +77,35 @@ where
         } = self;
         // The widths differ in speed alone. Conditions that are constants of a type are decided before code is
         // emitted, so that the other width costs no time of the compiler.
-        if const { is_small::<S, M>() } {
+        if const { is_small::<T, S, M>() } {
             if fuses {
-                InPack::<f64, S, L::Wide>::drive::<L>(scheme, host);
+                InPack::<T, S, L::Wide>::drive::<L>(scheme, host);
             } else {
-                InPack::<f64, S, Nf<L::Wide>>::drive::<L>(scheme, host);
+                InPack::<T, S, Nf<L::Wide>>::drive::<L>(scheme, host);
             }
         } else if fuses {
-            InPack::<f64, S, W<L::Pack, 2>>::drive::<L>(scheme, host);
+            InPack::<T, S, W<L::Pack, 2>>::drive::<L>(scheme, host);
         } else {
-            InPack::<f64, S, Nf<W<L::Pack, 2>>>::drive::<L>(scheme, host);
+            InPack::<T, S, Nf<W<L::Pack, 2>>>::drive::<L>(scheme, host);
         }
     }
 }
 
 /// Whether a step works on so few numbers that many registers in lock-step hide its latency; with more of
 /// them registers spill.
-const fn is_small<S: System<f64>, M: Scheme<f64, S>>() -> bool {
+const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
     const MOST: usize = 4 * size_of::<f64>();
     size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>() <= MOST
 }
 
-impl<S, M> Ensembles<S> for M
+impl<S, M, T> Ensembles<S, T> for M
 where
-    S: System<f64, Prepared: Gather<f64>>,
-    M: Scheme<f64, S>,
-    for<'a> Members<'a, S, M>: OnEveryLevel<Output = ()>,
+    T: Real,
+    S: System<T, Prepared: Gather<T>>,
+    M: Scheme<T, S>,
+    for<'a> Members<'a, T, S, M>: OnEveryLevel<Output = ()>,
 {
-    fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
+    fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool) {
         let scheme = self;
         Members {
             scheme,
@@ -145,13 +148,13 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
 
 impl<S: System<f64>, M: Ensembles<S>> Engine<S> for M {
     fn drive(&self, host: &mut dyn Host<f64, S>, fuses: bool) {
-        Ensembles::drive(self, host, fuses);
+        Ensembles::<S>::drive(self, host, fuses);
     }
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
-        Ensembles::fits(self, a, b)
+        Ensembles::<S>::fits(self, a, b)
     }
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool {
-        Ensembles::equals(self, a, b)
+        Ensembles::<S>::equals(self, a, b)
     }
     fn begin(
         &self,

@@ -154,6 +154,8 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) step: f64,
     /// The time of one step.
     pub(crate) interval: f64,
+    /// Whether steps differ in time.
+    pub(crate) varies: bool,
     /// The number of steps made by those that still go on.
     pub(crate) steps: u64,
 }

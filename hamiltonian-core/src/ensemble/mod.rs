@@ -6,9 +6,10 @@
 //!
 //! The modules follow the data: a member at its seat ([`seat`]), the crew of a pack ([`crew`]), a block of
 //! steps ([`block`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
-//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`]), and members that leave a
+//! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`],
+//! [`until`]), and members that leave a
 //! record ([`sweep`], [`sweep::running`],
-//! [`record`]).
+//! [`record`]) or exponents ([`lyapunov`]).
 
 mod block;
 mod bound;
@@ -17,6 +18,7 @@ mod crew;
 mod drive;
 mod guard;
 pub(crate) mod hash;
+mod lyapunov;
 mod ordered;
 mod record;
 mod saved;
@@ -26,8 +28,10 @@ mod stored;
 mod swarm;
 mod sweep;
 mod threads;
+mod until;
 
 pub use bound::Ensembles;
+pub use lyapunov::Lyapunov;
 pub use record::{End, Record, Row, Status};
 pub use swarm::Ensemble;
 pub use sweep::Sweep;

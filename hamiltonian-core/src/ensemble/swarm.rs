@@ -95,6 +95,7 @@ impl<S: System<f64>> Ensemble<S> {
             width: 0,
             step,
             interval: step * duration::<f64>(&engine.entry()),
+            varies: false,
             steps: 0,
         };
         let mut first_of_all: Option<S::Prepared> = None;
@@ -114,6 +115,7 @@ impl<S: System<f64>> Ensemble<S> {
                         return Err(Error::OtherSizes { system: S::NAME });
                     }
                     engine.begin(&prepared, &start, step, &mut chunk.words)?;
+                    common.varies |= engine.varies(&prepared, &start, step);
                     Ok((prepared, start))
                 });
                 let member = begun.map(|(prepared, start)| {
@@ -268,7 +270,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     /// # Errors
     /// [`Error::Member`] with the index and the error of the member.
     pub fn states(&self) -> impl Iterator<Item = Result<State<S::Vector>, Error>> {
-        (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX))
+        (0..self.chunks.len()).flat_map(|number| self.closed(number, 0..usize::MAX, None))
     }
 
     /// The state of one member, see [`states`](Ensemble::states); `None` if there is no such index.
@@ -277,7 +279,7 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             .chunks
             .partition_point(|chunk| chunk.first + chunk.count <= index);
         let key = index - self.chunks.get(number)?.first;
-        self.closed(number, key..key + 1).pop()
+        self.closed(number, key..key + 1, None).pop()
     }
 
     /// The number of steps that each member has made.
@@ -292,15 +294,17 @@ impl<S: System<f64>, O> Ensemble<S, O> {
         })
     }
 
-    /// The states of some members of a chunk.
-    fn closed(
+    /// The states of some members of a chunk: the present ones, or those at a time within a step of them.
+    pub(super) fn closed(
         &self,
         number: usize,
         keys: core::ops::Range<usize>,
+        t: Option<f64>,
     ) -> Vec<Result<State<S::Vector>, Error>> {
         let chunk = &self.chunks[number];
         let keys = keys.start..keys.end.min(chunk.count);
-        let mut states: Vec<Option<State<S::Vector>>> = alloc::vec![None; chunk.count];
+        let mut states: Vec<Option<Result<State<S::Vector>, Error>>> =
+            alloc::vec![None; chunk.count];
         let mut copy = chunk.unobserved(keys.end, self.common.width);
         let mut host = Going {
             chunk: &mut copy,
@@ -311,18 +315,22 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             follows: false,
             next: keys.start,
             see: |key: usize, (): &mut (), view: &View<'_, f64, S>| {
-                states[key] = Some(view.state.clone());
+                states[key] = Some(match t {
+                    Some(t) => view.state_at(t),
+                    None => Ok(view.state.clone()),
+                });
                 ControlFlow::Continue(())
             },
         };
         self.engine.drive(&mut host, self.fuses);
+        let member = |key: usize, error: Error| Error::Member {
+            index: chunk.first + key,
+            error: Box::new(error),
+        };
         keys.map(|key| match (chunk.out.get(&key), states[key].take()) {
-            (Some(Out::Failed(error, _)), _) => Err(Error::Member {
-                index: chunk.first + key,
-                error: Box::new(error.clone()),
-            }),
+            (Some(Out::Failed(error, _)), _) => Err(member(key, error.clone())),
             (Some(Out::Ended(state, _)), _) => Ok((**state).clone()),
-            (None, Some(state)) => Ok(state),
+            (None, Some(state)) => state.map_err(|error| member(key, error)),
             (None, None) => Err(Error::NoMembers),
         })
         .collect()

@@ -198,7 +198,7 @@ impl<'a> Emission<'a> {
         }
         line!(
             self,
-            "#[inline]\nfn observable(&self, _index: __h::core::primitive::usize, _t: T, _q: &Self::Vector, \
+            "#[inline(always)]\nfn observable(&self, _index: __h::core::primitive::usize, _t: T, _q: &Self::Vector, \
              _p: &Self::Vector) -> T {{\n{}\n}}",
             observables::dispatch(context.model),
         );

@@ -5,6 +5,7 @@ mod between;
 mod checkpoint;
 mod common;
 mod composition;
+mod drift;
 mod estimate;
 mod events;
 mod exponential;

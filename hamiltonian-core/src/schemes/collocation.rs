@@ -213,6 +213,36 @@ impl<const S: usize> Collocation<S> {
     }
 }
 
+impl<const S: usize> Collocation<S> {
+    /// cᵢh and νᵢⱼh with `νᵢⱼ = Σ μᵢₖbₖμₖⱼ = (A²)ᵢⱼ/bⱼ` of Gauss' method in another scalar, with
+    /// `νᵢⱼh − νⱼᵢh = cᵢh − cⱼh` exactly and h − cᵢh without rounding.
+    ///
+    /// So rounded, the Nyström method `Q = q + ch M⁻¹p + h M⁻¹ Σ νᵢⱼ kⱼ` with the kicks k of p and their parts
+    /// 1 − c in q is symplectic in the arithmetic of the scalar too: E. Hairer, C. Lubich, G. Wanner, Geometric
+    /// Numerical Integration (2006), theorem IV.2.3, doi:10.1007/3-540-30666-8.
+    pub(super) fn symplectic_double<T: Real>(&self, h: T) -> ([T; S], [[T; S]; S]) {
+        let times = self.nodes.map(|c| whole_ulps(c, h));
+        let mut double = [[T::zero(); S]; S];
+        for i in 0..S {
+            for j in 0..=i {
+                let mut sum = number(0.0);
+                for k in 0..S {
+                    sum += self.integrals[i][k] * self.weights[k] * self.integrals[k][j];
+                }
+                double[i][j] = whole_ulps(sum, h);
+                double[j][i] = double[i][j] - (times[i] - times[j]);
+            }
+        }
+        (times, double)
+    }
+}
+
+/// `part·h` for a part from 0 to 1, rounded to a multiple of the last place of h: sums and differences of such
+/// numbers up to h are exact.
+pub(super) fn whole_ulps<T: Real>(part: DoubleDouble, h: T) -> T {
+    (constant::<T>(part) * h + h) - h
+}
+
 /// From starts that are right to a few per cent, six steps of Newton's method double the digits to
 /// more than 32; one is for safety.
 const NEWTON: usize = 7;

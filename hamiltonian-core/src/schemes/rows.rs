@@ -221,7 +221,7 @@ pub(super) fn multiply<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const 
 ) {
     for k in 0..Y::PARTS {
         for i in 0..unknowns[0].part(k).len() {
-            let few = spread::<T, L, Y, S>(None, unknowns, k, i);
+            let few = spread::<T, L, Y, 0, S>([], unknowns, k, i);
             for row in 0..rows::<T, L, S>() {
                 unknowns[row].part_mut(k)[i] = product::<T, L, S>(&matrix[row], &few);
             }
@@ -229,21 +229,26 @@ pub(super) fn multiply<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const 
     }
 }
 
-/// Number `i` of part `k` of all stages, times a factor of each.
+/// Number `i` of part `k` of all stages, times `N` factors of each, one after the other.
 #[inline(always)]
-pub(super) fn spread<T: Real, L: Layout<T>, Y: Vector<Scalar = L::Row>, const S: usize>(
-    factors: Option<&[L::Row; S]>,
+pub(super) fn spread<T, L, Y, const N: usize, const S: usize>(
+    factors: [&[L::Row; S]; N],
     unknowns: &[Y; S],
     k: usize,
     i: usize,
-) -> [L::Few; S] {
+) -> [L::Few; S]
+where
+    T: Real,
+    L: Layout<T>,
+    Y: Vector<Scalar = L::Row>,
+{
     let mut few = [L::split(L::Row::zero()); S];
     for row in 0..rows::<T, L, S>() {
-        let number = unknowns[row].part(k)[i];
-        few[row] = L::split(match factors {
-            Some(factors) => factors[row] * number,
-            None => number,
-        });
+        let mut number = unknowns[row].part(k)[i];
+        for factor in factors {
+            number *= factor[row];
+        }
+        few[row] = L::split(number);
     }
     few
 }
@@ -281,7 +286,7 @@ where
 {
     for k in 0..Y::PARTS {
         for i in 0..to[0].part(k).len() {
-            let few = spread::<T, L, X, S>(None, from, k, i);
+            let few = spread::<T, L, X, 0, S>([], from, k, i);
             for (j, to) in to.iter_mut().enumerate() {
                 to.part_mut(k)[i] = number::<T, L, S>(&few, j);
             }

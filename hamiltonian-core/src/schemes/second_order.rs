@@ -3,7 +3,7 @@
 //! Input: H = ½ pᵀM⁻¹p + V(q, t). Output: [`GaussNystrom`]. Invariant: the steps are those of
 //! [`Gauss`](super::Gauss), to rounding.
 
-use super::collocation::{Collocation, constant};
+use super::collocation::{Collocation, constant, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
@@ -108,6 +108,9 @@ symmetric!(GaussNystrom<S>, const S: usize);
 /// point.
 pub type CarriesForces<V, const S: usize> = Pair<Point<V>, Pair<Stages<V, S>, Point<V>>>;
 
+/// No short fraction.
+const GOLDEN: f64 = 0.381_966_011_250_105_15;
+
 impl<T, S, const STAGES: usize> Scheme<T, S> for GaussNystrom<STAGES>
 where
     T: Real,
@@ -115,32 +118,17 @@ where
 {
     type Map = Eliminated<T, S::Prepared, STAGES>;
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
-        let Collocation {
-            nodes,
-            weights,
-            integrals,
-            ..
-        } = self.coefficients;
         let h = step.h;
-        let one = DoubleDouble::from(1.0);
-        let times = |of: DoubleDouble| constant::<T>(of) * h;
-        // −aᵢₖaₖⱼ with aᵢⱼ = μᵢⱼbⱼ.
-        let double = core::array::from_fn(|i| {
-            core::array::from_fn(|j| {
-                let mut sum = DoubleDouble::from(0.0);
-                for k in 0..STAGES {
-                    sum -= integrals[i][k] * weights[k] * integrals[k][j] * weights[j];
-                }
-                constant::<T>(sum) * h * h
-            })
-        });
+        let (times, double) = self.coefficients.symplectic_double(h);
+        let first = whole_ulps(DoubleDouble::from(GOLDEN), h);
         Eliminated {
             dynamics: prepared.clone(),
             h,
-            times: nodes.map(times),
-            weights: weights.map(|b| times(-b)),
+            times,
+            weights: self.coefficients.weights.map(|b| constant::<T>(-b) * h),
             double,
-            ends: core::array::from_fn(|i| times(weights[i] * (nodes[i] - one))),
+            ends: times.map(|time| h - time),
+            drifts: [first, h - first],
             guess: extrapolation(&self.coefficients, step),
             limit: self.max_iterations,
         }
@@ -170,10 +158,13 @@ pub struct Eliminated<T: Real, P: Dynamics<T>, const S: usize> {
     times: [T; S],
     /// −bᵢh.
     weights: [T; S],
-    /// −(A²)ᵢⱼh².
+    /// νᵢⱼh = (A²)ᵢⱼh/bⱼ with νᵢⱼh − νⱼᵢh = cᵢh − cⱼh exactly.
     double: [[T; S]; S],
-    /// −bᵢ(1 − cᵢ)h.
+    /// h − cᵢh exactly.
     ends: [T; S],
+    /// Two durations whose sum is h exactly: where h is a short decimal fraction, hM⁻¹p is
+    /// often halfway between two numbers, but for the rounding of h, and so rounded to one side.
+    drifts: [T; 2],
     guess: [[T; S]; S],
     limit: u32,
 }
@@ -242,7 +233,7 @@ struct SecondOrder<'a, T: Real, L: Layout<T>, D, V: Vector, X, const S: usize> {
     t: L::Row,
     h: T,
     point: &'a Point<V>,
-    /// q + cᵢh M⁻¹p.
+    /// q + cᵢhM⁻¹p.
     free: &'a [X; S],
     moved: &'a mut X,
 }
@@ -260,7 +251,7 @@ where
     fn points(&self, gradients: &[X; S], points: &mut [X; S]) {
         for k in 0..X::PARTS {
             for i in 0..points[0].part(k).len() {
-                let few = spread::<T, L, _, S>(None, gradients, k, i);
+                let few = spread::<T, L, _, 1, S>([self.tableau.weights], gradients, k, i);
                 for (point, row) in points[..rows::<T, L, S>()]
                     .iter_mut()
                     .zip(self.tableau.double)
@@ -357,16 +348,19 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
     {
         for k in 0..P::Vector::PARTS {
             for i in 0..low.p.part(k).len() {
-                let few = spread::<T, L, _, S>(Some(tableau.ends), gradients, k, i);
+                let factors = [tableau.weights, tableau.ends];
+                let few = spread::<T, L, _, 2, S>(factors, gradients, k, i);
                 sums.impulse.part_mut(k)[i] = sum::<T, L, S>(&few);
-                let few = spread::<T, L, _, S>(Some(tableau.weights), gradients, k, i);
+                let few = spread::<T, L, _, 1, S>([tableau.weights], gradients, k, i);
                 low.p.part_mut(k)[i] += sum::<T, L, S>(&few);
             }
         }
         self.dynamics
             .gradient_p(t, &point.q, &sums.impulse, &mut sums.moved);
-        low.q.accumulate(self.h, &sums.moved);
-        low.q.accumulate(self.h, &sums.velocity);
+        low.q.accumulate(T::one(), &sums.moved);
+        for duration in self.drifts {
+            low.q.accumulate(duration, &sums.velocity);
+        }
         carry(point, low);
     }
 

@@ -62,7 +62,7 @@ where
                 self.tableau.momenta
             };
             for i in 0..self.point.part(k).len() {
-                let few = spread::<T, L, _, S>(Some(self.tableau.weights), slopes, k, i);
+                let few = spread::<T, L, _, 1, S>([self.tableau.weights], slopes, k, i);
                 let base = L::splat(self.point.part(k)[i]);
                 for row in 0..rows::<T, L, S>() {
                     // The small numbers first.
@@ -140,7 +140,7 @@ pub(super) fn finish<T, L, V, X, const S: usize>(
 {
     for k in 0..Point::<V>::PARTS {
         for i in 0..low.part(k).len() {
-            let few = spread::<T, L, _, S>(Some(weights), slopes, k, i);
+            let few = spread::<T, L, _, 1, S>([weights], slopes, k, i);
             low.part_mut(k)[i] += sum::<T, L, S>(&few);
         }
     }

@@ -1,0 +1,114 @@
+//! Energies over many steps of implicit schemes: what rounding makes of them is a random walk.
+//!
+//! Input: Gauss's schemes and their kin on autonomous systems. Output: the change of the mean of H from
+//! block to block. Invariant: the sum of these changes is that of independent ones, or at least below a
+//! bound that a coefficient with a wrong last place exceeds: the steps of such a method are not symplectic,
+//! and it drifts.
+
+use super::common::systems::{Hand, HenonHeiles, Paper34, Pendulum};
+use hamiltonian_core::schemes::*;
+use hamiltonian_core::{Integrator, QuadraticKinetic, Scheme, State, System};
+
+/// Blocks of a run, and samples of H in a block.
+const BLOCKS: u64 = 100;
+const SAMPLES: u64 = 101;
+
+/// A drift in units of H and ε for each step that is not found: iterating until nothing changes leaves as much.
+const FOUND: f64 = 1e-3;
+
+/// Runs, and compares the change of H with a random walk.
+fn walks<S, M>(system: &S, size: f64, scheme: M, start: &State<S::Vector>, h: f64)
+where
+    S: System<f64>,
+    M: Scheme<f64, S>,
+{
+    let entry = scheme.entry();
+    let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1");
+    // Samples as far apart as a number without common factors with a period.
+    let stride = if heavy { 991 } else { 19 };
+    let mut run = Integrator::new(system, scheme, start.clone(), h).expect("a good start");
+    let first = system.energy(run.state());
+    let means: Vec<f64> = (0..BLOCKS)
+        .map(|_| {
+            let mut sum = 0.0;
+            for _ in 0..SAMPLES {
+                let state = run.advance(stride).expect("good steps");
+                sum += system.energy(state) - first;
+            }
+            sum / SAMPLES as f64
+        })
+        .collect();
+    let changes: Vec<f64> = means.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let count = changes.len() as f64;
+    let total: f64 = changes.iter().sum();
+    let square = |change: &f64| (change - total / count).powi(2);
+    let deviation = (changes.iter().map(square).sum::<f64>() / (count - 1.0)).sqrt();
+    let steps = count * (SAMPLES * stride) as f64;
+    println!(
+        "{} {} on {}, h = {h}: {total:.1e} in {steps:.0e} steps, {:.1} deviations",
+        entry.name,
+        entry.variant,
+        S::NAME,
+        total / (deviation * count.sqrt())
+    );
+    let walked = 5.0 * deviation * count.sqrt();
+    let bound = walked + FOUND * f64::EPSILON * size * steps;
+    assert!(total.abs() <= bound, "{total:e} beyond {bound:e}");
+}
+
+impl QuadraticKinetic for Hand<Pendulum, 1> {}
+
+fn pendulum(scheme: impl Scheme<f64, Hand<Pendulum, 1>>, h: f64) {
+    let system = Hand(Pendulum {
+        m: 1.0,
+        l: 1.0,
+        g: 1.0,
+        from_bottom: false,
+    });
+    walks(&system, 1.0, scheme, &State::new([1.5], [0.0]), h);
+}
+
+fn henon_heiles(scheme: impl Scheme<f64, Hand<HenonHeiles, 2>>, h: f64) {
+    let start = State::new([0.12, 0.23], [0.31, -0.17]);
+    walks(&Hand(HenonHeiles), 0.1, scheme, &start, h);
+}
+
+fn paper_34(scheme: impl Scheme<f64, Hand<Paper34, 1>>, h: f64) {
+    walks(&Hand(Paper34), 5.0, scheme, &State::new([-3.0], [0.0]), h);
+}
+
+/// Steps that are short decimal fractions too: products with them are biased.
+#[test]
+fn energies_of_nystrom_forms_walk_at_random() {
+    henon_heiles(GaussNystrom::<1>::default(), 0.01);
+    henon_heiles(GaussNystrom::<2>::default(), 0.02);
+    henon_heiles(GaussNystrom::<3>::default(), 0.05);
+    henon_heiles(GaussNystrom::<4>::default(), 0.1);
+    henon_heiles(GaussNystrom::<5>::default(), 0.25);
+    henon_heiles(GaussNystrom::<6>::default(), 0.3);
+    henon_heiles(GaussNystrom::<7>::default(), 0.5);
+    henon_heiles(GaussNystrom::<8>::default(), 0.8);
+    pendulum(GaussNystrom::<5>::default(), 0.3);
+    pendulum(GaussNystrom::<8>::default(), 0.8);
+}
+
+#[test]
+fn energies_of_gauss_walk_at_random() {
+    paper_34(Gauss::<1>::default(), 0.0005);
+    paper_34(Gauss::<2>::default(), 0.002);
+    paper_34(Gauss::<3>::default(), 0.01);
+    paper_34(Gauss::<4>::default(), 0.02);
+    paper_34(Gauss::<5>::default(), 0.04);
+    paper_34(Gauss::<6>::default(), 0.05);
+    paper_34(Gauss::<7>::default(), 0.06);
+    paper_34(Gauss::<8>::default(), 0.1);
+    henon_heiles(Gauss::<8>::default(), 0.5);
+}
+
+#[test]
+fn energies_of_variational_schemes_walk_at_random() {
+    paper_34(Variational::<4, 4>::gauss(), 0.02);
+    paper_34(Variational::<5, 5>::lobatto(), 0.03);
+    paper_34(Variational::<3, 4>::lobatto(), 0.02);
+    paper_34(MomentumVariational::<5>::default(), 0.03);
+}

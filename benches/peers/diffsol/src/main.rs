@@ -2,7 +2,7 @@
 //!
 //! Prints one JSON object a line, as `peer.py` does. With a name as argument only that problem is solved.
 
-use diffsol::{NalgebraMat, OdeBuilder, OdeSolverMethod};
+use diffsol::{MatrixCommon, NalgebraMat, OdeBuilder, OdeSolverMethod};
 use serde_json::{Value, json};
 use std::time::Instant;
 

@@ -67,7 +67,7 @@ fn list(numbers: impl IntoIterator<Item = f64>) -> String {
 /// The components of q, then those of p.
 fn numbers<V: Vector>(state: &State<V>) -> Vec<V::Scalar> {
     let (q, p) = (state.q.components(), state.p.components());
-    q.chain(p).copied().collect()
+    q.chain(p).collect()
 }
 
 /// The largest difference from the reference.
@@ -247,8 +247,8 @@ fn main() {
          BlanesCasasEscorihuela8, 500; Srkn11b, 1_000; Processed6::default(), 1_000;
          StormerVerlet::default(), 10_000;]);
     let places = scattered(3 * BODIES);
-    let cluster = Cluster::new(BODIES, 1e-3, 2.5e-3).expect("as many bodies as places");
-    problem!(task, "cluster", &cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
+    let cluster = Cluster::new(BODIES).expect("as many bodies as places");
+    problem!(task, "cluster", cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
         n => State::over(
             places.chunks(3).map(|q| [n(q[0]), n(q[1]), n(q[2])]).collect::<Vec<_>>(),
             places.chunks(3).map(|q| [n(-1e-3 * q[1]), n(1e-3 * q[0]), n(0.0)]).collect::<Vec<_>>(),

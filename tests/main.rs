@@ -36,6 +36,7 @@ mod loops;
 mod nystrom;
 pub mod order;
 pub mod paper;
+mod periodic;
 pub mod planets;
 mod potentials;
 mod processed;

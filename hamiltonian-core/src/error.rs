@@ -375,6 +375,21 @@ pub enum Error {
         /// Their number.
         count: usize,
     },
+    /// An observable that the system does not declare.
+    #[error("the system declares no observable `{name}`")]
+    NoObservable {
+        /// The name given.
+        name: String,
+    },
+    /// No periodic orbit was found near a guess.
+    #[error(
+        "no periodic orbit was found: the best start misses its conditions by {gap:e}\nhelp: give a nearer \
+         guess, or more steps"
+    )]
+    NoPeriodicOrbit {
+        /// The largest difference after a period, or distance from the section or the energy.
+        gap: f64,
+    },
     /// No value of a momentum gives the energy asked for (on the branch asked for).
     #[error(
         "no `{name}` (component {index}) gives H = {}: the nearest H found is {}, at {}",

@@ -58,6 +58,8 @@ mod shard;
 mod store;
 mod table;
 mod tangent;
+
+mod periodic;
 mod times;
 mod transformed;
 
@@ -105,6 +107,7 @@ pub use observe::{
 };
 pub use observed::{FieldObserved, Observed, ReadyObserved};
 pub use output::Recorder;
+pub use periodic::{Closing, PeriodicOrbit};
 #[cfg(feature = "progress")]
 pub use progress::Progress;
 pub use push::{Both, Coupled, SubStep};
@@ -146,9 +149,9 @@ pub mod prelude {
         Yoshida4, Yoshida6,
     };
     pub use crate::{
-        AnyRun, Checkpoint, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error, Event,
-        Events, Function, Gradient, Grid, Integrator, Lyapunov, Member, Monitors, Observer, Real,
-        Recorder, Run, Shard, Spline, Split, State, StateOf, Status, Sweep, System, Tangent,
-        TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
+        AnyRun, Checkpoint, Closing, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error,
+        Event, Events, Function, Gradient, Grid, Integrator, Lyapunov, Member, Monitors, Observer,
+        PeriodicOrbit, Real, Recorder, Run, Shard, Spline, Split, State, StateOf, Status, Sweep,
+        System, Tangent, TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
     };
 }

@@ -40,6 +40,24 @@ pub enum Error {
         /// The number of components given.
         found: usize,
     },
+    /// An axis of coordinates has the wrong extent.
+    #[error("axis {axis} of `{name}` must have the extent {expected}, found {found}")]
+    Extent {
+        /// The name of the coordinate or momentum.
+        name: &'static str,
+        /// The number of the axis, from 0 on.
+        axis: usize,
+        /// The extent the system asks for.
+        expected: usize,
+        /// The extent given.
+        found: usize,
+    },
+    /// Coordinates of the sizes given do not fit into memory.
+    #[error("`{name}` does not fit into memory: the sizes are too large")]
+    Memory {
+        /// The name of the coordinate.
+        name: &'static str,
+    },
     /// An index of the definition that leaves its range for the sizes given.
     #[error("`{index}` reaches {reached}, but the extent is {extent}: the sizes do not fit")]
     Index {

@@ -26,6 +26,7 @@
 
 extern crate alloc;
 
+mod lattice;
 mod vector;
 
 mod state;
@@ -125,6 +126,7 @@ pub use table::Table;
 pub use tangent::{Tangent, monodromy, multipliers, symplectic_defect};
 pub use times::{AtTimes, at_times};
 pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};
+pub use lattice::Lattice;
 pub use vector::{IntoVector, Vector, shape};
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.

@@ -299,8 +299,8 @@ fn described(table: &Table, sources: &[Source]) -> String {
 /// One component of a group.
 pub(crate) struct Name {
     pub(crate) group: Group,
-    row: usize,
-    column: usize,
+    /// Its indices, each in brackets.
+    indices: String,
     /// Its flat index in the [`Vector`].
     pub(crate) index: usize,
 }
@@ -308,7 +308,7 @@ pub(crate) struct Name {
 impl Name {
     /// The component of the coordinate or momentum of that name.
     pub(crate) fn of(&self, name: &str) -> String {
-        element(name, self.group.rank, self.row, self.column)
+        format!("{name}{}", self.indices)
     }
 }
 
@@ -333,13 +333,28 @@ pub(crate) fn names<V: Vector>(groups: &[Group], vector: &V) -> Vec<Name> {
         } else {
             (len - group.offset) / group.columns
         };
+        let extents = vector.extents(group.part);
+        if !extents.is_empty() {
+            for element in 0..len {
+                let mut rest = len;
+                let index = |extent: &usize| {
+                    rest /= extent;
+                    format!("[{}]", element / rest % extent)
+                };
+                names.push(Name {
+                    group: *group,
+                    indices: extents.iter().map(index).collect(),
+                    index: before + element,
+                });
+            }
+            continue;
+        }
         for row in 0..rows {
             for column in 0..group.columns {
                 let index = before + group.offset + row + rows * column;
                 names.push(Name {
                     group: *group,
-                    row,
-                    column,
+                    indices: element("", group.rank, row, column),
                     index,
                 });
             }

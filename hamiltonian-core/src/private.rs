@@ -21,6 +21,7 @@ pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
 pub use crate::function::Function;
 pub use crate::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
+pub use crate::lattice::{Lattice, fits};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};

@@ -208,10 +208,13 @@ impl<X: Vector, Y: Vector<Scalar = X::Scalar>> Vector for Pair<X, Y> {
 }
 
 /// The places of the elements of a vector in the order of the declaration: group after group, each row
-/// after row. A part is stored column after column.
+/// after row. A part without extents is stored column after column.
 fn places<V: Vector>(vector: &V) -> impl Iterator<Item = (usize, usize)> {
     (0..V::PARTS).flat_map(|k| {
-        let columns = vector.columns(k).max(1);
+        let columns = match vector.extents(k) {
+            [] => vector.columns(k).max(1),
+            _ => 1,
+        };
         let rows = vector.part(k).len() / columns;
         (0..rows * columns).map(move |at| (k, at / columns + rows * (at % columns)))
     })

@@ -22,13 +22,13 @@ pub struct Group {
     pub coordinate: &'static str,
     /// The name of the conjugate momentum.
     pub momentum: &'static str,
-    /// 0 for a scalar, 1 for `[N]`, 2 for `[N][c]`.
+    /// 0 for a scalar, 1 for `[N]`, 2 for `[N][c]`, the number of axes of a [`Lattice`](crate::Lattice).
     pub rank: usize,
     /// The part of the [`Vector`] that holds the group, and
     pub part: usize,
     /// the index of its first component in that part.
     pub offset: usize,
-    /// The last extent of a rank-2 group (its column count); 1 otherwise.
+    /// The last extent of a rank-2 group that is stored column after column; 1 otherwise.
     pub columns: usize,
 }
 
@@ -97,7 +97,8 @@ pub trait System<T: Real> {
     /// ask this once.
     ///
     /// # Errors
-    /// [`Error::Shape`] with the first coordinate or momentum of another length.
+    /// [`Error::Shape`] with the first coordinate or momentum of another length, [`Error::Extent`] with the
+    /// first axis of another extent.
     fn check_shape(&self, state: &State<Self::Vector>) -> Result<(), Error> {
         let zeros = self.zeros();
         let coordinates = Self::GROUPS.iter().map(|g| (g.part, g.coordinate));
@@ -412,12 +413,23 @@ fn same_shape<V: Vector>(
     expected: &V,
     found: &V,
 ) -> Result<(), Error> {
+    let mut name = |k| {
+        let found = groups.find(|(part, _)| *part == k);
+        found.map_or("", |(_, name)| name)
+    };
     for k in 0..V::PARTS {
+        let extents = expected.extents(k).iter().zip(found.extents(k));
+        if let Some((axis, (expected, found))) = extents.enumerate().find(|(_, (a, b))| a != b) {
+            return Err(Error::Extent {
+                name: name(k),
+                axis,
+                expected: *expected,
+                found: *found,
+            });
+        }
         let (expected, found) = (expected.part(k).len(), found.part(k).len());
         if expected != found {
-            let name = groups
-                .find(|(part, _)| *part == k)
-                .map_or("", |(_, name)| name);
+            let name = name(k);
             return Err(Error::Shape {
                 name,
                 expected,

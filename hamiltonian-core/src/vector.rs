@@ -11,7 +11,8 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 /// A vector of coordinates or of momenta over one scalar.
 ///
 /// `[N]` is `SVector<T, N>`, `[N][3]` the N×3 column-major matrix (component `c` of body `i` at
-/// `i + N·c`), run-time sizes `DVector` and `OMatrix<T, Dyn, Const<3>>`; coordinates of mixed
+/// `i + N·c`), run-time sizes `DVector` and `OMatrix<T, Dyn, Const<3>>`; coordinates whose last extent
+/// is set at run time or more than 4 are a [`Lattice`](crate::Lattice), row after row; those of mixed
 /// shape are a generated struct with one part per group. This is the order of `as_slice`, of the parts
 /// and of the flat index. [`State::to_vec`](crate::State::to_vec) and its kin have the order of the
 /// declaration instead, row after row.
@@ -34,6 +35,12 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The number of columns of part `k < PARTS`: the last extent of an array of rank 2, else 1.
     fn columns(&self, _k: usize) -> usize {
         1
+    }
+    /// The extents of part `k < PARTS` where its elements are stored in the order of their declaration, the
+    /// last index fastest, as those of a [`Lattice`](crate::Lattice) are; empty where they are stored column
+    /// after column.
+    fn extents(&self, _k: usize) -> &[usize] {
+        &[]
     }
     /// The same shape, all zero.
     fn zeros_like(&self) -> Self;
@@ -351,7 +358,8 @@ impl<T: Real> Vector for OMatrix<T, Dyn, Dyn> {
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
-/// by copy. `M` only tells these cases apart and is always inferred.
+/// by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, `Vec<Vec<Vec<T>>>` that of
+/// `u[n][m][k]`. `M` only tells these cases apart and is always inferred.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no list of real numbers",
     label = "expected a list of real numbers",
@@ -380,6 +388,12 @@ pub mod shape {
     /// `Vec<[T; C]>`
     #[derive(Debug, Clone, Copy)]
     pub struct SequenceOfRows;
+    /// `Vec<Vec<T>>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct Nested;
+    /// `Vec<Vec<Vec<T>>>`
+    #[derive(Debug, Clone, Copy)]
+    pub struct TwiceNested;
     /// `&[T]` and `&Vec<T>`
     #[derive(Debug, Clone, Copy)]
     pub struct Slice;

@@ -138,8 +138,11 @@ pub struct Group {
     pub momentum: Ident,
     /// The name of the velocity, under a Lagrangian.
     pub velocity: Option<Ident>,
-    /// The type of each of them: scalar, vector, or matrix with a literal last extent.
+    /// The type of each of them.
     pub ty: Type,
+    /// Whether it is a matrix stored row after row, which loops run through. The columns of any other
+    /// matrix are arrays of their own, and their number is literal.
+    pub is_lattice: bool,
 }
 
 impl Group {

@@ -518,10 +518,10 @@ impl Dag {
                 let range = self.range(*d);
                 variables |= range.start.variables() | range.end.variables();
                 variables &= !(1u64 << d.0);
-                if range.start.sizes.is_empty() && range.end.sizes.is_empty() {
-                    Dependence::default()
-                } else {
+                if range.start.has_sizes() || range.end.has_sizes() {
                     Dependence::PARAMETER
+                } else {
+                    Dependence::default()
                 }
             }
             _ => Dependence::default(),

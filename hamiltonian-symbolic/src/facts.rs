@@ -645,8 +645,7 @@ fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
     let leaf = |node: Node| match dag.kind(node) {
         Kind::Time => Some(None),
         Kind::Element(array @ Array::Phase(_), row, _) => {
-            let row = row.modulo.is_none().then(|| row.affine.as_constant());
-            Some(Some((*array, row.flatten())))
+            Some(Some((*array, row.as_constant())))
         }
         _ => None,
     };

@@ -96,7 +96,7 @@ fn weight(dag: &mut Dag, rate: Node) -> Node {
 /// Whether an entry is in every row of its group.
 fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
     let rows = model.groups[usize::from(entry.at.group)].shape.rows();
-    rows.is_none_or(|rows| model.dag.loop_of_rows(&entry.row, rows).is_some())
+    rows.is_none_or(|rows| model.dag.loops_of_rows(&entry.row, rows).is_some())
 }
 
 /// The kick, from ∂V/∂q.

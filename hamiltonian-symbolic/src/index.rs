@@ -1,5 +1,5 @@
 //! Indices of arrays and ranges of loops: affine in loop variables and sizes, optionally modulo a
-//! size.
+//! size, one for each axis of an array.
 //!
 //! Input: what the front end resolved. Output: [`Affine`], [`Index`], [`Domain`] ids. Invariant:
 //! terms sorted by variable, no zero coefficients, so that equal indices are equal values.
@@ -22,7 +22,7 @@ pub fn members(set: u64) -> impl Iterator<Item = Domain> {
         .map(Domain)
 }
 
-/// `constant + Σ k·loop variable + Σ k·size`.
+/// `constant + Σ k·loop variable + Σ k·size + Σ k·(product of sizes)`.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug, Default)]
 pub struct Affine {
     /// The constant part.
@@ -31,6 +31,9 @@ pub struct Affine {
     pub loops: Vec<(Domain, i64)>,
     /// Sizes with their factors.
     pub sizes: Vec<(Size, i64)>,
+    /// Products of two sizes or more, each in order, with their factors: the number of elements of an
+    /// array with several axes.
+    pub products: Vec<(Vec<Size>, i64)>,
 }
 
 /// The end of its range at which a form is taken.
@@ -42,13 +45,17 @@ pub enum End {
     Greatest,
 }
 
-fn merge<K: Copy + Ord>(a: &[(K, i64)], factor: i64, b: &[(K, i64)]) -> Option<Vec<(K, i64)>> {
+fn merge<K: Clone + Ord>(
+    a: &[(K, i64)],
+    factor: i64,
+    b: &[(K, i64)],
+) -> Option<Vec<(K, i64)>> {
     let mut all = a.to_vec();
-    for &(key, k) in b {
+    for (key, k) in b {
         let k = k.checked_mul(factor)?;
-        match all.binary_search_by_key(&key, |entry| entry.0) {
+        match all.binary_search_by(|entry| entry.0.cmp(key)) {
             Ok(at) => all[at].1 = all[at].1.checked_add(k)?,
-            Err(at) => all.insert(at, (key, k)),
+            Err(at) => all.insert(at, (key.clone(), k)),
         }
     }
     all.retain(|entry| entry.1 != 0);
@@ -93,7 +100,47 @@ impl Affine {
             constant: self.constant.checked_add(constant)?,
             loops: merge(&self.loops, factor, &other.loops)?,
             sizes: merge(&self.sizes, factor, &other.sizes)?,
+            products: merge(&self.products, factor, &other.products)?,
         })
+    }
+    /// The product of two forms over sizes; `None` where a coefficient overflows, or where one has
+    /// loop variables.
+    #[must_use]
+    pub fn checked_times(&self, other: &Affine) -> Option<Affine> {
+        let terms = |form: &Affine| {
+            let sizes = form.sizes.iter().map(|(size, k)| (vec![*size], *k));
+            let constant = (form.constant != 0).then(|| (Vec::new(), form.constant));
+            let products = form.products.iter().cloned();
+            constant.into_iter().chain(sizes).chain(products).collect()
+        };
+        let (a, b): (Vec<(Vec<Size>, i64)>, Vec<_>) = (terms(self), terms(other));
+        let mut product = Affine::default();
+        for (own, k) in &a {
+            for (others, n) in &b {
+                let mut sizes = [own.as_slice(), others].concat();
+                sizes.sort_unstable();
+                let term = match *sizes.as_slice() {
+                    [] => Affine::constant(1),
+                    [size] => Affine::size(size),
+                    _ => Affine {
+                        products: vec![(sizes, 1)],
+                        ..Affine::default()
+                    },
+                };
+                product = product.checked_plus(k.checked_mul(*n)?, &term)?;
+            }
+        }
+        (self.loops.is_empty() && other.loops.is_empty()).then_some(product)
+    }
+    /// Whether any size occurs.
+    #[must_use]
+    pub fn has_sizes(&self) -> bool {
+        !(self.sizes.is_empty() && self.products.is_empty())
+    }
+    /// The sizes that occur, those in products too.
+    pub fn all_sizes(&self) -> impl Iterator<Item = Size> {
+        let products = self.products.iter().flat_map(|(sizes, _)| sizes);
+        (self.sizes.iter().map(|(size, _)| size).chain(products)).copied()
     }
     /// `self + factor·other`.
     ///
@@ -107,13 +154,17 @@ impl Affine {
     /// The value, if it is a constant.
     #[must_use]
     pub fn as_constant(&self) -> Option<i64> {
-        (self.loops.is_empty() && self.sizes.is_empty()).then_some(self.constant)
+        (self.loops.is_empty() && !self.has_sizes()).then_some(self.constant)
     }
     /// The value for given loop variables and sizes.
     pub fn value(&self, variable: &impl Fn(Domain) -> i64, size: &impl Fn(Size) -> i64) -> i64 {
         let loops: i64 = self.loops.iter().map(|&(d, k)| k * variable(d)).sum();
         let sizes: i64 = self.sizes.iter().map(|&(s, k)| k * size(s)).sum();
-        self.constant + loops + sizes
+        let product = |sizes: &[Size]| sizes.iter().map(|s| size(*s)).product::<i64>();
+        let products: i64 = (self.products.iter())
+            .map(|(sizes, k)| k * product(sizes))
+            .sum();
+        self.constant + loops + sizes + products
     }
     /// The factor of a loop variable.
     #[must_use]
@@ -162,12 +213,19 @@ impl Affine {
     /// Whether a form over sizes is at least 0 whatever the sizes are.
     #[must_use]
     pub fn is_never_negative(&self) -> bool {
-        self.constant >= 0 && self.sizes.iter().all(|(_, factor)| *factor >= 0)
+        self.constant >= 0 && self.factors_of_sizes().all(|factor| factor >= 0)
     }
     /// Whether a form over sizes is below 0 whatever the sizes are.
     #[must_use]
     pub fn is_always_negative(&self) -> bool {
-        self.constant < 0 && self.sizes.iter().all(|(_, factor)| *factor <= 0)
+        self.constant < 0 && self.factors_of_sizes().all(|factor| factor <= 0)
+    }
+    fn factors_of_sizes(&self) -> impl Iterator<Item = i64> {
+        let products = self.products.iter().map(|(_, factor)| *factor);
+        self.sizes
+            .iter()
+            .map(|(_, factor)| *factor)
+            .chain(products)
     }
     /// The loop variables as a bit set.
     #[must_use]
@@ -189,13 +247,25 @@ impl End {
     }
 }
 
-/// An index: affine, optionally modulo a size (Euclidean).
+/// An index: affine, optionally modulo a size (Euclidean). Of an array with several axes it is that of the
+/// last one, with those of the axes before it.
 #[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Index {
     /// The affine part.
     pub affine: Affine,
     /// The modulus.
     pub modulo: Option<Affine>,
+    /// The index of the axes before, of an array whose elements are counted row after row.
+    pub outer: Option<Box<Outer>>,
+}
+
+/// The index of the axes before the last: the element is `index·extent + last index`.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Outer {
+    /// The index of these axes.
+    pub index: Index,
+    /// The extent of the last axis, over sizes.
+    pub extent: Affine,
 }
 
 impl Index {
@@ -205,6 +275,7 @@ impl Index {
         Index {
             affine,
             modulo: None,
+            outer: None,
         }
     }
     /// `affine % modulo`, with multiples of the modulus taken out.
@@ -220,6 +291,7 @@ impl Index {
             && modulo.constant == 0
             && modulo.sizes.len() == 1
             && modulo.sizes[0].1 == 1
+            && modulo.products.is_empty()
         {
             affine.sizes.retain(|(s, _)| *s != modulo.sizes[0].0);
         } else if let Some(m) = modulo.as_constant().filter(|m| *m > 0) {
@@ -228,7 +300,55 @@ impl Index {
         Index {
             affine,
             modulo: Some(modulo),
+            outer: None,
         }
+    }
+    /// The element with the index `last` of an axis of that extent, in row `self`. Where all are
+    /// numbers it is the number of the element, so that equal elements have equal indices.
+    #[must_use]
+    pub fn row_of(self, extent: Affine, last: Index) -> Index {
+        if let (Some(row), Some(extent), Some(last)) =
+            (self.as_constant(), extent.as_constant(), last.as_constant())
+        {
+            return Index::constant(row * extent + last);
+        }
+        let outer = Outer {
+            index: self,
+            extent,
+        };
+        Index {
+            outer: Some(Box::new(outer)),
+            ..last
+        }
+    }
+    /// The index with that of each axis replaced, the axes before the last first; `None` where one has no
+    /// image.
+    pub fn try_map(&self, replace: &mut impl FnMut(&Index) -> Option<Index>) -> Option<Index> {
+        let Some(outer) = &self.outer else {
+            return replace(self);
+        };
+        let before = outer.index.try_map(replace)?;
+        let last = replace(&self.last())?;
+        Some(before.row_of(outer.extent.clone(), last))
+    }
+    /// The index of the last axis by itself.
+    #[must_use]
+    pub fn last(&self) -> Index {
+        Index {
+            affine: self.affine.clone(),
+            modulo: self.modulo.clone(),
+            outer: None,
+        }
+    }
+    /// The indices of all axes, the first one first, each by itself.
+    #[must_use]
+    pub fn axes(&self) -> Vec<Index> {
+        let mut axes = match &self.outer {
+            Some(outer) => outer.index.axes(),
+            None => Vec::new(),
+        };
+        axes.push(self.last());
+        axes
     }
     /// A constant index.
     #[must_use]
@@ -238,31 +358,48 @@ impl Index {
     /// The value, if it is a constant without modulus.
     #[must_use]
     pub fn as_constant(&self) -> Option<i64> {
-        match self.modulo {
-            None => self.affine.as_constant(),
-            Some(_) => None,
+        match (&self.modulo, &self.outer) {
+            (None, None) => self.affine.as_constant(),
+            _ => None,
         }
     }
     /// The value for given loop variables and sizes.
     pub fn value(&self, variable: &impl Fn(Domain) -> i64, size: &impl Fn(Size) -> i64) -> i64 {
         let value = self.affine.value(variable, size);
-        match &self.modulo {
+        let last = match &self.modulo {
             Some(modulo) => value.rem_euclid(modulo.value(variable, size).max(1)),
             None => value,
+        };
+        match &self.outer {
+            Some(outer) => {
+                outer.index.value(variable, size) * outer.extent.value(variable, size) + last
+            }
+            None => last,
         }
     }
     /// The same with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Index {
-        let affine = self.affine.substitute(&mut replace);
-        match &self.modulo {
-            Some(modulo) => Index::wrapped(affine, modulo.substitute(replace)),
+        self.substituted(&mut replace)
+    }
+    fn substituted(&self, replace: &mut impl FnMut(Domain) -> Affine) -> Index {
+        // The arena numbers loops as they are met: outer axes first.
+        let before = (self.outer.as_ref())
+            .map(|outer| (outer.index.substituted(replace), outer.extent.clone()));
+        let affine = self.affine.substitute(&mut *replace);
+        let last = match &self.modulo {
+            Some(modulo) => Index::wrapped(affine, modulo.substitute(&mut *replace)),
             None => Index::plain(affine),
+        };
+        match before {
+            Some((row, extent)) => row.row_of(extent, last),
+            None => last,
         }
     }
     /// The loop variables as a bit set.
     #[must_use]
     pub fn variables(&self) -> u64 {
-        self.affine.variables() | self.modulo.as_ref().map_or(0, Affine::variables)
+        let own = self.affine.variables() | self.modulo.as_ref().map_or(0, Affine::variables);
+        own | self.outer.as_ref().map_or(0, |outer| outer.index.variables())
     }
 }

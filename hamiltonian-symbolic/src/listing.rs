@@ -22,8 +22,12 @@ impl Display for Affine {
     fn fmt(&self, f: &mut Formatter) -> Result {
         let loops = self.loops.iter().map(|(d, k)| (format!("i{}", d.0), *k));
         let sizes = self.sizes.iter().map(|(s, k)| (format!("n{}", s.0), *k));
+        let products = self.products.iter().map(|(sizes, k)| {
+            let names: Vec<String> = sizes.iter().map(|s| format!("n{}", s.0)).collect();
+            (names.join("*"), *k)
+        });
         let mut is_first = true;
-        for (name, k) in loops.chain(sizes) {
+        for (name, k) in loops.chain(sizes).chain(products) {
             let (sign, size) = (if k < 0 { "-" } else { "+" }, k.unsigned_abs());
             match (is_first, k < 0) {
                 (true, false) => {}
@@ -47,6 +51,9 @@ impl Display for Affine {
 
 impl Display for Index {
     fn fmt(&self, f: &mut Formatter) -> Result {
+        if let Some(outer) = &self.outer {
+            write!(f, "({})*({}) + ", outer.index, outer.extent)?;
+        }
         match &self.modulo {
             Some(modulo) => write!(f, "({}) % ({modulo})", self.affine),
             None => write!(f, "{}", self.affine),

@@ -86,6 +86,23 @@ pub struct Group {
     pub velocity: Option<String>,
     /// The shape of all.
     pub shape: Shape<u16>,
+    /// The extents of the axes of an array whose elements, row after row, are a vector to everything that
+    /// does not name them; empty of others.
+    pub axes: Vec<Affine>,
+}
+
+/// The indices of an element that is given by its number, of an array with these axes.
+fn places(axes: &[i64], element: i64) -> Vec<i64> {
+    let mut rest = element;
+    let mut places: Vec<i64> = (axes.iter().rev())
+        .map(|extent| {
+            let place = rest.rem_euclid((*extent).max(1));
+            rest = rest.div_euclid((*extent).max(1));
+            place
+        })
+        .collect();
+    places.reverse();
+    places
 }
 
 impl Group {
@@ -96,6 +113,7 @@ impl Group {
             momentum: momentum.into(),
             velocity: None,
             shape: Shape::Scalar,
+            axes: Vec::new(),
         }
     }
     /// The name of one side.
@@ -306,6 +324,45 @@ impl Model {
     /// The group of a column; a group that replaces another has its shape.
     fn group_of(&self, group: u16) -> &Group {
         &self.groups[usize::from(group % REPLACING)]
+    }
+    /// The extents of the axes of an array whose elements are a vector, row after row; none of others.
+    #[must_use]
+    pub fn axes(&self, array: Array) -> &[Affine] {
+        match array {
+            Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
+                &self.group_of(at.group).axes
+            }
+            Array::Parameter(_) | Array::Held(_) => &[],
+        }
+    }
+    /// The indices of all axes, the first one first: of an array with axes those of the element that an
+    /// index is the number of.
+    #[must_use]
+    pub fn places(&self, array: Array, row: &Index) -> Vec<Index> {
+        let axes: Option<Vec<i64>> = self.axes(array).iter().map(Affine::as_constant).collect();
+        match (axes, row.as_constant()) {
+            (Some(axes), Some(element)) if !axes.is_empty() => {
+                let places = places(&axes, element).into_iter();
+                places.map(Index::constant).collect()
+            }
+            _ => row.axes(),
+        }
+    }
+    /// The name of an element of the array `name`, given its row (of an array with axes the number of the
+    /// element) and column, and what extents are.
+    #[must_use]
+    pub fn element(
+        &self,
+        name: &str,
+        array: Array,
+        [row, column]: [i64; 2],
+        extent: impl Fn(&Affine) -> i64,
+    ) -> String {
+        let axes: Vec<i64> = self.axes(array).iter().map(extent).collect();
+        match axes.as_slice() {
+            [] => self.shape(array).element(name, row, column),
+            axes => (places(axes, row).iter()).fold(name.to_owned(), |name, at| format!("{name}[{at}]")),
+        }
     }
     /// The shape of an array.
     #[must_use]

@@ -425,8 +425,8 @@ fn overwrite(
     };
     if let [at] = own {
         let store = &mut stores[*at];
-        if let (None, Some(domain)) = (&store.column, dag.loop_of_rows(&store.row, &rows))
-            && dag.variables(store.value) & !(1u64 << domain.0) == 0
+        if let (None, Some(loops)) = (&store.column, dag.loops_of_rows(&store.row, &rows))
+            && dag.variables(store.value) & !loops == 0
         {
             store.add = false;
             return;

@@ -77,6 +77,17 @@ impl Dag {
         by: &Index,
         moved: &mut Moved,
     ) -> Option<Index> {
+        index.try_map(&mut |axis| self.axis_at(axis, variable, by, moved))
+    }
+
+    /// The same of one axis.
+    fn axis_at(
+        &mut self,
+        index: &Index,
+        variable: Domain,
+        by: &Index,
+        moved: &mut Moved,
+    ) -> Option<Index> {
         let image = index.substitute(|d| match d == variable {
             true => by.affine.clone(),
             false => Affine::variable(self.moved(d, variable, &by.affine, moved)),
@@ -131,6 +142,11 @@ impl Dag {
 
     /// `i % N` for i in 0..N is `i`.
     pub(crate) fn unwrapped(&self, index: Index) -> Index {
+        let plain = index.try_map(&mut |axis| Some(self.axis_unwrapped(axis.clone())));
+        plain.unwrap_or(index)
+    }
+
+    fn axis_unwrapped(&self, index: Index) -> Index {
         match (index.affine.loops.as_slice(), &index.modulo) {
             ([(domain, 1)], Some(modulo))
                 if index.affine == Affine::variable(*domain) && self.runs_over(*domain, modulo) =>

@@ -79,6 +79,11 @@ impl Dag {
             let node = self.extent(size);
             terms.push((Rational::integer(k), node));
         }
+        for (sizes, k) in &affine.products {
+            let factors: Vec<Node> = sizes.iter().map(|size| self.extent(*size)).collect();
+            let node = self.mul(&factors);
+            terms.push((Rational::integer(*k), node));
+        }
         self.linear(&Rational::integer(affine.constant), &terms)
     }
 

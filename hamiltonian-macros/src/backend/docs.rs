@@ -106,11 +106,18 @@ fn signature(model: &Model) -> String {
         Shape::Vector(rows) => format!("[{}]", print::extent(model, rows)),
         Shape::Matrix(rows, columns) => format!("[{}][{columns}]", print::extent(model, rows)),
     };
+    let extents = |group: &hamiltonian_symbolic::model::Group| match group.axes.as_slice() {
+        [] => shape(&group.shape),
+        axes => {
+            let extents = axes.iter().map(|axis| print::extent(model, axis));
+            extents.map(|extent| format!("[{extent}]")).collect()
+        }
+    };
     let list = |name: fn(&hamiltonian_symbolic::model::Group) -> &String| {
         let names = model
             .groups
             .iter()
-            .map(|group| format!("{}{}", name(group), shape(&group.shape)));
+            .map(|group| format!("{}{}", name(group), extents(group)));
         names.collect::<Vec<_>>().join(", ")
     };
     let (coordinates, momenta) = (

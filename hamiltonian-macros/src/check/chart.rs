@@ -234,6 +234,11 @@ impl Checker<'_> {
             Type::Vector(bodies) | Type::Matrix(bodies, _) => Some(bodies),
             Type::Scalar | Type::Bool => None,
         };
+        if self.out.groups[group.0 as usize].is_lattice {
+            let message = format!("`{positions}` has more components a body than space has");
+            self.report.error(positions.span(), message, form);
+            return None;
+        }
         let ty = self.out.parameters[parameter].ty;
         if extents.is_none_or(|bodies| ty != Type::Vector(bodies)) {
             let message = format!(

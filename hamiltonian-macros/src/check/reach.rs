@@ -45,7 +45,11 @@ impl Checker<'_> {
             }
             let proven = room.is_never_negative() && self.runs_over(&affine, modulo);
             let modulo = Some(modulo.affine());
-            let index = Index { affine, modulo };
+            let index = Index {
+                affine,
+                modulo,
+                outer: None,
+            };
             if !proven {
                 // Of the whole index nothing but the modulus matters, where it is computed at all.
                 self.needs(base, raw.0, &index, last, extent);

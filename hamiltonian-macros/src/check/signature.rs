@@ -5,12 +5,15 @@
 //! Invariant: each coordinate has a partner of its shape.
 
 use super::{Binding, Checker};
-use crate::ast::{Declarator, Signature, StatementKind};
+use crate::ast::{Declarator, Signature, Size, StatementKind};
 use crate::checked::{Extent, Group, GroupId, Type, Variable};
 use crate::names::listed;
 use proc_macro2::{Ident, Span};
 use quote::format_ident;
 use std::collections::HashMap;
+
+/// The largest last extent whose columns are written out, each an array of its own.
+const WRITTEN_OUT: u64 = 4;
 
 impl Checker<'_> {
     /// The signature of the definition. Whether its names are known.
@@ -90,11 +93,19 @@ impl Checker<'_> {
             None => self.declare(&momentum, known(Binding::Phase(Variable::Momentum, id))),
         }
         let ty = ty.unwrap_or(Type::Scalar);
+        let is_lattice = match ty {
+            Type::Matrix(_, Extent::Literal(columns)) => {
+                velocity.is_none() && columns > WRITTEN_OUT
+            }
+            Type::Matrix(_, Extent::Size(_)) => true,
+            _ => false,
+        };
         self.out.groups.push(Group {
             coordinate,
             momentum,
             velocity,
             ty,
+            is_lattice,
         });
     }
 
@@ -133,8 +144,8 @@ impl Checker<'_> {
         }
         for (coordinate, other) in coordinates.iter().zip(others) {
             let ty = self
-                .variable_type(coordinate)
-                .filter(|due| self.same_shape(coordinate, other, *due));
+                .variable_type(coordinate, lagrangian)
+                .filter(|due| self.same_shape(coordinate, other, *due, lagrangian));
             let name = coordinate.name.clone();
             if lagrangian {
                 let momentum = format_ident!("p_{name}", span = name.span());
@@ -228,8 +239,14 @@ impl Checker<'_> {
     }
 
     /// Whether a momentum (velocity) has the shape of its coordinate.
-    fn same_shape(&mut self, coordinate: &Declarator, other: &Declarator, due: Type) -> bool {
-        let Some(found) = self.variable_type(other) else {
+    fn same_shape(
+        &mut self,
+        coordinate: &Declarator,
+        other: &Declarator,
+        due: Type,
+        lagrangian: bool,
+    ) -> bool {
+        let Some(found) = self.variable_type(other, lagrangian) else {
             return false;
         };
         if found == due {
@@ -277,15 +294,37 @@ impl Checker<'_> {
     }
 
     /// The shape of a coordinate or momentum.
-    fn variable_type(&mut self, variable: &Declarator) -> Option<Type> {
-        let ty = self.array(&variable.sizes)?;
-        if let (Type::Matrix(_, Extent::Size(_)), Some(last)) = (ty, variable.sizes.last()) {
-            let message = format!("the last extent of `{}` is not a number", variable.name);
-            let help = format!("write a number there: `{}[n][3]`", variable.name);
-            self.report.error(last.span(), message, help);
+    fn variable_type(&mut self, variable: &Declarator, lagrangian: bool) -> Option<Type> {
+        let [rows, columns] = variable.sizes.as_slice() else {
+            return self.array(&variable.sizes);
+        };
+        match columns {
+            Size::Name(_) if lagrangian => {
+                let message = format!("the last extent of `{}` is not a number", variable.name);
+                let help = format!(
+                    "write a number there, `{}[n][3]`, or write H(q; p), where it may be a size",
+                    variable.name
+                );
+                self.report.error(columns.span(), message, help);
+                None
+            }
+            Size::Literal(..) if lagrangian => self.array(&variable.sizes),
+            Size::Literal(number, _) if *number <= WRITTEN_OUT => self.array(&variable.sizes),
+            _ => self.lattice(rows, columns),
+        }
+    }
+
+    /// The shape of coordinates that are stored row after row, on the heap.
+    fn lattice(&mut self, rows: &Size, columns: &Size) -> Option<Type> {
+        let (of_rows, of_columns) = (self.extent(rows)?, self.extent(columns)?);
+        let number = of_rows.affine().checked_times(&of_columns.affine());
+        if number.is_none() {
+            let message = "an array of so many numbers fits into no memory";
+            self.report
+                .error(rows.span(), message, "write smaller extents");
             return None;
         }
-        Some(ty)
+        Some(Type::Matrix(of_rows, of_columns))
     }
 }
 

@@ -350,9 +350,14 @@ impl Writer<'_> {
             };
             line!(self, "let _w{d}_{at} = {start};");
             line!(self, "if {room} < _l{d} {{ _l{d} = {room}; }}");
+            let own = start_name(domain, at, index);
+            if index.outer.is_some() {
+                let start = self.context.indices.in_row(index, &format!("_w{d}_{at}"));
+                line!(self, "let {own} = {start};");
+            }
             let sign = if *factor > 0 { '+' } else { '-' };
             self.indices
-                .push((index.clone(), format!("_w{d}_{at} {sign} _k{d}")));
+                .push((index.clone(), format!("{own} {sign} _k{d}")));
         }
     }
 
@@ -365,7 +370,7 @@ impl Writer<'_> {
                     let start = self.indices[known].1.split(' ').next();
                     start.expect("text has a first word").to_owned()
                 }
-                None => self.context.indices.plain(&index.affine),
+                None => self.context.indices.index(index),
             };
             line!(
                 self,
@@ -377,6 +382,13 @@ impl Writer<'_> {
                 .push((*slice, index.clone(), format!("_x{d}_{at}[_k{d}]")));
         }
     }
+}
+
+/// The name of the start of a wrapped index in a segment: its place on the last axis, which the rows
+/// before it are added to.
+fn start_name(domain: Domain, at: usize, index: &Index) -> String {
+    let word = if index.outer.is_some() { 'o' } else { 'w' };
+    format!("_{word}{}_{at}", domain.0)
 }
 
 /// The borrow of a part of a slice.
@@ -401,7 +413,8 @@ pub(super) struct Accesses {
 impl Accesses {
     /// Whether the loop counts from 0 and columns run along with it element by element.
     fn is_plain(&self, inner: &Loop) -> bool {
-        let along = |(_, index): &(Slice, Index)| index.affine == Affine::variable(inner.domain);
+        let along =
+            |(_, index): &(Slice, Index)| *index == Index::plain(Affine::variable(inner.domain));
         self.wrapped.is_empty()
             && inner.start.as_constant() == Some(0)
             && self.cuts.iter().all(along)
@@ -410,7 +423,7 @@ impl Accesses {
     /// The name of the start of a wrapped index in a segment.
     pub(super) fn start_of(&self, domain: Domain, index: &Index) -> Option<String> {
         let at = self.wrapped.iter().position(|(known, _)| known == index)?;
-        Some(format!("_w{}_{at}", domain.0))
+        Some(start_name(domain, at, index))
     }
 
     /// Those of a loop; none where iterations read and write one point, which has no parts to cut.
@@ -489,6 +502,10 @@ impl Finder<'_> {
     fn index(&mut self, index: &Index, inner: u64) -> bool {
         let variables = index.variables();
         if variables & inner != 0 || variables & 1 << self.domain.0 == 0 {
+            return false;
+        }
+        let outer = index.outer.as_ref().map_or(0, |o| o.index.variables());
+        if outer & 1 << self.domain.0 != 0 {
             return false;
         }
         let factor = index.affine.factor(self.domain);

@@ -463,6 +463,7 @@ fn groups(model: &Model, layout: Layout) -> String {
     for (at, group) in model.groups.iter().enumerate() {
         let columns = group.shape.columns();
         let rank = match &group.shape {
+            _ if !group.axes.is_empty() => group.axes.len(),
             Shape::Scalar => 0,
             Shape::Vector(_) => 1,
             Shape::Matrix(..) => 2,

@@ -46,6 +46,10 @@ impl Indices<'_> {
         for &(size, factor) in &affine.sizes {
             push(factor, self.size(size).to_owned());
         }
+        for (sizes, factor) in &affine.products {
+            let names: Vec<&str> = sizes.iter().map(|size| self.size(*size)).collect();
+            push(*factor, names.join(" * "));
+        }
         if affine.constant != 0 {
             push(
                 affine.constant.signum(),
@@ -113,9 +117,21 @@ impl Indices<'_> {
 
     /// An index wherever it stands.
     pub fn index(&self, index: &Index) -> String {
-        match &index.modulo {
+        let last = match &index.modulo {
             Some(modulo) => self.wrapped(&index.affine, modulo),
             None => self.plain(&index.affine),
+        };
+        self.in_row(index, &last)
+    }
+
+    /// The number of an element whose place on the last axis is given.
+    pub fn in_row(&self, index: &Index, last: &str) -> String {
+        match &index.outer {
+            Some(outer) => {
+                let (row, extent) = (self.index(&outer.index), self.modulus(&outer.extent));
+                format!("({row}) * {extent} + {last}")
+            }
+            None => last.to_owned(),
         }
     }
 }

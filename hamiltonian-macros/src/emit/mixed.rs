@@ -9,7 +9,7 @@ use std::fmt::Write;
 
 /// The traits the struct derives: it is `Copy` where static vectors are.
 pub fn derives(context: Context) -> String {
-    let is_static = |group: &Group| !context.is_dynamic(&group.shape.of_parameter());
+    let is_static = |group: &Group| !context.is_on_heap(group);
     let copy = match context.groups.iter().all(is_static) {
         true => "__h::core::marker::Copy, ",
         false => "",
@@ -24,7 +24,7 @@ pub fn declaration(context: Context) -> String {
     let visibility = &context.generics.visibility;
     let mut fields = String::new();
     for group in context.groups {
-        let ty = context.storage(&group.shape.of_parameter(), "T");
+        let ty = context.group_storage(group, "T");
         let doc = format!(
             " `{}` of coordinates, `{}` of momenta.",
             group.coordinate, group.momentum
@@ -60,7 +60,7 @@ fn arguments(context: Context) -> Arguments {
             arguments.push(format!("_{at}: T"));
             fields.push(format!("{field}: _{at}"));
         } else {
-            let storage = context.storage(&group.shape.of_parameter(), "T");
+            let storage = context.group_storage(group, "T");
             kinds.push(format!(
                 "K{at}, V{at}: __h::IntoVector<K{at}, Vector = {storage}>"
             ));
@@ -103,6 +103,7 @@ pub fn implementations(context: Context) -> String {
         fields,
     } = arguments(context);
     let (mut parts, mut parts_mut, mut columns) = (String::new(), String::new(), String::new());
+    let mut extents = String::new();
     let (mut zeros, mut zeros_over, mut takes) = (String::new(), String::new(), String::new());
     for (at, group) in groups.iter().enumerate() {
         let field = &group.coordinate;
@@ -127,6 +128,9 @@ pub fn implementations(context: Context) -> String {
         } else {
             let _ = writeln!(parts, "{pattern} => self.{field}.as_slice(),");
             let _ = writeln!(columns, "{at} => __h::Vector::columns(&self.{field}, 0),");
+            if !group.axes.is_empty() {
+                let _ = writeln!(extents, "{at} => __h::Vector::extents(&self.{field}, 0),");
+            }
             let _ = writeln!(parts_mut, "{pattern} => self.{field}.as_mut_slice(),");
             let _ = write!(zeros, "{field}: __h::Vector::zeros_like(&self.{field}), ");
             let _ = write!(
@@ -136,12 +140,18 @@ pub fn implementations(context: Context) -> String {
             let _ = write!(takes, "{field}: __h::Vector::take(&mut self.{field}), ");
         }
     }
+    if !extents.is_empty() {
+        extents = format!(
+            "fn extents(&self, _k: __h::core::primitive::usize) -> &[__h::core::primitive::usize] {{ match _k {{ {extents} _ => &[] }} }}\n"
+        );
+    }
     format!(
         "#[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
          type Scalar = T;\nconst PARTS: __h::core::primitive::usize = {};\n\
          #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
          #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
          fn columns(&self, _k: __h::core::primitive::usize) -> __h::core::primitive::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
+         {extents}\
          fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
          type Over<__U: __h::Real> = {over};\n\
          #[inline(always)]\nfn zeros_over<__U: __h::Real>(&self) -> {over} {{ {name} {{ {zeros_over} }} }}\n\

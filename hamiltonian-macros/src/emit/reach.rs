@@ -17,7 +17,7 @@ fn sizes(reach: &Reach) -> Vec<Size> {
     let ranges = reach.loops.iter().flat_map(|(_, range)| range);
     let forms = ranges.chain([&reach.form]);
     let mut sizes: Vec<Size> = forms
-        .flat_map(|form| form.sizes.iter().map(|(size, _)| *size))
+        .flat_map(Affine::all_sizes)
         .collect();
     sizes.sort_unstable();
     sizes.dedup();

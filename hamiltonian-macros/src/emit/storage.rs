@@ -12,8 +12,8 @@ use std::fmt::Write;
 impl Context<'_> {
     /// Whether an extent is set at run time.
     fn is_set_at_run_time(self, extent: &Affine) -> bool {
-        let mut sizes = extent.sizes.iter();
-        sizes.any(|(size, _)| self.is_run_time[usize::from(size.0)])
+        let mut sizes = extent.all_sizes();
+        sizes.any(|size| self.is_run_time[usize::from(size.0)])
     }
 
     /// Whether any extent of a shape is set at run time.
@@ -85,18 +85,42 @@ impl Context<'_> {
         format!("__h::Matrix::from_element_generic({rows}, {columns}, {ZERO})")
     }
 
+    /// The type of the coordinates of a group.
+    pub fn group_storage(self, group: &Group, scalar: &str) -> String {
+        match group.axes.len() {
+            0 => self.storage(&group.shape.of_parameter(), scalar),
+            rank => format!("__h::Lattice<{scalar}, {rank}>"),
+        }
+    }
+
+    /// The expression of the zero coordinates of a group.
+    fn group_zero(self, group: &Group) -> String {
+        if group.axes.is_empty() {
+            return self.zero(&group.shape.of_parameter());
+        }
+        let extents: Vec<String> = (group.axes.iter())
+            .map(|extent| self.indices.plain(extent))
+            .collect();
+        format!("__h::Lattice::zeros([{}])", extents.join(", "))
+    }
+
+    /// Whether the coordinates of a group are on the heap.
+    pub fn is_on_heap(self, group: &Group) -> bool {
+        !group.axes.is_empty() || self.is_dynamic(&group.shape.of_parameter())
+    }
+
     /// The type of coordinates and of momenta over `T`.
     pub fn vector(self) -> String {
         match self.layout {
             Layout::Scalars => format!("__h::SVector<T, {}>", self.groups.len()),
-            Layout::Array => self.storage(&self.groups[0].shape.of_parameter(), "T"),
+            Layout::Array => self.group_storage(&self.groups[0], "T"),
             Layout::Mixed => self.mixed_type(),
         }
     }
 
     /// The expression of the zero vector, where run-time sizes are called as in bodies.
     pub fn zeros(self) -> String {
-        let zero = |group: &Group| self.zero(&group.shape.of_parameter());
+        let zero = |group: &Group| self.group_zero(group);
         let groups = self.groups;
         match self.layout {
             Layout::Scalars => {
@@ -135,9 +159,10 @@ impl Context<'_> {
             } else {
                 ("", "ref")
             };
+            let group = &self.groups[usize::from(group)];
             let Group {
                 shape, coordinate, ..
-            } = &self.groups[usize::from(group)];
+            } = group;
             // Two parts of one vector are borrowed at once only as fields.
             let whole = match (self.layout, shape) {
                 (Layout::Mixed, Shape::Scalar) => {
@@ -147,7 +172,7 @@ impl Context<'_> {
                 (Layout::Mixed, _) => format!("{vector}.{coordinate}.as{suffix}_slice()"),
                 _ => format!("__h::Vector::part{suffix}({vector}, 0)"),
             };
-            let is_cut = shape.columns() > 1 || self.is_dynamic(&shape.of_parameter());
+            let is_cut = shape.columns() > 1 || self.is_on_heap(group);
             let _ = match shape.rows() {
                 Some(rows) if self.layout != Layout::Scalars && is_cut => {
                     let rows = self.indices.plain(rows);

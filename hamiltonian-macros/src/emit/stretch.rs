@@ -192,7 +192,7 @@ impl Writer<'_> {
             return None;
         }
         match &row.modulo {
-            None => Some(self.context.indices.plain(&row.affine)),
+            None => Some(self.context.indices.index(row)),
             Some(_) => found.start_of(inner.domain, row),
         }
     }

@@ -421,9 +421,15 @@ impl<'a> Evaluator<'a> {
             },
             Shape::Scalar | Shape::Vector(_) => 0,
         };
+        let axes = &model.groups[usize::from(group)].axes;
         let row = match shape {
             Shape::Scalar => Index::constant(0),
-            Shape::Vector(_) | Shape::Matrix(..) => demand.indices[0].clone(),
+            Shape::Vector(_) | Shape::Matrix(..) => {
+                let inner = axes.iter().zip(&demand.indices).skip(1);
+                inner.fold(demand.indices[0].clone(), |row, (extent, index)| {
+                    row.row_of(extent.clone(), index.clone())
+                })
+            }
         };
         let of = |group| Column {
             side: Side::Q,

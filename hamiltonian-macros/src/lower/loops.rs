@@ -113,8 +113,9 @@ impl Loops {
         let of = |child: NodeId| self.by_number[child.0 as usize];
         match &node.kind {
             // Columns of coordinates are separate arrays.
-            Kind::Phase(..) => {
-                matches!(node.ty, Type::Matrix(..))
+            Kind::Phase(_, group) => {
+                let is_lattice = checked.groups[group.0 as usize].is_lattice;
+                matches!(node.ty, Type::Matrix(..)) && !is_lattice
             }
             Kind::Vector(_) | Kind::Call(Builtin::Cross, _) => true,
             Kind::Index { base, index } => {

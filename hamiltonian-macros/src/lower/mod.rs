@@ -29,7 +29,7 @@ use hamiltonian_symbolic::model::{
 };
 use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
-use scope::{group_shape, shape};
+use scope::{axes, group_shape, shape};
 
 /// Past this many nodes an expression is given up: its program would be past the cap many times
 /// over.
@@ -232,6 +232,12 @@ impl Evaluator<'_> {
                     }
                 },
             };
+            let axes = model.groups[group].axes.clone();
+            let places = if axes.is_empty() {
+                places
+            } else {
+                sites(&mut model.dag, &axes)
+            };
             for (row, column) in places
                 .iter()
                 .flat_map(|row| (0..columns).map(move |column| (row, column)))
@@ -239,9 +245,9 @@ impl Evaluator<'_> {
                 let mut demand = Demand::default();
                 match (at_row, row.affine.as_constant()) {
                     (Some(id), Some(number)) => demand.values.push((id, number)),
-                    (Some(_), None) => {}
+                    (Some(_), None) => demand.indices.extend(row.axes().into_iter().skip(1)),
                     (None, _) if shape == Shape::Scalar => {}
-                    (None, _) => demand.indices.push(row.clone()),
+                    (None, _) => demand.indices.extend(row.axes()),
                 }
                 if matches!(shape, Shape::Matrix(..)) {
                     demand.indices.push(Index::constant(i64::from(column)));
@@ -258,6 +264,21 @@ impl Evaluator<'_> {
         }
         Some(entries)
     }
+}
+
+/// The index of each site of a lattice, in loops over its axes.
+fn sites(dag: &mut Dag, axes: &[Affine]) -> Vec<Index> {
+    let mut parent = None;
+    let site = axes.iter().fold(None, |row: Option<Index>, extent| {
+        let domain = dag.domain(parent, Affine::constant(0), extent.clone());
+        parent = Some(domain);
+        let index = Index::plain(Affine::variable(domain));
+        Some(match row {
+            Some(row) => row.row_of(extent.clone(), index),
+            None => index,
+        })
+    });
+    site.into_iter().collect()
 }
 
 /// Names and shapes.
@@ -278,7 +299,8 @@ fn declarations(checked: &Checked) -> Option<Model> {
             coordinate: group.coordinate.to_string(),
             momentum: group.momentum.to_string(),
             velocity: group.velocity.as_ref().map(ToString::to_string),
-            shape: group_shape(group.ty)?,
+            shape: group_shape(group)?,
+            axes: axes(group),
         })
     };
     Some(Model {

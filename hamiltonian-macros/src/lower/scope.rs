@@ -2,7 +2,8 @@
 //!
 //! Input: types of check. Output: shapes of the model. Invariant: sizes have the same numbers in both.
 
-use crate::checked::{Extent, Type};
+use crate::checked::{Extent, Group, Type};
+use hamiltonian_symbolic::index::Affine;
 use hamiltonian_symbolic::model::Shape;
 
 /// A shape.
@@ -14,10 +15,21 @@ pub fn shape(ty: Type) -> Shape {
     }
 }
 
-/// The shape of a group of coordinates. Its columns are literal; `None` where they are not, which
-/// check refuses.
-pub fn group_shape(ty: Type) -> Option<Shape<u16>> {
-    Some(match ty {
+/// The extents of the axes of a lattice, row after row; none of other groups.
+pub fn axes(group: &Group) -> Vec<Affine> {
+    match group.ty {
+        Type::Matrix(rows, columns) if group.is_lattice => vec![rows.affine(), columns.affine()],
+        _ => Vec::new(),
+    }
+}
+
+/// The shape of a group of coordinates: a lattice is a vector of its elements, the columns of another
+/// matrix are literal. `None` where they are not, which check refuses.
+pub fn group_shape(group: &Group) -> Option<Shape<u16>> {
+    Some(match group.ty {
+        Type::Matrix(rows, columns) if group.is_lattice => {
+            Shape::Vector(rows.affine().checked_times(&columns.affine())?)
+        }
         Type::Bool | Type::Scalar => Shape::Scalar,
         Type::Vector(rows) => Shape::Vector(rows.affine()),
         Type::Matrix(rows, Extent::Literal(columns)) => {

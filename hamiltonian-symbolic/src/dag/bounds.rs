@@ -14,16 +14,37 @@ impl Dag {
         let range = self.range(domain);
         range.start == Affine::constant(0) && range.end == *rows
     }
-    /// The loop whose iterations are the rows, each one once: that of `i` alone in `0..rows`, with no
-    /// loop around it.
+    /// The loops, as a bit set, whose iterations are the rows, each one once: that of `i` alone in
+    /// `0..rows`, or those of `i`, `j`, … for an index of several axes, with no loop around them.
     #[must_use]
-    pub(crate) fn loop_of_rows(&self, row: &Index, rows: &Affine) -> Option<Domain> {
-        let [(domain, 1)] = *row.affine.loops.as_slice() else {
-            return None;
+    pub(crate) fn loops_of_rows(&self, row: &Index, rows: &Affine) -> Option<u64> {
+        let (mut loops, mut total) = (0u64, Affine::constant(1));
+        let mut innermost = None;
+        for axis in row.axes() {
+            let [(domain, 1)] = *axis.affine.loops.as_slice() else {
+                return None;
+            };
+            let range = self.range(domain);
+            let is_new = loops >> domain.0 & 1 == 0;
+            let is_plain = axis == Index::plain(Affine::variable(domain));
+            if !(is_new && is_plain && range.start == Affine::constant(0)) {
+                return None;
+            }
+            loops |= 1 << domain.0;
+            total = total.checked_times(&range.end)?;
+            innermost = self.deepest(loops);
+        }
+        let mut around = self.path(innermost).into_iter();
+        let is_alone = around.all(|domain| loops >> domain.0 & 1 == 1);
+        (is_alone && self.fill_axes(row) && total == *rows).then_some(loops)
+    }
+    /// Whether the loop of each axis but the first runs over its extent.
+    fn fill_axes(&self, row: &Index) -> bool {
+        let Some(outer) = &row.outer else {
+            return true;
         };
-        let is_plain = *row == Index::plain(Affine::variable(domain));
-        let is_outermost = self.range(domain).parent.is_none();
-        (is_plain && is_outermost && self.runs_over(domain, rows)).then_some(domain)
+        let runs = |(domain, _): &(Domain, i64)| self.runs_over(*domain, &outer.extent);
+        row.affine.loops.iter().all(runs) && self.fill_axes(&outer.index)
     }
     /// Whether an affine form is never negative, whatever the values of its loop variables in their
     /// ranges.

@@ -33,6 +33,7 @@ pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array
             Kind::Element(array, row, None)
                 if arrays.contains(&array)
                     && row.modulo.is_none()
+                    && row.outer.is_none()
                     && dag.affine(&row.affine) == index =>
             {
                 Some(dag.element(array, own.clone(), None))
@@ -195,7 +196,11 @@ fn largest_number(dag: &Dag, root: Node) -> i64 {
                 let factors = terms.iter().map(|(factor, _)| whole(factor));
                 factors.max().unwrap_or(0).max(whole(value))
             }
-            Kind::Element(_, row, _) => row.affine.constant.saturating_abs(),
+            Kind::Element(_, row, _) => {
+                let constants = row.axes().into_iter();
+                let constants = constants.map(|axis| axis.affine.constant.saturating_abs());
+                constants.max().unwrap_or(0)
+            }
             Kind::Count(domain) | Kind::Reduce(domain, _) => {
                 let range = dag.range(*domain);
                 let start = range.start.constant.saturating_abs();

@@ -43,6 +43,10 @@ fn gather(
     k: Domain,
     rows: &Affine,
 ) -> Option<Node> {
+    if row.outer.is_some() {
+        // The number of an element says no index of an axis without a division.
+        return None;
+    }
     let Some(&outermost) = chain.first() else {
         return row
             .modulo

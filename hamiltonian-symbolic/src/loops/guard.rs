@@ -9,8 +9,8 @@ use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
 
-/// The expression with safe indices; `None` where a loop under a condition may start below 0, for
-/// which there is no such remedy. Safe indices are left as they are: indices that an author wrote
+/// The expression with safe indices; `None` where a loop under a condition may start below 0, or
+/// an element has several axes, for which there is no such remedy. Safe indices are left as they are: indices that an author wrote
 /// are in range whatever the conditions around them.
 pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) -> Option<Node> {
     let nodes = model.dag.reachable(&[root]);
@@ -39,6 +39,11 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
     for node in nodes {
         let kind = model.dag.kind(node).clone();
         let image = match kind {
+            Kind::Element(_, row, _)
+                if is_under.contains_key(&node) && !is_safe(node) && row.outer.is_some() =>
+            {
+                return None;
+            }
             Kind::Element(array, row, column) if is_under.contains_key(&node) && !is_safe(node) => {
                 let (rows, columns) = extents(model, array);
                 let row = safe(&model.dag, row, rows);

@@ -6,6 +6,7 @@
 
 use super::walk::{Meaning, Place, walk};
 use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
+use crate::index::Affine;
 use crate::model::Model;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -192,7 +193,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    fn element(&mut self, array: Array, row: i64, column: i64) -> f64 {
+    fn element(&mut self, array: Array, row: i64, column: i64, place: &Place) -> f64 {
         let key = (array, row, column);
         let value = match (self.given.get(&key), array) {
             (Some(value), _) => *value,
@@ -217,8 +218,8 @@ impl<'a> Numbers<'a> {
                 }
                 Array::Parameter(_) | Array::Held(_) => column,
             };
-            let name = self.model.array_name(array);
-            let name = self.model.shape(array).element(&name, row, column);
+            let (name, extent) = (self.model.array_name(array), |e: &Affine| place.affine(e));
+            let name = self.model.element(&name, array, [row, column], extent);
             self.point.push((name, value));
         }
         value
@@ -360,7 +361,7 @@ impl Meaning for Numbers<'_> {
                     place.index(row),
                     column.as_ref().map_or(0, |c| place.index(c)),
                 );
-                exact(self.element(*array, row, column))
+                exact(self.element(*array, row, column, place))
             }
             Kind::Sum(c, terms) => {
                 let parts = terms.iter().map(|(k, n)| {

@@ -40,6 +40,7 @@ pub fn unroll_nodes(
     let literal = |rows: &mut Affine| *rows = Affine::constant(place.affine(rows));
     for group in &mut unrolled.groups {
         group.shape.rows_mut().map(literal);
+        group.axes.iter_mut().for_each(literal);
     }
     for parameter in &mut unrolled.parameters {
         parameter.shape.rows_mut().map(literal);

@@ -174,7 +174,7 @@ impl Algebra {
     /// The atom of a sum over a loop.
     pub(crate) fn sum(&mut self, dag: &Dag, domain: Domain, body: Monomial) -> Atom {
         let range = dag.range(domain);
-        let has_sizes = !(range.start.sizes.is_empty() && range.end.sizes.is_empty());
+        let has_sizes = range.start.has_sizes() || range.end.has_sizes();
         let own = if has_sizes {
             Dependence::PARAMETER
         } else {

@@ -180,7 +180,9 @@ pub(crate) fn trials(model: &Model, roots: &[Node]) -> Vec<Vec<i64>> {
     let mut last = 0;
     for node in model.dag.reachable(roots) {
         if let Kind::Element(_, row, _) = model.dag.kind(node) {
-            last = last.max(row.affine.constant.abs());
+            for axis in row.axes() {
+                last = last.max(axis.affine.constant.abs());
+            }
         }
     }
     let mut trials: Vec<Vec<i64>> = [3, 2, 4, 1, 7].iter().map(|n| vec![*n; count]).collect();

@@ -169,20 +169,21 @@ fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
 /// Whether each loop over 0..N that is read modulo N is read bare, too.
 fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
     let nodes = dag.reachable(&[nest.body]);
-    let indices: Vec<&Index> = nodes
+    let indices: Vec<Index> = nodes
         .iter()
         .filter_map(|node| match dag.kind(*node) {
             Kind::Element(_, row, column) => Some(std::iter::once(row).chain(column)),
             _ => None,
         })
         .flatten()
+        .flat_map(Index::axes)
         .collect();
     nest.loops.iter().all(|domain| {
         let end = &dag.range(*domain).end;
-        let is_shifted = |index: &&Index| {
+        let is_shifted = |index: &Index| {
             index.affine.factor(*domain) == 1 && index.modulo.as_ref() == Some(end)
         };
-        let is_bare = |index: &&Index| index.affine == Affine::variable(*domain);
+        let is_bare = |index: &Index| index.affine == Affine::variable(*domain);
         !indices.iter().any(is_shifted) || indices.iter().any(is_bare)
     })
 }
@@ -256,7 +257,8 @@ fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
             let Kind::Element(_, row, column) = dag.kind(node) else {
                 continue;
             };
-            for index in std::iter::once(row).chain(column) {
+            let all = std::iter::once(row).chain(column);
+            for index in all.flat_map(Index::axes) {
                 if index.affine.factor(domain) == 1 && index.modulo.as_ref() == Some(&range.end) {
                     let offset = index.affine.plus(-1, &Affine::variable(domain));
                     if offset.loops.is_empty() && !offsets.contains(&offset) {

@@ -140,10 +140,13 @@ pub(crate) fn scalar_equation(
 
 /// The name of an element's index.
 fn index_name(model: &Model) -> &'static str {
-    ["k", "i", "j", "l", "n"]
-        .into_iter()
-        .find(|name| !is_taken(model, name))
-        .unwrap_or("index")
+    index_names(model).next().unwrap_or("index")
+}
+
+/// The names that nothing else has.
+fn index_names(model: &Model) -> impl Iterator<Item = &'static str> {
+    let all = ["k", "i", "j", "l", "n"].into_iter();
+    all.filter(|name| !is_taken(model, name))
 }
 
 /// The index of an element: a number, or a name with the loop that it runs in.
@@ -216,6 +219,9 @@ fn elements(
     own: &[(Index, Node)],
 ) -> Vec<(Option<Row>, Option<Node>)> {
     let domain = field::elements(&mut model.dag, rows);
+    if !model.groups[usize::from(at.group)].axes.is_empty() {
+        return vec![(Some(Row::any(model, None)), None)];
+    }
     let array = Array::Phase(at.conjugate());
     let is_numbered = |row: &Index| row.as_constant().is_some();
     let numbered = own.iter().filter(|(row, _)| is_numbered(row)).count();
@@ -259,7 +265,13 @@ impl Equation {
         let at = self.at;
         let group = &model.groups[usize::from(at.group)];
         let (own, conjugate) = (group.name(at.side), group.name(at.side.other()));
-        let mut indices: Vec<String> = self.row.iter().map(|row| row.name.clone()).collect();
+        let mut indices: Vec<String> = match group.axes.len() {
+            0 => self.row.iter().map(|row| row.name.clone()).collect(),
+            count => (index_names(model).chain(std::iter::repeat("index")))
+                .take(count)
+                .map(str::to_owned)
+                .collect(),
+        };
         if matches!(group.shape, Shape::Matrix(..)) {
             indices.push(at.column.to_string());
         }

@@ -376,7 +376,10 @@ impl<'a> Writer<'a> {
         };
         match self.model.shape(array) {
             Shape::Scalar => Vec::new(),
-            Shape::Vector(_) => vec![self.index(row)],
+            Shape::Vector(_) => {
+                let places = self.model.places(array, row).into_iter();
+                places.map(|place| self.index(&place)).collect()
+            }
             Shape::Matrix(..) => vec![self.index(row), column],
         }
     }
@@ -421,10 +424,11 @@ impl<'a> Writer<'a> {
             .iter()
             .map(|e| e.1)
             .chain(affine.sizes.iter().map(|e| e.1))
+            .chain(affine.products.iter().map(|e| e.1))
             .collect();
         match (terms.as_slice(), affine.constant) {
             ([], c) if c >= 0 => Level::Atom,
-            ([1], 0) => Level::Atom,
+            ([1], 0) if affine.products.is_empty() => Level::Atom,
             ([k], 0) if *k > 0 => Level::Product,
             _ => Level::Sum,
         }
@@ -438,6 +442,10 @@ impl<'a> Writer<'a> {
         }
         for &(size, k) in &affine.sizes {
             terms.push((k, self.named(&self.size(size))));
+        }
+        for (sizes, k) in &affine.products {
+            let names: Vec<String> = sizes.iter().map(|s| self.named(&self.size(*s))).collect();
+            terms.push((*k, names.join(self.style.times)));
         }
         if affine.constant != 0 || terms.is_empty() {
             terms.push((affine.constant, String::new()));

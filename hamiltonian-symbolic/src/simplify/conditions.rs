@@ -25,6 +25,7 @@ impl Dag {
         above.constant = above.constant.max(0);
         above.loops.retain(|(_, n)| *n > 0);
         above.sizes.retain(|(_, n)| *n > 0);
+        above.products.retain(|(_, n)| *n > 0);
         let below = above.plus(-1, affine);
         let (below, above) = (self.affine(&below), self.affine(&above));
         self.less_equal(below, above)

@@ -72,7 +72,7 @@ impl Space {
         for node in model.dag.reachable(roots) {
             match model.dag.kind(node) {
                 Kind::Element(Array::Phase(Column { group, column, .. }), row, None) => {
-                    let row = (row.modulo.is_none()).then(|| row.affine.as_constant())??;
+                    let row = row.as_constant()?;
                     places.push((*group, *column, row));
                 }
                 Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => return None,

@@ -225,6 +225,9 @@ fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Option<Vec<Node>> {
 
 /// Conditions under which two rows differ in every iteration.
 fn are_apart(dag: &mut Dag, a: &Index, b: &Index) -> Option<Vec<Node>> {
+    if a.outer.is_some() || b.outer.is_some() {
+        return None;
+    }
     let difference = a.affine.checked_plus(-1, &b.affine)?;
     let count = match (&a.modulo, &b.modulo) {
         (Some(a), Some(b)) if a != b => return None,

@@ -14,7 +14,8 @@ pub use expand::{Term, expand};
 pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;
 
-use crate::dag::{Column, Dag, Dependence, Kind, Map, Node, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Side};
+use crate::index::Affine;
 use crate::model::Model;
 use crate::print;
 use std::collections::HashSet;
@@ -159,9 +160,23 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
             coordinate: group.shape.element(&group.coordinate, index, at.column),
             momentum: group.shape.element(&group.momentum, index, at.column),
         };
+        let literal = |extent: &Affine| extent.as_constant().unwrap_or(1);
+        let numbered = |row: i64| {
+            let [coordinate, momentum] = [at, at.conjugate()].map(|at| {
+                let place = [row, i64::from(at.column)];
+                model.element(group.name(at.side), Array::Phase(at), place, literal)
+            });
+            Cyclic {
+                coordinate,
+                momentum,
+            }
+        };
         let used: Option<HashSet<i64>> = match read.get(&at) {
             None => {
-                found.push(element("i"));
+                // `i`, or `i][j` between the brackets.
+                let names = ["i", "j", "k"].into_iter().chain(std::iter::repeat("l"));
+                let names: Vec<&str> = names.take(group.axes.len().max(1)).collect();
+                found.push(element(&names.join("][")));
                 continue;
             }
             // Rows can be told apart where all are named by number.
@@ -170,7 +185,7 @@ fn cyclic(model: &Model, h: Node) -> Vec<Cyclic> {
         if let (Some(used), Some(rows)) = (used, rows.and_then(|rows| rows.as_constant())) {
             let is_unused = |row: &i64| !used.contains(row);
             let unused = (0..rows.min(1024)).filter(is_unused);
-            found.extend(unused.map(|row| element(&row.to_string())));
+            found.extend(unused.map(numbered));
         }
     }
     found

@@ -147,7 +147,7 @@ impl Bodies {
         (side, column): (Side, u16),
         row: &Index,
     ) -> Option<Node> {
-        if row.modulo.is_some() {
+        if row.modulo.is_some() || row.outer.is_some() {
             return None;
         }
         let affine = &row.affine;
@@ -233,8 +233,8 @@ impl Below {
     pub(super) fn new(model: &Model, bodies: &[Bodies]) -> Below {
         let rows = bodies.iter().filter_map(|b| {
             let rows = model.groups[usize::from(b.old)].shape.rows()?;
-            match (rows.constant, rows.loops.as_slice(), rows.sizes.as_slice()) {
-                (0, [], [(size, 1)]) => Some(size.0),
+            match rows.sizes.as_slice() {
+                [(size, 1)] if *rows == Affine::size(*size) => Some(size.0),
                 _ => None,
             }
         });
@@ -249,6 +249,9 @@ impl Below {
         for &(size, factor) in &affine.sizes {
             let own = i64::from(self.positive.contains(&size.0));
             least += (factor > 0).then_some(factor * own)?;
+        }
+        if !affine.products.is_empty() {
+            return None;
         }
         for &(domain, factor) in &affine.loops {
             let own = self.of(dag, &dag.range(domain).start)?;

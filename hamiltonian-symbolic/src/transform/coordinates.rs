@@ -300,7 +300,7 @@ fn written_out(
                 .find_map(|node| match model.dag.kind(node) {
                     Kind::Element(Array::Phase(Column { group, .. }), row, _)
                         if written.contains(group)
-                            && (row.modulo.is_some() || row.affine.as_constant().is_none()) =>
+                            && row.as_constant().is_none() =>
                     {
                         Some(*group)
                     }

@@ -75,7 +75,7 @@ pub(super) fn peel(
     for node in model.dag.reachable(&roots) {
         if let Some((group, row)) = read(&model.dag, node)
             && written.contains(&group)
-            && (row.modulo.is_some() || row.affine.as_constant().is_none())
+            && row.as_constant().is_none()
         {
             return Err(Refusal::Loops {
                 coordinate: coordinate(model, group),
@@ -147,6 +147,7 @@ fn step(
         if is_body
             && runs
             && row.modulo.is_none()
+            && row.outer.is_none()
             && row.affine.factor(domain) > 0
             && below.of(dag, &row.affine) == Some(0)
         {

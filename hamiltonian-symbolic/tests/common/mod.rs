@@ -50,6 +50,7 @@ pub fn model(signature: &str, sizes: &str, parameters: &str) -> Model {
             momentum,
             velocity: None,
             shape,
+            axes: Vec::new(),
         });
     }
     model

@@ -4,13 +4,12 @@
 //! `Called<false>` is an `f64` that has no form in lanes: its loops go one by one.
 
 use crate::arrays;
+use crate::common::bits::check;
 use crate::common::derivatives::numbers;
-use crate::counting::counted::Called;
 use crate::eval;
 use crate::symbolic;
 use hamiltonian::prelude::*;
 use hamiltonian::{Dynamics, Vector, VectorField};
-use hamiltonian_lanes::Cpu;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
@@ -45,64 +44,9 @@ hamiltonian! {
         + sum(i in 0..n) { q[i]*q[(n - 1 - i) % n]^2*p[(2*i + 1) % n] }/10
 }
 
-/// Every output of a system: values, then elements.
-fn outputs<T, S>(system: &S, seed: u64, word: fn(T) -> f64, number: fn(f64) -> T) -> Vec<u64>
-where
-    T: Real,
-    S: System<T>,
-{
-    let prepared = system.prepare();
-    let mut some = numbers(seed);
-    let mut vector = || {
-        let mut vector = system.zeros();
-        for k in 0..<S::Vector as Vector>::PARTS {
-            for (to, from) in vector.part_mut(k).iter_mut().zip(&mut some) {
-                *to = number(from);
-            }
-        }
-        vector
-    };
-    let [q, p, vq, vp, mut a, mut b] = [(); 6].map(|()| vector());
-    let t = number(0.25);
-    let mut words = vec![prepared.energy(t, &q, &p)];
-    let push = |words: &mut Vec<T>, a: &S::Vector, b: &S::Vector| {
-        for vector in [a, b] {
-            (0..<S::Vector as Vector>::PARTS).for_each(|k| words.extend(vector.part(k)));
-        }
-    };
-    prepared.field(number(0.125)).add(t, &q, &p, &mut a, &mut b);
-    push(&mut words, &a, &b);
-    words.push(prepared.energy_and_gradient(t, &q, &p, &mut a, &mut b));
-    push(&mut words, &a, &b);
-    prepared.gradient_q(t, &q, &p, &mut a);
-    prepared.gradient_p(t, &q, &p, &mut b);
-    push(&mut words, &a, &b);
-    prepared.gradient(t, &q, &p, &mut a, &mut b);
-    push(&mut words, &a, &b);
-    prepared.hessian_vector(t, &q, &p, &vq, &vp, &mut a, &mut b);
-    push(&mut words, &a, &b);
-    words
-        .into_iter()
-        .map(|value| word(value).to_bits())
-        .collect()
-}
-
 /// The lengths of loops: all tails, and blocks with and without a rest.
 fn lengths() -> impl Iterator<Item = usize> {
     (1..=40).chain([63, 64, 65, 127, 128, 129, 136, 200, 257, 300])
-}
-
-/// The bits of a system over `f64` on every level, and one by one.
-#[track_caller]
-fn check<S: System<f64> + System<Called<false>>>(system: &S, seed: u64) {
-    let expected = outputs::<Called<false>, S>(system, seed, |x| x.0, Called);
-    for limit in Cpu::available() {
-        Cpu::limit_to(limit);
-        let found = outputs::<f64, S>(system, seed, |x| x, |x| x);
-        let differ = expected.iter().zip(&found).position(|(a, b)| a != b);
-        assert_eq!(differ, None, "{limit:?}, {} words", expected.len());
-    }
-    Cpu::limit_to(Cpu::Avx512);
 }
 
 fn some(n: usize) -> Vec<f64> {

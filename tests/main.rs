@@ -29,6 +29,7 @@ pub mod hygiene;
 pub mod invariants;
 pub mod lagrangian;
 pub mod language;
+mod lattices;
 mod layout;
 mod limits;
 pub mod long;

@@ -78,7 +78,10 @@ impl<T, const R: usize> Lattice<T, R> {
     fn number(&self, place: [usize; R]) -> usize {
         let mut number = 0;
         for (axis, (at, extent)) in place.into_iter().zip(self.extents).enumerate() {
-            assert!(at < extent, "index {at} of axis {axis} is outside 0..{extent}");
+            assert!(
+                at < extent,
+                "index {at} of axis {axis} is outside 0..{extent}"
+            );
             number = number * extent + at;
         }
         number
@@ -216,7 +219,10 @@ mod tests {
         assert!(fits("u", &[1000, 1000]).is_ok());
         for extents in [[usize::MAX, 2], [1 << 31, 1 << 31]] {
             let error = fits("u", &extents);
-            assert!(matches!(error, Err(Error::Memory { name: "u" })), "{error:?}");
+            assert!(
+                matches!(error, Err(Error::Memory { name: "u" })),
+                "{error:?}"
+            );
         }
     }
 }

@@ -101,6 +101,7 @@ pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorFiel
 pub use function::{Function, Grid, Spline};
 pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
 pub use integrator::{ErrorEstimate, Integrator, MapOf, Run, States};
+pub use lattice::Lattice;
 pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
 pub use observe::{
     Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Unobserved, Verdict, View, Watch,
@@ -126,7 +127,6 @@ pub use table::Table;
 pub use tangent::{Tangent, monodromy, multipliers, symplectic_defect};
 pub use times::{AtTimes, at_times};
 pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};
-pub use lattice::Lattice;
 pub use vector::{IntoVector, Vector, shape};
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.

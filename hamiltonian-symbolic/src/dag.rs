@@ -97,7 +97,7 @@ pub enum Kind {
     /// A size as a real.
     Extent(Size),
     /// An array element: row, and column for a rank-2 parameter.
-    Element(Array, Index, Option<Index>),
+    Element(Array, Index, Option<Box<Index>>),
     /// `constant + Σ k·node`
     Sum(Rational, Vec<(Rational, Node)>),
     /// `k·Π node^n`, n a non-zero integer.
@@ -530,7 +530,7 @@ impl Dag {
         match kind {
             Kind::Variable(d) => variables |= 1 << d.0,
             Kind::Element(_, row, column) => {
-                variables |= row.variables() | column.as_ref().map_or(0, Index::variables);
+                variables |= row.variables() | column.as_ref().map_or(0, |c| c.variables());
             }
             _ => {}
         }

@@ -644,9 +644,7 @@ fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
 fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
     let leaf = |node: Node| match dag.kind(node) {
         Kind::Time => Some(None),
-        Kind::Element(array @ Array::Phase(_), row, _) => {
-            Some(Some((*array, row.as_constant())))
-        }
+        Kind::Element(array @ Array::Phase(_), row, _) => Some(Some((*array, row.as_constant()))),
         _ => None,
     };
     dag.reachable(&[node])

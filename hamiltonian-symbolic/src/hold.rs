@@ -34,7 +34,7 @@ enum Reads {
     /// Scalars among the parameters.
     Scalars,
     /// One row of parameter arrays of equal length too.
-    Row(Index, Affine),
+    Row(Box<Index>, Affine),
     /// Anything else.
     More,
 }
@@ -60,7 +60,7 @@ impl Arrays {
             known.insert(node, describe(dag, parameters, node, &known));
         }
         let row = |node: Node| match &known[&node].0 {
-            Reads::Row(row, rows) => Some((row.clone(), rows.clone())),
+            Reads::Row(row, rows) => Some(((**row).clone(), rows.clone())),
             Reads::Scalars | Reads::More => None,
         };
         let is_dear = |node: &Node| known[node].1;
@@ -170,7 +170,7 @@ fn describe(
     match dag.kind(node) {
         Kind::Element(Array::Parameter(parameter), row, None) => {
             match &parameters[usize::from(parameter.0)].shape {
-                Shape::Vector(rows) => (Reads::Row(row.clone(), rows.clone()), false),
+                Shape::Vector(rows) => (Reads::Row(Box::new(row.clone()), rows.clone()), false),
                 Shape::Scalar | Shape::Matrix(..) => (Reads::More, false),
             }
         }

@@ -45,11 +45,7 @@ pub enum End {
     Greatest,
 }
 
-fn merge<K: Clone + Ord>(
-    a: &[(K, i64)],
-    factor: i64,
-    b: &[(K, i64)],
-) -> Option<Vec<(K, i64)>> {
+fn merge<K: Clone + Ord>(a: &[(K, i64)], factor: i64, b: &[(K, i64)]) -> Option<Vec<(K, i64)>> {
     let mut all = a.to_vec();
     for (key, k) in b {
         let k = k.checked_mul(factor)?;
@@ -222,10 +218,7 @@ impl Affine {
     }
     fn factors_of_sizes(&self) -> impl Iterator<Item = i64> {
         let products = self.products.iter().map(|(_, factor)| *factor);
-        self.sizes
-            .iter()
-            .map(|(_, factor)| *factor)
-            .chain(products)
+        self.sizes.iter().map(|(_, factor)| *factor).chain(products)
     }
     /// The loop variables as a bit set.
     #[must_use]
@@ -400,6 +393,9 @@ impl Index {
     #[must_use]
     pub fn variables(&self) -> u64 {
         let own = self.affine.variables() | self.modulo.as_ref().map_or(0, Affine::variables);
-        own | self.outer.as_ref().map_or(0, |outer| outer.index.variables())
+        own | self
+            .outer
+            .as_ref()
+            .map_or(0, |outer| outer.index.variables())
     }
 }

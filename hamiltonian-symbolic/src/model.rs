@@ -361,7 +361,9 @@ impl Model {
         let axes: Vec<i64> = self.axes(array).iter().map(extent).collect();
         match axes.as_slice() {
             [] => self.shape(array).element(name, row, column),
-            axes => (places(axes, row).iter()).fold(name.to_owned(), |name, at| format!("{name}[{at}]")),
+            axes => {
+                (places(axes, row).iter()).fold(name.to_owned(), |name, at| format!("{name}[{at}]"))
+            }
         }
     }
     /// The shape of an array.

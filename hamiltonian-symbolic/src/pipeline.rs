@@ -459,7 +459,9 @@ fn parameter_derivatives(model: &mut Model, root: Node, request: &mut Request) {
     let store = |(leaf, value): (Node, Node)| {
         let (parameter, row, column) = match model.dag.kind(leaf).clone() {
             Kind::Scalar(parameter) => (parameter, Index::constant(0), None),
-            Kind::Element(Array::Parameter(parameter), row, column) => (parameter, row, column),
+            Kind::Element(Array::Parameter(parameter), row, column) => {
+                (parameter, row, column.map(|column| *column))
+            }
             other => unreachable!("{other:?} is no parameter"),
         };
         Store {

@@ -18,8 +18,12 @@ impl Dag {
     }
 
     /// The expression with a loop variable replaced by an index; `None` where that is modulo a size and the
-    /// variable stands in an index or a range that cannot be shifted.
+    /// variable stands in an index or a range that cannot be shifted, or has several axes and the variable
+    /// does more than be an index.
     pub(crate) fn reindexed(&mut self, root: Node, variable: Domain, by: &Index) -> Option<Node> {
+        if by.outer.is_some() {
+            return self.at_site(root, variable, by);
+        }
         // All in one pass: a loop that moves may be one of `by`.
         let mut moved = Moved::default();
         let mut new: Map<Node, Node> = Map::default();
@@ -39,7 +43,7 @@ impl Dag {
                     let mut image = |index| self.index_at(index, variable, by, &mut moved);
                     let row = image(row)?;
                     let column = match column {
-                        Some(column) => Some(image(column)?),
+                        Some(column) => Some(image(*column)?),
                         None => None,
                     };
                     self.element(array, row, column)
@@ -55,6 +59,31 @@ impl Dag {
                     let d = self.moved(d, variable, &by.affine, &mut moved);
                     self.count(d)
                 }
+                _ => self.rebuild(node, &|child| new[&child]),
+            };
+            new.insert(node, image);
+        }
+        Some(new[&root])
+    }
+
+    /// The expression with a loop variable, the number of an element, replaced by the index of several axes
+    /// that has this number.
+    fn at_site(&mut self, root: Node, variable: Domain, by: &Index) -> Option<Node> {
+        let own = Index::plain(Affine::variable(variable));
+        let inside = self.inside(variable);
+        let mut new: Map<Node, Node> = Map::default();
+        for node in self.reachable(&[root]) {
+            let is_free = self.variables(node) & inside == 0;
+            let image = match self.kind(node).clone() {
+                _ if is_free => node,
+                Kind::Element(array, row, column) => {
+                    let is_number = |index: &Index| index.variables() & inside != 0;
+                    if row != own || column.as_deref().is_some_and(is_number) {
+                        return None;
+                    }
+                    self.element(array, by.clone(), column.map(|column| *column))
+                }
+                Kind::Variable(_) | Kind::Reduce(..) | Kind::Count(_) => return None,
                 _ => self.rebuild(node, &|child| new[&child]),
             };
             new.insert(node, image);

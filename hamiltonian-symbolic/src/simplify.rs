@@ -45,7 +45,7 @@ impl Dag {
     }
     /// An array element.
     pub fn element(&mut self, array: Array, row: Index, column: Option<Index>) -> Node {
-        self.intern(Kind::Element(array, row, column))
+        self.intern(Kind::Element(array, row, column.map(Box::new)))
     }
     /// An element of phase space.
     pub fn phase(&mut self, column: Column, row: Index) -> Node {

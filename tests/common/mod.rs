@@ -1,6 +1,7 @@
 //! Shared by the tests: the systems, a reference solution, and checks that are generic over
 //! system and scheme.
 
+pub mod bits;
 pub mod canonical;
 pub mod case;
 pub mod derivatives;

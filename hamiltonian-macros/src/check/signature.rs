@@ -15,6 +15,9 @@ use std::collections::HashMap;
 /// The largest last extent whose columns are written out, each an array of its own.
 const WRITTEN_OUT: u64 = 4;
 
+/// The most numbers of a lattice whose extents are numbers.
+const LARGEST: i64 = 1 << 32;
+
 impl Checker<'_> {
     /// The signature of the definition. Whether its names are known.
     pub(super) fn signature(&mut self) -> bool {
@@ -317,11 +320,13 @@ impl Checker<'_> {
     /// The shape of coordinates that are stored row after row, on the heap.
     fn lattice(&mut self, rows: &Size, columns: &Size) -> Option<Type> {
         let (of_rows, of_columns) = (self.extent(rows)?, self.extent(columns)?);
-        let number = of_rows.affine().checked_times(&of_columns.affine());
-        if number.is_none() {
-            let message = "an array of so many numbers fits into no memory";
-            self.report
-                .error(rows.span(), message, "write smaller extents");
+        let numbers = of_rows.affine().checked_times(&of_columns.affine());
+        let numbers = numbers.map_or(i64::MAX, |n| n.as_constant().unwrap_or_default());
+        if numbers > LARGEST {
+            let message = format!("an array of {numbers} numbers may not fit into memory");
+            let help = "set the sizes at run time, where `new` tells whether they fit: \
+                        `pub struct Name { n: usize, m: usize }` and `[n][m]`";
+            self.report.error(rows.span(), message, help);
             return None;
         }
         Some(Type::Matrix(of_rows, of_columns))

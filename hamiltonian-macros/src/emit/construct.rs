@@ -160,6 +160,11 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
     if names.is_empty() {
         return TokenStream::new();
     }
+    let room: String = context
+        .groups
+        .iter()
+        .filter_map(|g| context.room(g))
+        .collect();
     let mut allow = allowances(&names);
     if names.len() > 7 {
         // The number of parameters of a system is not a matter of style.
@@ -176,8 +181,11 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         let more = (!questions.is_empty()).then(|| {
             quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
         });
+        let memory = (!room.is_empty()).then(|| {
+            quote! { #[doc = " `Error::Memory` if coordinates of these sizes do not fit into memory."] }
+        });
         // Sizes that do not fit explain arrays that do not.
-        let checks = lex(&(questions + &checks + &numbers));
+        let checks = lex(&(questions + &room + &checks + &numbers));
         quote! {
             /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
             /// without a default, in the order of their declaration.
@@ -187,6 +195,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             /// `Error::Shape` if an array does not have the number of components that its sizes say,
             /// `Error::Parameter` if a number given is NaN.
             #more
+            #memory
             #allow
             #visibility fn #new #kinds (#arguments) -> __h::core::result::Result<Self, __h::Error> {
                 #lets

@@ -16,9 +16,7 @@ use std::iter;
 fn sizes(reach: &Reach) -> Vec<Size> {
     let ranges = reach.loops.iter().flat_map(|(_, range)| range);
     let forms = ranges.chain([&reach.form]);
-    let mut sizes: Vec<Size> = forms
-        .flat_map(Affine::all_sizes)
-        .collect();
+    let mut sizes: Vec<Size> = forms.flat_map(Affine::all_sizes).collect();
     sizes.sort_unstable();
     sizes.dedup();
     sizes

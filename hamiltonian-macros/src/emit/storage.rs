@@ -98,10 +98,24 @@ impl Context<'_> {
         if group.axes.is_empty() {
             return self.zero(&group.shape.of_parameter());
         }
+        format!("__h::Lattice::zeros({})", self.axes(group))
+    }
+
+    /// The question whether a lattice of sizes that are set at run time fits into memory.
+    pub fn room(self, group: &Group) -> Option<String> {
+        let is_open = |extent: &Affine| self.is_set_at_run_time(extent);
+        group.axes.iter().any(is_open).then(|| {
+            let name = &group.coordinate;
+            format!("__h::fits({name:?}, &{})?;\n", self.axes(group))
+        })
+    }
+
+    /// The extents of the axes of a lattice, as an array.
+    fn axes(self, group: &Group) -> String {
         let extents: Vec<String> = (group.axes.iter())
             .map(|extent| self.indices.plain(extent))
             .collect();
-        format!("__h::Lattice::zeros([{}])", extents.join(", "))
+        format!("[{}]", extents.join(", "))
     }
 
     /// Whether the coordinates of a group are on the heap.

@@ -85,7 +85,7 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
             return Some(node);
         }
         let (array, row, column) = match dag.kind(node) {
-            Kind::Element(array, row, column) => (*array, row.clone(), column.clone()),
+            Kind::Element(array, row, column) => (*array, row.clone(), column.as_deref().cloned()),
             Kind::Variable(_) | Kind::Count(_) => {
                 whole = false;
                 return None;

@@ -47,7 +47,7 @@ pub fn guarded(model: &mut Model, root: Node, is_safe: &dyn Fn(Node) -> bool) ->
             Kind::Element(array, row, column) if is_under.contains_key(&node) && !is_safe(node) => {
                 let (rows, columns) = extents(model, array);
                 let row = safe(&model.dag, row, rows);
-                let column = column.map(|column| safe(&model.dag, column, columns));
+                let column = column.map(|column| safe(&model.dag, *column, columns));
                 model.dag.element(array, row, column)
             }
             Kind::Reduce(domain, _)

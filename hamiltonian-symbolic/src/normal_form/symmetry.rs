@@ -172,7 +172,7 @@ fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
     let indices: Vec<Index> = nodes
         .iter()
         .filter_map(|node| match dag.kind(*node) {
-            Kind::Element(_, row, column) => Some(std::iter::once(row).chain(column)),
+            Kind::Element(_, row, column) => Some(std::iter::once(row).chain(column.as_deref())),
             _ => None,
         })
         .flatten()
@@ -180,9 +180,8 @@ fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
         .collect();
     nest.loops.iter().all(|domain| {
         let end = &dag.range(*domain).end;
-        let is_shifted = |index: &Index| {
-            index.affine.factor(*domain) == 1 && index.modulo.as_ref() == Some(end)
-        };
+        let is_shifted =
+            |index: &Index| index.affine.factor(*domain) == 1 && index.modulo.as_ref() == Some(end);
         let is_bare = |index: &Index| index.affine == Affine::variable(*domain);
         !indices.iter().any(is_shifted) || indices.iter().any(is_bare)
     })
@@ -257,7 +256,7 @@ fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
             let Kind::Element(_, row, column) = dag.kind(node) else {
                 continue;
             };
-            let all = std::iter::once(row).chain(column);
+            let all = std::iter::once(row).chain(column.as_deref());
             for index in all.flat_map(Index::axes) {
                 if index.affine.factor(domain) == 1 && index.modulo.as_ref() == Some(&range.end) {
                     let offset = index.affine.plus(-1, &Affine::variable(domain));

@@ -200,7 +200,7 @@ impl<'a> Writer<'a> {
             Kind::Variable(domain) => vec![Piece::Owned(self.variable(*domain))],
             Kind::Extent(size) => vec![self.name(&self.size(*size))],
             Kind::Element(array, row, column) => {
-                let indices = self.indices(*array, row, column.as_ref());
+                let indices = self.indices(*array, row, column.as_deref());
                 let name = self.model.array_name(*array);
                 vec![Piece::Owned(self.indexed(&name, &indices))]
             }

@@ -79,7 +79,7 @@ impl Placer<'_> {
                 Instruction::Count(range.start.clone(), range.end.clone())
             }
             Kind::Element(array, row, column) => {
-                Instruction::Load(*array, row.clone(), column.clone())
+                Instruction::Load(*array, row.clone(), column.as_deref().cloned())
             }
             Kind::Sum(c, terms) => return self.sum(steps, c, terms),
             Kind::Product(k, factors) => return self.product(steps, k, factors),

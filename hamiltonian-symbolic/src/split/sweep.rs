@@ -359,7 +359,7 @@ fn commute(dag: &Dag, chain: &[Domain], rows: &[Index], body: Node) -> bool {
         Kind::Variable(_) => false,
         Kind::Element(_, index, column) => {
             let is_free = |index: &Index| index.variables() == 0;
-            (index == row || is_free(index)) && column.as_ref().is_none_or(is_free)
+            (index == row || is_free(index)) && column.as_deref().is_none_or(is_free)
         }
         _ => true,
     };

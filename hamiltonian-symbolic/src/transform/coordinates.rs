@@ -299,8 +299,7 @@ fn written_out(
                 .into_iter()
                 .find_map(|node| match model.dag.kind(node) {
                     Kind::Element(Array::Phase(Column { group, .. }), row, _)
-                        if written.contains(group)
-                            && row.as_constant().is_none() =>
+                        if written.contains(group) && row.as_constant().is_none() =>
                     {
                         Some(*group)
                     }

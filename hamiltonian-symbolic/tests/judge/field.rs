@@ -286,7 +286,7 @@ impl Maker<'_> {
                 let value = |index: &hamiltonian_symbolic::index::Index| {
                     index.value(&|d| self.variables[&d], &size) as usize
                 };
-                let (row, column) = (value(&row), column.as_ref().map_or(0, value));
+                let (row, column) = (value(&row), column.as_deref().map_or(0, value));
                 match array {
                     Array::Phase(at) => {
                         let own = usize::from(at.column);

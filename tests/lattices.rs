@@ -1,0 +1,277 @@
+//! Coordinates with two axes, whose loops stay loops.
+
+use crate::common::{bits, derivatives};
+use hamiltonian::prelude::*;
+use hamiltonian::{Lattice, Recorder, Scheme};
+
+hamiltonian! {
+    /// Periodic in both directions, of any size.
+    pub struct Pendulums { n: usize, m: usize, c = 0.75 }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/2 + c*(1 - cos(u[i][j]))
+            + (u[(i + 1) % n][j] - u[i][j])^2/2 + (u[i][(j + 1) % m] - u[i][j])^4/4
+    };
+    monitor momentum = sum(i in 0..n, j in 0..m) { p[i][j] }
+}
+
+hamiltonian! {
+    /// A const generic and a number that is too large to be written out.
+    pub struct Wide<const N: usize> { c = 0.75 }
+    H(u[N][40]; p[N][40]) = sum(i in 0..N, j in 0..40) {
+        p[i][j]^2/2 + c*(1 - cos(u[i][j]))
+            + (u[(i + 1) % N][j] - u[i][j])^2/2 + (u[i][(j + 1) % 40] - u[i][j])^4/4
+    }
+}
+
+hamiltonian! {
+    /// Open ends, a weight for each site, neighbours two rows away, elements by number and across the
+    /// diagonal, a scalar beside the lattice.
+    pub struct Mixed { n: usize, m: usize, w: [n][m] }
+    H(x, u[n][m]; y, p[n][m]) = y^2/2 + x^2/2 + u[0][1]*u[1][0]
+        + sum(i in 0..n, j in 0..m) { p[i][j]^2/(2*w[i][j]) + x*u[i][j]^2 }
+        + sum(i in 2..n, j in 1..m) { (u[i][j] - u[i - 2][j])^2 + cos(u[i][j] - u[i][j - 1]) }
+        + sum(i in 0..n) { u[i][i % m]^2*norm_squared(u[i]) }
+}
+
+hamiltonian! {
+    /// Not separable: a neighbour of both axes at once.
+    pub struct Coupled { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        (u[i][j]^2 + 1)*(p[i][j]^2 + 1)/2 + u[(i + 1) % n][(j - 2) % m]*p[i][j]/4
+    }
+}
+
+hamiltonian! {
+    /// Friction.
+    pub struct Damped { n: usize, m: usize, gamma = 0.25 }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) { (p[i][j]^2 + u[i][j]^2)/2 };
+    force(u; p) = -gamma*p
+}
+
+/// A number of modest size for a place.
+fn given(i: usize, j: usize, salt: usize) -> f64 {
+    ((7 * i + 3 * j + 11 * salt) as f64).sin()
+}
+
+fn nested(n: usize, m: usize, salt: usize) -> Vec<Vec<f64>> {
+    let row = |i| (0..m).map(|j| given(i, j, salt)).collect();
+    (0..n).map(row).collect()
+}
+
+/// Loops of one iteration, short and long ones, and tails.
+const SIZES: [(usize, usize); 10] = [
+    (1, 1),
+    (1, 2),
+    (2, 1),
+    (3, 5),
+    (1, 40),
+    (2, 33),
+    (5, 64),
+    (40, 3),
+    (7, 301),
+    (36, 37),
+];
+
+#[test]
+fn energies_and_gradients_are_those_of_sums_by_hand() {
+    for (n, m) in SIZES {
+        let (u, p) = (nested(n, m, 0), nested(n, m, 1));
+        let (mut h, mut slopes) = (0.0, vec![vec![0.0; m]; n]);
+        for i in 0..n {
+            for j in 0..m {
+                let below = u[(i + 1) % n][j] - u[i][j];
+                let right = u[i][(j + 1) % m] - u[i][j];
+                h += p[i][j].powi(2) / 2.0 + 0.75 * (1.0 - u[i][j].cos());
+                h += below.powi(2) / 2.0 + right.powi(4) / 4.0;
+                slopes[i][j] += 0.75 * u[i][j].sin() - below - right.powi(3);
+                slopes[(i + 1) % n][j] += below;
+                slopes[i][(j + 1) % m] += right.powi(3);
+            }
+        }
+        let system = Pendulums::new(n, m).unwrap();
+        let start = State::new(u, p.clone());
+        let found = system.energy(&start);
+        assert!(
+            (found - h).abs() <= 1e-13 * h.abs(),
+            "{n} × {m}: {found} is not {h}"
+        );
+        let gradient = system.gradient(&start);
+        for i in 0..n {
+            for j in 0..m {
+                let (found, due) = (gradient.q[[i, j]], slopes[i][j]);
+                assert!(
+                    (found - due).abs() < 1e-13,
+                    "{n} × {m}, [{i}][{j}]: {found} is not {due}"
+                );
+                assert_eq!(gradient.p[[i, j]], p[i][j]);
+            }
+        }
+        let total: f64 = p.iter().flatten().sum();
+        assert!((system.momentum(&start) - total).abs() < 1e-12);
+    }
+}
+
+/// Weights of sites.
+fn weights(n: usize, m: usize) -> hamiltonian::private::nalgebra::DMatrix<f64> {
+    hamiltonian::private::nalgebra::DMatrix::from_fn(n, m, |i, j| 1.5 + given(i, j, 2))
+}
+
+#[test]
+fn derivatives_are_those_of_duals() {
+    for (n, m) in [(2, 2), (3, 5), (4, 40), (35, 6)] {
+        derivatives::check(&Pendulums::new(n, m).unwrap());
+        derivatives::check(&Mixed::new(n, m, weights(n, m)).unwrap());
+        derivatives::check(&Coupled::new(n, m).unwrap());
+    }
+    derivatives::check(&Wide::<3>::default());
+}
+
+#[test]
+fn lanes_have_the_bits_of_iterations_one_by_one() {
+    for (n, m) in SIZES {
+        let seed = (1000 * n + m) as u64;
+        bits::check(&Pendulums::new(n, m).unwrap(), seed);
+        bits::check(&Coupled::new(n, m).unwrap(), seed);
+        if n > 1 && m > 1 {
+            bits::check(&Mixed::new(n, m, weights(n, m)).unwrap(), seed);
+        }
+    }
+    bits::check(&Wide::<5>::default(), 1);
+}
+
+#[test]
+fn extents_that_are_sizes_and_numbers_mean_the_same() {
+    let (open, wide) = (Pendulums::new(3, 40).unwrap(), Wide::<3>::default());
+    let start = State::new(nested(3, 40, 0), nested(3, 40, 1));
+    assert_eq!(open.energy(&start), wide.energy(&start));
+    assert_eq!(open.gradient(&start), wide.gradient(&start));
+}
+
+#[test]
+fn schemes_of_all_kinds_keep_the_energy_at_their_order() {
+    fn drift<S: System<f64>, M: Scheme<f64, S>>(
+        system: &S,
+        scheme: M,
+        start: &State<S::Vector>,
+        (h, steps): (f64, u64),
+    ) -> f64 {
+        let run = Integrator::new(system, scheme, start.clone(), h).unwrap();
+        let mut run = run.observe(EnergyDrift::new());
+        run.advance(steps).unwrap();
+        run.observer().max_relative()
+    }
+    let system = Pendulums::new(6, 35).unwrap();
+    let start = State::new(nested(6, 35, 0), nested(6, 35, 1));
+    let [wide, narrow] = [(0.01, 200), (0.005, 400)]
+        .map(|steps| drift(&system, StormerVerlet::default(), &start, steps));
+    assert!((3.5..4.5).contains(&(wide / narrow)), "{wide} and {narrow}");
+    let [wide, narrow] =
+        [(0.02, 50), (0.01, 100)].map(|steps| drift(&system, Gauss::<2>::default(), &start, steps));
+    assert!(
+        (12.0..20.0).contains(&(wide / narrow)),
+        "{wide} and {narrow}"
+    );
+    let coupled = Coupled::new(4, 5).unwrap();
+    let start = State::new(nested(4, 5, 0), nested(4, 5, 1));
+    let [wide, narrow] =
+        [(0.1, 20), (0.05, 40)].map(|steps| drift(&coupled, Gauss::<2>::default(), &start, steps));
+    assert!(
+        (12.0..20.0).contains(&(wide / narrow)),
+        "{wide} and {narrow}"
+    );
+}
+
+#[test]
+fn a_force_acts_on_each_site() {
+    let system = Damped::new(3, 40).unwrap();
+    let (u, p) = (nested(3, 40, 0), nested(3, 40, 1));
+    let start = State::new(u.clone(), p.clone());
+    let mut run = Integrator::new(&system, StormerVerlet::default(), start, 1e-3).unwrap();
+    run.advance(1000).unwrap();
+    // u̇ = p, ṗ = −u − γp
+    let (damping, frequency) = (0.125f64, (1.0f64 - 0.125 * 0.125).sqrt());
+    let (decay, turn) = ((-damping).exp(), frequency);
+    for i in 0..3 {
+        for j in 0..40 {
+            let rate = (p[i][j] + damping * u[i][j]) / frequency;
+            let due = decay * (u[i][j] * turn.cos() + rate * turn.sin());
+            let found = run.state().q[[i, j]];
+            assert!(
+                (found - due).abs() < 1e-6,
+                "[{i}][{j}]: {found} is not {due}"
+            );
+        }
+    }
+}
+
+#[test]
+fn elements_are_named_and_ordered_as_declared() {
+    let system = Pendulums::new(2, 3).unwrap();
+    let start = State::new(nested(2, 3, 0), nested(2, 3, 1));
+    let flat: Vec<f64> = [nested(2, 3, 0), nested(2, 3, 1)].concat().concat();
+    assert_eq!(start.to_vec(), flat);
+    assert_eq!(State::from_slice(&start.q, &flat).unwrap(), start);
+    let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.1)
+        .unwrap()
+        .observe(Recorder::new());
+    run.advance(1).unwrap();
+    let columns = run.observer().columns();
+    assert_eq!(
+        columns[..8],
+        [
+            "t", "u[0][0]", "u[0][1]", "u[0][2]", "u[1][0]", "u[1][1]", "u[1][2]", "p[0][0]"
+        ]
+    );
+}
+
+#[test]
+fn starts_of_another_shape_are_refused() {
+    let system = Pendulums::new(2, 3).unwrap();
+    let refused = |start: State<Lattice<f64, 2>>| {
+        let run = Integrator::new(&system, StormerVerlet::default(), start, 0.1);
+        run.err().expect("another shape").to_string()
+    };
+    let turned = State::new(nested(3, 2, 0), nested(3, 2, 1));
+    assert_eq!(
+        refused(turned),
+        "axis 0 of `u` must have the extent 2, found 3"
+    );
+    let mut ragged = nested(2, 3, 0);
+    ragged[1].pop();
+    assert_eq!(
+        refused(State::new(nested(2, 3, 0), ragged)),
+        "axis 1 of `p` must have the extent 3, found 2"
+    );
+}
+
+#[test]
+fn sizes_beyond_memory_are_told_by_new() {
+    let error = Pendulums::new(usize::MAX, 2).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "`u` does not fit into memory: the sizes are too large"
+    );
+    assert!(Pendulums::new(1 << 40, 1 << 20).is_err());
+}
+
+hamiltonian! {
+    /// An exact flow at each site.
+    pub struct Shears { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) { (i + 2*j + 1)*p[i][j]*u[i][j] }
+}
+
+#[test]
+fn exact_flows_act_on_each_site() {
+    let system = Shears::new(3, 5).unwrap();
+    let start = State::new(nested(3, 5, 0), nested(3, 5, 1));
+    let mut run = Integrator::new(&system, Strang::default(), start.clone(), 0.125).unwrap();
+    run.advance(8).unwrap();
+    for i in 0..3 {
+        for j in 0..5 {
+            let growth = f64::from((i + 2 * j + 1) as u32).exp();
+            let (q, p) = (run.state().q[[i, j]], run.state().p[[i, j]]);
+            assert!((q - growth * start.q[[i, j]]).abs() < 1e-13 * growth);
+            assert!((p - start.p[[i, j]] / growth).abs() < 1e-13);
+        }
+    }
+}

@@ -1,7 +1,5 @@
 //! Loops in lanes: the bits of iterations one by one, on every level, at every length, and of the
 //! interpreter.
-//!
-//! `Called<false>` is an `f64` that has no form in lanes: its loops go one by one.
 
 use crate::arrays;
 use crate::common::bits::check;
@@ -9,7 +7,7 @@ use crate::common::derivatives::numbers;
 use crate::eval;
 use crate::symbolic;
 use hamiltonian::prelude::*;
-use hamiltonian::{Dynamics, Vector, VectorField};
+use hamiltonian::{Dynamics, VectorField};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};

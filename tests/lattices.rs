@@ -53,6 +53,11 @@ fn given(i: usize, j: usize, salt: usize) -> f64 {
     ((7 * i + 3 * j + 11 * salt) as f64).sin()
 }
 
+/// All places of a lattice.
+fn places(n: usize, m: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..n).flat_map(move |i| (0..m).map(move |j| (i, j)))
+}
+
 fn nested(n: usize, m: usize, salt: usize) -> Vec<Vec<f64>> {
     let row = |i| (0..m).map(|j| given(i, j, salt)).collect();
     (0..n).map(row).collect()
@@ -77,16 +82,14 @@ fn energies_and_gradients_are_those_of_sums_by_hand() {
     for (n, m) in SIZES {
         let (u, p) = (nested(n, m, 0), nested(n, m, 1));
         let (mut h, mut slopes) = (0.0, vec![vec![0.0; m]; n]);
-        for i in 0..n {
-            for j in 0..m {
-                let below = u[(i + 1) % n][j] - u[i][j];
-                let right = u[i][(j + 1) % m] - u[i][j];
-                h += p[i][j].powi(2) / 2.0 + 0.75 * (1.0 - u[i][j].cos());
-                h += below.powi(2) / 2.0 + right.powi(4) / 4.0;
-                slopes[i][j] += 0.75 * u[i][j].sin() - below - right.powi(3);
-                slopes[(i + 1) % n][j] += below;
-                slopes[i][(j + 1) % m] += right.powi(3);
-            }
+        for (i, j) in places(n, m) {
+            let below = u[(i + 1) % n][j] - u[i][j];
+            let right = u[i][(j + 1) % m] - u[i][j];
+            h += p[i][j].powi(2) / 2.0 + 0.75 * (1.0 - u[i][j].cos());
+            h += below.powi(2) / 2.0 + right.powi(4) / 4.0;
+            slopes[i][j] += 0.75 * u[i][j].sin() - below - right.powi(3);
+            slopes[(i + 1) % n][j] += below;
+            slopes[i][(j + 1) % m] += right.powi(3);
         }
         let system = Pendulums::new(n, m).unwrap();
         let start = State::new(u, p.clone());
@@ -96,15 +99,13 @@ fn energies_and_gradients_are_those_of_sums_by_hand() {
             "{n} × {m}: {found} is not {h}"
         );
         let gradient = system.gradient(&start);
-        for i in 0..n {
-            for j in 0..m {
-                let (found, due) = (gradient.q[[i, j]], slopes[i][j]);
-                assert!(
-                    (found - due).abs() < 1e-13,
-                    "{n} × {m}, [{i}][{j}]: {found} is not {due}"
-                );
-                assert_eq!(gradient.p[[i, j]], p[i][j]);
-            }
+        for (i, j) in places(n, m) {
+            let (found, due) = (gradient.q[[i, j]], slopes[i][j]);
+            assert!(
+                (found - due).abs() < 1e-13,
+                "{n} × {m}, [{i}][{j}]: {found} is not {due}"
+            );
+            assert_eq!(gradient.p[[i, j]], p[i][j]);
         }
         let total: f64 = p.iter().flatten().sum();
         assert!((system.momentum(&start) - total).abs() < 1e-12);
@@ -191,16 +192,14 @@ fn a_force_acts_on_each_site() {
     // u̇ = p, ṗ = −u − γp
     let (damping, frequency) = (0.125f64, (1.0f64 - 0.125 * 0.125).sqrt());
     let (decay, turn) = ((-damping).exp(), frequency);
-    for i in 0..3 {
-        for j in 0..40 {
-            let rate = (p[i][j] + damping * u[i][j]) / frequency;
-            let due = decay * (u[i][j] * turn.cos() + rate * turn.sin());
-            let found = run.state().q[[i, j]];
-            assert!(
-                (found - due).abs() < 1e-6,
-                "[{i}][{j}]: {found} is not {due}"
-            );
-        }
+    for (i, j) in places(3, 40) {
+        let rate = (p[i][j] + damping * u[i][j]) / frequency;
+        let due = decay * (u[i][j] * turn.cos() + rate * turn.sin());
+        let found = run.state().q[[i, j]];
+        assert!(
+            (found - due).abs() < 1e-6,
+            "[{i}][{j}]: {found} is not {due}"
+        );
     }
 }
 
@@ -229,7 +228,7 @@ fn starts_of_another_shape_are_refused() {
     let system = Pendulums::new(2, 3).unwrap();
     let refused = |start: State<Lattice<f64, 2>>| {
         let run = Integrator::new(&system, StormerVerlet::default(), start, 0.1);
-        run.err().expect("another shape").to_string()
+        run.expect_err("another shape").to_string()
     };
     let turned = State::new(nested(3, 2, 0), nested(3, 2, 1));
     assert_eq!(
@@ -264,14 +263,12 @@ hamiltonian! {
 fn exact_flows_act_on_each_site() {
     let system = Shears::new(3, 5).unwrap();
     let start = State::new(nested(3, 5, 0), nested(3, 5, 1));
-    let mut run = Integrator::new(&system, Strang::default(), start.clone(), 0.125).unwrap();
+    let mut run = Integrator::new(&system, Strang, start.clone(), 0.125).unwrap();
     run.advance(8).unwrap();
-    for i in 0..3 {
-        for j in 0..5 {
-            let growth = f64::from((i + 2 * j + 1) as u32).exp();
-            let (q, p) = (run.state().q[[i, j]], run.state().p[[i, j]]);
-            assert!((q - growth * start.q[[i, j]]).abs() < 1e-13 * growth);
-            assert!((p - start.p[[i, j]] / growth).abs() < 1e-13);
-        }
+    for (i, j) in places(3, 5) {
+        let growth = f64::from((i + 2 * j + 1) as u32).exp();
+        let (q, p) = (run.state().q[[i, j]], run.state().p[[i, j]]);
+        assert!((q - growth * start.q[[i, j]]).abs() < 1e-13 * growth);
+        assert!((p - start.p[[i, j]] / growth).abs() < 1e-13);
     }
 }

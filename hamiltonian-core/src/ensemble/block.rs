@@ -41,16 +41,38 @@ pub(crate) enum Opening<M> {
     Mixed(M),
 }
 
+/// The steps at which each lane sees a state, where lanes differ in them.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Apart<U> {
+    /// The steps to the next state that a lane sees; 0 for one that sees none.
+    pub(crate) left: U,
+    /// The steps between two of them.
+    pub(crate) interval: U,
+}
+
+impl<U: Real> Apart<U> {
+    /// The lanes that see a state after `n` more steps.
+    #[inline(always)]
+    fn due(&mut self, n: u64) -> U::Mask {
+        let left = self.left - U::constant(n as i64 as f64, 0.0);
+        let due = left.equals(U::zero());
+        self.left = U::select(due, self.interval, left);
+        due
+    }
+}
+
 /// The quantities that a block follows.
 pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) prepared: &'a S::Prepared,
     pub(crate) trackers: &'a mut [Tracker<U>],
     /// Scratch for the state that is seen.
     pub(crate) state: &'a mut State<S::Vector>,
-    /// The steps to the first state that is seen.
+    /// The steps to the first state that a lane sees.
     pub(crate) first: u64,
     /// The steps between two of them.
     pub(crate) interval: u64,
+    /// What each lane sees of them, if not all.
+    pub(crate) apart: Option<Apart<U>>,
     /// The lanes that see their first state at the end of this block, of no steps.
     pub(crate) attach: Option<U::Mask>,
 }
@@ -90,7 +112,7 @@ where
             carried,
             shown,
             work,
-            followed,
+            mut followed,
         } = self;
         let end = made + n;
         let follows = !followed.trackers.is_empty();
@@ -118,13 +140,17 @@ where
                 }
                 if follows && (followed.attach.is_some() || (n > 0 && is_due(k))) {
                     see(shown, t, followed.state);
+                    let due = match (&mut followed.apart, followed.attach) {
+                        (Some(apart), None) => Some(apart.due(followed.interval)),
+                        _ => None,
+                    };
                     for tracker in followed.trackers.iter_mut() {
                         let value = tracker
                             .quantity
                             .at::<U, S>(followed.prepared, followed.state);
                         match followed.attach {
                             Some(lanes) => tracker.begin(lanes, value),
-                            None => tracker.record(value),
+                            None => tracker.record(due, value),
                         }
                     }
                 }

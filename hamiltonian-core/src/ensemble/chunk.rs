@@ -198,10 +198,8 @@ where
 
     /// The drifts that lanes follow for a member: none if they do not follow all that its observer follows.
     fn tracks(&mut self, key: usize) -> Vec<Track<f64>> {
-        // One number of steps between two states serves all lanes.
-        let interval = self.chunk.observers[0].interval();
         let observer = &mut self.chunk.observers[key];
-        if !(self.looks && self.follows) || observer.interval() != interval {
+        if !(self.looks && self.follows) {
             return Vec::new();
         }
         Follower::take(|with| observer.follow(with)).unwrap_or_default()

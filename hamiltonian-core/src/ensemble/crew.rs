@@ -37,6 +37,29 @@ enum Place {
     Leaving,
 }
 
+/// The steps at which lanes see states.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Schedule {
+    /// The steps to the first.
+    pub(crate) first: u64,
+    /// The steps between two of them.
+    pub(crate) interval: u64,
+    /// The steps to the first and between two of them lane by lane, if not all have the same; 0 for a lane
+    /// that sees none.
+    pub(crate) apart: Option<[Vec<u64>; 2]>,
+}
+
+/// As many steps between two states are never made.
+const NEVER: u64 = 1 << 53;
+
+/// The greatest common divisor.
+fn divisor(a: u64, b: u64) -> u64 {
+    match b {
+        0 => a,
+        b => divisor(b, a % b),
+    }
+}
+
 /// How a crew differs from the one before.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Change {
@@ -63,7 +86,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
     /// Fills the empty lanes. Returns whether any member is left.
     pub(crate) fn fill(&mut self, host: &mut dyn Host<T, S>) -> bool {
         let mut some = false;
-        // Drifts of all lanes are seen at the same steps.
+        // A new member sees states at the steps at which the others do.
         let interval = self.interval();
         let is_aligned = self.phase() == host.phase() % interval;
         let is_empty = self.under().next().is_none();
@@ -152,13 +175,17 @@ impl<T: Real, S: System<T>> Crew<T, S> {
     }
 
     /// The steps of the next block: to the next stop of a member, or fewer.
-    pub(crate) fn steps(&self, most: u64) -> u64 {
+    pub(crate) fn steps(&self, most: u64, host: &dyn Host<T, S>) -> u64 {
         let most = if self.careful { 1 } else { most };
         let left = self.under().map(|seat| seat.stop.saturating_sub(seat.made));
         let most = left.fold(most, u64::min);
         match self.more && self.place.contains(&Place::Empty) {
             // To the step at which empty lanes may be filled.
-            true => most.min(self.interval() - self.phase()),
+            true => {
+                let interval = self.interval();
+                let ahead = interval + host.phase() % interval - self.phase();
+                most.min((ahead - 1) % interval + 1)
+            }
             false => most,
         }
     }
@@ -178,16 +205,53 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// The steps between two states that are followed.
-    pub(crate) fn interval(&self) -> u64 {
+    /// The steps between two states that the first member sees which is followed.
+    fn interval(&self) -> u64 {
         let followed = self.under().find(|seat| !seat.tracks.is_empty());
         followed.map_or(1, |seat| seat.interval.max(1))
     }
 
     /// The steps since the last of them.
-    pub(crate) fn phase(&self) -> u64 {
+    fn phase(&self) -> u64 {
         let followed = self.under().find(|seat| !seat.tracks.is_empty());
         followed.map_or(0, |seat| seat.made % seat.interval.max(1))
+    }
+
+    /// The steps at which the lanes see states.
+    pub(crate) fn schedule(&self) -> Schedule {
+        let (interval, first) = (self.interval(), self.interval() - self.phase());
+        let followed = || self.under().filter(|seat| !seat.tracks.is_empty());
+        let ahead = |seat: &Seat<T, S>| {
+            let interval = seat.interval.max(1);
+            [interval - seat.made % interval, interval]
+        };
+        if followed().all(|seat| ahead(seat) == [first, interval]) {
+            return Schedule {
+                first,
+                interval,
+                apart: None,
+            };
+        }
+        let mut lanes = [(); 2].map(|()| alloc::vec![0; self.place.len()]);
+        let mut common = 0;
+        for (lane, (seat, place)) in self.seats.iter().zip(&self.place).enumerate() {
+            let Some(seat) = seat.as_ref().filter(|_| *place == Place::Under) else {
+                continue;
+            };
+            if seat.tracks.is_empty() || seat.interval >= NEVER {
+                continue;
+            }
+            for (lanes, steps) in lanes.iter_mut().zip(ahead(seat)) {
+                lanes[lane] = steps;
+                common = divisor(steps, common);
+            }
+        }
+        let common = common.max(1);
+        Schedule {
+            first: common,
+            interval: common,
+            apart: Some(lanes),
+        }
     }
 
     /// Notes that drifts have begun.

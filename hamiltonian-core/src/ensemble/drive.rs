@@ -4,7 +4,7 @@
 //! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
 //! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
 
-use super::block::{Block, Followed, Opening, Times};
+use super::block::{Apart, Block, Followed, Opening, Times};
 use super::crew::Crew;
 use super::seat::{Host, Seat};
 use crate::error::Error;
@@ -60,17 +60,21 @@ where
             let attach = lanes.attach.take();
             let n = match attach {
                 Some(_) => 0,
-                None => crew.steps(BLOCK),
+                None => crew.steps(BLOCK, host),
             };
             lanes.before.copy_from(&lanes.carried);
             lanes.trackers_before.clone_from(&lanes.trackers);
-            let interval = crew.interval();
+            let schedule = crew.schedule();
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
                 trackers: &mut lanes.trackers,
                 state: &mut lanes.state,
-                first: interval - crew.phase(),
-                interval,
+                first: schedule.first,
+                interval: schedule.interval,
+                apart: schedule.apart.map(|[left, interval]| Apart {
+                    left: counts::<T, P>(&left),
+                    interval: counts::<T, P>(&interval),
+                }),
                 attach,
             };
             let finite = L::enter_at(Block {
@@ -442,6 +446,13 @@ where
 /// A number of steps as a scalar.
 fn count<T: Real>(steps: u64) -> T {
     T::constant(steps as i64 as f64, 0.0)
+}
+
+/// Numbers of steps in lanes.
+#[inline(always)]
+fn counts<T: Real, P: Pack>(steps: &[u64]) -> T::Over<P> {
+    let steps: Vec<T> = steps.iter().map(|n| count(*n)).collect();
+    T::gather::<P>(&steps)
 }
 
 /// The lanes of a carried value from rows, one a component.

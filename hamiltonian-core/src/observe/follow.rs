@@ -104,10 +104,14 @@ impl<U: Real> Tracker<U> {
         }
     }
 
-    /// As [`Deviation`] does, lane by lane.
+    /// As [`Deviation`] does, lane by lane: all of them, or those that are due.
     #[inline(always)]
-    pub(crate) fn record(&mut self, value: U) {
-        let change = value - self.start;
+    pub(crate) fn record(&mut self, due: Option<U::Mask>, value: U) {
+        let mut change = value - self.start;
+        if let Some(due) = due {
+            // A drift of 0 changes no bit of the others.
+            change = U::select(due, change, U::zero());
+        }
         let size = U::select(change.lt(U::zero()), -change, change);
         // A NaN stays.
         let grows = self.max.lt(size) | !size.equals(size);

@@ -51,8 +51,6 @@ pub(crate) struct Running<'r, 'a, S: System<f64>, O> {
     hashes: Vec<u64>,
     values: Vec<f64>,
     words: Vec<f64>,
-    /// The number of steps between two states that the first observer sees.
-    interval: Option<u64>,
     /// Whether steps differ in time.
     varies: bool,
     cancelled: bool,
@@ -74,7 +72,6 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
             indices,
             values: Vec::new(),
             words: Vec::new(),
-            interval: None,
             varies: false,
             cancelled: false,
         }
@@ -147,10 +144,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         self.aim(&mut under, clock, 0)?;
         // An observer that sees nothing need not be attached.
         let looks = under.observer.interval() < u64::MAX;
-        // One number of steps between two states serves all lanes.
         let interval = under.observer.interval();
-        let is_same = *self.interval.get_or_insert(interval) == interval;
-        let followed = Follower::take(|with| is_same && under.observer.follow(with));
+        let followed = Follower::take(|with| under.observer.follow(with));
         let mut tracks = followed.unwrap_or_default();
         tracks.iter_mut().for_each(|track| track.drift = None);
         under.is_followed = !tracks.is_empty();

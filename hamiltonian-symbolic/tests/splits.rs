@@ -514,10 +514,14 @@ fn no_row_crosses_a_kink_or_a_jump() {
         ("x, y; px, py", "sqrt(x^2)/x*(x*py - y*px)"),
         ("f; z", "sqrt(1 - z^2)*cos(f)*sign(sin(f))"),
         ("q, x; p, y", "p*(q + 1) + (2 + sign(q))*y^2"),
+        ("q; p", "a*p + abs(q)"),
+        ("q; p", "a*p + sign(q - 1)"),
+        ("q; p", "p - (if a < 0 { sign(q - 1) } else { q })"),
+        ("q; p", "(p - (if a < 0 { 2 + sign(q - 1) } else { q }))^2"),
     ];
     let mut taken = Vec::new();
     for (signature, h) in CROSSED {
-        let mut model = common::model(signature, "", "");
+        let mut model = common::model(signature, "", "a");
         let node = common::parse(&mut model, h);
         if let Some(flow) = exact_flow(&mut model, node) {
             taken.push((*h, flow.rows().to_vec()));

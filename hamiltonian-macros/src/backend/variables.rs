@@ -167,6 +167,9 @@ fn remedy(reason: &Refusal) -> &'static str {
         Refusal::Twice { .. } => "replace each coordinate once",
         Refusal::Loops { .. } => "give the loop literal bounds, so that it can be unrolled",
         Refusal::TooManyLoops => "let several sums share a loop",
+        Refusal::TooLong => {
+            "bodies are written out one by one: take fewer, or `heliocentric`, which keeps loops"
+        }
         Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
         Refusal::Power { .. } => {
             "write the sums of H over `p[i]` with the loop variable alone as the index"

@@ -7,6 +7,7 @@
 mod breaks;
 mod cover;
 mod growth;
+mod labels;
 mod rank;
 mod solve;
 mod space;
@@ -16,10 +17,11 @@ mod tape;
 pub use solve::rows::{ROWS, Row};
 pub use space::NODES;
 
-use crate::dag::Node;
+use crate::dag::{Dag, Kind, Node};
 use crate::flow::{ExactFlow, Flow, Piece};
 use crate::model::{Model, ObservableKind};
 use crate::print;
+use crate::rational::Rational;
 use crate::transform::check_split;
 use solve::units;
 use space::Space;
@@ -160,10 +162,11 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
     // refute wrong sums, and the chosen one is proven.
     let constant = space.dag().add(&constants);
     let rest = |space: &mut Space, pieces: &[cover::Block]| {
-        let mut nodes: Vec<Node> = pieces.iter().map(|piece| piece.node).collect();
-        nodes.push(constant);
-        let sum = space.dag().add(&nodes);
-        space.dag().sub(h, sum)
+        let mut terms = summands(space.dag(), h, Rational::ONE);
+        for node in pieces.iter().map(|piece| piece.node).chain([constant]) {
+            terms.extend(summands(space.dag(), node, Rational::MINUS_ONE));
+        }
+        space.dag().linear(&Rational::ZERO, &terms)
     };
     candidates.retain(|pieces| {
         let rest = rest(space, pieces);
@@ -194,6 +197,28 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
         pieces,
         choice: Some(reasons),
     })
+}
+
+/// The terms of k·h, those of sums in it by themselves, so that terms that stand in other sums cancel.
+fn summands(dag: &mut Dag, h: Node, k: Rational) -> Vec<(Rational, Node)> {
+    let one = dag.integer(1);
+    let mut found = Vec::new();
+    let mut left = vec![(k, h)];
+    while let Some((k, node)) = left.pop() {
+        match dag.kind(node) {
+            Kind::Sum(c, terms) => {
+                found.push((c.mul(&k), one));
+                left.extend(terms.iter().map(|(own, node)| (own.mul(&k), *node)));
+            }
+            Kind::Product(own, factors)
+                if !own.is_one() && matches!(factors.as_slice(), [(_, 1)]) =>
+            {
+                left.push((own.mul(&k), factors[0].0));
+            }
+            _ => found.push((k, node)),
+        }
+    }
+    found
 }
 
 /// The splitting that the author declared: names with their parts of H, in his order.

@@ -4,8 +4,9 @@
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
 //! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
-//! normal form), every answer is no.
+//! normal form), every answer is no. A question has a limit of its own ([`QUESTION`]).
 
+use super::labels;
 use super::tape::{Lanes, Tape};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
@@ -20,11 +21,14 @@ use crate::rational::Rational;
 const TESTS: usize = 400;
 
 /// The most nodes that a search adds to the arena; those of the systems in the tests stay below
-/// 1500, and below 3000 of the products.
+/// 1500.
 pub const NODES: usize = 6_000;
 
 /// The most products of terms that the normal form takes for all questions together.
-const PRODUCTS: usize = 10_000;
+const PRODUCTS: usize = 60_000;
+
+/// The most products of terms that the normal form takes for one question.
+const QUESTION: usize = 20_000;
 
 /// The most components of a point whose quadratic forms are exponentiated as matrices.
 const COMPONENTS: usize = 16;
@@ -39,7 +43,7 @@ pub(crate) type Set = u64;
 pub(crate) struct Space {
     /// The model, to whose arena the search adds.
     pub(crate) model: Model,
-    /// Coordinates with their momenta, in the order of the model.
+    /// Coordinates with their momenta, in the order of their labels.
     pub(crate) pairs: Vec<(Node, Node)>,
     /// Of every node so far, the variables it is written with.
     sets: Vec<Set>,
@@ -97,6 +101,7 @@ impl Space {
             };
             pairs.push((leaf(Side::Q), leaf(Side::P)));
         }
+        labels::sort(&model.dag, roots, &mut pairs);
         let last = model.dag.len() + NODES;
         let components = model.components();
         Some(Space {
@@ -275,9 +280,12 @@ impl Space {
             return false;
         }
         self.tests = self.tests.saturating_sub(1);
+        let own = self.products.min(QUESTION);
+        let mut left = own;
         let answer = !self.is_spent()
             && witness(&self.model, node, Effort::Glance, &[]).is_none()
-            && vanishes_within(&mut self.model.dag, node, &mut self.products);
+            && vanishes_within(&mut self.model.dag, node, &mut left);
+        self.products -= own - left;
         self.zeros.insert(node, answer);
         answer
     }

@@ -90,6 +90,7 @@ impl Transformed {
             inverse.extend(of.inverse(&mut new.dag));
         }
         let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
+        let roots = roots.ok_or(Refusal::TooLong)?;
         new.set_roots(&roots);
         let mut places: Vec<Placement> = charts
             .iter()

@@ -26,6 +26,7 @@ pub use verify::check;
 use crate::index::LOOPS;
 use crate::loops::Point;
 use crate::model::Model;
+use reduce::OPERATIONS;
 use std::fmt;
 
 /// The system in the coordinates of the charts, which replace different coordinates.
@@ -75,6 +76,8 @@ pub enum Refusal {
     },
     /// More than [`crate::index::LOOPS`] loops are needed.
     TooManyLoops,
+    /// H is too long in the new coordinates.
+    TooLong,
     /// The factor of the time transformation is none.
     Factor {
         /// Why not.
@@ -120,6 +123,7 @@ impl fmt::Display for Refusal {
                 "`{coordinate}` is read in a loop that cannot be unrolled: {reason}"
             ),
             Refusal::TooManyLoops => write!(f, "it takes more than {LOOPS} loops"),
+            Refusal::TooLong => write!(f, "H has more than {OPERATIONS} operations in them"),
             Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
             Refusal::Power { momentum } => write!(
                 f,

@@ -10,10 +10,12 @@ use crate::count::work;
 use crate::dag::{Dag, Kind, Map, Node, Stage};
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::structure::{Collected, Term, expand, times};
+use crate::structure::{Collected, Term, expand_within, times};
 
 /// The most terms of all sums together that are multiplied out: of more operations a system is refused.
 const BUDGET: usize = 1 << 14;
+/// The most terms of one operand that are multiplied out.
+const LONGEST: usize = 1 << 12;
 /// The largest power that is rewritten.
 const HIGHEST: i32 = 16;
 
@@ -30,15 +32,20 @@ pub(super) struct Rules {
     pub(super) masses: Vec<(Node, Node, Node)>,
 }
 
-/// The roots with each node replaced that has an image.
+/// The most operations that a substitution makes; the macro refuses systems of fewer.
+pub(super) const OPERATIONS: usize = 1 << 17;
+
+/// The roots with each node replaced that has an image; `None` where that makes more than
+/// [`OPERATIONS`].
 pub(super) fn substitute(
     dag: &mut Dag,
     roots: &[Node],
     images: &Map<Node, Node>,
     rules: &Rules,
-) -> Vec<Node> {
+) -> Option<Vec<Node>> {
     let order = dag.reachable(roots);
     let inside = inside(dag, &order);
+    let mut operations = 0;
     let mut reducer = Reducer {
         rules,
         left: BUDGET,
@@ -53,6 +60,14 @@ pub(super) fn substitute(
         dag.for_children(node, |child| changed |= new[&child] != child);
         let image = if changed {
             let image = dag.rebuild(node, &|child| new[&child]);
+            operations += match dag.kind(image) {
+                Kind::Sum(_, terms) => terms.len(),
+                Kind::Product(_, factors) => factors.len(),
+                _ => 1,
+            };
+            if operations > OPERATIONS {
+                return None;
+            }
             let image = positive(dag, image, rules);
             reducer.reduce_node(dag, image, inside.contains_key(&node))
         } else {
@@ -60,7 +75,7 @@ pub(super) fn substitute(
         };
         new.insert(node, image);
     }
-    roots.iter().map(|root| new[root]).collect()
+    Some(roots.iter().map(|root| new[root]).collect())
 }
 
 /// A node made of others that were reduced before.
@@ -165,7 +180,8 @@ impl Reducer<'_> {
         let mut terms: Vec<Vec<Term>> = Vec::with_capacity(operands.len());
         for (k, operand) in &operands {
             let scaled = dag.scale(k, *operand);
-            let Some(found) = expand(dag, scaled).filter(|found| found.len() <= self.left) else {
+            // The limit is known before anything is multiplied out.
+            let Some(found) = expand_within(dag, scaled, self.left.min(LONGEST)) else {
                 return node;
             };
             self.left -= found.len();

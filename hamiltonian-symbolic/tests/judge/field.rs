@@ -115,8 +115,20 @@ impl Field {
         }
     }
 
-    /// H and J∇H.
-    pub fn at(&self, z: &[D]) -> (D, Vec<D>) {
+    /// Whether each base below a fraction line is negative.
+    pub fn divisors(&self, z: &[D]) -> Vec<bool> {
+        let values = self.values(z);
+        let mut signs = Vec::new();
+        for operation in &self.operations {
+            if let Operation::Product(_, factors) = operation {
+                let below = factors.iter().filter(|(_, n)| *n < 0);
+                signs.extend(below.map(|(base, _)| values[*base].to_f64() < 0.0));
+            }
+        }
+        signs
+    }
+
+    fn values(&self, z: &[D]) -> Vec<D> {
         let (zero, one) = (D::from(0.0), D::from(1.0));
         let mut values: Vec<D> = Vec::with_capacity(self.operations.len());
         let truth = |is: bool| if is { one } else { zero };
@@ -149,6 +161,13 @@ impl Field {
                 Operation::Select(c, a, b) => v(if holds(c) { a } else { b }),
             });
         }
+        values
+    }
+
+    /// H and J∇H.
+    pub fn at(&self, z: &[D]) -> (D, Vec<D>) {
+        let (zero, one) = (D::from(0.0), D::from(1.0));
+        let values = self.values(z);
         let mut slopes = vec![zero; values.len()];
         let mut gradient = vec![zero; 2 * self.half];
         if let Some(last) = slopes.last_mut() {

@@ -1,5 +1,6 @@
 //! The judge on the flows that are known: the cases of the rows, the pieces of the systems, the loops.
 
+use super::field::World;
 use super::{Definition, Subject, Verdict, verdicts};
 use crate::common;
 use crate::splits::CASES;
@@ -83,4 +84,22 @@ fn loops_end_where_orbits_do() {
     println!("{right} right; missing: {missing:#?}");
     assert!(wrong.is_empty(), "{wrong:#?}");
     assert!(right > RINGS.len());
+}
+
+/// Where ψ = 0, a turn about the first body axis goes through the pole of the chart. Beside ψ = 0 all angles
+/// jump near there, to other names of one rotation: those of ψ = 0 are the ones of ψ > 0.
+#[test]
+fn body_axes_pass_the_pole() {
+    let h = "((pf - pp*cos(th))*sin(ps)/sin(th) + pt*cos(ps))^2/2";
+    let definition = Definition::of("f, th, ps; pf, pt, pp", "", h, 0);
+    let subject = Subject::whole(&definition).expect("it has a flow");
+    let end = |psi: f64| {
+        let z = [-0.8, 0.8, psi, -0.3, 1.0, 1.0];
+        subject.act(0, &World::default(), &z, -1.5, false)
+    };
+    let (there, beside) = (end(0.0), end(1e-9));
+    assert!(there[2] > 3.0, "it passes: {there:?}");
+    for (a, b) in there.iter().zip(&beside) {
+        assert!((a - b).abs() < 1e-7, "{there:?} is not {beside:?}");
+    }
 }

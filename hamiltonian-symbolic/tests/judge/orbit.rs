@@ -18,6 +18,8 @@ pub struct End {
     pub z: Vec<D>,
     /// The largest component on the way.
     pub size: f64,
+    /// Whether something in a denominator changed its sign on the way: H has no value in between.
+    pub crosses: bool,
 }
 
 /// The orbit of a field for a time; `None` where it leaves the field's domain, all bounds or patience.
@@ -26,10 +28,12 @@ pub fn follow(field: &Field, z: &[D], time: D) -> Option<End> {
     let mut size = largest(&z);
     let (mut done, mut step) = (D::from(0.0), time * D::from(0.25));
     let whole = time.to_f64().abs();
+    let divisors = field.divisors(&z);
+    let mut crosses = false;
     for _ in 0..STEPS {
         let left = time - done;
         if left.to_f64().abs() <= 1e-30 * whole {
-            return Some(End { z, size });
+            return Some(End { z, size, crosses });
         }
         let is_last = step.to_f64().abs() >= left.to_f64().abs();
         let h = if is_last { left } else { step };
@@ -41,6 +45,7 @@ pub fn follow(field: &Field, z: &[D], time: D) -> Option<End> {
             z = next;
             done = if is_last { time } else { done + h };
             size = size.max(largest(&z));
+            crosses |= field.divisors(&z) != divisors;
             if size > 1e9 {
                 return None;
             }

@@ -178,12 +178,29 @@ fn shuffle<T>(list: &mut [T], random: &mut Random) {
     }
 }
 
+/// Systems beside those of the table: what their authors may list in another order.
+const MORE: &[(&str, &str, &str)] = &[
+    (
+        "phi, theta, r, t; p_phi, p_theta, p_r, p_t",
+        "",
+        "(1 - 2/r)*p_r^2/2 + p_theta^2/(2*r^2) + p_phi^2/(2*r^2*sin(theta)^2) - p_t^2/(2*(1 - 2/r))",
+    ),
+    (
+        "f, th, ps; pf, pt, pp",
+        "A B C m",
+        "((pf - pp*cos(th/2))*sin(ps)/sin(th/2) + 2*pt*cos(ps))^2/(2*A) + ((pf - pp*cos(th/2))*cos(ps)/sin(th/2) - 2*pt*sin(ps))^2/(2*B) + pp^2/(2*C) + m*cos(th/2)",
+    ),
+];
+
 #[test]
 fn the_same_systems_have_the_same_pieces() {
     let mut random = Random(19);
-    let (mut others, mut count, mut same) = (Vec::new(), 0, 0);
-    for found in FOUND {
-        let system = System::read(found.signature, found.parameters, found.h);
+    let (mut others, mut count) = (Vec::new(), 0);
+    let table = FOUND
+        .iter()
+        .map(|found| (found.signature, found.parameters, found.h));
+    for (signature, parameters, h) in table.chain(MORE.iter().copied()) {
+        let system = System::read(signature, parameters, h);
         let pieces = system.pieces().expect("it is split");
         let together = system
             .renamed()
@@ -197,7 +214,7 @@ fn the_same_systems_have_the_same_pieces() {
             ("constant", system.with_constant()),
             ("all", together.with_parameter().with_constant()),
         ];
-        for _ in 0..common::cases(0, 10) {
+        for _ in 0..common::cases(0, 20) {
             perturbed.push(("terms", system.with_terms(&mut random)));
             perturbed.push(("coordinates", system.with_coordinates(&mut random)));
         }
@@ -212,15 +229,14 @@ fn the_same_systems_have_the_same_pieces() {
                         .all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + a.abs() + b.abs()))
             };
             match other.pieces() {
-                Ok(own) if is_same(&own) => same += 1,
-                // The ranking reads sample points, which follow the order of coordinates.
-                Ok(_) => {}
+                Ok(own) if is_same(&own) => {}
+                Ok(_) => others.push(format!("{what}: other pieces: {other:?}")),
                 Err(term) => others.push(format!("{what}: refused for {term}: {other:?}")),
             }
         }
     }
-    println!("{same} of {count} have the same pieces");
-    assert!(count >= 50 && 4 * same > 3 * count);
+    println!("{count} systems");
+    assert!(count >= 50);
     assert!(
         others.is_empty(),
         "{} of {count}: {others:#?}",

@@ -32,9 +32,9 @@ pub const FOUND: &[Found] = &[
         parameters: "A B C m",
         h: "((pf - pp*cos(th))*sin(ps) + pt*sin(th)*cos(ps))^2/(2*A*sin(th)^2) + ((pf - pp*cos(th))*cos(ps) - pt*sin(th)*sin(ps))^2/(2*B*sin(th)^2) + pp^2/(2*C) + m*cos(th)",
         pieces: &[
-            "((pf - pp*cos(th))*cos(ps) - pt*sin(th)*sin(ps))^2/(2*B*sin(th)^2)",
-            "pp^2/(2*C) + m*cos(th)",
             "((pf - pp*cos(th))*sin(ps) + pt*sin(th)*cos(ps))^2/(2*A*sin(th)^2)",
+            "pp^2/(2*C) + m*cos(th)",
+            "((pf - pp*cos(th))*cos(ps) - pt*sin(th)*sin(ps))^2/(2*B*sin(th)^2)",
         ],
     },
     Found {

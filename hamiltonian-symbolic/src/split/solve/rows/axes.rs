@@ -2,13 +2,14 @@
 //! M₁ = ((p_φ − p_ψ cosθ)sinψ + p_θ sinθ cosψ)/sinθ, M₂ = ((p_φ − p_ψ cosθ)cosψ − p_θ sinθ sinψ)/sinθ.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: h = κ·M² with κ constant is proven; φ may be
-//! missing in h, as p_φ = const. The flow turns the other two components and the vertical γ about
+//! missing in h, as p_φ = const; the variables of θ and ψ may be scaled. The flow turns the other two components and the vertical γ about
 //! the axis; angles are followed from where they are, without branch cuts.
 
 use super::circle::SWEPT;
-use crate::dag::Node;
+use crate::dag::{Kind, Node};
 use crate::flow::Motion;
 use crate::formula::Names;
+use crate::op::Op;
 use crate::rational::Rational;
 use crate::split::space::{Space, differ};
 use std::f64::consts::FRAC_PI_2;
@@ -31,9 +32,14 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
             continue;
         }
         for (theta, psi) in [(*a, *b), (*b, *a)] {
-            for side in SIDES {
-                if let Some(motion) = about(space, h, s, [third, theta, psi], side) {
-                    return Some(motion);
+            for scale in scales(space, h, theta) {
+                for turn in scales(space, h, psi) {
+                    for side in SIDES {
+                        let angles = [(theta, &scale), (psi, &turn)];
+                        if let Some(motion) = about(space, h, s, third, angles, side) {
+                            return Some(motion);
+                        }
+                    }
                 }
             }
         }
@@ -41,18 +47,47 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     None
 }
 
+/// The numbers k for which h has a sine or cosine of k·x + …, with the coordinate x of a pair.
+fn scales(space: &mut Space, h: Node, pair: usize) -> Vec<Rational> {
+    let (x, _) = space.pairs[pair];
+    let mut found = Vec::new();
+    for node in space.dag().reachable(&[h]) {
+        let Kind::Call(Op::Sin | Op::Cos, arguments) = space.dag().kind(node).clone() else {
+            continue;
+        };
+        let rate = space.d(arguments[0], x);
+        if let Some(rate) = space.dag().as_constant(rate).cloned()
+            && !rate.is_zero()
+            && !found.contains(&rate)
+        {
+            found.push(rate);
+        }
+    }
+    found
+}
+
 fn about(
     space: &mut Space,
     h: Node,
     s: Node,
-    [phi, theta, psi]: [usize; 3],
+    phi: usize,
+    [(theta, scale), (psi, turn)]: [(usize, &Rational); 2],
     (quarter, sides): (f64, &str),
 ) -> Option<Motion> {
+    let (over_scale, over_turn) = (scale.recip()?, turn.recip()?);
+    let factors = |pair: usize| match pair {
+        pair if pair == theta => (scale.to_f64(), over_scale.to_f64()),
+        pair if pair == psi => (turn.to_f64(), over_turn.to_f64()),
+        _ => (1.0, 1.0),
+    };
     // Numbers say first that h/M² is no constant.
     let set = space.set(h);
     let [here, there] = [0.0, 1.0].map(|step| {
         let point = space.point_off(&[(set, step)]);
-        let at = |pair: usize, side: usize| point[2 * pair + side];
+        let at = |pair: usize, side: usize| {
+            let (of_angle, of_momentum) = factors(pair);
+            point[2 * pair + side] * if side == 0 { of_angle } else { of_momentum }
+        };
         let (st, ct) = at(theta, 0).sin_cos();
         let (sp, cp) = (at(psi, 0) + quarter).sin_cos();
         let flat = (at(phi, 1) - at(psi, 1) * ct) / st;
@@ -62,7 +97,10 @@ fn about(
     if differ(here, there) {
         return None;
     }
-    let [(f, pf), (th, pt), (ps, pp)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
+    let [(f, pf), (x, px), (z, pz)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
+    let dag = space.dag();
+    let (th, pt) = (dag.scale(scale, x), dag.scale(&over_scale, px));
+    let (ps, pp) = (dag.scale(turn, z), dag.scale(&over_turn, pz));
     let mut names = Names::of(&[("th", th), ("ps", ps), ("pf", pf), ("pt", pt), ("pp", pp)]);
     names.read(space.dag(), sides)?;
     names.read(
@@ -89,7 +127,7 @@ fn about(
         space.dag(),
         "st = sin(w); ct = cos(w); N2 = M2*ct + pp*st; N3 = pp*ct - M2*st; \
          g5 = g2*ct + g3*st; g6 = g3*ct - g2*st; \
-         k = abs(g1); rest = g2^2 + g3^2; side = sign(g1); chi0 = atan2(g2, g3); \
+         k = abs(g1); rest = g2^2 + g3^2; side = pick(g1 < 0, -1, 1); chi0 = atan2(g2, g3); \
          turned = atan2(g1*g2 - g5*g1, g5*g2 + g1*g1); \
          upright = hypot(g1, g5); side_th = sign(sth); sth1 = side_th*upright; \
          th1 = th + atan2(sth1*cth - g6*sth, g6*cth + sth1*sth); \
@@ -101,10 +139,17 @@ fn about(
         "f1 = side*angle; pt1 = side_th*(M1*g5 - N2*g1)/upright; pp1 = N3",
     )?;
     let mut motion = Motion::default();
-    motion.set(th, names.get("th1")?);
-    motion.set(ps, names.get("ps1")?);
-    motion.set(pt, names.get("pt1")?);
-    motion.set(pp, names.get("pp1")?);
+    let images = [
+        (x, "th1", &over_scale),
+        (z, "ps1", &over_turn),
+        (px, "pt1", scale),
+        (pz, "pp1", turn),
+    ];
+    for (leaf, image, k) in images {
+        let image = names.get(image)?;
+        let image = space.dag().scale(k, image);
+        motion.set(leaf, image);
+    }
     let turned = names.get("f1")?;
     motion.add(space.dag(), f, turned);
     Some(motion)

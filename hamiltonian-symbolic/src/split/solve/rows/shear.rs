@@ -54,6 +54,12 @@ fn linear(
     }
     let (x_set, y) = (space.set(axes.x), axes.y(space));
     let y_set = space.set(y);
+    // ∂h/∂y = β and the derivatives of B hold on each side of a break by themselves.
+    for (place, _) in space.breaks(h) {
+        if space.set(place) & (x_set | y_set) != 0 {
+            return None;
+        }
+    }
     let mut motion = Motion::default();
     let step = space.dag().mul(&[beta, s]);
     motion.add(space.dag(), axes.x, step);

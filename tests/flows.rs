@@ -8,6 +8,8 @@
 mod kepler;
 #[path = "flows/pieces.rs"]
 mod pieces;
+#[path = "flows/shapes.rs"]
+mod shapes;
 
 use crate::common::systems::Paper34;
 use crate::splits::{Body, Dipole, Explodes, Ring, Saddle, Schwarzschild, Vortices};

@@ -12,7 +12,7 @@ use crate::dag::{Dag, Dependence, Kind, Node};
 use crate::facts::{Facts, Given, Locus, Regular};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
-use crate::op::{At, Op};
+use crate::op::{At, Break, Op};
 use crate::print;
 use crate::rational::Rational;
 
@@ -74,6 +74,73 @@ pub(super) struct Claim {
     pub(super) is_still: bool,
 }
 
+/// Whether H is analytic wherever it is finite, so that its velocity is Lipschitz there and its flow is
+/// continuous: each part with a kink, a jump or a steep root that vanishes is a divisor or in a logarithm,
+/// where H is infinite or has no value. Either all its uses are such, or one is a term of H, or a factor of
+/// a term, which is read at every point.
+fn is_smooth_where_finite(dag: &Dag, h: Node, everywhere: &Facts) -> bool {
+    let nodes = dag.reachable(&[h]);
+    let terms = terms_and_factors(dag, h);
+    let is_rough = |node: Node| match dag.kind(node) {
+        Kind::Call(op, _) => {
+            let has_root = matches!(op, Op::Sqrt | Op::Cbrt | Op::Hypot | Op::Pow);
+            has_root || op.row().regularity.breaks != Break::Nowhere
+        }
+        Kind::Select(..) => true,
+        _ => false,
+    };
+    let is_vanishing_alone = |node: Node| {
+        matches!(
+            dag.kind(node),
+            Kind::Call(Op::Sqrt | Op::Cbrt | Op::Hypot | Op::Abs, _)
+        )
+    };
+    let is_divided_by = |user: Node, node: Node| match dag.kind(user) {
+        Kind::Product(_, factors) => factors.iter().any(|(base, n)| *base == node && *n < 0),
+        Kind::Call(Op::Ln, arguments) => arguments.contains(&node),
+        _ => false,
+    };
+    let is_guarded = |node: Node| {
+        terms.iter().any(|term| is_divided_by(*term, node))
+            || node != h
+                && nodes.iter().all(|user| {
+                    let mut is_read = false;
+                    dag.for_children(*user, |child| is_read |= child == node);
+                    !is_read || is_divided_by(*user, node)
+                })
+    };
+    nodes
+        .iter()
+        .filter(|node| !everywhere.get(**node).is_analytic)
+        .all(|node| !is_rough(*node) || is_vanishing_alone(*node) && is_guarded(*node))
+}
+
+/// The terms of a sum, its factors with positive powers, and theirs: where one of them is infinite or has
+/// no value, so is the sum or it has none.
+fn terms_and_factors(dag: &Dag, sum: Node) -> Vec<Node> {
+    let mut found = vec![sum];
+    let mut next = 0;
+    while let Some(node) = found.get(next).copied() {
+        next += 1;
+        let mut add = |node: Node| {
+            if !found.contains(&node) {
+                found.push(node);
+            }
+        };
+        match dag.kind(node) {
+            Kind::Sum(..) => dag.for_children(node, add),
+            Kind::Product(_, factors) => {
+                factors
+                    .iter()
+                    .filter(|(_, n)| *n > 0)
+                    .for_each(|(base, _)| add(*base));
+            }
+            _ => {}
+        }
+    }
+    found
+}
+
 impl Claim {
     pub(super) fn new(model: &Model, expression: Node, h: Node, is_on_shell: bool) -> Claim {
         let has_time = model.dag.dependence(h).on(Dependence::TIME);
@@ -98,7 +165,22 @@ impl Claim {
         let (dag, is_free) = (&model.dag, model.force.is_empty());
         if !self.is_on_shell && is_free {
             let facts = Facts::of(dag, &roots, given);
-            if self.passes_by_continuity(&facts) || self.passes_by_continuation(&facts) {
+            if self.passes_by_continuation(&facts) {
+                return true;
+            }
+            // Sets of two dimensions less do not count under a continuous flow. Where the velocity is not
+            // Lipschitz, as at the equilibrium of p²/2 − |q|, orbits branch and come to rest there:
+            // the statement, up to H, is to hold at every point.
+            let everywhere = Facts::everywhere(dag, &roots, given);
+            let is_enough = is_smooth_where_finite(dag, self.h, &everywhere) || {
+                let mut given = given.clone();
+                if self.is_still {
+                    given.constant.insert(self.h, ());
+                }
+                let beside_h = Facts::everywhere(dag, &roots, &given);
+                beside_h.get(self.expression).is_projective
+            };
+            if is_enough && self.passes_by_continuity(&facts) {
                 return true;
             }
         }
@@ -211,6 +293,11 @@ impl Claim {
             (Some(part), place.unwrap_or_else(|| BOTH_SIDES.to_owned()))
         } else if let Some(part) = culprit(&model.dag, &everywhere, &roots[2..], is_gentle) {
             let why = "under a force that is not Lipschitz there, motion may stop or branch";
+            (Some(part), why.to_owned())
+        } else if model.force.is_empty()
+            && let Some(part) = culprit(&model.dag, &everywhere, &roots[..2], is_projective)
+        {
+            let why = "where H has a kink or a steep root, motion may stop or branch";
             (Some(part), why.to_owned())
         } else {
             let part = culprit(&model.dag, &most, &roots[1..2], |regular| {

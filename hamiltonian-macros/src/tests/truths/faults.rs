@@ -49,6 +49,11 @@ pub const CLASSES: &[Class] = &[
     ("places whose slope is a parameter", 8, vanishing_slopes),
     ("values of their own at poles", 9, own_values),
     ("conditions on constants of the motion", 10, single_levels),
+    (
+        "equilibria at which motion branches",
+        11,
+        branching_equilibria,
+    ),
 ];
 
 /// f·(H − e) on H = e, where dH/dt or de/dt is not 0 and f is not either.
@@ -305,4 +310,35 @@ fn single_levels(random: &mut Random) -> String {
         _ => format!("{constant} + (1 - sign({of} - {level})^2)*({changing})"),
     };
     format!("struct A {{}} H(x, y; u, v) = {h}; invariant i = {i}")
+}
+
+/// A force that is not Lipschitz at an equilibrium: motion may rest there for a while and go.
+fn branching_equilibria(random: &mut Random) -> String {
+    let place = random.pick(&["q", "(q - 1)", "(q + 2)", "(2*q - 3)"]);
+    let power = random.pick(&[
+        "abs($)^(3/2)",
+        "abs($)^(4/3)",
+        "abs($)^(5/4)",
+        "abs($)",
+        "cbrt($)^4",
+        "$*cbrt($)",
+        "sqrt(abs($))*abs($)",
+        "sqrt($^2)",
+        "hypot($, 0*p)^(3/2)",
+    ]);
+    let hill = power.replace('$', place);
+    let k = random.number();
+    let distance = random.pick(&["p^2 + $^2", "abs(p) + abs($)", "p^4 + $^2", "p^2 + abs($)"]);
+    let distance = distance.replace('$', place);
+    let i = match random.below(6) {
+        0 => format!("sign({distance})"),
+        1 => format!("if {distance} > 0 {{ {k} }} else {{ 0 }}"),
+        2 => format!("u*sign({distance})"),
+        3 => format!("if {place} == 0 && p == 0 {{ u }} else {{ {k}*u + 1 }}"),
+        4 => format!("H + sign({distance})"),
+        _ => format!("(1 - sign({distance}))*exp(u)"),
+    };
+    let beside = random.pick(&["0", "x", "u^2/2"]);
+    let beside = if i.contains('u') { "u^2/2" } else { beside };
+    format!("struct A {{}} H(q, x; p, u) = p^2/2 + {beside} - {k}*{hill}; invariant i = {i}")
 }

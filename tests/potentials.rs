@@ -111,7 +111,7 @@ fn given_derivatives_win() {
 #[test]
 fn a_spline_is_a_potential() -> Result<(), Error> {
     let (q, p) = ([0.7, 1.9], [0.2, -0.4]);
-    let well = Well::new(spline(|r| morse(r), [0.0, 6.0], 600));
+    let well = Well::new(spline(morse, [0.0, 6.0], 600));
     agree(
         &derivatives!(well.clone(), q, p),
         &derivatives!(InLanguage::default(), q, p),
@@ -162,7 +162,7 @@ fn functions_stand_in_loops_over_sites() -> Result<(), Error> {
 /// Members of a pack stand in different intervals, and each has the bits of a run by itself.
 #[test]
 fn each_lane_finds_its_own_interval() -> Result<(), Error> {
-    let well = Well::new(spline(|r| morse(r), [0.0, 6.0], 600));
+    let well = Well::new(spline(morse, [0.0, 6.0], 600));
     let make = |member: Member| {
         let at = member.index as f64;
         let well = Well {
@@ -199,7 +199,7 @@ fn members_have_one_function() {
 
 #[test]
 fn a_saved_run_goes_on_with_the_same_data_only() -> Result<(), Error> {
-    let [one, other] = [600, 601].map(|n| Well::new(spline(|r| morse(r), [0.0, 6.0], n)));
+    let [one, other] = [600, 601].map(|n| Well::new(spline(morse, [0.0, 6.0], n)));
     let start = State::new([1.5, 0.0], [0.0, 0.6]);
     let mut run = Integrator::new(&one, StormerVerlet::default(), start, 0.02)?;
     run.advance(50)?;
@@ -219,7 +219,7 @@ fn a_saved_run_goes_on_with_the_same_data_only() -> Result<(), Error> {
 
 #[test]
 fn derivatives_by_parameters_keep_the_function() {
-    let well = Well::new(spline(|r| morse(r), [0.0, 6.0], 60));
+    let well = Well::new(spline(morse, [0.0, 6.0], 60));
     let gradient = well.parameter_gradient(&State::new([1.0, 0.0], [0.6, 0.0]));
     assert_eq!(
         (gradient.m, gradient.V.fingerprint()),

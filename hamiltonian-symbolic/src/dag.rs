@@ -50,7 +50,7 @@ pub enum Part {
     Higher {
         /// The order.
         order: u16,
-        /// The sum of [`Part::mixed`] of the arguments: the same for each order of differentiation.
+        /// The sum of one number for each of the arguments: the same for each order of differentiation.
         arguments: u64,
     },
 }

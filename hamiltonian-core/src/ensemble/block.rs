@@ -71,7 +71,7 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) first: u64,
     /// The steps between two of them.
     pub(crate) interval: u64,
-    /// What each lane sees of them, if not all.
+    /// The states that each lane sees, if the lanes differ.
     pub(crate) apart: Option<Apart<U>>,
     /// The lanes that see their first state at the end of this block, of no steps.
     pub(crate) attach: Option<U::Mask>,

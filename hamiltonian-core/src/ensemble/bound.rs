@@ -41,10 +41,10 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Drives the members of a host to their ends.
     #[doc(hidden)]
     fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool);
-    /// Whether two systems may stand in one pack.
+    /// Returns whether two systems may stand in one pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
-    /// Whether all their parameters are equal.
+    /// Returns whether all their parameters are equal.
     #[doc(hidden)]
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
 }
@@ -91,8 +91,8 @@ where
     }
 }
 
-/// Whether a step works on so few numbers that many registers in lock-step hide its latency; with more of
-/// them registers spill.
+/// Returns whether a step works on so few numbers that many registers in lock-step hide its latency. With
+/// more numbers, registers spill.
 const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
     const MOST: usize = 4 * size_of::<f64>();
     size_of::<<M::Map as Map>::Carried>() + size_of::<<M::Map as Map>::Work>() <= MOST
@@ -138,7 +138,7 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
         step: f64,
         words: &mut Vec<f64>,
     ) -> Result<(), Error>;
-    /// Whether steps of this size differ in time.
+    /// Returns whether steps of this size differ in time.
     fn varies(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: f64) -> bool;
     /// The scheme's line of the catalogue.
     fn entry(&self) -> Entry;

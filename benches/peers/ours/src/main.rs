@@ -76,7 +76,7 @@ fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
     end.iter().zip(exact).map(difference).fold(0.0, f64::max)
 }
 
-/// What the command line asks for.
+/// The choices of the command line.
 struct Task {
     rows: bool,
     only: Option<String>,

@@ -8,11 +8,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The crates, all without a circle.
-const CRATES: [&str; 5] = [
+const CRATES: [&str; 6] = [
     "hamiltonian-real",
     "hamiltonian-lanes",
     "hamiltonian-core",
     "hamiltonian-symbolic",
+    "hamiltonian-language",
     "hamiltonian-macros",
 ];
 

@@ -12,11 +12,11 @@ mod surface;
 mod variables;
 mod verdicts;
 
-use crate::check::SHARE_LOOPS;
-use crate::checked::{Checked, Definition};
 use crate::emit;
-use crate::lower::{Beyond, ends, lower};
-use crate::report::{Report, Spans};
+use hamiltonian_language::check::SHARE_LOOPS;
+use hamiltonian_language::checked::{Checked, Definition};
+use hamiltonian_language::lower::{Beyond, ends, lower};
+use hamiltonian_language::report::{Report, Spans};
 use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::legendre::Readable;

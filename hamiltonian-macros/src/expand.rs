@@ -3,11 +3,11 @@
 //! Input: `(root) tokens…`, where root is the path of the library as the wrapper macro knows it.
 //! Output: code, or all errors of the first stage that has any, with a stub.
 
-use crate::ast::Ast;
-use crate::checked::Checked;
-use crate::report::Report;
-use crate::tokens::{Tokens, is_attribute};
-use crate::{backend, check, fallback, parse, unused};
+use crate::{backend, fallback, unused};
+use hamiltonian_language::ast::Ast;
+use hamiltonian_language::read;
+use hamiltonian_language::report::Report;
+use hamiltonian_language::tokens::is_attribute;
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 use quote::quote;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -22,7 +22,7 @@ pub fn expand(input: TokenStream) -> TokenStream {
     let mut report = Report::default();
     let stages = || {
         let checked;
-        (ast, checked) = front(definition.clone(), &mut report);
+        (ast, checked) = read(definition.clone(), &mut report);
         backend::generate(&checked?, &root, &mut report)
     };
     let code = caught(stages).unwrap_or_else(|fault| {
@@ -55,18 +55,6 @@ fn caught<T>(stages: impl FnOnce() -> T) -> Result<T, String> {
         let text = text.or_else(|| panic.downcast_ref::<&str>().map(|text| (*text).to_owned()));
         text.unwrap_or_else(|| "a panic without words".to_owned())
     })
-}
-
-/// Tokens → tree → checked tree. The tree is there, as far as it was read, whatever was wrong.
-pub fn front(definition: TokenStream, report: &mut Report) -> (Ast, Option<Checked>) {
-    let tokens = Tokens::flatten(definition);
-    let ast = parse::parse(&tokens, report);
-    if report.barrier(()).is_none() {
-        return (ast, None);
-    }
-    let checked = check::check(&ast, report);
-    let checked = report.barrier(checked);
-    (ast, checked)
 }
 
 /// `#[cfg(…)]` before a type stands before everything that is made of it: such a definition becomes

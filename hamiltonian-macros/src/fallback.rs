@@ -7,10 +7,10 @@
 //! `compile_error!` is the value; in item form the type is an alias of a struct with the declared
 //! fields, one of whose const arguments is the last `compile_error!`.
 
-use crate::ast::{Ast, Header, Item, Parameter, ParameterKind};
-use crate::names;
-use crate::report::Report;
-use crate::tokens::is_attribute;
+use hamiltonian_language::ast::{Ast, Header, Item, Parameter, ParameterKind};
+use hamiltonian_language::names;
+use hamiltonian_language::report::Report;
+use hamiltonian_language::tokens::is_attribute;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 

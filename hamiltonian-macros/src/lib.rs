@@ -3,26 +3,15 @@
 //! Users reach it through the facade's wrapper, which forwards `$crate` so that emitted code finds
 //! the library under whatever name it was imported.
 //!
-//! tokens → `ast` (`parse`) → `checked` (`check`) → code (`backend`); `expand` drives, `report`
-//! collects the errors, `fallback` stands in for a wrong definition.
+//! tokens → a checked definition (`hamiltonian_language`) → its mathematics, proven and split (`backend`)
+//! → code (`emit`); `expand` drives, `fallback` stands in for a wrong definition.
 
-#[allow(dead_code)]
-mod ast;
 mod backend;
-mod check;
-#[allow(dead_code)]
-mod checked;
 mod emit;
 mod expand;
 mod fallback;
-mod lower;
-#[allow(dead_code)]
-mod names;
-mod parse;
-mod report;
 #[cfg(test)]
 mod tests;
-mod tokens;
 mod unused;
 
 /// Expands a definition; its first token is the path of the library in parentheses.

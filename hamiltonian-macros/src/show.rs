@@ -8,21 +8,10 @@
 
 extern crate proc_macro;
 
-#[allow(dead_code)]
-mod ast;
 mod backend;
-mod check;
-#[allow(dead_code)]
-mod checked;
 mod emit;
 mod expand;
 mod fallback;
-mod lower;
-#[allow(dead_code)]
-mod names;
-mod parse;
-mod report;
-mod tokens;
 mod unused;
 
 use proc_macro2::{TokenStream, TokenTree};

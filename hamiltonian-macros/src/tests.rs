@@ -12,11 +12,12 @@ mod precedence;
 mod stub;
 mod truths;
 
-use crate::ast::Ast;
-use crate::checked::Checked;
-use crate::report::{Diagnostic, Report};
-use crate::tokens::Tokens;
-use crate::{backend, check, expand, parse};
+use crate::backend;
+use hamiltonian_language::ast::Ast;
+use hamiltonian_language::checked::Checked;
+use hamiltonian_language::report::{Diagnostic, Report};
+use hamiltonian_language::tokens::Tokens;
+use hamiltonian_language::{check, parse, read as front};
 use proc_macro2::{LineColumn, TokenStream};
 use quote::quote;
 use std::str::FromStr;
@@ -25,7 +26,7 @@ use std::str::FromStr;
 fn read(source: &str) -> (Ast, Option<Checked>, Report) {
     let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
     let mut report = Report::default();
-    let (ast, checked) = expand::front(stream, &mut report);
+    let (ast, checked) = front(stream, &mut report);
     (ast, checked, report)
 }
 

@@ -5,8 +5,8 @@
 //! macro cannot warn, and rustc's own lint `unused_variables` does it at that argument; `allow`
 //! before the type or the parameter, and an underscore before the name, silence it as in Rust.
 
-use crate::ast::{Ast, StatementKind};
-use crate::tokens::{TokenKind, Tokens, is_attribute};
+use hamiltonian_language::ast::{Ast, StatementKind};
+use hamiltonian_language::tokens::{TokenKind, Tokens, is_attribute};
 use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 use std::collections::HashMap;

@@ -4,9 +4,9 @@
 //! expression that makes the number. Invariant: the narrowest place that is known.
 
 use super::definition;
-use crate::checked::{Checked, NodeId};
-use crate::lower::Beyond;
-use crate::report::{Report, Spans};
+use hamiltonian_language::checked::{Checked, NodeId};
+use hamiltonian_language::lower::Beyond;
+use hamiltonian_language::report::{Report, Spans};
 use hamiltonian_symbolic::model::{Model, VectorUse};
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;

@@ -3,9 +3,9 @@
 //! Input: the lowered definition. Output: errors with the residual and, where one was found, a
 //! point. Invariant: `#[assume]` silences claims that could not be decided, never false ones.
 
-use crate::checked::Checked;
-use crate::lower::Lowered;
-use crate::report::Report;
+use hamiltonian_language::checked::Checked;
+use hamiltonian_language::lower::Lowered;
+use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant, is_invariant_of_lagrangian};
 use hamiltonian_symbolic::dag::{Dependence, Node};
 use hamiltonian_symbolic::loops::Point;

@@ -5,9 +5,9 @@
 //! each with an exact flow; V and T of a separable H need no search.
 
 use super::Part;
-use crate::checked::{self, Checked, Kind, Variable};
 use crate::emit::Reason;
-use crate::report::Report;
+use hamiltonian_language::checked::{self, Checked, Kind, Variable};
+use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::flow::Piece;
 use hamiltonian_symbolic::model::Model;

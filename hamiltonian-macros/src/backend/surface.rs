@@ -3,10 +3,10 @@
 //! Input: [`Checked`]. Output: the defaults as they are emitted, models, errors. Invariant: all
 //! methods of a type have different names.
 
-use crate::checked::{Checked, Definition, Type};
 use crate::emit::{self, piece_method};
-use crate::lower::constants;
-use crate::report::Report;
+use hamiltonian_language::checked::{Checked, Definition, Type};
+use hamiltonian_language::lower::constants;
+use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::{Model, ObservableKind};
 use proc_macro2::Ident;

@@ -7,10 +7,10 @@
 
 use super::proofs;
 use super::surface::CLOCK;
-use crate::checked::{Checked, Definition};
 use crate::emit::Declared;
-use crate::lower::Lowered;
-use crate::report::Report;
+use hamiltonian_language::checked::{Checked, Definition};
+use hamiltonian_language::lower::Lowered;
+use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};

@@ -6,8 +6,8 @@
 
 use super::context::Context;
 use super::{allowances, documented, lex, located, reach};
-use crate::ast::Header;
-use crate::checked::{Extent, Field, Parameter, Type};
+use hamiltonian_language::ast::Header;
+use hamiltonian_language::checked::{Extent, Field, Parameter, Type};
 use hamiltonian_symbolic::model::Shape;
 use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};

@@ -8,7 +8,7 @@
 use super::block;
 use super::context::Context;
 use super::{lex, located};
-use crate::ast::Function;
+use hamiltonian_language::ast::Function;
 use hamiltonian_symbolic::dag::Part;
 use proc_macro2::{Delimiter, Group, Span, TokenStream};
 use quote::quote;

@@ -10,9 +10,9 @@ use super::{
     allowances, construct, declared, documented, dynamics, externals, lex, located, markers, mixed,
     observables, piece_method, piece_type, reach, vectors,
 };
-use crate::ast::Header;
-use crate::checked::{Field, SizeDeclaration};
-use crate::names::listed;
+use hamiltonian_language::ast::Header;
+use hamiltonian_language::checked::{Field, SizeDeclaration};
+use hamiltonian_language::names::listed;
 use proc_macro2::{Group, Ident, TokenStream, TokenTree};
 use quote::{format_ident, quote};
 use std::fmt::Write;

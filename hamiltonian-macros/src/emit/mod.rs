@@ -49,9 +49,9 @@ mod vectors;
 pub use declared::Declared;
 pub use number::closed;
 
-use crate::ast::Header;
-use crate::checked::Checked;
 use context::Context;
+use hamiltonian_language::ast::Header;
+use hamiltonian_language::checked::Checked;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};

@@ -5,7 +5,7 @@
 
 use super::context::Context;
 use super::{lex, located};
-use crate::checked::{Extent, Reach};
+use hamiltonian_language::checked::{Extent, Reach};
 use hamiltonian_symbolic::index::{Affine, Domain, Size};
 use proc_macro2::TokenStream;
 use quote::quote;

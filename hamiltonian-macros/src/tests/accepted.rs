@@ -1,8 +1,8 @@
 //! Definitions that are accepted, and what they become.
 
 use super::accept;
-use crate::ast::BinaryOp;
-use crate::checked::{
+use hamiltonian_language::ast::BinaryOp;
+use hamiltonian_language::checked::{
     Checked, Definition, Extent, Field, Kind, NodeId, ParameterId, Type, Variable,
 };
 use hamiltonian_symbolic::index::Size;

@@ -1,7 +1,8 @@
 //! Numbers are exact until the end, and no definition hangs the macro.
 
-use crate::report::Report;
-use crate::{backend, expand};
+use crate::backend;
+use hamiltonian_language::read;
+use hamiltonian_language::report::Report;
 use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
@@ -12,7 +13,7 @@ use std::time::{Duration, Instant};
 fn built(source: &str) -> Result<String, Vec<(String, String)>> {
     let stream = TokenStream::from_str(source).expect("the source has balanced brackets");
     let mut report = Report::default();
-    let (_, checked) = expand::front(stream, &mut report);
+    let (_, checked) = read(stream, &mut report);
     let code = checked.and_then(|checked| backend::generate(&checked, &quote!(::h), &mut report));
     match code.and_then(|code| report.barrier(code)) {
         Some(code) => Ok(code.to_string()),

@@ -6,7 +6,7 @@
 //! are now: read the difference before you keep it.
 
 use super::{Stage, refuse, unmarked};
-use crate::report::Diagnostic;
+use hamiltonian_language::report::Diagnostic;
 use proc_macro2::LineColumn;
 use std::fs;
 use std::path::PathBuf;

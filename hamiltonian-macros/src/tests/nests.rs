@@ -2,8 +2,8 @@
 //! is the one written term by term.
 
 use super::accept;
-use crate::lower;
-use crate::report::Report;
+use hamiltonian_language::lower;
+use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::loops::unroll;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use std::ops::Range;

@@ -1,7 +1,7 @@
 //! Precedence of operators, and that numbers are kept exactly.
 
 use super::{accept, read};
-use crate::ast::{Ast, BinaryOp, ExprId, ExprKind, StatementKind, UnaryOp};
+use hamiltonian_language::ast::{Ast, BinaryOp, ExprId, ExprKind, StatementKind, UnaryOp};
 use hamiltonian_symbolic::rational::Rational;
 
 /// The expression of the first statement in fully bracketed prefix form.

@@ -1,8 +1,8 @@
 //! The code in the place of a wrong definition, and the way of definitions to the front end.
 
 use super::unmarked;
-use crate::expand::{self, expand};
-use crate::report::Report;
+use crate::expand::expand;
+use hamiltonian_language::report::Report;
 use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
 use quote::quote;
 use std::str::FromStr;
@@ -57,7 +57,7 @@ fn fragments_of_other_macros_are_values() {
         quote!(#nothing struct #name { m = 1 } H = p^2/m),
     ] {
         let mut report = Report::default();
-        let (_, checked) = expand::front(tokens, &mut report);
+        let (_, checked) = hamiltonian_language::read(tokens, &mut report);
         assert!(checked.is_some(), "{:?}", report.errors());
     }
 }

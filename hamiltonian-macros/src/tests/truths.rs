@@ -7,8 +7,8 @@ mod faults;
 
 use super::read;
 use crate::backend::proofs::prove;
-use crate::lower::lower;
 use faults::{CLASSES, Random};
+use hamiltonian_language::lower::lower;
 
 /// The errors of a definition up to its proofs, and the number of statements in it.
 fn judged(source: &str) -> (Vec<String>, usize) {

@@ -122,7 +122,7 @@ struct Checker<'a> {
 
 impl<'a> Checker<'a> {
     fn new(ast: &'a Ast, report: &'a mut Report) -> Self {
-        let symbols = ast.symbols.len();
+        let symbols = ast.symbols.count();
         let mut loop_symbols = vec![false; symbols];
         for scope in &ast.scopes {
             loop_symbols[scope.symbol.0 as usize] = true;

@@ -435,7 +435,7 @@ impl Symbols {
     }
 
     /// The number of symbols; each is smaller than it.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.names.len()
     }
 }

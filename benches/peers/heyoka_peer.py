@@ -8,7 +8,7 @@ import heyoka as hy
 import numpy as np
 from peer import main
 
-TOLERANCES = (1e-6, 1e-9, 1e-12, 1e-15, 2.3e-16)
+TOLERANCES = (1e-6, 1e-8, *(10.0**-n for n in range(9, 16)), 2.3e-16)
 
 
 def taylor(equations, problem, order=lambda end: end, start=None, **options):

@@ -18,6 +18,9 @@ TITLES = {
     "ensemble": "1000 pendulums, to t = 100",
 }
 GOALS = (1e-3, 1e-6, 1e-9, 1e-11)
+# End-point errors at which the fastest peer of Taylor's method is compared in a table of its own.
+ASKED = {"kepler": 1e-9, "henon_heiles": 2e-11, "pendulum": 2e-11, "coupled": 1e-10, "planets": 2e-11}
+FIGURES = "benches/peers/figures"
 COLOURS = {"hamiltonian": "#1f4e9c", "heyoka": "#c8442c", "REBOUND": "#2c8a4b", "SciPy": "#8a6d1f", "numba": "#7a3e98",
            "diffsol": "#444444", "Julia": "#c2389a"}
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 640, 400, 64, 48, 36, 130
@@ -83,7 +86,7 @@ def fastest(rows, goal):
 
 
 def table(peers):
-    head = "| | " + " | ".join(f"{goal:.0e}".replace("e-0", "e-") for goal in GOALS) + " |"
+    head = "| | " + " | ".join(map(number, GOALS)) + " |"
     out = [head, "|---|" + "---|" * len(GOALS)]
     least = [min((row["seconds"] for rows in peers.values() if (row := fastest(rows, goal))), default=None)
              for goal in GOALS]
@@ -100,51 +103,85 @@ def table(peers):
     return "\n".join(out)
 
 
-def sentences(name, peers):
-    """Who wins where, in words made of the numbers."""
+def number(goal):
+    return f"{goal:.0e}".replace("e-0", "e-")
+
+
+def bitwise(rows):
+    """This library's rows with the same bits on every CPU."""
+    return [row for row in rows if not row.get("fused")]
+
+
+def sentences(peers):
+    """Who wins where, in words made of the numbers; this library unfused, as it is without a choice."""
     said = []
     for goal in GOALS:
-        found = {peer: fastest(rows, goal) for peer, rows in peers.items()}
+        found = {peer: fastest(bitwise(rows), goal) for peer, rows in peers.items()}
         found = {peer: row for peer, row in found.items() if row}
         ours = found.pop("hamiltonian", None)
         if not found:
             continue
         peer, best = min(found.items(), key=lambda item: item[1]["seconds"])
-        goal = f"{goal:.0e}".replace("e-0", "e-")
         if ours is None:
-            said.append(f"Only {peer} and not this library reaches {goal} here.")
+            said.append(f"Only {peer} and not this library reaches {number(goal)} here.")
         elif best["seconds"] < ours["seconds"]:
-            said.append(f"At {goal} {peer} is {ours['seconds'] / best['seconds']:.1f} times as fast as this library.")
+            said.append(f"At {number(goal)} {peer} is {ours['seconds'] / best['seconds']:.1f} times as fast as this "
+                        "library.")
         else:
-            said.append(f"At {goal} this library is {best['seconds'] / ours['seconds']:.1f} times as fast as {peer}.")
+            said.append(f"At {number(goal)} this library is {best['seconds'] / ours['seconds']:.1f} times as fast as "
+                        f"{peer}.")
     return " ".join(said)
+
+
+def against_taylor(found):
+    """This library, unfused and fused, against heyoka's fastest tolerance with the same error."""
+    out = ["## Against Taylor's method", "",
+           "The least CPU time with the error or a smaller one, over heyoka's tolerances and over this library's "
+           "schemes and steps. heyoka fuses products and sums.", "",
+           "| problem | error ≤ | heyoka | this library | ratio | fused | ratio |", "|---|---|---|---|---|---|---|"]
+    for name, goal in ASKED.items():
+        rows = found.get(name, {})
+        taylor = fastest(rows.get("heyoka", []), goal)
+        ours = rows.get("hamiltonian", [])
+        pair = [fastest(bitwise(ours), goal), fastest([row for row in ours if row.get("fused")], goal)]
+        if not taylor or None in pair:
+            continue
+        text = [f"{1e3 * row['seconds']:.3g} ms, {row['method']}, {row['setting']} | "
+                f"{taylor['seconds'] / row['seconds']:.2f}" for row in pair]
+        out.append(f"| {TITLES[name]} | {number(goal)} | {1e3 * taylor['seconds']:.3g} ms, {taylor['setting']} | "
+                   + " | ".join(text) + " |")
+    return [*out, ""] if len(out) > 6 else []
 
 
 def write(problems, rows, machine, root):
     found = groups(rows)
     versions = sorted({(row["peer"], row["version"]) for row in rows if "version" in row})
     known = {problem["problem"]: problem for problem in problems}
-    (root / "figures").mkdir(exist_ok=True)
+    (root / FIGURES).mkdir(exist_ok=True)
     out = ["# This library and its peers", "",
            "CPU time of one thread on one core against the error of the end point: the largest difference of a "
            "component from a reference in double-double arithmetic (106 bits), whose own error is given. Each time is "
-           "the median of five measurements; each cell is the fastest setting of the method that reaches the error of "
-           "its column. `python3 benches/peers/run.py` makes these numbers again.", "",
-           f"Machine: {machine}. " + ", ".join(f"{peer} {version}" for peer, version in versions) + ".", "",
+           "the median of three to nine measurements; each cell is the fastest setting of the method that reaches the error of "
+           "its column. This library's curves and cells are those of its default, which has the same bits on every CPU; "
+           "fused runs stand in the first table. `python3 benches/peers/run.py` makes these numbers again.", "",
+           f"Machine: {machine}. " + ", ".join(f"{peer} {version}" for peer, version in versions) + "."
+           + "".join(f" {peer} was not installed and is left out." for peer in COLOURS if peer not in dict(versions)),
+           "",
            "Not compared: the time of compilation, of `hamiltonian!` by rustc and of heyoka and numba at run time; "
            "adaptive steps, dense output and events; ensembles on several threads and on graphics processors; stiff "
            "problems, for which diffsol, SciPy's LSODA and Julia's solvers are made; collisions and additional forces, "
            "for which REBOUND is. SciPy calls a Python function for each evaluation, as most of its users do.", ""]
+    out += against_taylor(found)
     for name, title in TITLES.items():
         if name not in found:
             continue
-        peers = {peer: found[name][peer] for peer in COLOURS if peer in found[name]}
-        path = root / "figures" / f"peers_{name}.svg"
+        peers = {peer: bitwise(found[name][peer]) for peer in COLOURS if peer in found[name]}
+        path = root / FIGURES / f"peers_{name}.svg"
         text = figure(title, peers)
         assert len(text) <= 50_000, f"{path} has {len(text)} bytes"
         path.write_text(text, encoding="utf-8")
-        out += [f"## {title}", "", f"![{title}: error of the end point against CPU time](figures/peers_{name}.svg)", "",
-                table(peers), "", sentences(name, peers), "",
+        out += [f"## {title}", "", f"![{title}: error of the end point against CPU time]({FIGURES}/peers_{name}.svg)", "",
+                table(peers), "", sentences(peers), "",
                 f"The reference is known to {known[name]['uncertainty']:.0e}.", ""]
     failed = [row for row in rows if "failed" in row]
     if failed:

@@ -76,6 +76,8 @@ def main():
             setup = ["julia", f"--project={HERE}", "-e", "using Pkg; Pkg.instantiate()"]
             subprocess.run(setup, check=True)
             commands.append(("julia", ["julia", f"--project={HERE}", HERE / "julia_peer.jl"]))
+        else:
+            print("julia is not installed: its packages are left out", flush=True)
         rows = lines(ROWS.read_text(encoding="utf-8")) if ROWS.exists() and wanted else []
         rows = [row for row in rows if row["problem"] not in wanted]
         for name, command in commands:

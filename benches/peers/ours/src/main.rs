@@ -8,7 +8,7 @@
 mod problems;
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Scheme, Vector, lanes};
+use hamiltonian::{Scheme, Vector};
 use problems::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
@@ -23,9 +23,11 @@ const CHAIN: usize = 31;
 /// Pendulums of the ensemble.
 const PENDULUMS: usize = 1000;
 /// Runs of which the median is taken.
-const RUNS: usize = 5;
+const RUNS: usize = 9;
 /// A time that clocks resolve well; shorter runs are repeated within a measurement.
-const SECONDS: f64 = 0.05;
+const SECONDS: f64 = 0.02;
+/// Seconds after which three measurements are enough.
+const PATIENCE: f64 = 0.3;
 
 /// CPU seconds of this thread; elsewhere than on Linux wall-clock seconds.
 fn clock(began: Instant) -> f64 {
@@ -34,25 +36,26 @@ fn clock(began: Instant) -> f64 {
     nanoseconds.map_or_else(|| began.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
 }
 
-/// The median CPU time of a run.
+/// The median CPU time of a run: of nine measurements, or of at least three where they take longer together
+/// than [`PATIENCE`].
 fn time(mut run: impl FnMut()) -> f64 {
     let began = Instant::now();
-    let mut times: Vec<f64> = (0..RUNS)
-        .map(|_| {
-            let begin = clock(began);
-            let mut count = 0.0;
-            loop {
-                run();
-                count += 1.0;
-                let seconds = clock(began) - begin;
-                if seconds >= SECONDS {
-                    return seconds / count;
-                }
+    let mut times = Vec::new();
+    while times.len() < RUNS && (times.len() < 3 || times.iter().sum::<f64>() < PATIENCE) {
+        let begin = clock(began);
+        let mut count = 0.0;
+        let seconds = loop {
+            run();
+            count += 1.0;
+            let seconds = clock(began) - begin;
+            if seconds >= SECONDS {
+                break seconds / count;
             }
-        })
-        .collect();
+        };
+        times.push(seconds);
+    }
     times.sort_by(f64::total_cmp);
-    times[RUNS / 2]
+    times[times.len() / 2]
 }
 
 fn list(numbers: impl IntoIterator<Item = f64>) -> String {
@@ -82,8 +85,9 @@ struct Task {
     only: Option<String>,
 }
 
-/// The results of one scheme: steps doubled from run to run, until the error is that of rounding or runs take
-/// too long.
+/// The results of one scheme, unfused and fused: more and more steps, until the error is that of rounding or
+/// runs take too long. A scheme of order above 4 gains much from few more steps: it takes four settings to
+/// double them, the others two.
 fn race<S: System<f64>, M: Scheme<f64, S>>(
     problem: &str,
     system: &S,
@@ -91,34 +95,44 @@ fn race<S: System<f64>, M: Scheme<f64, S>>(
     (start, end, exact): (&State<S::Vector>, f64, &[DoubleDouble]),
     first: u64,
 ) {
-    let entry = scheme.entry();
-    let mut steps = first;
-    let mut best = f64::INFINITY;
-    for _ in 0..12 {
-        let begin = || Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
-        // A step too long to be solved is no result.
-        if let Ok(mut run) = begin()
-            && run.advance(steps).is_ok()
-        {
+    let parts = if scheme.order() > 4 { 4 } else { 2 };
+    for fused in [false, true] {
+        let mut best = f64::INFINITY;
+        for setting in 0..12 * parts {
+            let steps = (first as f64 * (setting as f64 / parts as f64).exp2()).round() as u64;
+            let begin = || {
+                let run = Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
+                run.map(|run| if fused { run.fused() } else { run })
+            };
+            // A step too long to be solved is no result.
+            let Ok(mut run) = begin() else { continue };
+            if run.advance(steps).is_err() {
+                continue;
+            }
             let error = apart(&numbers(run.state()), exact);
-            let moved = (run.energy() / system.energy(start) - 1.0).abs();
             let seconds = time(|| {
                 let mut run = begin().expect("it began before");
                 let _ = run.advance(steps);
             });
-            println!(
-                "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"method\":\"{entry}\",\
-                 \"setting\":\"{steps} steps\",\"error\":{error:e},\"energy\":{moved:e},\
-                 \"seconds\":{seconds:e}}}"
-            );
-            // Rounding: halving the step gains nothing more.
-            if seconds > 3.0 || error > 0.5 * best && best < 1e-9 || error < 1e-15 {
+            row(problem, &scheme.entry(), fused, steps, error, seconds);
+            // Rounding: twice the steps gained nothing more.
+            if seconds > 1.0 || error < 1e-15 || error > best && best < 1e-9 {
                 break;
             }
-            best = best.min(error);
+            if setting % parts == 0 {
+                best = best.min(error);
+            }
         }
-        steps *= 2;
     }
+}
+
+/// Prints a result.
+fn row(problem: &str, method: &str, fused: bool, steps: u64, error: f64, seconds: f64) {
+    let version = env!("CARGO_PKG_VERSION");
+    println!(
+        "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"version\":\"{version}\",\"method\":\"{method}\",\
+         \"fused\":{fused},\"setting\":\"{steps} steps\",\"error\":{error:e},\"seconds\":{seconds:e}}}"
+    );
 }
 
 /// A problem: its reference, or the rows of the schemes. `$n` lifts a number to the scalar of the state.
@@ -276,22 +290,27 @@ fn ensemble(task: &Task) {
         let at = k as f64 / PENDULUMS as f64;
         (3.0 * at - 1.5, 2.0 * (at - 0.5))
     };
-    let exact: Vec<(DoubleDouble, DoubleDouble)> = (0..PENDULUMS)
-        .map(|k| {
+    let reference = |steps: u64| -> Vec<(DoubleDouble, DoubleDouble)> {
+        let solve = |k| {
             let (q, p) = start(k);
             let start = State::over([DoubleDouble::from(q)], [DoubleDouble::from(p)]);
-            let step = DoubleDouble::from(END / 256.0);
+            let step = DoubleDouble::from(END) / DoubleDouble::from(steps as f64);
             let run = Integrator::new(&Pendulum {}, Gauss::<16>::default(), start, step);
             let mut run = run.expect("a good start");
-            let end = run.advance(256).expect("good steps");
+            let end = run.advance(steps).expect("good steps");
             (end.q[0], end.p[0])
-        })
-        .collect();
+        };
+        (0..PENDULUMS).map(solve).collect()
+    };
+    let exact = reference(256);
     if !task.rows {
         let of = |part: fn(&(DoubleDouble, DoubleDouble)) -> f64| list(exact.iter().map(part));
+        let uncertainty = (exact.iter().zip(reference(128)))
+            .map(|((q, p), (a, b))| (*q - a).hi().abs().max((*p - b).hi().abs()))
+            .fold(0.0, f64::max);
         println!(
             "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{END:e},\"start\":{},\
-             \"reference\":{},\"uncertainty\":0e0}}",
+             \"reference\":{},\"uncertainty\":{uncertainty:e}}}",
             list(
                 (0..PENDULUMS)
                     .map(|k| start(k).0)
@@ -306,60 +325,36 @@ fn ensemble(task: &Task) {
         .map(|end| end.0)
         .chain(exact.iter().map(|end| end.1))
         .collect();
-    for steps in [100_u64, 200, 400, 800, 1600] {
-        let run = || {
-            lanes::dispatch(Swing {
-                steps,
-                end: END,
-                start,
-            })
-        };
-        let error = apart(&run(), &exact);
-        let seconds = time(|| {
-            let _ = run();
-        });
-        println!(
-            "{{\"problem\":\"ensemble\",\"peer\":\"hamiltonian\",\"method\":\"Srkn11b\",\
-             \"setting\":\"{steps} steps\",\"error\":{error:e},\"energy\":null,\"seconds\":{seconds:e}}}"
-        );
-    }
-}
-
-/// All pendulums on a level of this CPU.
-struct Swing<F> {
-    steps: u64,
-    end: f64,
-    start: F,
-}
-
-impl<F: Fn(usize) -> (f64, f64)> lanes::Kernel for Swing<F> {
-    type Output = Vec<f64>;
-    #[inline(always)]
-    fn run<L: lanes::Level>(self) -> Vec<f64> {
-        swing::<L::Wide>(self.steps, self.end, self.start)
-    }
-}
-
-#[inline(always)]
-fn swing<T: lanes::Pack>(steps: u64, end: f64, start: impl Fn(usize) -> (f64, f64)) -> Vec<f64> {
-    let lanes = T::LANES as usize;
-    let (q, p): (Vec<f64>, Vec<f64>) = (0..PENDULUMS).map(start).unzip();
-    let mut ends = vec![0.0; 2 * PENDULUMS];
-    let (end_q, end_p) = ends.split_at_mut(PENDULUMS);
-    let blocks = q
-        .chunks(lanes)
-        .zip(p.chunks(lanes))
-        .zip(end_q.chunks_mut(lanes).zip(end_p.chunks_mut(lanes)));
-    for ((q, p), (end_q, end_p)) in blocks {
-        let start = State::over([T::load(q, 0.0)], [T::load(p, 0.0)]);
-        let step = T::constant(end / steps as f64, 0.0);
-        let run = Integrator::new(&Pendulum {}, Srkn11b, start, step);
-        if let Ok(mut run) = run
-            && let Ok(state) = run.advance(steps)
-        {
-            state.q[0].store(end_q);
-            state.p[0].store(end_p);
+    for fused in [false, true] {
+        for steps in [100, 141, 200, 283, 400, 566, 800, 1131, 1600] {
+            let run = || swing(steps, END, start, fused).expect("good starts and steps");
+            let error = apart(&run(), &exact);
+            let seconds = time(|| {
+                let _ = run();
+            });
+            row("ensemble", "Srkn11b", fused, steps, error, seconds);
         }
     }
-    ends
+}
+
+/// All pendulums to the end, on one thread: places, then momenta.
+fn swing(
+    steps: u64,
+    end: f64,
+    start: impl Fn(usize) -> (f64, f64) + Sync,
+    fused: bool,
+) -> Result<Vec<f64>, Error> {
+    let member = |member: Member| {
+        let (q, p) = start(member.index);
+        (Pendulum {}, State::new([q], [p]))
+    };
+    let swarm = Ensemble::new(PENDULUMS, member, Srkn11b, end / steps as f64)?.threads(1);
+    let mut swarm = if fused { swarm } else { swarm.reproducible() };
+    swarm.advance(steps);
+    let mut ends = vec![0.0; 2 * PENDULUMS];
+    for (k, end) in swarm.states().enumerate() {
+        let end = end?;
+        (ends[k], ends[PENDULUMS + k]) = (end.q[0], end.p[0]);
+    }
+    Ok(ends)
 }

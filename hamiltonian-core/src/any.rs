@@ -17,19 +17,17 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::schemes::{ImplicitMidpoint, StormerVerlet};
-/// use hamiltonian_core::{AnyRun, Integrator, State};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut runs: Vec<Box<dyn AnyRun>> = vec![
-///     Box::new(Integrator::new(&Oscillator, StormerVerlet::default(), start.clone(), 0.01)?),
-///     Box::new(Integrator::new(&Oscillator, ImplicitMidpoint::default(), start, 0.01)?),
+///     Box::new(Integrator::new(&Oscillator {}, StormerVerlet::default(), start.clone(), 0.01)?),
+///     Box::new(Integrator::new(&Oscillator {}, ImplicitMidpoint::default(), start, 0.01)?),
 /// ];
 /// for run in &mut runs {
 ///     run.advance(100)?;
 ///     println!("{} {}: H = {}", run.system(), run.entry().name, run.energy());
 /// }
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub trait AnyRun {
     /// The name of the system.

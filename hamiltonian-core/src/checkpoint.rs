@@ -23,21 +23,20 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Checkpoint, EnergyDrift, Integrator, State, schemes::StormerVerlet};
 ///
 /// let scheme = StormerVerlet::default();
-/// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?
+/// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?
 ///     .observe(EnergyDrift::new());
 /// run.advance(50)?;
 /// let saved = run.checkpoint().to_bytes();
 /// run.advance(50)?;
 ///
-/// let mut again = Integrator::resume(&Oscillator, scheme, Checkpoint::from_bytes(&saved)?)?
+/// let mut again = Integrator::resume(&Oscillator {}, scheme, Checkpoint::from_bytes(&saved)?)?
 ///     .observe(EnergyDrift::new());
 /// again.advance(50)?;
 /// assert_eq!(again.state(), run.state());
 /// assert_eq!(again.observer(), run.observer());
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Checkpoint {

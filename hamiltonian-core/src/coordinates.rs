@@ -7,8 +7,8 @@
 //! formulas.
 //!
 //! ```
-//! use hamiltonian_core::State;
-//! use hamiltonian_core::coordinates::{from_jacobi, to_jacobi};
+//! use hamiltonian::coordinates::{from_jacobi, to_jacobi};
+//! use hamiltonian::prelude::*;
 //!
 //! let bodies = State::new(vec![0.0, 1.0, 4.0], vec![-0.5, 1.0, 0.5]);
 //! let masses = [3.0, 1.0, 4.0];
@@ -17,7 +17,7 @@
 //! assert_eq!(jacobi.q.as_slice(), [2.125, 1.0, 3.75]);
 //! assert_eq!(jacobi.p[0], 1.0);
 //! assert_eq!(from_jacobi(&jacobi, &masses)?, bodies);
-//! # Ok::<(), hamiltonian_core::Error>(())
+//! # Ok::<(), Error>(())
 //! ```
 
 use crate::error::Error;

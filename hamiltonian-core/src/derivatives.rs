@@ -30,7 +30,8 @@ pub struct WrongDerivative {
 /// [`WrongDerivative`] with the argument and both values, for the first derivative that differs.
 ///
 /// ```
-/// use hamiltonian_core::{Real, check_derivatives};
+/// use hamiltonian::check_derivatives;
+/// use hamiltonian::prelude::*;
 ///
 /// fn morse<T: Real>(x: T) -> T { let e = T::one() - (-x).exp(); e*e }
 /// fn slope<T: Real>(x: T) -> T { let e = (-x).exp(); (e - e*e)*T::constant(2.0, 0.0) }

@@ -28,7 +28,8 @@ use hamiltonian_lanes::{Mask, Real};
 /// Both directions count and the run goes on, unless it is told otherwise:
 ///
 /// ```
-/// use hamiltonian_core::{Event, State, private::SVector};
+/// use hamiltonian::nalgebra::SVector;
+/// use hamiltonian::prelude::*;
 ///
 /// type Plane = State<SVector<f64, 2>>;
 /// let section = Event::named("meridian").rising();
@@ -187,23 +188,20 @@ pub struct Located<V: Vector> {
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Event, Events, Integrator, StateOf, schemes::StormerVerlet};
-/// use hamiltonian_core::schemes::Composition;
-/// use hamiltonian_core::State;
 ///
 /// let events = Events::new([
 ///     Event::of("q = 0", |state: &StateOf<Oscillator>| state.q[0]),
 ///     Event::of("p = 0", |state: &StateOf<Oscillator>| state.p[0]).rising().ending_after(2),
 /// ]);
 /// let scheme = Composition::yoshida(StormerVerlet::default());
-/// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?.observe(events);
+/// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?.observe(events);
 /// run.advance(10_000)?;
 /// // p = −sin t rises at π, 3π, …; until then q is 0 at π/2, 3π/2, 5π/2.
 /// assert!(run.has_ended());
 /// assert!((run.time() - 3.0 * std::f64::consts::PI).abs() < 1e-7);
 /// assert_eq!((run.observer().count("q = 0"), run.observer().count("p = 0")), (3, 2));
 /// assert!(run.observer().states("q = 0").all(|state| state.q[0].abs() < 1e-15));
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// # Errors

@@ -35,17 +35,16 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
 /// run.advance(100)?;
 /// println!("q = {} at t = {}", run.state().q[0], run.state().t);
 /// for state in run.states(10).take(5) {
 ///     println!("{}", state?.q[0]);
 /// }
 /// assert_eq!(run.steps(), 150);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// # Blocks
@@ -103,17 +102,16 @@ impl<T: Real, S: System<T>, R: Map<Carried: Carried<Vector = S::Vector, Scalar =
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, Run, State, schemes::StormerVerlet};
 ///
 /// struct Simulation {
 ///     run: Run<Oscillator, StormerVerlet>,
 /// }
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
 /// let mut simulation = Simulation { run };
 /// simulation.run.advance(3)?;
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Map, O>;
 
@@ -202,17 +200,16 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{EnergyDrift, Integrator, State, schemes::StormerVerlet};
     ///
     /// let mut path = Vec::new();
     /// let start = State::new([1.0], [0.0]);
-    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?
     ///     .observe(EnergyDrift::new())
     ///     .watch(10, |view| path.push((view.state.q[0], view.state.p[0])));
     /// run.advance(100)?;
     /// assert!(run.observer().0.max_relative() < 1e-4);
     /// assert_eq!(path.len(), 11);
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     pub fn watch<V: Verdict, F: FnMut(&View<'_, T, S>) -> V>(
         mut self,
@@ -253,15 +250,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{Integrator, State, schemes::Gauss};
     ///
     /// let run = |lanes| {
     ///     let start = State::new([1.0], [0.0]);
-    ///     let mut run = Integrator::new(&Oscillator, Gauss::<8>::default(), start, 0.5)?.lanes(lanes);
+    ///     let mut run = Integrator::new(&Oscillator {}, Gauss::<8>::default(), start, 0.5)?.lanes(lanes);
     ///     run.advance(100).cloned()
     /// };
     /// assert_eq!(run(true)?, run(false)?);
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     #[must_use]
     pub fn lanes(self, lanes: bool) -> Self {

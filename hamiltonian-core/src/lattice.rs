@@ -14,7 +14,7 @@ use hamiltonian_lanes::Real;
 /// Element `[i, j]` stands at `i·m + j` of [`as_slice`](Lattice::as_slice).
 ///
 /// ```
-/// use hamiltonian_core::Lattice;
+/// use hamiltonian::Lattice;
 /// let u = Lattice::from_fn([2, 3], |[i, j]| (10 * i + j) as f64);
 /// assert_eq!(u[[1, 2]], 12.0);
 /// assert_eq!(u.as_slice(), [0.0, 1.0, 2.0, 10.0, 11.0, 12.0]);

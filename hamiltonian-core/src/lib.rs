@@ -7,15 +7,14 @@
 //!
 //! ```
 #![doc = include_str!("doc/oscillator.md")]
-//! use hamiltonian_core::prelude::*;
 //!
 //! let start = State::new([1.0], [0.0]);
-//! let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 1e-3)?
+//! let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 1e-3)?
 //!     .observe(EnergyDrift::new());
 //! run.advance_to(10.0)?;
 //! assert_eq!(run.steps(), 10_000);
 //! assert!(run.observer().max_relative() < 1e-6);
-//! # Ok::<(), hamiltonian_core::Error>(())
+//! # Ok::<(), Error>(())
 //! ```
 //!
 //! The modules follow the data: vectors and states, the system at a state, what moves it (vector

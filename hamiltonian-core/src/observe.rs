@@ -158,15 +158,15 @@ fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
 /// a state Rust does not infer here; [`Integrator::watch`](crate::Integrator::watch) knows it.
 ///
 /// ```
+/// use hamiltonian::View;
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, View, every, schemes::StormerVerlet, watch};
 ///
 /// let rare = every(50, watch(|view: &View<'_, f64, Oscillator>| println!("{}", view.state.q[0])));
 /// let often = watch(|view: &View<'_, f64, Oscillator>| println!("{}", view.energy()));
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
 ///     .observe((rare, often));
 /// run.advance(100)?;
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub fn watch<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
     closure: F,
@@ -190,15 +190,14 @@ impl<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{EnergyDrift, Integrator, Recorder, State, every, schemes::StormerVerlet};
 ///
 /// let mut drift = EnergyDrift::new();
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.01)?
 ///     .observe((&mut drift, every(100, Recorder::new())));
 /// run.advance(1_000)?;
 /// assert_eq!(run.observer().1.inner.rows(), 11);
 /// assert!(drift.max_relative() < 1e-4);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub fn every<O>(steps: u64, observer: O) -> Every<O> {
     Every {

@@ -18,11 +18,11 @@ use hamiltonian_lanes::{Dual, Real};
 /// momentum, the second along a direction likewise.
 ///
 /// ```
-#[doc = include_str!("doc/oscillator_any.md")]
-/// use hamiltonian_core::{Observed, State};
+/// use hamiltonian::Observed;
+#[doc = include_str!("doc/oscillator.md")]
 ///
 /// // The oscillator declares none.
-/// assert!(Observed::new(Oscillator, "height").is_err());
+/// assert!(Observed::new(Oscillator {}, "height").is_err());
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Observed<S> {

@@ -28,15 +28,14 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, Recorder, State, every, schemes::StormerVerlet};
 ///
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.5)?
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.5)?
 ///     .observe(every(2, Recorder::with_capacity(3)));
 /// run.advance(4)?;
 /// let recorder = &run.observer().inner;
 /// assert_eq!(recorder.columns(), ["t", "q", "p"]);
 /// assert_eq!(recorder.column("t").unwrap().collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Recorder {
@@ -89,19 +88,18 @@ impl Recorder {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{Integrator, Recorder, State, schemes::StormerVerlet};
     ///
     /// let start = || State::new([1.0], [0.0]);
-    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start(), 0.5)?
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start(), 0.5)?
     ///     .observe(Recorder::of(["H", "q"]));
     /// run.advance(1)?;
     /// assert_eq!(run.observer().row(0), Some(&[0.5, 1.0][..]));
     ///
-    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start(), 0.5)?
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start(), 0.5)?
     ///     .observe(Recorder::of(["Q"]));
     /// let error = run.advance(1).unwrap_err();
     /// assert_eq!(error.to_string(), "there is no column `Q`\nhelp: did you mean `q`?");
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     pub fn of<N: Into<String>>(columns: impl IntoIterator<Item = N>) -> Self {
         Recorder {

@@ -53,15 +53,14 @@ pub enum Closing<'a> {
 /// gap larger is halved.
 ///
 /// ```
-#[doc = include_str!("doc/oscillator_any.md")]
-/// use hamiltonian_core::{Closing, PeriodicOrbit, State, schemes::RungeKutta4};
+#[doc = include_str!("doc/oscillator.md")]
 ///
 /// // All orbits of an oscillator have the period 2π: after 6 only the origin is back.
 /// let guess = State::new([0.1], [0.3]);
 /// let closing = Closing::Driven { period: 6.0 };
-/// let orbit = PeriodicOrbit::find(&Oscillator, RungeKutta4, guess, closing, 100)?;
+/// let orbit = PeriodicOrbit::find(&Oscillator {}, RungeKutta4, guess, closing, 100)?;
 /// assert!(orbit.start.q[0].abs() < 1e-12 && orbit.start.p[0].abs() < 1e-12);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct PeriodicOrbit<V: Vector<Scalar = f64>> {

@@ -18,15 +18,15 @@ use indicatif::ProgressBar;
 /// the [`ProgressBar`] it is made of, [`Progress::with_bar`].
 ///
 /// ```
+/// use hamiltonian::Progress;
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, Progress, State, schemes::StormerVerlet};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?
 ///     .observe(Progress::new(100_000));
 /// run.advance(100_000)?;
 /// assert!(run.observer().bar().is_finished());
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Progress {

@@ -58,18 +58,17 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{Checkpoint, Integrator, State, schemes::StormerVerlet};
     ///
     /// let path = std::env::temp_dir().join("oscillator.saved");
     /// let scheme = StormerVerlet::default();
-    /// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?
+    /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?
     ///     .checkpoint_every(1_000, &path);
     /// run.advance(2_500)?;
     ///
-    /// let mut again = Integrator::resume(&Oscillator, scheme, Checkpoint::load(&path)?)?;
+    /// let mut again = Integrator::resume(&Oscillator {}, scheme, Checkpoint::load(&path)?)?;
     /// assert_eq!(again.steps(), 2_000);
     /// assert_eq!(again.advance(500)?, run.state());
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
@@ -93,15 +92,14 @@ impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::{Checkpoint, Integrator, State, schemes::StormerVerlet};
     ///
     /// let scheme = StormerVerlet::default();
-    /// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?;
+    /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?;
     /// let saved = run.checkpoint();
     /// run.advance(10)?;
-    /// let mut again = Integrator::resume(&Oscillator, scheme, saved)?;
+    /// let mut again = Integrator::resume(&Oscillator {}, scheme, saved)?;
     /// assert_eq!(again.advance(10)?, run.state());
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors

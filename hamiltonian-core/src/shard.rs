@@ -18,7 +18,7 @@ use core::str::FromStr;
 /// connection between them.
 ///
 /// ```
-/// use hamiltonian_core::Shard;
+/// use hamiltonian::prelude::*;
 ///
 /// let shard = Shard::new(1, 3)?;
 /// assert_eq!((0..8).filter(|chunk| shard.has(*chunk)).collect::<Vec<_>>(), [1, 4, 7]);
@@ -27,7 +27,7 @@ use core::str::FromStr;
 ///     Shard::new(2, 2).unwrap_err().to_string(),
 ///     "shard 2/2 does not exist\nhelp: shards of 2 are 0/2 to 1/2",
 /// );
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Shard {
@@ -90,12 +90,12 @@ impl Shard {
     /// [`Shard::from_env`] on other variables: `lookup` returns the value of a name.
     ///
     /// ```
-    /// use hamiltonian_core::Shard;
+    /// use hamiltonian::prelude::*;
     ///
     /// let set = [("PMI_RANK", "3"), ("PMI_SIZE", "8")];
     /// let lookup = |name: &str| set.iter().find(|(n, _)| *n == name).map(|(_, v)| v.to_string());
     /// assert_eq!(Shard::from_lookup(lookup)?.to_string(), "3/8");
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors

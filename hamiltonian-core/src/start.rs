@@ -5,17 +5,16 @@
 //! a state that comes back lies on the surface to rounding; everything else of it is as it was.
 //!
 //! ```
+//! use hamiltonian::start::{Branch, momentum_from_energy};
 #![doc = include_str!("doc/oscillator.md")]
-//! use hamiltonian_core::State;
-//! use hamiltonian_core::start::{Branch, momentum_from_energy};
 //!
 //! let guess = State::new([0.6], [0.0]);
-//! let start = momentum_from_energy(&Oscillator, &guess, 0, 0.5, Branch::Forward)?;
+//! let start = momentum_from_energy(&Oscillator {}, &guess, 0, 0.5, Branch::Forward)?;
 //! assert_eq!(start.p[0], 0.8);
 //! // Beyond the turning point there is none.
 //! let beyond = State::new([1.5], [0.0]);
-//! assert!(momentum_from_energy(&Oscillator, &beyond, 0, 0.5, Branch::Forward).is_err());
-//! # Ok::<(), hamiltonian_core::Error>(())
+//! assert!(momentum_from_energy(&Oscillator {}, &beyond, 0, 0.5, Branch::Forward).is_err());
+//! # Ok::<(), Error>(())
 //! ```
 
 mod search;

@@ -12,7 +12,7 @@ use hamiltonian_lanes::Real;
 /// Time, coordinates and momenta.
 ///
 /// ```
-/// use hamiltonian_core::State;
+/// use hamiltonian::prelude::*;
 ///
 /// let pendulum = State::new([0.7], [0.0]).at(2.0);
 /// assert_eq!((pendulum.t, pendulum.q[0], pendulum.p[0]), (2.0, 0.7, 0.0));
@@ -48,7 +48,7 @@ impl<V: Vector> State<V> {
     /// Creates the state (q, p) at t = 0 over any scalar.
     ///
     /// ```
-    /// use hamiltonian_core::{Dual, Real, State};
+    /// use hamiltonian::prelude::*;
     ///
     /// let varied = State::over([Dual::variable(0.7)], [Dual::fixed(0.0)]);
     /// assert_eq!(varied.q[0].eps, 1.0);
@@ -227,7 +227,7 @@ impl<V: Vector> State<V> {
     /// Storage has another order, column after column: see [`Vector`].
     ///
     /// ```
-    /// use hamiltonian_core::State;
+    /// use hamiltonian::prelude::*;
     /// let bodies = State::new([[1.0, 2.0], [3.0, 4.0]], [[0.0; 2]; 2]);
     /// assert_eq!(bodies.to_vec()[..4], [1.0, 2.0, 3.0, 4.0]);
     /// assert_eq!(bodies.q.as_slice(), [1.0, 3.0, 2.0, 4.0]);
@@ -262,11 +262,11 @@ impl<V: Vector> State<V> {
     /// The shape is that of a vector of the system, as `zeros` makes it.
     ///
     /// ```
-    /// use hamiltonian_core::State;
+    /// use hamiltonian::prelude::*;
     /// let bodies = State::new([[1.0, 2.0], [3.0, 4.0]], [[5.0, 6.0]; 2]);
     /// assert_eq!(State::from_slice(&bodies.q, &bodies.to_vec())?, bodies);
     /// assert!(State::from_slice(&bodies.q, &[1.0; 7]).is_err());
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors

@@ -147,11 +147,10 @@ pub trait System<T: Real> {
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
-    /// use hamiltonian_core::State;
     ///
-    /// let state = State::new([1.0], [0.0]);
+    /// let (oscillator, state) = (Oscillator {}, State::new([1.0], [0.0]));
     /// // The oscillator declares none.
-    /// assert_eq!(Oscillator.observable_named("height", &state), None);
+    /// assert_eq!(oscillator.observable_named("height", &state), None);
     /// ```
     fn observable_named(&self, name: &str, state: &State<Self::Vector>) -> Option<T> {
         let index = Self::observable_index(name)?;

@@ -27,17 +27,16 @@ use nalgebra::DMatrix;
 /// momenta, as they are stored. In the beginning they are the first unit vectors.
 ///
 /// ```
-#[doc = include_str!("doc/oscillator_any.md")]
-/// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4, symplectic_defect};
+#[doc = include_str!("doc/oscillator.md")]
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, start, 0.01, 2)?;
+/// let mut tangent = Tangent::new(&Oscillator {}, RungeKutta4, start, 0.01, 2)?;
 /// tangent.advance(100)?;
 /// // A rotation by the angle t = 1.
 /// let matrix = tangent.matrix();
 /// assert!((matrix[(0, 1)] - 1f64.sin()).abs() < 1e-9);
 /// assert!(symplectic_defect(&matrix) < 1e-9);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub struct Tangent<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> {
     /// One for each deviation; their values are those of the first.
@@ -144,13 +143,12 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// T. Nagashima, Prog. Theor. Phys. 61 (1979) 1605, doi:10.1143/PTP.61.1605.)
     ///
     /// ```
-    #[doc = include_str!("doc/oscillator_any.md")]
-    /// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4};
+    #[doc = include_str!("doc/oscillator.md")]
     ///
-    /// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), 0.1, 2)?;
+    /// let mut tangent = Tangent::new(&Oscillator {}, RungeKutta4, State::new([1.0], [0.0]), 0.1, 2)?;
     /// // Neighbours of an oscillator stay where they are.
     /// assert!(tangent.lyapunov(1_000, 10)?.iter().all(|rate| rate.abs() < 1e-5));
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
@@ -184,14 +182,13 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// doi:10.1016/j.physd.2007.04.004.
     ///
     /// ```
-    #[doc = include_str!("doc/oscillator_any.md")]
-    /// use hamiltonian_core::{State, Tangent, schemes::RungeKutta4};
+    #[doc = include_str!("doc/oscillator.md")]
     ///
-    /// let mut tangent = Tangent::new(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), 0.01, 2)?;
+    /// let mut tangent = Tangent::new(&Oscillator {}, RungeKutta4, State::new([1.0], [0.0]), 0.01, 2)?;
     /// tangent.advance(100)?;
     /// assert!((tangent.gali() - 1.0).abs() < 1e-9);
     /// assert!((tangent.sali() - 2f64.sqrt()).abs() < 1e-9);
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     pub fn gali(&self) -> T {
         let grown = gram_schmidt(&mut self.directions(), |_, _, _| {});
@@ -343,13 +340,12 @@ fn dot<T: Real>(matrix: &DMatrix<T>, i: usize, j: usize) -> T {
 /// orbit of that period its monodromy matrix. Rows and columns are the coordinates, then the momenta.
 ///
 /// ```
-#[doc = include_str!("doc/oscillator_any.md")]
-/// use hamiltonian_core::{State, monodromy, schemes::RungeKutta4};
+#[doc = include_str!("doc/oscillator.md")]
 /// use std::f64::consts::TAU;
 ///
-/// let matrix = monodromy(&Oscillator, RungeKutta4, State::new([1.0], [0.0]), TAU, 1_000)?;
+/// let matrix = monodromy(&Oscillator {}, RungeKutta4, State::new([1.0], [0.0]), TAU, 1_000)?;
 /// assert!((matrix[(0, 0)] - 1.0).abs() < 1e-9 && matrix[(0, 1)].abs() < 1e-9);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// # Errors
@@ -376,7 +372,8 @@ where
 /// max |MᵀJM − J|, with J = (0, 1; −1, 0) for coordinates, then momenta: 0 where M is symplectic.
 ///
 /// ```
-/// use hamiltonian_core::{private::nalgebra::DMatrix, symplectic_defect};
+/// use hamiltonian::nalgebra::DMatrix;
+/// use hamiltonian::prelude::*;
 ///
 /// // A shear is symplectic, a stretching is not.
 /// assert_eq!(symplectic_defect(&DMatrix::from_row_slice(2, 2, &[1.0, 3.0, 0.0, 1.0])), 0.0);
@@ -402,7 +399,8 @@ pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
 /// have modulus 1.
 ///
 /// ```
-/// use hamiltonian_core::{multipliers, private::nalgebra::DMatrix};
+/// use hamiltonian::multipliers;
+/// use hamiltonian::nalgebra::DMatrix;
 ///
 /// let turn = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);
 /// assert!(multipliers(&turn).iter().all(|mu| mu.re == 0.0 && mu.im.abs() == 1.0));

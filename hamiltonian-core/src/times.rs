@@ -21,10 +21,9 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, Recorder, State, at_times, schemes::StormerVerlet};
 ///
 /// let tenths = (0..).map(|k| 0.1 * f64::from(k));
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.03)?
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.03)?
 ///     .observe(at_times(tenths, Recorder::new()));
 /// run.advance(34)?;
 /// let recorder = &run.observer().inner;
@@ -32,7 +31,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// for row in recorder.iter() {
 ///     assert!((row[1] - row[0].cos()).abs() < 1e-4);
 /// }
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 pub fn at_times<V: Vector, I: IntoIterator<Item = V::Scalar>, O>(
     times: I,

@@ -50,17 +50,15 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// Geometric Numerical Integration (2006), section VIII.2.1, doi:10.1007/3-540-30666-8.
 ///
 /// ```
-#[doc = include_str!("doc/oscillator_any.md")]
-/// # impl hamiltonian_core::Autonomous for Oscillator {}
-/// use hamiltonian_core::{Integrator, State, TimeTransformed, schemes::Gauss};
+#[doc = include_str!("doc/oscillator.md")]
 ///
 /// // The oscillator as its own monitor: g = q²/2, dt = q²/2 ds.
-/// let system = TimeTransformed::new(Oscillator, Oscillator);
+/// let system = TimeTransformed::new(Oscillator {}, Oscillator {});
 /// let start = system.start(&State::new([1.0], [0.0]))?;
 /// let mut run = Integrator::new(&system, Gauss::<3>::default(), start, 0.05)?;
 /// let end = system.declared(run.advance(20)?);
 /// assert!((0.4..0.5).contains(&end.t) && (end.q[0] - end.t.cos()).abs() < 1e-9);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimeTransformed<S, G> {

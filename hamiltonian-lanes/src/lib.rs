@@ -22,7 +22,8 @@
 //!
 //! A sine over a pack, on the best level this CPU has:
 //! ```
-//! use hamiltonian_lanes::{Kernel, Level, Pack, Real, dispatch};
+//! use hamiltonian::lanes::{Kernel, Level, Pack, dispatch};
+//! use hamiltonian::prelude::*;
 //!
 //! struct Sines<'a>(&'a mut [f64]);
 //!
@@ -43,7 +44,7 @@
 //!
 //! About 32 digits from a double-double, by the same generic code as `f64`:
 //! ```
-//! use hamiltonian_lanes::{DoubleDouble, Real};
+//! use hamiltonian::prelude::*;
 //!
 //! let root = DoubleDouble::from(2.0).sqrt();
 //! assert_eq!(root.to_string(), "1.4142135623730950488016887242097");

@@ -36,7 +36,7 @@ const FEW: usize = 8;
 /// In each case an operand whose derivative part is exactly 0 adds exactly 0.
 ///
 /// ```
-/// use hamiltonian_real::{Dual, Real};
+/// use hamiltonian::prelude::*;
 ///
 /// let x = Dual::variable(3.0);
 /// let y = x * x + x.sqrt();
@@ -63,7 +63,7 @@ impl<T: Real> Dual<T> {
     /// `re + eps·ε`.
     ///
     /// ```
-    /// use hamiltonian_real::Dual;
+    /// use hamiltonian::prelude::*;
     /// let x = Dual::new(1.0, 2.0);
     /// assert_eq!((x.re, x.eps), (1.0, 2.0));
     /// ```
@@ -75,7 +75,7 @@ impl<T: Real> Dual<T> {
     /// The variable to differentiate by: `re + 1·ε`.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(Dual::variable(0.0).sin().eps, 1.0);
     /// ```
     #[inline(always)]
@@ -86,7 +86,7 @@ impl<T: Real> Dual<T> {
     /// A number that does not vary: `re + 0·ε`.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(Dual::fixed(1.0).exp().eps, 0.0);
     /// ```
     #[inline(always)]

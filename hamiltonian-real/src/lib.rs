@@ -9,7 +9,7 @@
 //! from the [`parts`] of this crate and re-exports its scalars.
 //!
 //! ```
-//! use hamiltonian_real::{Dual, Real};
+//! use hamiltonian::prelude::*;
 //!
 //! fn energy<T: Real>(q: T, p: T) -> T {
 //!     p * p / T::constant(2.0, 0.0) - q.cos()

@@ -24,7 +24,7 @@ use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Real, W};
 /// code that is generic over systems and schemes:
 ///
 /// ```
-/// use hamiltonian_core::{Ensemble, Ensembles, Error, StateOf, System};
+/// use hamiltonian::prelude::*;
 ///
 /// fn swarm<S: System<f64>, M: Ensembles<S>>(make: impl Fn(usize) -> (S, StateOf<S>), scheme: M)
 /// -> Result<Ensemble<S>, Error> {

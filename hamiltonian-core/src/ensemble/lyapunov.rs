@@ -40,10 +40,9 @@ type Make<'a, S> =
 /// [`Dual`](crate::Dual)s.
 ///
 /// ```
-#[doc = include_str!("../doc/oscillator_any.md")]
-/// use hamiltonian_core::prelude::*;
+#[doc = include_str!("../doc/oscillator.md")]
 ///
-/// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+/// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
 /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1)
 ///     .deviations(2)
 ///     .steps(1_000)

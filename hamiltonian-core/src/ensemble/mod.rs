@@ -39,7 +39,7 @@ pub use sweep::Sweep;
 /// A member of an ensemble, from which its system and its start are made.
 ///
 /// ```
-/// use hamiltonian_core::Member;
+/// use hamiltonian::prelude::*;
 /// let member = Member::new(7, 42);
 /// assert_eq!(member.index, 7);
 /// // The same index and the same seed of the ensemble give the same number, on every machine.

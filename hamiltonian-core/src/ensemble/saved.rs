@@ -91,10 +91,9 @@ impl<S: System<f64>> Ensemble<S> {
     /// they saved. The error of a member that had failed is [`Error::Before`].
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
     /// let mut swarm = Ensemble::new(20, start, ImplicitMidpoint::default(), 0.01)?;
     /// swarm.advance(50);
     /// let saved = swarm.checkpoint().to_bytes();

@@ -25,12 +25,11 @@ use core::ops::ControlFlow;
 /// others go on.
 ///
 /// ```
-#[doc = include_str!("../doc/oscillator_any.md")]
-/// use hamiltonian_core::prelude::*;
+#[doc = include_str!("../doc/oscillator.md")]
 ///
 /// let mut swarm = Ensemble::new(1_000, |member| {
 ///     let theta = 3.0 * (member.index as f64 / 1e3 - 0.5);
-///     (Oscillator, State::new([theta], [0.0]))
+///     (Oscillator {}, State::new([theta], [0.0]))
 /// }, ImplicitMidpoint::default(), 1e-3)?;
 /// swarm.advance(1_000);
 /// for end in swarm.states() {
@@ -150,10 +149,9 @@ impl<S: System<f64>> Ensemble<S> {
     /// member ends no other.
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [1.0]));
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [1.0]));
     /// let mut swarm = Ensemble::new(20, start, ImplicitMidpoint::default(), 1e-3)?
     ///     .observe(|_member| EnergyDrift::new());
     /// swarm.advance(1_000);
@@ -209,10 +207,9 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     /// on all members.
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |_| (Oscillator, State::new([0.1], [0.0]));
+    /// let start = |_| (Oscillator {}, State::new([0.1], [0.0]));
     /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 1e-3)?;
     /// let mut seen = vec![];
     /// swarm.watch(25, 10, |swarm| seen.push(swarm.steps()));

@@ -46,10 +46,9 @@ pub(crate) enum Aim<'a> {
 /// [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) run it, on all cores.
 ///
 /// ```
-#[doc = include_str!("../doc/oscillator_any.md")]
-/// use hamiltonian_core::prelude::*;
+#[doc = include_str!("../doc/oscillator.md")]
 ///
-/// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+/// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
 /// let table = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
 ///     .until(1.005)
 ///     .observe(|_member| EnergyDrift::new())
@@ -332,10 +331,9 @@ where
     /// Runs the sweep and takes its rows one by one in the order of the index, on this thread.
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.5]));
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
     /// let largest = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
     ///     .steps(100)
     ///     .record(["q"], |end| [end.state.q[0]])

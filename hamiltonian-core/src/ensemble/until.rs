@@ -16,10 +16,9 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     /// [`Integrator::advance_to`](crate::Integrator::advance_to) does.
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.0]));
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.0]));
     /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 0.01)?;
     /// assert_eq!(swarm.advance_to(1.0)?.steps(), 100);
     /// assert!(matches!(swarm.advance_to(1.005), Err(Error::OffGrid { .. })));
@@ -53,10 +52,9 @@ impl<S: System<f64>, O: Observer<f64, S> + Send> Ensemble<S, O> {
     /// That part is computed over `f64`, without fused products, in both modes of [bits](Ensemble#bits).
     ///
     /// ```
-    #[doc = include_str!("../doc/oscillator_any.md")]
-    /// use hamiltonian_core::prelude::*;
+    #[doc = include_str!("../doc/oscillator.md")]
     ///
-    /// let start = |member: Member| (Oscillator, State::new([0.1 * member.index as f64], [0.0]));
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.0]));
     /// let mut swarm = Ensemble::new(10, start, ImplicitMidpoint::default(), 0.01)?;
     /// for end in swarm.advance_until(1.005)? {
     ///     assert_eq!(end?.t, 1.005);

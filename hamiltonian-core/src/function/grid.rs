@@ -19,7 +19,7 @@ use hamiltonian_lanes::Real;
 /// defined everywhere. A clone shares the data.
 ///
 /// ```
-/// use hamiltonian_core::{Dual, Function, Grid};
+/// use hamiltonian::prelude::*;
 ///
 /// // An egg box of period 2π in both directions, 64 × 64 values.
 /// let spacing = std::f64::consts::TAU / 64.0;
@@ -32,7 +32,7 @@ use hamiltonian_lanes::Real;
 /// // ∂/∂y, by a dual number.
 /// let slope = grid.value([Dual::fixed(x), Dual::variable(y)]).eps;
 /// assert!((slope + x.cos() * y.sin()).abs() < 1e-5);
-/// # Ok::<(), hamiltonian_core::KnotError>(())
+/// # Ok::<(), hamiltonian::KnotError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Grid(Arc<Data>);

@@ -24,7 +24,8 @@ use hamiltonian_lanes::Real;
 /// makes a map, so a clone must be cheap: keep large data in an `Arc`.
 ///
 /// ```
-/// use hamiltonian_core::{Function, Real, function};
+/// use hamiltonian::function;
+/// use hamiltonian::prelude::*;
 ///
 /// /// The potential of Morse, −D + D(1 − exp(−a(r − r₀)))².
 /// #[derive(Debug, Clone)]
@@ -76,7 +77,7 @@ fn floor(x: f64) -> f64 {
 /// order.
 ///
 /// ```
-/// use hamiltonian_core::function::fingerprint;
+/// use hamiltonian::function::fingerprint;
 /// assert_ne!(fingerprint([1.0, 2.0]), fingerprint([2.0, 1.0]));
 /// ```
 #[must_use]

@@ -17,7 +17,7 @@ use hamiltonian_lanes::Real;
 /// defined everywhere. A clone shares the data.
 ///
 /// ```
-/// use hamiltonian_core::{Dual, Function, Spline};
+/// use hamiltonian::prelude::*;
 ///
 /// let knots: Vec<f64> = (0..=20).map(|i| f64::from(i) * 0.1).collect();
 /// let values: Vec<f64> = knots.iter().map(|x| x.sin()).collect();
@@ -26,7 +26,7 @@ use hamiltonian_lanes::Real;
 /// // Its slope, by a dual number.
 /// assert!((spline.value([Dual::variable(0.73)]).eps - 0.73f64.cos()).abs() < 1e-5);
 /// assert!(spline.value([2.1_f64]).is_nan());
-/// # Ok::<(), hamiltonian_core::KnotError>(())
+/// # Ok::<(), hamiltonian::KnotError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Spline(Arc<Pieces>);
@@ -72,7 +72,8 @@ impl Spline {
     /// the first again. It needs four knots.
     ///
     /// ```
-    /// use hamiltonian_core::{Function, KnotError, Spline};
+    /// use hamiltonian::KnotError;
+    /// use hamiltonian::prelude::*;
     ///
     /// let spline = Spline::periodic(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, -1.0, 0.0])?;
     /// assert_eq!(spline.value([1.0]), 1.0);

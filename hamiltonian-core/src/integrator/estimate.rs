@@ -55,10 +55,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
-    /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
     ///
     /// let start = State::new([1.0], [0.0]);
-    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
     /// let estimate = run.estimate_error(100)?;
     /// assert!((estimate.order - 2.0).abs() < 0.01);
     ///
@@ -66,7 +65,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// assert_eq!(end, &estimate.end);
     /// let error = (end.q[0] - 1.0_f64.cos()).abs().max((end.p[0] + 1.0_f64.sin()).abs());
     /// assert!((estimate.error / error - 1.0).abs() < 0.01);
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors

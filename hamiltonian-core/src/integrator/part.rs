@@ -222,14 +222,13 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
-    /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
     ///
     /// let start = State::new([1.0], [0.0]);
-    /// let run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+    /// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
     /// let state = run.state_at(0.004)?;
     /// assert!((state.q[0] - 0.004_f64.cos()).abs() < 1e-8);
     /// assert!(run.state_at(0.02).is_err());
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
@@ -335,15 +334,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
-    /// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
     ///
     /// let start = State::new([1.0], [0.0]);
-    /// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.03)?;
+    /// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.03)?;
     /// for state in run.states_at([0.1, 0.2, 1.0]) {
     ///     let state = state?;
     ///     assert!((state.q[0] - state.t.cos()).abs() < 1e-4);
     /// }
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     pub fn states_at<I: IntoIterator<Item = T>>(
         &mut self,

@@ -4,11 +4,10 @@
 //! figure with more than [`DENSE`] dots has them as one embedded PNG, so that files stay small.
 //!
 //! ```
+//! use hamiltonian::plot::Figure;
 #![doc = include_str!("../doc/oscillator.md")]
-//! use hamiltonian_core::plot::Figure;
-//! use hamiltonian_core::prelude::*;
 //!
-//! let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), State::new([1.0], [0.0]), 0.1)?
+//! let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), State::new([1.0], [0.0]), 0.1)?
 //!     .observe(Recorder::new().with_energy());
 //! run.advance(500)?;
 //! let folder = std::env::temp_dir();
@@ -41,7 +40,7 @@ pub struct Curve {
 /// A figure: curves with names, axes with labels, a legend.
 ///
 /// ```
-/// use hamiltonian_core::plot::{Curve, Figure};
+/// use hamiltonian::plot::{Curve, Figure};
 ///
 /// let parabola = (-10..=10).map(|x| (f64::from(x), f64::from(x * x))).collect();
 /// let figure = Figure {
@@ -52,7 +51,7 @@ pub struct Curve {
 ///     ..Figure::default()
 /// };
 /// assert!(figure.svg()?.starts_with("<svg"));
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), hamiltonian::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Figure {
@@ -143,12 +142,12 @@ impl Figure {
     /// or of a sweep.
     ///
     /// ```
-    /// use hamiltonian_core::plot::Figure;
+    /// use hamiltonian::plot::Figure;
     ///
     /// let circle = (0..10_000).map(|k| f64::from(k)).map(|k| (k.cos(), k.sin()));
     /// let figure = Figure::section("y", "p_y", circle);
     /// assert!(figure.svg()?.contains("data:image/png;base64,"));
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), hamiltonian::Error>(())
     /// ```
     pub fn section(x: &str, y: &str, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Figure {

@@ -23,7 +23,7 @@ use hamiltonian_lanes::{DoubleDouble, Real};
 /// doi:10.1007/3-540-30666-8.
 ///
 /// ```
-/// use hamiltonian_core::schemes::collocation::Collocation;
+/// use hamiltonian::schemes::collocation::Collocation;
 /// // Two stages: c = ½ ∓ √3/6, b = ½.
 /// let gauss = Collocation::<2>::gauss();
 /// assert!((gauss.nodes[0].hi() - (0.5 - 3f64.sqrt() / 6.0)).abs() < 1e-15);

@@ -34,18 +34,18 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::{Compensated, KahanLi8}};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Compensated(KahanLi8), start, 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, Compensated(KahanLi8), start, 0.1)?;
 /// assert!((run.advance(1_000)?.q[0] - 100.0_f64.cos()).abs() < 1e-8);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// Friction is no sum: a system with a force is refused.
 ///
 /// ```compile_fail,E0277
-/// use hamiltonian_core::{Scheme, Separable, schemes::{Compensated, Strang}};
+/// use hamiltonian::{Scheme, Separable};
+/// use hamiltonian::prelude::*;
 ///
 /// fn takes<S: Separable<f64>>() where Compensated<Strang>: Scheme<f64, S> {}
 /// fn with_or_without_a_force<S: Separable<f64>>() { takes::<S>() }

@@ -27,24 +27,22 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::schemes::{Composition, ImplicitMidpoint};
-/// use hamiltonian_core::{Integrator, State};
 ///
 /// let fourth = Composition::yoshida(ImplicitMidpoint::default());
-/// let mut run = Integrator::new(&Oscillator, fourth, State::new([1.0], [0.0]), 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, fourth, State::new([1.0], [0.0]), 0.1)?;
 /// assert!((run.advance(10)?.q[0] - 1.0_f64.cos()).abs() < 1e-5);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 ///
 /// ```compile_fail,E0277
-/// use hamiltonian_core::schemes::{Composition, IntersectingSubTrajectories};
+/// use hamiltonian::prelude::*;
 ///
 /// // (33) carries a point whose distance depends on the step.
 /// let _ = Composition::yoshida(IntersectingSubTrajectories::default());
 /// ```
 ///
 /// ```compile_fail,E0277
-/// use hamiltonian_core::schemes::{KahanLi6, SymplecticEuler};
+/// use hamiltonian::prelude::*;
 ///
 /// // Its adjoint is another scheme; a table has its order with symmetric ones.
 /// let _ = KahanLi6.of(SymplecticEuler::default());
@@ -53,7 +51,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// With that adjoint it is symmetric:
 ///
 /// ```
-/// use hamiltonian_core::schemes::{Composition, KahanLi6, SymplecticEuler};
+/// use hamiltonian::prelude::*;
 ///
 /// let _ = KahanLi6.of(Composition::with_adjoint(SymplecticEuler::default()));
 /// ```

@@ -26,13 +26,12 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::DiscreteGradient};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, DiscreteGradient::default(), start, 0.5)?;
+/// let mut run = Integrator::new(&Oscillator {}, DiscreteGradient::default(), start, 0.5)?;
 /// let end = run.advance(1_000)?;
-/// assert!((System::energy(&Oscillator, end) - 0.5).abs() < 1e-14);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// assert!((System::energy(&Oscillator {}, end) - 0.5).abs() < 1e-14);
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DiscreteGradient {

@@ -42,14 +42,13 @@ pub type Copies<V> = Pair<Point<V>, Point<V>>;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::Pihajoki};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Pihajoki::default(), start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, Pihajoki::default(), start, 0.01)?;
 /// run.advance(100)?;
 /// // On a separable system the copies are the two Störmer–Verlets, O(h²) apart.
 /// assert!(run.copy_distance() < 1e-4);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Pihajoki {

@@ -29,14 +29,13 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::ImplicitMidpoint};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, ImplicitMidpoint::default(), start, 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, ImplicitMidpoint::default(), start, 0.1)?;
 /// let end = run.advance(1_000)?;
 /// // q² + p² is quadratic: preserved to rounding, a few ulps a step.
 /// assert!((end.q[0].powi(2) + end.p[0].powi(2) - 1.0).abs() < 1_000.0 * 4.0 * f64::EPSILON);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImplicitMidpoint {

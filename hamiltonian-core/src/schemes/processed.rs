@@ -39,14 +39,13 @@ use hamiltonian_lanes::{Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::Processed6};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Processed6::default(), start, 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, Processed6::default(), start, 0.1)?;
 /// assert!((run.advance(10)?.q[0] - 1.0_f64.cos()).abs() < 1e-9);
 /// // What is carried is another point: the kernel's.
 /// assert!((run.carried().q[0] - 1.0_f64.cos()).abs() > 1e-6);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Processed<K, P> {
@@ -255,12 +254,11 @@ macro_rules! processed {
         ///
         /// ```
         #[doc = include_str!("../doc/oscillator.md")]
-        #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($scheme), "};")]
         ///
         /// let start = State::new([1.0], [0.0]);
-        #[doc = concat!("let mut run = Integrator::new(&Oscillator, ", stringify!($scheme), "::default(), start, 0.05)?;")]
+        #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($scheme), "::default(), start, 0.05)?;")]
         /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
-        /// # Ok::<(), hamiltonian_core::Error>(())
+        /// # Ok::<(), Error>(())
         /// ```
         pub type $scheme = Processed<$kernel, $processor>;
     };

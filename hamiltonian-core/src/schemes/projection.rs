@@ -51,13 +51,12 @@ fn inner<T: Real, S: System<T>, W: Table>(
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::{KahanLi8, MidpointProjected}};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = MidpointProjected::<KahanLi8>::default();
-/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, scheme, start, 0.1)?;
 /// assert!((run.advance(100)?.q[0] - 10.0_f64.cos()).abs() < 1e-8);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MidpointProjected<M>(pub M);
@@ -143,13 +142,12 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::{Mixed, Strang}};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = Mixed { table: Strang, coordinates: 1.0, momenta: 0.5 };
-/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, scheme, start, 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Mixed<M> {
@@ -266,14 +264,13 @@ fn mix<V: Vector>(c: V::Scalar, a: &mut V, b: &mut V) {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::{Semiexplicit, Suzuki4}};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Semiexplicit::<Suzuki4>::default(), start, 0.1)?;
+/// let mut run = Integrator::new(&Oscillator {}, Semiexplicit::<Suzuki4>::default(), start, 0.1)?;
 /// let end = run.advance(1_000)?;
 /// // A quadratic H is preserved to rounding.
 /// assert!((end.q[0].powi(2) + end.p[0].powi(2) - 1.0).abs() < 1_000.0 * 8.0 * f64::EPSILON);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Semiexplicit<M> {

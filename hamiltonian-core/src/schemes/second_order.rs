@@ -42,13 +42,11 @@ use hamiltonian_lanes::{DoubleDouble, Level, Mask, Pack, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// # impl hamiltonian_core::QuadraticKinetic for Oscillator {}
-/// use hamiltonian_core::{Integrator, State, schemes::GaussNystrom};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, GaussNystrom::<4>::default(), start, 0.5)?;
+/// let mut run = Integrator::new(&Oscillator {}, GaussNystrom::<4>::default(), start, 0.5)?;
 /// assert!((run.advance(20)?.q[0] - 10.0_f64.cos()).abs() < 1e-8);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq)]
 pub struct GaussNystrom<const S: usize> {

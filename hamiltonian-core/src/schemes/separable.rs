@@ -34,14 +34,13 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::StormerVerlet};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, StormerVerlet::default(), start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, 0.01)?;
 /// let end = run.advance(100)?;
 /// // The error of 100 steps is near h²t/24 = 4e-6.
 /// assert!((end.q[0] - 1.0_f64.cos()).abs() < 5e-6);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum StormerVerlet {
@@ -109,13 +108,12 @@ symmetric!(StormerVerlet);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::SymplecticEuler};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, SymplecticEuler::default(), start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, SymplecticEuler::default(), start, 0.01)?;
 /// // One step: p = −0.01, q = 1 − 0.01².
 /// assert_eq!(run.advance(1)?.q[0], 1.0 - 0.01 * 0.01);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum SymplecticEuler {

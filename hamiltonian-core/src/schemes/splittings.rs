@@ -25,13 +25,12 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::Strang};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Strang, start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, Strang, start, 0.01)?;
 /// // The error of 100 steps is near h²t/24 = 4e-6.
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 5e-6);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Strang;

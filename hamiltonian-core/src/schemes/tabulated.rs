@@ -96,12 +96,11 @@ macro_rules! general {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
-            #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($name), "};")]
             ///
             /// let start = State::new([1.0], [0.0]);
-            #[doc = concat!("let mut run = Integrator::new(&Oscillator, ", stringify!($name), ", start, 0.05)?;")]
+            #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-5);
-            /// # Ok::<(), hamiltonian_core::Error>(())
+            /// # Ok::<(), Error>(())
             /// ```
             $name: $table, $stages, Exact, $adjoint
         }
@@ -120,13 +119,11 @@ macro_rules! of_symmetric {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
-            #[doc = concat!("use hamiltonian_core::schemes::{ImplicitMidpoint, ", stringify!($name), "};")]
-            /// use hamiltonian_core::{Integrator, State};
             ///
             #[doc = concat!("let scheme = ", stringify!($name), ".of(ImplicitMidpoint::default());")]
-            /// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.05)?;
+            /// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.05)?;
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-6);
-            /// # Ok::<(), hamiltonian_core::Error>(())
+            /// # Ok::<(), Error>(())
             /// ```
             pub fn of<M: Symmetric>(self, scheme: M) -> Composition<M, $stages> {
                 Composition::of_table(scheme, &$table, stringify!($name))
@@ -215,12 +212,11 @@ macro_rules! nystrom {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
-            #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($name), "};")]
             ///
             /// let start = State::new([1.0], [0.0]);
-            #[doc = concat!("let mut run = Integrator::new(&Oscillator, ", stringify!($name), ", start, 0.05)?;")]
+            #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-8);
-            /// # Ok::<(), hamiltonian_core::Error>(())
+            /// # Ok::<(), Error>(())
             /// ```
             $name: $table, $stages, Nystrom, symmetric
         }
@@ -271,12 +267,11 @@ macro_rules! near_integrable {
             ///
             /// ```
             #[doc = include_str!("../doc/oscillator.md")]
-            #[doc = concat!("use hamiltonian_core::{Integrator, State, schemes::", stringify!($name), "};")]
             ///
             /// let start = State::new([1.0], [0.0]);
-            #[doc = concat!("let mut run = Integrator::new(&Oscillator, ", stringify!($name), ", start, 0.05)?;")]
+            #[doc = concat!("let mut run = Integrator::new(&Oscillator {}, ", stringify!($name), ", start, 0.05)?;")]
             /// assert!((run.advance(20)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
-            /// # Ok::<(), hamiltonian_core::Error>(())
+            /// # Ok::<(), Error>(())
             /// ```
             $name: $table, $stages, Exact, symmetric
         }

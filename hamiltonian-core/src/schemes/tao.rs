@@ -35,13 +35,12 @@ use hamiltonian_lanes::Real;
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::Tao};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, Tao { omega: 10.0 }, start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, Tao { omega: 10.0 }, start, 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 1e-4);
 /// assert!(run.copy_distance() < 1e-4);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tao {

@@ -128,13 +128,12 @@ macro_rules! entries {
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::TwoStepMidpoint};
 ///
 /// let start = State::new([1.0], [0.0]);
-/// let mut run = Integrator::new(&Oscillator, TwoStepMidpoint::default(), start, 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, TwoStepMidpoint::default(), start, 0.01)?;
 /// // The error of 100 steps is near h²t/6 = 1.7e-5.
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 2e-5);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct TwoStepMidpoint {
@@ -164,15 +163,14 @@ entries!(TwoStepMidpoint, "25", 1);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::ConsecutiveSubTrajectories};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let mut run =
-///     Integrator::new(&Oscillator, ConsecutiveSubTrajectories::default(), start, 0.01)?;
+///     Integrator::new(&Oscillator {}, ConsecutiveSubTrajectories::default(), start, 0.01)?;
 /// let end = run.advance(50)?;
 /// assert_eq!(end.t, 1.0);
 /// assert!((end.q[0] - 1.0_f64.cos()).abs() < 2e-5);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ConsecutiveSubTrajectories {
@@ -199,13 +197,11 @@ entries!(ConsecutiveSubTrajectories, "26", 2);
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::schemes::{IntersectingSubTrajectories, Start};
-/// use hamiltonian_core::{Integrator, State};
 ///
 /// let scheme = IntersectingSubTrajectories { start: Start::HalfEuler };
-/// let mut run = Integrator::new(&Oscillator, scheme, State::new([1.0], [0.0]), 0.01)?;
+/// let mut run = Integrator::new(&Oscillator {}, scheme, State::new([1.0], [0.0]), 0.01)?;
 /// assert!((run.advance(100)?.q[0] - 1.0_f64.cos()).abs() < 5e-5);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct IntersectingSubTrajectories {

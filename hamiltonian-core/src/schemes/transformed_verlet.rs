@@ -37,47 +37,22 @@ use nalgebra::SVector;
 /// doi:10.1016/S0168-9274(97)00061-5.
 ///
 /// ```
-#[doc = include_str!("../doc/oscillator.md")]
-/// # impl hamiltonian_core::QuadraticKinetic for Oscillator {}
-/// # impl hamiltonian_core::Autonomous for Oscillator {}
-/// # #[derive(Debug, Clone, Copy)]
-/// # struct Half;
-/// # impl System<f64> for Half {
-/// #     type Vector = V;
-/// #     type Prepared = Half;
-/// #     const NAME: &'static str = "Half";
-/// #     const GROUPS: &'static [Group] = Oscillator::GROUPS;
-/// #     const OBSERVABLES: &'static [Observable] = &[];
-/// #     fn prepare(&self) -> Half { *self }
-/// #     fn zeros(&self) -> V { V::from_element(0.0) }
-/// # }
-/// # impl Dynamics<f64> for Half {
-/// #     type Vector = V;
-/// #     type Field = Pull;
-/// #     fn energy(&self, _: f64, q: &V, _: &V) -> f64 { 0.5 * q[0] * q[0] }
-/// #     fn gradient_q(&self, _: f64, q: &V, _: &V, out: &mut V) { *out = *q; }
-/// #     fn gradient_p(&self, _: f64, _: &V, _: &V, out: &mut V) { out[0] = 0.0; }
-/// #     fn time_derivative(&self, _: f64, _: &V, _: &V) -> f64 { 0.0 }
-/// #     fn hessian_vector(&self, _: f64, _: &V, _: &V, vq: &V, _: &V, out_q: &mut V, out_p: &mut V) { *out_q = *vq; out_p[0] = 0.0; }
-/// #     fn observable(&self, _: usize, _: f64, _: &V, _: &V) -> f64 { 0.0 }
-/// #     fn field(&self, c: f64) -> Pull { Pull(c) }
-/// # }
-/// # #[derive(Debug, Clone, Copy)]
-/// # struct Pull(f64);
-/// # impl VectorField<V> for Pull {
-/// #     fn add(&self, _: f64, q: &V, _: &V, _: &mut V, into_p: &mut V) { into_p[0] -= self.0 * q[0]; }
-/// # }
-/// # impl Unforced for Half {}
-/// # impl hamiltonian_core::Autonomous for Half {}
-/// use hamiltonian_core::{Integrator, State, TimeTransformed, schemes::TransformedVerlet};
+/// use hamiltonian::prelude::*;
+///
+/// hamiltonian! {
+///     /// A mass on a spring.
+///     pub struct Oscillator {}
+///     H(q; p) = p^2/2 + q^2/2;
+///     monitor half = q^2/2
+/// }
 ///
 /// // The oscillator in the time of g = q²/2.
-/// let system = TimeTransformed::new(Oscillator, Half);
+/// let system = TimeTransformed::by(Oscillator {}, "half")?;
 /// let start = system.start(&State::new([1.0], [0.0]))?;
 /// let mut run = Integrator::new(&system, TransformedVerlet::default(), start, 0.01)?;
 /// let end = system.declared(run.advance(100)?);
 /// assert!((end.q[0] - end.t.cos()).abs() < 1e-5);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransformedVerlet {

@@ -56,7 +56,7 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 ///
 /// ```compile_fail
 /// // A parabola sampled at one point.
-/// let _ = hamiltonian_core::schemes::Variational::<2, 1>::gauss();
+/// let _ = hamiltonian::schemes::Variational::<2, 1>::gauss();
 /// ```
 ///
 /// A force enters by the discrete Lagrange–d'Alembert principle, `δS + h Σ bᵢ f(Qᵢ, Pᵢ, tᵢ)·δQᵢ = 0`: f stands
@@ -73,14 +73,13 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::Variational};
 ///
 /// // A parabola and Simpson's rule: order 4.
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = Variational::<2, 3>::lobatto();
-/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.05)?;
+/// let mut run = Integrator::new(&Oscillator {}, scheme, start, 0.05)?;
 /// assert!((run.advance(200)?.q[0] - 10.0_f64.cos()).abs() < 1e-6);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, PartialEq)]
 pub struct Variational<const DEGREE: usize, const POINTS: usize> {
@@ -230,13 +229,12 @@ impl<T: Real, S: System<T>, const DEGREE: usize, const POINTS: usize> Scheme<T, 
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
-/// use hamiltonian_core::{Integrator, State, schemes::MomentumVariational};
 ///
 /// let start = State::new([1.0], [0.0]);
 /// let scheme = MomentumVariational::<3>::default();
-/// let mut run = Integrator::new(&Oscillator, scheme, start, 0.05)?;
+/// let mut run = Integrator::new(&Oscillator {}, scheme, start, 0.05)?;
 /// assert!((run.advance(200)?.q[0] - 10.0_f64.cos()).abs() < 1e-6);
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MomentumVariational<const S: usize>(Variational<S, S>);
@@ -342,17 +340,17 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// shape, [`Error::Stationary`] where no path was found.
     ///
     /// ```
+    /// use hamiltonian::schemes::Ends;
     #[doc = include_str!("../doc/oscillator.md")]
-    /// use hamiltonian_core::{State, schemes::{Ends, Variational}};
     ///
     /// // From 0 to 1 in a quarter of a period, S = (p₁q₁ − p₀q₀)/2 = 0; in an eighth it is ½.
     /// let scheme = Variational::<4, 4>::gauss();
     /// let State { q, p, .. } = State::new([0.0], [1.0]);
     /// let eighth = core::f64::consts::FRAC_PI_4;
-    /// let path = scheme.extremal(&Oscillator, 0.0, eighth, Ends::Coordinates(q, p))?;
+    /// let path = scheme.extremal(&Oscillator {}, 0.0, eighth, Ends::Coordinates(q, p))?;
     /// assert!((path.action - 0.5).abs() < 1e-7);
     /// assert!((path.start.p[0] - 2.0_f64.sqrt()).abs() < 1e-7);
-    /// # Ok::<(), hamiltonian_core::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     pub fn extremal<T: Real, S: System<T>>(
         &self,

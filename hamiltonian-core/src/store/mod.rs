@@ -30,7 +30,8 @@ use std::path::{Path, PathBuf};
 /// Processes write chunks of one store without coordination, each its own; threads share a store.
 ///
 /// ```
-/// use hamiltonian_core::{ChunkData, Error, Layout, Store};
+/// use hamiltonian::{ChunkData, Layout, Store};
+/// use hamiltonian::prelude::*;
 ///
 /// fn main() -> Result<(), Error> {
 ///     let path = std::env::temp_dir().join("example.zarr");

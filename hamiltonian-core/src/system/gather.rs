@@ -30,9 +30,10 @@ pub const MOST: usize = 128;
 /// ensembles and, with [`Dynamics::in_lanes`], to let implicit schemes use packs in a single run:
 ///
 /// ```
-/// # use hamiltonian_core::{Dynamics, Gather, InLanes, Unforced, Vector, VectorField, gather};
-/// # use hamiltonian_core::private::SVector;
-/// # use hamiltonian_lanes::{Pack, Real};
+/// use hamiltonian::{Dynamics, Gather, InLanes, Unforced, Vector, VectorField, gather};
+/// use hamiltonian::lanes::Pack;
+/// use hamiltonian::nalgebra::SVector;
+/// use hamiltonian::prelude::*;
 /// /// H = ½(p² + ω²q²), prepared.
 /// #[derive(Debug, Clone)]
 /// struct Ready<T> {

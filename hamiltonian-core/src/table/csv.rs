@@ -14,7 +14,8 @@ impl Table {
     /// The writer needs no buffer of its own: it receives 64 KiB at a time, and is flushed at the end.
     ///
     /// ```
-    /// use hamiltonian_core::{Error, Table};
+    /// use hamiltonian::Table;
+    /// use hamiltonian::prelude::*;
     /// use std::fs::File;
     ///
     /// fn main() -> Result<(), Error> {

@@ -21,7 +21,7 @@ use hamiltonian_lanes::Real;
 /// where members have several rows.
 ///
 /// ```
-/// use hamiltonian_core::Table;
+/// use hamiltonian::Table;
 ///
 /// let mut table = Table::with_index("member", ["theta", "drift"])?;
 /// table.push(&[0.0, 0.25, 1e-9])?;
@@ -31,7 +31,7 @@ use hamiltonian_lanes::Real;
 /// assert_eq!(theta[0], 0.25);
 /// assert!((theta[1] - (7.0 - std::f64::consts::TAU)).abs() < 1e-15);
 /// assert_eq!(table.row(1).map(|row| row[0]), Some(1.0));
-/// # Ok::<(), hamiltonian_core::Error>(())
+/// # Ok::<(), hamiltonian::Error>(())
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {

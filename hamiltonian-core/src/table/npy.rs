@@ -15,7 +15,8 @@ impl Table {
     /// and `pd.DataFrame(np.load(path))` the table.
     ///
     /// ```
-    /// use hamiltonian_core::{Error, Table};
+    /// use hamiltonian::Table;
+    /// use hamiltonian::prelude::*;
     ///
     /// let mut table = Table::new(["t", "x"])?;
     /// table.push(&[0.5, 2.0])?;

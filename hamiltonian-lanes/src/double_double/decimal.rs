@@ -22,7 +22,8 @@ const MOST_DIGITS_READ: u32 = 80;
 /// The text is not a decimal number.
 ///
 /// ```
-/// use hamiltonian_lanes::{DoubleDouble, ParseDoubleDoubleError};
+/// use hamiltonian::lanes::ParseDoubleDoubleError;
+/// use hamiltonian::prelude::*;
 /// assert_eq!("0.1.2".parse::<DoubleDouble>(), Err(ParseDoubleDoubleError));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,10 +44,10 @@ impl FromStr for DoubleDouble {
     /// word by word: the relative error is at most 2⁻¹⁰⁷ for numbers above 10⁻²⁹⁰.
     ///
     /// ```
-    /// use hamiltonian_lanes::DoubleDouble;
+    /// use hamiltonian::prelude::*;
     /// let tenth: DoubleDouble = "0.1".parse()?;
     /// assert_eq!((tenth.hi(), tenth.lo()), (0.1, -5.551115123125783e-18));
-    /// # Ok::<(), hamiltonian_lanes::ParseDoubleDoubleError>(())
+    /// # Ok::<(), hamiltonian::lanes::ParseDoubleDoubleError>(())
     /// ```
     fn from_str(text: &str) -> Result<Self, ParseDoubleDoubleError> {
         let (negative, unsigned) = match text.as_bytes() {
@@ -260,7 +261,7 @@ fn write_special(x: DoubleDouble, zero: &str, f: &mut fmt::Formatter<'_>) -> fmt
 /// [`LowerExp`](fmt::LowerExp)).
 ///
 /// ```
-/// use hamiltonian_lanes::{DoubleDouble, Real};
+/// use hamiltonian::prelude::*;
 /// let pi = DoubleDouble::from(-1.0).acos();
 /// assert_eq!(pi.to_string(), "3.1415926535897932384626433832795");
 /// assert_eq!(DoubleDouble::from(2.5).to_string(), "2.5");
@@ -301,7 +302,7 @@ impl fmt::Display for DoubleDouble {
 /// if none is given, and never more than 37.
 ///
 /// ```
-/// use hamiltonian_lanes::DoubleDouble;
+/// use hamiltonian::prelude::*;
 /// let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
 /// assert_eq!(format!("{third:.4e}"), "3.3333e-1");
 /// ```

@@ -46,7 +46,7 @@ pub use decimal::ParseDoubleDoubleError;
 /// lost, as with any pair of `f64`. Signed zeros, infinities and NaN are as in `f64`.
 ///
 /// ```
-/// use hamiltonian_lanes::{DoubleDouble, Real};
+/// use hamiltonian::prelude::*;
 ///
 /// let third = DoubleDouble::from(1.0) / DoubleDouble::from(3.0);
 /// let error = third * DoubleDouble::from(3.0) - DoubleDouble::from(1.0);
@@ -63,7 +63,7 @@ impl DoubleDouble {
     /// ordered.
     ///
     /// ```
-    /// use hamiltonian_lanes::DoubleDouble;
+    /// use hamiltonian::prelude::*;
     /// let x = DoubleDouble::new(1e-20, 1.0);
     /// assert_eq!((x.hi(), x.lo()), (1.0, 1e-20));
     /// ```
@@ -76,7 +76,7 @@ impl DoubleDouble {
     /// The leading word: the number rounded to `f64`.
     ///
     /// ```
-    /// use hamiltonian_lanes::DoubleDouble;
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(DoubleDouble::from(0.5).hi(), 0.5);
     /// ```
     #[inline(always)]
@@ -87,7 +87,7 @@ impl DoubleDouble {
     /// The trailing word: the value minus `hi`.
     ///
     /// ```
-    /// use hamiltonian_lanes::DoubleDouble;
+    /// use hamiltonian::prelude::*;
     /// let tenth = DoubleDouble::from(1.0) / DoubleDouble::from(10.0);
     /// assert!(tenth.lo() != 0.0 && tenth.lo().abs() < 1e-17);
     /// ```

@@ -21,7 +21,7 @@ use super::pack::{Base, V, W};
 /// | `Avx512` | 8 × `f64` | yes | x86-64 with AVX-512 F, DQ, CD, BW and VL |
 ///
 /// ```
-/// use hamiltonian_lanes::Cpu;
+/// use hamiltonian::lanes::Cpu;
 /// assert!(Cpu::available().any(|cpu| cpu == Cpu::Portable));
 /// assert_eq!(Cpu::available().last(), Some(Cpu::best()));
 /// ```
@@ -76,7 +76,7 @@ impl Cpu {
     /// without them. For tests and measurements; runs under way are not changed.
     ///
     /// ```
-    /// use hamiltonian_lanes::Cpu;
+    /// use hamiltonian::lanes::Cpu;
     /// Cpu::limit_to(Cpu::Portable);
     /// assert_eq!(Cpu::best(), Cpu::Portable);
     /// Cpu::limit_to(Cpu::Avx512); // hides nothing
@@ -164,7 +164,8 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
 /// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
 ///
 /// ```
-/// use hamiltonian_lanes::{Cpu, KernelAt, Level, OnEveryLevel, Pack, Real};
+/// use hamiltonian::lanes::{Cpu, KernelAt, Level, OnEveryLevel, Pack};
+/// use hamiltonian::prelude::*;
 ///
 /// /// The sum of a function of numbers; the function is given for each pack it is called with.
 /// struct Sum<'a, F> {
@@ -263,7 +264,8 @@ on_every_level!(
 /// hundred.
 ///
 /// ```
-/// use hamiltonian_lanes::{Kernel, Level, Pack, Real, dispatch};
+/// use hamiltonian::lanes::{Kernel, Level, Pack, dispatch};
+/// use hamiltonian::prelude::*;
 ///
 /// /// q ← q + ½p for many trajectories.
 /// struct Drift<'a> {
@@ -317,7 +319,7 @@ pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
 /// CPU on a larger one.
 ///
 /// ```
-/// use hamiltonian_lanes::{Cpu, Kernel, Level, dispatch_at_most};
+/// use hamiltonian::lanes::{Cpu, Kernel, Level, dispatch_at_most};
 ///
 /// struct Which;
 /// impl Kernel for Which {

@@ -14,7 +14,8 @@ use core::ops::{
 /// The result of comparing two [`Real`]s: `bool` for scalars, one flag a lane for packs.
 ///
 /// ```
-/// use hamiltonian_real::{Mask, Real};
+/// use hamiltonian::Mask;
+/// use hamiltonian::prelude::*;
 ///
 /// fn inside<T: Real>(x: T) -> T::Mask {
 ///     T::zero().le(x) & x.lt(T::one())
@@ -48,7 +49,8 @@ pub trait Mask:
 /// from `f64`); a dual number lifts as a constant.
 ///
 /// ```
-/// use hamiltonian_real::{Dual, Lift, Real};
+/// use hamiltonian::Lift;
+/// use hamiltonian::prelude::*;
 ///
 /// fn twice<P, T: Real + Lift<P>>(parameter: P, x: T) -> T {
 ///     T::lift(parameter) * x
@@ -111,7 +113,7 @@ pub trait Lift<P> {
 /// arguments of `ln` and of the base of `pow`; bases below 0; results that leave the normal numbers.
 ///
 /// ```
-/// use hamiltonian_real::{Dual, Real};
+/// use hamiltonian::prelude::*;
 ///
 /// /// One step of Newton's iteration for `x·eˣ = y`, written once for every scalar.
 /// fn improve<T: Real>(x: T, y: T) -> T {
@@ -164,7 +166,7 @@ pub trait Real:
     /// Value k in lane k; the last value in the lanes that are left. Without a form in lanes, the first.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// // `f64` is a pack of one lane.
     /// let x = Real::gather::<f64>(&[Dual::variable(1.5)]);
     /// assert_eq!((x.re, x.eps), (1.5, 1.0));
@@ -204,7 +206,7 @@ pub trait Real:
     /// maximum that keeps NaN.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(Dual::new(-3.0, 0.5).size(), 3.5);
     /// assert!(Dual::new(1.0, f64::NAN).size().is_nan());
     /// ```
@@ -212,7 +214,8 @@ pub trait Real:
     /// The lanes all of whose components are finite.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Mask, Real};
+    /// use hamiltonian::Mask;
+    /// use hamiltonian::prelude::*;
     /// assert!(!Dual::new(1.0, f64::INFINITY).finite().all());
     /// ```
     fn finite(self) -> Self::Mask;
@@ -241,7 +244,7 @@ pub trait Real:
     /// The value whose words are handed in, in the same order.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// let mut words = Vec::new();
     /// Dual::new(0.1, -2.0).write_words(&mut |word| words.push(word));
     /// let mut words = words.into_iter();
@@ -254,7 +257,7 @@ pub trait Real:
     /// not vary with the point, so a dual number has them without derivative parts.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     ///
     /// /// The line through the two points of a table around x, at x.
     /// fn line<T: Real>(table: &[f64], x: T) -> T {
@@ -292,7 +295,7 @@ pub trait Real:
     /// a pack (`Level` in `hamiltonian-lanes`).
     ///
     /// ```
-    /// # use hamiltonian_real::Real;
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(f64::out_of_line(|| 2.0_f64.sqrt()), 2.0_f64.sqrt());
     /// ```
     #[inline(always)]
@@ -362,7 +365,7 @@ pub trait Real:
     /// Error function `2/√π·∫₀ˣ exp(−t²) dt`; its derivative is `2/√π·exp(−x²)`.
     ///
     /// ```
-    /// use hamiltonian_real::{Dual, Real};
+    /// use hamiltonian::prelude::*;
     /// let x = Dual::variable(0.0).erf();
     /// assert_eq!((x.re, x.eps), (0.0, core::f64::consts::FRAC_2_SQRT_PI));
     /// ```
@@ -370,7 +373,7 @@ pub trait Real:
     /// Complementary error function `1 − erf(self)`, relatively accurate where it is small.
     ///
     /// ```
-    /// use hamiltonian_real::Real;
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(1.0 - 10f64.erf(), 0.0);
     /// assert!((10f64.erfc() / 2.088487583762545e-45 - 1.0).abs() < 4.0 * f64::EPSILON);
     /// ```
@@ -404,7 +407,7 @@ pub trait Real:
     /// doi:10.1093/mnras/stv1862.
     ///
     /// ```
-    /// use hamiltonian_real::Real;
+    /// use hamiltonian::prelude::*;
     ///
     /// // A circle of radius 1 with μ = 1: the anomaly grows with the time.
     /// let t = 2.5_f64;
@@ -418,7 +421,7 @@ pub trait Real:
     /// Stumpff's function c₂(ψ) = (1 − cos √ψ)/ψ = ½ − ψ/4! + ψ²/6! − …, for ψ of either sign.
     ///
     /// ```
-    /// use hamiltonian_real::Real;
+    /// use hamiltonian::prelude::*;
     /// assert_eq!(0f64.stumpff_2(), 0.5);
     /// assert!((4f64.stumpff_2() - (1.0 - 2f64.cos()) / 4.0).abs() < 1e-16);
     /// ```
@@ -429,7 +432,7 @@ pub trait Real:
     /// Stumpff's function c₃(ψ) = (√ψ − sin √ψ)/√ψ³ = 1/3! − ψ/5! + ψ²/7! − …, for ψ of either sign.
     ///
     /// ```
-    /// use hamiltonian_real::Real;
+    /// use hamiltonian::prelude::*;
     /// assert!(((-4f64).stumpff_3() - (2f64.sinh() - 2.0) / 8.0).abs() < 1e-16);
     /// ```
     #[inline(always)]
@@ -443,7 +446,8 @@ pub trait Real:
 /// The packs of CPUs are those of `hamiltonian-lanes`; a kernel takes them from its level.
 ///
 /// ```
-/// use hamiltonian_real::{Pack, Real};
+/// use hamiltonian::lanes::Pack;
+/// use hamiltonian::prelude::*;
 ///
 /// /// The roots of numbers, as many at a time as `P` has lanes.
 /// fn roots<P: Pack>(numbers: &mut [f64]) {
@@ -463,7 +467,7 @@ pub trait Pack: Real<Size = Self> {
     /// The first `n` lanes: those that [`load`](Pack::load) takes from `n` numbers.
     ///
     /// ```
-    /// use hamiltonian_real::Pack;
+    /// use hamiltonian::lanes::Pack;
     /// assert!(f64::below(1) && !f64::below(0));
     /// ```
     fn below(n: u32) -> Self::Mask;

@@ -82,7 +82,7 @@ macro_rules! all {
         /// All tables.
         ///
         /// ```
-        /// use hamiltonian_core::schemes::tables::{Class, all};
+        /// use hamiltonian::schemes::tables::{Class, all};
         /// for table in all().filter(|table| table.class == Class::General) {
         ///     println!("{}: order {}, {} stages", table.name, table.order, table.stages.len());
         /// }
@@ -134,7 +134,7 @@ macro_rules! all_processed {
         /// All processed tables.
         ///
         /// ```
-        /// for table in hamiltonian_core::schemes::tables::all_processed() {
+        /// for table in hamiltonian::schemes::tables::all_processed() {
         ///     println!("{}: {} stages a step", table.name, table.kernel.len());
         /// }
         /// ```

@@ -14,7 +14,8 @@ use hamiltonian_real::{Lift, Pack, Real, itself_in_lanes};
 /// every CPU, for a fifth to a half more time on levels that fuse.
 ///
 /// ```
-/// use hamiltonian_lanes::{Kernel, Level, Nf, Real, dispatch};
+/// use hamiltonian::lanes::{Kernel, Level, Nf, dispatch};
+/// use hamiltonian::prelude::*;
 ///
 /// struct Product;
 /// impl Kernel for Product {

@@ -15,7 +15,9 @@ use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
 /// `K` packs as one of `K` times as many lanes; pack 0 has the first lanes.
 ///
 /// ```
-/// use hamiltonian_lanes::{Mask, Real, W};
+/// use hamiltonian::Mask;
+/// use hamiltonian::lanes::W;
+/// use hamiltonian::prelude::*;
 ///
 /// let x = W([1.0, 2.0, f64::NAN, 4.0]);
 /// assert_eq!((x + x).lane(3), 8.0);

@@ -26,6 +26,5 @@ nbody_collapse nbody collapse.svg
 chaos_map chaos_map map.svg 40000
 basins basins basins.svg 40000
 mixing mixing t5.svg 10000
-paper paper figure4.svg
 LIST
 exit "$large"

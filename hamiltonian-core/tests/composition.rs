@@ -6,7 +6,7 @@ use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Reversed, Table, Visitor, Weight};
+use hamiltonian_core::schemes::{Reversed, Splitting, Visitor, Weight};
 use hamiltonian_core::{DoubleDouble, Form, OneStep, Scheme, Vector};
 
 /// The slope of the error at t = 1 between two steps, in double-double, against a fourth-order

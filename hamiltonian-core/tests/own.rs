@@ -3,7 +3,7 @@
 use crate::common::systems::*;
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Durations, Table, Weight, Zigzag, ZigzagOf};
+use hamiltonian_core::schemes::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
 use hamiltonian_core::{Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point, Scheme};
 use hamiltonian_core::{Split, Step, Symmetric, Vector, VectorField};
 use std::marker::PhantomData;
@@ -67,7 +67,7 @@ impl OneStep for Runge {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TwoStages;
 
-impl Table for TwoStages {
+impl Splitting for TwoStages {
     type Of<U> = [U; 2];
     fn stages(&self) -> [Durations; 2] {
         const LAMBDA: f64 = 0.193_183_327_503_783_6;

@@ -5,7 +5,7 @@ use crate::common::systems::*;
 use crate::common::{difference, start};
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::Table;
+use hamiltonian_core::schemes::Splitting;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{Entry, Listed, OneStep, Scheme};
 
@@ -19,7 +19,7 @@ impl Listed for Idle {
     }
 }
 
-impl Table for Idle {
+impl Splitting for Idle {
     type Of<U> = [U; 1];
     fn stages(&self) -> [Durations; 1] {
         [(Weight(0.0, 0.0), Weight(0.0, 0.0))]
@@ -31,7 +31,7 @@ impl Table for Idle {
 
 #[test]
 fn a_kernel_alone_has_order_2() {
-    fn alone<K: Table>(kernel: K) -> f64 {
+    fn alone<K: Splitting>(kernel: K) -> f64 {
         let processor = Idle;
         slope(
             &Hand(Pumped),

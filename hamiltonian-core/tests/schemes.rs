@@ -353,7 +353,7 @@ fn schemes_for_any_h_are_symplectic() {
 /// The distance of the copies after a step, an estimate of its error, falls with h^(p+1).
 #[test]
 fn copies_part_by_the_error_of_a_step() {
-    fn slope<M: Table>(scheme: MidpointProjected<M>) -> f64 {
+    fn slope<M: Splitting>(scheme: MidpointProjected<M>) -> f64 {
         let system = Hand(Paper34);
         let begin = start(&system, &[-1.5], &[0.3]);
         let distance = |h: f64| {

@@ -7,7 +7,7 @@
 //! Exact flows that are not sums (rotations, scalings, friction) have no increment to carry: the bounds
 //! are [`Separable`] and [`Unforced`].
 
-use super::table::Table;
+use super::splitting::Splitting;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces, Scratch};
 use crate::map::Step;
@@ -53,7 +53,7 @@ use hamiltonian_lanes::Real;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Compensated<M>(pub M);
 
-impl<M: Table> Listed for Compensated<M> {
+impl<M: Splitting> Listed for Compensated<M> {
     fn entry(&self) -> Entry {
         let of = self.0.entry();
         Entry {
@@ -65,7 +65,7 @@ impl<M: Table> Listed for Compensated<M> {
     }
 }
 
-symmetric!(Compensated<M>, M: Table + Symmetric);
+symmetric!(Compensated<M>, M: Splitting + Symmetric);
 
 /// The point and its low words.
 type Words<V> = Pair<Point<V>, Point<V>>;
@@ -139,7 +139,7 @@ type Halves<T, S> = (
     Carrying<<S as Separable<T>>::Drift, false>,
 );
 
-impl<T: Real, S: Separable<T> + Unforced, M: Table> Scheme<T, S> for Compensated<M> {
+impl<T: Real, S: Separable<T> + Unforced, M: Splitting> Scheme<T, S> for Compensated<M> {
     type Map = Zigzag<
         Words<S::Vector>,
         <Halves<T, S> as Pieces<T, S::Prepared>>::Outer,

@@ -4,7 +4,7 @@
 //! piece of a stage and the opening piece of the next are one, across steps too.
 
 use super::iterate::{Contraction, iterate};
-use super::table::Weight;
+use super::splitting::Weight;
 use super::tables::{Coefficients, general as tables};
 use crate::error::Error;
 use crate::flow::Scratch;

@@ -4,7 +4,7 @@
 //! H(q, p̃) + H(q̃, p) for every splitting of the doubled space. Invariant: each piece is a flow of H
 //! whose arguments are one half of each copy; the loop is [`Zigzag`]'s.
 
-use super::splittings::Strang;
+use super::strang::Strang;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces, VectorField};
 use crate::map::{Either, Step};

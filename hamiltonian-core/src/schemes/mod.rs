@@ -57,13 +57,13 @@ macro_rules! symmetric {
     };
 }
 
-mod table;
+mod splitting;
 pub mod tables;
 mod zigzag;
 
 mod processed;
 mod separable;
-mod splittings;
+mod strang;
 mod tabulated;
 
 mod compensated;
@@ -116,9 +116,9 @@ pub use projection::{
 pub use runge_kutta::{Classical, ClassicalWork, RungeKutta4};
 pub use second_order::{CarriesForces, Eliminated, EliminatedWork, GaussNystrom};
 pub use separable::{StormerVerlet, SymplecticEuler};
-pub use splittings::Strang;
+pub use splitting::{Durations, Negated, Reversed, Splitting, Weight};
 pub use stages::{Carries, Collocated, CollocatedWork, Stages};
-pub use table::{Durations, Negated, Reversed, Table, Weight};
+pub use strang::Strang;
 pub use tabulated::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesMoan4, BlanesMoan6, KahanLi6, KahanLi8,
     McLachlan8, Ruth3, Saba2, Saba3, Saba4, SofroniouSpaletta8, SofroniouSpaletta10, Srkn6b,

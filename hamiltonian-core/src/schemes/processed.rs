@@ -4,8 +4,8 @@
 //! what is carried from step to step is the state before the processor, so that a step costs its kernel
 //! alone; the processor is applied to the copy that is shown.
 
-use super::splittings::Strang;
-use super::table::{Durations, Negated, Reversed, Table};
+use super::splitting::{Durations, Negated, Reversed, Splitting};
+use super::strang::Strang;
 use super::tables::processed as tables;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Pieces};
@@ -32,7 +32,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// π₋ₕ ∘ K* ∘ π₋ₕ⁻¹; π and π₋ₕ agree to the order of the scheme but not to the last bit, so Φ is symmetric to
 /// that order only.
 ///
-/// `K` and `P` are [`Table`]s; the durations of `P` sum to zero. Its entry is that of the whole scheme.
+/// `K` and `P` are [`Splitting`]s; the durations of `P` sum to zero. Its entry is that of the whole scheme.
 ///
 /// Source: J. C. Butcher, Lecture Notes in Mathematics 109 (1969) 133, doi:10.1007/BFb0060019; S. Blanes,
 /// F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
@@ -55,13 +55,13 @@ pub struct Processed<K, P> {
     pub processor: P,
 }
 
-impl<K: Table, P: Table> Listed for Processed<K, P> {
+impl<K: Splitting, P: Splitting> Listed for Processed<K, P> {
     fn entry(&self) -> Entry {
         self.processor.entry()
     }
 }
 
-impl<K: Table + PartialEq, P: Table + PartialEq> OneStep for Processed<K, P> {
+impl<K: Splitting + PartialEq, P: Splitting + PartialEq> OneStep for Processed<K, P> {
     type Adjoint = Processed<Reversed<K>, Negated<P>>;
     fn adjoint(&self) -> Self::Adjoint {
         Processed {
@@ -75,8 +75,8 @@ impl<T, S, K, P> Scheme<T, S> for Processed<K, P>
 where
     T: Real,
     S: Split<T> + Exact,
-    K: Table,
-    P: Table,
+    K: Splitting,
+    P: Splitting,
 {
     type Map = Processing<
         Point<S::Vector>,
@@ -116,7 +116,7 @@ where
 
 /// The map of a [`Processed`] scheme.
 #[derive(Debug)]
-pub struct Processing<X: Vector, O, I, K: Table, P: Table> {
+pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting> {
     /// π⁻¹.
     unprocessor: Zigzag<X, O, I, Reversed<Negated<P>>>,
     kernel: Zigzag<X, O, I, K>,
@@ -138,14 +138,16 @@ fn apart<X, O, I, W>(
     X: Carried,
     O: Flow<X>,
     I: Flow<X>,
-    W: Table,
+    W: Splitting,
 {
     let mut moved = z.take();
     X::Scalar::out_of_line(|| processor.step(t, t, &mut moved, work));
     *z = moved;
 }
 
-impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Table, P: Table> Map for Processing<X, O, I, K, P> {
+impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting> Map
+    for Processing<X, O, I, K, P>
+{
     type Carried = X;
     /// That of the kernel, which the processors share.
     type Work = (O::Work, I::Work);
@@ -218,7 +220,7 @@ macro_rules! weights {
             }
         }
 
-        impl Table for $name {
+        impl Splitting for $name {
             type Of<U> = [U; $stages];
             #[inline(always)]
             fn stages(&self) -> [Durations; $stages] {

@@ -5,8 +5,8 @@
 //! displaced from it) and ends with one point; in between is the splitting of H(q, p̃) + H(q̃, p).
 
 use super::extended::{Copies, Cross, Doubled};
+use super::splitting::Splitting;
 use super::stages::Stages;
-use super::table::Table;
 use super::zigzag::Zigzag;
 use crate::flow::Scratch;
 use crate::map::{Cause, Map, Step};
@@ -19,7 +19,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// The splitting of H(q, p̃) + H(q̃, p) by the table `W`.
 type Inner<T, S, W> = Doubled<T, S, Cross<false>, Cross<true>, W>;
 
-fn inner<T: Real, S: System<T>, W: Table>(
+fn inner<T: Real, S: System<T>, W: Splitting>(
     table: &W,
     prepared: &S::Prepared,
     h: T,
@@ -61,7 +61,7 @@ fn inner<T: Real, S: System<T>, W: Table>(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct MidpointProjected<M>(pub M);
 
-impl<M: Table> Listed for MidpointProjected<M> {
+impl<M: Splitting> Listed for MidpointProjected<M> {
     fn entry(&self) -> Entry {
         let of = self.0.entry();
         Entry {
@@ -75,14 +75,14 @@ impl<M: Table> Listed for MidpointProjected<M> {
     }
 }
 
-impl<M: Table + Symmetric> OneStep for MidpointProjected<M> {
+impl<M: Splitting + Symmetric> OneStep for MidpointProjected<M> {
     type Adjoint = super::Adjoint<Self>;
     fn adjoint(&self) -> Self::Adjoint {
         super::Adjoint(*self)
     }
 }
 
-impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for MidpointProjected<M> {
+impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for MidpointProjected<M> {
     type Map = Averaged<Inner<T, S, M>>;
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
@@ -170,7 +170,7 @@ impl<M: Default> Default for Mixed<M> {
     }
 }
 
-impl<M: Table> Listed for Mixed<M> {
+impl<M: Splitting> Listed for Mixed<M> {
     fn entry(&self) -> Entry {
         let of = self.table.entry();
         Entry {
@@ -184,7 +184,7 @@ impl<M: Table> Listed for Mixed<M> {
     }
 }
 
-impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Mixed<M> {
+impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for Mixed<M> {
     type Map = Mixing<Inner<T, S, M>, T>;
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {
@@ -290,7 +290,7 @@ impl<M: Default> Default for Semiexplicit<M> {
     }
 }
 
-impl<M: Table> Listed for Semiexplicit<M> {
+impl<M: Splitting> Listed for Semiexplicit<M> {
     fn entry(&self) -> Entry {
         let of = self.table.entry();
         Entry {
@@ -304,9 +304,9 @@ impl<M: Table> Listed for Semiexplicit<M> {
     }
 }
 
-symmetric!(Semiexplicit<M>, M: Table + Symmetric);
+symmetric!(Semiexplicit<M>, M: Splitting + Symmetric);
 
-impl<T: Real, S: System<T> + Unforced, M: Table> Scheme<T, S> for Semiexplicit<M> {
+impl<T: Real, S: System<T> + Unforced, M: Splitting> Scheme<T, S> for Semiexplicit<M> {
     type Map = Projected<Inner<T, S, M>>;
     #[inline(always)]
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map {

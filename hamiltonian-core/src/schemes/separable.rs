@@ -1,10 +1,10 @@
 //! Splittings of H = T(p, t) + V(q, t) into drift and kick.
 //!
 //! Input: a [`Separable`] system. Output: [`StormerVerlet`], [`SymplecticEuler`]. Invariant: each
-//! is a [`Table`] and the piece that moves first; the loop is [`Zigzag`]'s.
+//! is a [`Splitting`] and the piece that moves first; the loop is [`Zigzag`]'s.
 
-use super::splittings::Strang;
-use super::table::{Durations, Table, Weight};
+use super::splitting::{Durations, Splitting, Weight};
+use super::strang::Strang;
 use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::{Either, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, OneStep, Scheme};
@@ -158,7 +158,7 @@ impl OneStep for SymplecticEuler {
 
 /// With the drift outermost: composed with its adjoint, kick–drift ends with the piece the other
 /// begins with, and both are one flow.
-impl Table for SymplecticEuler {
+impl Splitting for SymplecticEuler {
     type Of<U> = [U; 1];
     #[inline(always)]
     fn stages(&self) -> [Durations; 1] {

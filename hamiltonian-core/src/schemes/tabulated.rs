@@ -6,7 +6,7 @@
 //! loop is [`Zigzag`]'s.
 
 use super::composition::Composition;
-use super::table::{Durations, Reversed, Table};
+use super::splitting::{Durations, Reversed, Splitting};
 use super::tables::{Coefficients, general, near_integrable, nystrom};
 use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
@@ -43,7 +43,7 @@ macro_rules! tabulated {
             }
         }
 
-        impl Table for $name {
+        impl Splitting for $name {
             type Of<U> = [U; $stages];
             #[inline(always)]
             fn stages(&self) -> [Durations; $stages] {

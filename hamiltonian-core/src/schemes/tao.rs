@@ -5,7 +5,7 @@
 //! space; the loop is [`Zigzag`]'s.
 
 use super::extended::{Copies, Cross};
-use super::splittings::Strang;
+use super::strang::Strang;
 use super::zigzag::Zigzag;
 use crate::flow::{Flow, Piece, Pieces};
 use crate::map::Step;

@@ -1,6 +1,6 @@
 //! The loop of every splitting: down through the pieces and up again, stage by stage.
 //!
-//! Input: a [`Table`], [`Pieces`] of H on any space, a step. Output: [`Zigzag`], a one-step map.
+//! Input: a [`Splitting`], [`Pieces`] of H on any space, a step. Output: [`Zigzag`], a one-step map.
 //! Invariant: equal neighbours are one flow, within a step and across steps.
 //!
 //! # Time
@@ -9,7 +9,7 @@
 //! autonomous splitting of A(z, t₂) + B(z, t₁) + C(z, t₁) + … with a pair of conjugate energies, so
 //! tables keep their order.) Störmer–Verlet thus kicks at t and t + h and drifts at t + h/2.
 
-use super::table::{Table, Weight};
+use super::splitting::{Splitting, Weight};
 use crate::flow::{Flow, Pieces};
 use crate::map::{Cause, Map, Step};
 use crate::state::{Carried, Point};
@@ -130,7 +130,7 @@ struct Stage<T, O, I> {
 }
 
 /// A splitting for a given step.
-pub struct Zigzag<X: Vector, O, I, W: Table> {
+pub struct Zigzag<X: Vector, O, I, W: Splitting> {
     /// None where its duration is 0.
     opening: Option<O>,
     joining: Link<O>,
@@ -138,7 +138,7 @@ pub struct Zigzag<X: Vector, O, I, W: Table> {
     stages: W::Of<Stage<X::Scalar, O, I>>,
 }
 
-impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
+impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
     /// Folds the table into the flows of the pieces.
     #[inline(always)]
     pub fn new<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
@@ -244,7 +244,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Table> Zigzag<X, O, I, W> {
     }
 }
 
-impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Table> Map for Zigzag<X, O, I, W> {
+impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W> {
     type Carried = X;
     /// Of the outermost flow, and of those inside.
     type Work = (O::Work, I::Work);
@@ -311,7 +311,7 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Table> Map for Zigzag<X, O, I, W> {
     }
 }
 
-impl<X: Vector, O: fmt::Debug, I: fmt::Debug, W: Table> fmt::Debug for Zigzag<X, O, I, W> {
+impl<X: Vector, O: fmt::Debug, I: fmt::Debug, W: Splitting> fmt::Debug for Zigzag<X, O, I, W> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("Zigzag")
             .field("opening", &self.opening)

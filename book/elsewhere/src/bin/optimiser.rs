@@ -30,10 +30,8 @@ impl Gradient for Ions {
 
 fn main() -> Result<(), Error> {
     let solver = LBFGS::new(MoreThuenteLineSearch::new(), 7).with_tolerance_grad(1e-9)?;
-    let guess = vec![-1.5, 0.2, 1.0];
-    let result = Executor::new(Ions::new(3)?, solver)
-        .configure(|state| state.param(guess).max_iters(100))
-        .run()?;
+    let executor = Executor::new(Ions::new(3)?, solver);
+    let result = executor.configure(|state| state.param(vec![-1.5, 0.2, 1.0])).run()?;
     let rest = result.state().best_param.as_ref().expect("a point was found");
     // Three ions: 0 and ±(5/4)^(1/3).
     println!("at rest: {rest:?}");

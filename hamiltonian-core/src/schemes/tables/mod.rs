@@ -14,7 +14,7 @@
 //! | α₁ α₂ … of a map and its adjoint in turn | (α₁, α₂), (α₃, α₄), … |
 //! | a₁ b₁ a₂ b₂ … of two flows in turn | (d₁, u₁), … with d₁ = a₁, d₁ + u₁ = b₁, u₁ + d₂ = a₂, … |
 
-use super::table::{Durations, Weight};
+use super::splitting::{Durations, Weight};
 
 pub mod general;
 pub mod near_integrable;

@@ -1,6 +1,6 @@
 //! Tables of weights: the coefficients of splittings.
 //!
-//! Input: published numbers. Output: [`Table`]: for each stage the durations `(down, up)` in units of
+//! Input: published numbers. Output: [`Splitting`]: for each stage the durations `(down, up)` in units of
 //! the step. Invariant: the durations of a table sum to one, down and up together; those of a processor
 //! to zero.
 
@@ -44,9 +44,9 @@ pub type Durations = (Weight, Weight);
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no table of coefficients of a splitting",
     label = "expected a splitting such as `Strang`, `BlanesMoan4` or `KahanLi8`",
-    note = "a table of your own implements `Table`, see the recipes"
+    note = "a table of your own implements `Splitting`, see the recipes"
 )]
-pub trait Table: Listed + Copy {
+pub trait Splitting: Listed + Copy {
     /// An array with one element a stage.
     type Of<U>: AsRef<[U]>;
     /// The durations of the stages.
@@ -59,7 +59,7 @@ pub trait Table: Listed + Copy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Reversed<W>(pub W);
 
-impl<W: Table> Listed for Reversed<W> {
+impl<W: Splitting> Listed for Reversed<W> {
     fn entry(&self) -> crate::Entry {
         crate::Entry {
             variant: "adjoint",
@@ -68,7 +68,7 @@ impl<W: Table> Listed for Reversed<W> {
     }
 }
 
-impl<W: Table> Table for Reversed<W> {
+impl<W: Splitting> Splitting for Reversed<W> {
     type Of<U> = W::Of<U>;
     fn stages(&self) -> W::Of<Durations> {
         let stages = self.0.stages();
@@ -83,7 +83,7 @@ impl<W: Table> Table for Reversed<W> {
     }
 }
 
-impl<W: Table> OneStep for Reversed<W>
+impl<W: Splitting> OneStep for Reversed<W>
 where
     W: OneStep,
 {
@@ -97,7 +97,7 @@ where
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Negated<W>(pub W);
 
-impl<W: Table> Listed for Negated<W> {
+impl<W: Splitting> Listed for Negated<W> {
     fn entry(&self) -> crate::Entry {
         crate::Entry {
             variant: "adjoint",
@@ -106,7 +106,7 @@ impl<W: Table> Listed for Negated<W> {
     }
 }
 
-impl<W: Table> Table for Negated<W> {
+impl<W: Splitting> Splitting for Negated<W> {
     type Of<U> = W::Of<U>;
     fn stages(&self) -> W::Of<Durations> {
         W::map(self.0.stages(), |(down, up)| (down.negated(), up.negated()))

@@ -1,9 +1,9 @@
-//! Splittings of H into pieces with exact flows.
+//! Strang's splitting of H into pieces with exact flows.
 //!
-//! Input: a [`Split`] system. Output: [`Strang`]. Invariant: each scheme is a [`Table`]; the loop is
+//! Input: a [`Split`] system. Output: [`Strang`]. Invariant: the scheme is a [`Splitting`]; the loop is
 //! [`Zigzag`]'s.
 
-use super::table::{Durations, Table, Weight};
+use super::splitting::{Durations, Splitting, Weight};
 use super::zigzag::{Zigzag, ZigzagOf};
 use crate::map::Step;
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
@@ -50,7 +50,7 @@ impl Listed for Strang {
     }
 }
 
-impl Table for Strang {
+impl Splitting for Strang {
     type Of<U> = [U; 1];
     #[inline(always)]
     fn stages(&self) -> [Durations; 1] {

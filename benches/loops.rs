@@ -3,7 +3,8 @@
 //! `cargo bench --bench loops` prints ns per unit of work and the ratios of times, which are the
 //! fastest of many short alternating rounds in one process. All three compute the same functions, unfused:
 //! `/`, `sqrt` and the elementary functions of the library. With `-- --check` nothing is timed, and it
-//! fails where the three do not reach the same end.
+//! fails where the three do not reach the same end. Any other argument selects the workloads whose names
+//! contain it.
 
 use hamiltonian::prelude::*;
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch};
@@ -28,6 +29,24 @@ hamiltonian::hamiltonian! {
     pub struct Gravity { n: usize, G = 1.0, m: [n] }
     H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/(2*m[i]) }
         - G*sum(i in 0..n, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }
+}
+
+hamiltonian::hamiltonian! {
+    /// The φ⁴ field on a periodic square lattice.
+    pub struct Phi4 { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/2 + (u[i][j]^2 - 1)^2/4
+            + ((u[(i + 1) % n][j] - u[i][j])^2 + (u[i][(j + 1) % m] - u[i][j])^2)/2
+    }
+}
+
+hamiltonian::hamiltonian! {
+    /// The sine-Gordon field on a periodic square lattice.
+    pub struct SineGordon { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/2 + 1 - cos(u[i][j])
+            + ((u[(i + 1) % n][j] - u[i][j])^2 + (u[i][(j + 1) % m] - u[i][j])^2)/2
+    }
 }
 
 const H: f64 = 1e-3;
@@ -142,6 +161,81 @@ impl<B: Bond> ByHand for B {
     #[inline(always)]
     fn kick<P: Pack>(self, q: &[f64], p: &mut [f64], work: &mut [f64], c: f64) {
         chain::<P, B>(q, p, work, c, self);
+    }
+    #[inline(always)]
+    fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64) {
+        add::<P>(q, p, c);
+    }
+}
+
+/// A potential at each site of a square lattice, with linear springs to the four neighbours.
+trait Site: Copy {
+    /// V′(u).
+    fn slope<P: Pack>(self, u: P) -> P;
+}
+
+/// (u² − 1)²/4.
+#[derive(Clone, Copy)]
+struct DoubleWell;
+
+impl Site for DoubleWell {
+    #[inline(always)]
+    fn slope<P: Pack>(self, u: P) -> P {
+        u * (u * u - P::constant(1.0, 0.0))
+    }
+}
+
+/// 1 − cos u.
+#[derive(Clone, Copy)]
+struct Cosine;
+
+impl Site for Cosine {
+    #[inline(always)]
+    fn slope<P: Pack>(self, u: P) -> P {
+        u.sin()
+    }
+}
+
+/// A field on a periodic square lattice.
+#[derive(Clone, Copy)]
+struct Field<S>(S);
+
+impl<S: Site> Field<S> {
+    /// The force on a site with a sum of neighbours.
+    #[inline(always)]
+    fn force<P: Pack>(self, u: P, neighbours: P) -> P {
+        neighbours - P::constant(4.0, 0.0) * u - self.0.slope(u)
+    }
+}
+
+impl<S: Site> ByHand for Field<S> {
+    #[inline(always)]
+    fn kick<P: Pack>(self, u: &[f64], p: &mut [f64], _: &mut [f64], c: f64) {
+        let (lanes, rows, factor) = (P::LANES as usize, EDGE, P::constant(c, 0.0));
+        let mut i = 0;
+        while i < rows {
+            let row = |i: usize| &u[i * EDGE..(i + 1) * EDGE];
+            let (own, up, down) = (row(i), row((i + rows - 1) % rows), row((i + 1) % rows));
+            let to = &mut p[i * EDGE..(i + 1) * EDGE];
+            for (j, left, right) in [(0, EDGE - 1, 1), (EDGE - 1, EDGE - 2, 0)] {
+                let neighbours = up[j] + down[j] + own[left] + own[right];
+                to[j] += (factor
+                    * self.force(P::constant(own[j], 0.0), P::constant(neighbours, 0.0)))
+                .lane(0);
+            }
+            let inner = EDGE - 2;
+            let chunks = to[1..=inner].chunks_mut(lanes);
+            let beside = own[..inner].chunks(lanes).zip(own[2..].chunks(lanes));
+            let across = (up[1..=inner].chunks(lanes)).zip(down[1..=inner].chunks(lanes));
+            let here = own[1..=inner].chunks(lanes);
+            for (((to, u), (left, right)), (up, down)) in chunks.zip(here).zip(beside).zip(across) {
+                let across = P::load(up, 0.0) + P::load(down, 0.0);
+                let neighbours = across + P::load(left, 0.0) + P::load(right, 0.0);
+                let force = self.force(P::load(u, 0.0), neighbours);
+                factor.fma(force, P::load(to, 0.0)).store(to);
+            }
+            i += 1;
+        }
     }
     #[inline(always)]
     fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64) {
@@ -277,6 +371,8 @@ fn by_hand<S: ByHand>(
 
 const SITES: usize = 1024;
 const BODIES: usize = 1000;
+/// The sites of a square lattice along an edge.
+const EDGE: usize = 256;
 
 fn masses() -> Vec<f64> {
     vec![1.0 / BODIES as f64; BODIES]
@@ -310,6 +406,44 @@ const ALL: &[Workload] = &[
         lanes: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, true),
         scalar: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, false),
     },
+    Workload {
+        name: "φ⁴, 256 × 256 sites",
+        units: (EDGE * EDGE) as f64,
+        steps: 100,
+        library: |steps| run(&Phi4::new(EDGE, EDGE).unwrap(), start(EDGE, EDGE), steps),
+        lanes: |steps| {
+            by_hand(
+                Field(DoubleWell),
+                start(EDGE, EDGE),
+                Vec::new(),
+                steps,
+                true,
+            )
+        },
+        scalar: |steps| {
+            by_hand(
+                Field(DoubleWell),
+                start(EDGE, EDGE),
+                Vec::new(),
+                steps,
+                false,
+            )
+        },
+    },
+    Workload {
+        name: "sine-Gordon, 256 × 256 sites",
+        units: (EDGE * EDGE) as f64,
+        steps: 100,
+        library: |steps| {
+            run(
+                &SineGordon::new(EDGE, EDGE).unwrap(),
+                start(EDGE, EDGE),
+                steps,
+            )
+        },
+        lanes: |steps| by_hand(Field(Cosine), start(EDGE, EDGE), Vec::new(), steps, true),
+        scalar: |steps| by_hand(Field(Cosine), start(EDGE, EDGE), Vec::new(), steps, false),
+    },
 ];
 
 /// The time of a round: short, so that the fastest of many is not disturbed by other processes.
@@ -321,8 +455,14 @@ fn time(run: fn(usize) -> Vec<f64>, steps: usize) -> Duration {
 
 fn main() {
     let check = std::env::args().any(|argument| argument == "--check");
+    let part = std::env::args().skip(1).find(|a| !a.starts_with("--"));
+    let is_asked = |workload: &&Workload| {
+        let part = part.as_deref().unwrap_or_default();
+        workload.name.contains(part)
+    };
+    let all: Vec<&Workload> = ALL.iter().filter(is_asked).collect();
     let mut failed = 0;
-    for workload in ALL {
+    for workload in &all {
         let ends = [workload.library, workload.lanes, workload.scalar].map(|run| run(10));
         for end in &ends[1..] {
             let distance = (ends[0].iter().zip(end)).map(|(a, b)| (a - b).abs());
@@ -335,7 +475,7 @@ fn main() {
         }
     }
     if check {
-        println!("{} workloads, {failed} failed", ALL.len());
+        println!("{} workloads, {failed} failed", all.len());
         std::process::exit(i32::from(failed > 0));
     }
     println!(
@@ -347,7 +487,7 @@ fn main() {
         if limit == Cpu::Portable {
             continue;
         }
-        for workload in ALL {
+        for workload in &all {
             let runs = [workload.library, workload.lanes, workload.scalar];
             let mut fastest = [Duration::MAX; 3];
             for _ in 0..60 {

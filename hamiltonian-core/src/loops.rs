@@ -250,7 +250,7 @@ impl<
     }
 }
 
-/// The iterations in packs of [`STRIDE`], the last one as far as there are iterations.
+/// At least [`STRIDE`] iterations in packs of as many; with sums, the last pack has as many as are left.
 #[inline(always)]
 fn packs<
     T: Real,
@@ -278,7 +278,7 @@ fn packs<
     let mut constants = [T::Over::<P>::default(); G];
     let mut g = 0;
     while g < G {
-        constants[g] = T::gather::<P>(&[given[g]; STRIDE]);
+        constants[g] = given[g].spread::<P>();
         g += 1;
     }
     let mut totals = [T::Over::<P>::default(); A];
@@ -305,14 +305,16 @@ fn packs<
         s += 1;
     }
     let has_shared = const { has_shared(B::STORES) };
-    let mut waiting = Waiting::<T, C, S, W>::new(B::STORES, starts);
-    let block = if has_shared { BLOCK } else { length };
+    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length);
+    let does_wait = has_shared && waiting.is_any();
+    let block = if does_wait { BLOCK } else { length };
     let mut at = 0;
     while at < length {
         let end = at + block.min(length - at);
         let mut k = at;
+        // `lanes` iterations from `k` on; a direct store puts `value` in the place of the element `old`.
         macro_rules! iterate {
-            ($lanes:expr) => {{
+            ($lanes:expr, |$old:ident, $new:ident| $value:expr) => {{
                 let lanes = $lanes;
                 let mut read = [T::Over::<P>::default(); R];
                 let mut r = 0;
@@ -328,7 +330,7 @@ fn packs<
                 let mut s = 0;
                 while s < B::STORES.len() {
                     let store = &B::STORES[s];
-                    if store.is_shared {
+                    if store.is_shared && waiting.group[s] != NONE {
                         let place = CARRY + k - at;
                         let [a, b] = store.by;
                         T::scatter::<P>(out[a], &mut waiting.results[a][place..place + STRIDE]);
@@ -336,10 +338,12 @@ fn packs<
                             T::scatter::<P>(out[b], &mut waiting.results[b][place..place + STRIDE]);
                         }
                     } else {
-                        let places = &mut columns[store.column][k..k + lanes];
-                        let old = T::gather::<P>(places);
+                        let place = if store.is_shared { starts[s] + k } else { k };
+                        let places = &mut columns[store.column][place..place + lanes];
+                        let $old = T::gather::<P>(places);
                         let by = [out[store.by[0]], out[store.by[1]]];
-                        T::scatter::<P>(changed(store.change, old, by), places);
+                        let $new = changed(store.change, $old, by);
+                        T::scatter::<P>($value, places);
                     }
                     s += 1;
                 }
@@ -347,7 +351,7 @@ fn packs<
             }};
         }
         while k + STRIDE <= end {
-            let out = iterate!(STRIDE);
+            let out = iterate!(STRIDE, |_old, new| new);
             let mut s = 0;
             while s < B::SUMS.len() {
                 let (sum, by) = B::SUMS[s];
@@ -356,8 +360,16 @@ fn packs<
             }
             k += STRIDE;
         }
-        if k < end {
-            let out = iterate!(end - k);
+        if k < end && B::SUMS.is_empty() {
+            // The last iterations fill a pack with some before them, whose results are known: those wait
+            // again, and elements keep what they have.
+            let again = STRIDE - (end - k);
+            k = end - STRIDE;
+            let again = T::constant(again as f64, 0.0).spread::<P>();
+            let is_known = ramp::<T, P>(0).lt(again);
+            iterate!(STRIDE, |old, new| T::Over::<P>::select(is_known, old, new));
+        } else if k < end {
+            let out = iterate!(end - k, |_old, new| new);
             let mut s = 0;
             while s < B::SUMS.len() {
                 let (sum, by) = B::SUMS[s];
@@ -365,8 +377,8 @@ fn packs<
                 s += 1;
             }
         }
-        if has_shared {
-            waiting.settle::<P>(B::STORES, &mut columns, at, end, end == length);
+        if does_wait {
+            waiting.settle::<P, C>(B::STORES, &mut columns, at, end, end == length);
         }
         at = end;
     }
@@ -405,21 +417,28 @@ fn add_first<T: Real, P: Pack>(to: T::Over<P>, term: T::Over<P>, lanes: usize) -
 ///
 /// The further ahead a store reaches, the earlier the iteration that reaches a given element. So each
 /// element is changed by the stores in descending order of their starts, all at once where the starts
-/// are close to each other; results of the block before are kept for that.
-struct Waiting<T, const C: usize, const S: usize, const W: usize> {
+/// are close to each other; results of the block before are kept for that. A store that reaches no element
+/// of another one does not wait.
+struct Waiting<T, const S: usize, const W: usize> {
     results: [[T; CARRY + BLOCK]; W],
     starts: [usize; S],
     /// The stores, by descending start.
     order: [usize; S],
-    /// For each column the next element to be changed.
-    next: [usize; C],
-    /// For each column the least and the largest start; the other way round where nothing waits.
-    ends: [[usize; 2]; C],
+    /// For each store its group: the first one of those that reach common elements, in order; `NONE` if it
+    /// does not wait.
+    group: [usize; S],
+    /// For each group the next element to be changed.
+    next: [usize; S],
+    /// For each group the least and the largest start.
+    ends: [[usize; 2]; S],
 }
 
-impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W> {
+/// The group of a store that does not wait.
+const NONE: usize = usize::MAX;
+
+impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
-    fn new(stores: &[Store], starts: [usize; S]) -> Self {
+    fn new(stores: &[Store], starts: [usize; S], length: usize) -> Self {
         let mut order = [0; S];
         let mut s = 0;
         while s < S {
@@ -431,30 +450,59 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
             order[place] = s;
             s += 1;
         }
-        let mut ends = [[usize::MAX, 0]; C];
-        let mut next = [0; C];
+        let mut group = [NONE; S];
+        let mut ends = [[0; 2]; S];
+        let mut k = 0;
+        while k < S {
+            let s = order[k];
+            // The next one below it, if they reach common elements, is of its group.
+            let mut below = k + 1;
+            while below < S && stores[order[below]].column != stores[s].column {
+                below += 1;
+            }
+            if stores[s].is_shared && below < S && starts[s] - starts[order[below]] < length {
+                if group[s] == NONE {
+                    group[s] = s;
+                    ends[s] = [starts[s]; 2];
+                }
+                let first = group[s];
+                group[order[below]] = first;
+                ends[first][0] = starts[order[below]];
+            }
+            k += 1;
+        }
+        let mut next = [0; S];
         let mut s = 0;
         while s < S {
-            if stores[s].is_shared {
-                let [least, most] = &mut ends[stores[s].column];
-                *least = starts[s].min(*least);
-                *most = starts[s].max(*most);
-                next[stores[s].column] = *least;
-            }
+            next[s] = ends[s][0];
             s += 1;
         }
         Waiting {
             results: [[T::zero(); CARRY + BLOCK]; W],
             starts,
             order,
+            group,
             next,
             ends,
         }
     }
 
+    /// Whether results of any store wait.
+    #[inline(always)]
+    fn is_any(&self) -> bool {
+        let mut s = 0;
+        while s < S {
+            if self.group[s] != NONE {
+                return true;
+            }
+            s += 1;
+        }
+        false
+    }
+
     /// Stores the results of iterations `at..end`.
     #[inline(always)]
-    fn settle<P: Pack>(
+    fn settle<P: Pack, const C: usize>(
         &mut self,
         stores: &[Store],
         columns: &mut [&mut [T]; C],
@@ -462,21 +510,23 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
         end: usize,
         is_last: bool,
     ) {
-        let mut c = 0;
-        while c < C {
-            let [least, most] = self.ends[c];
-            if least > most {
-                // Its stores have happened.
+        let mut g = 0;
+        while g < S {
+            let [least, most] = self.ends[g];
+            if self.group[g] != g {
+                // It waits with another one, or not at all.
             } else if most - least <= REACH {
-                self.together::<P>(stores, columns[c], c, at, end, is_last);
+                let column = &mut *columns[stores[g].column];
+                self.together::<P>(stores, column, g, at, end, is_last);
             } else {
                 for s in self.order {
-                    if stores[s].column == c {
-                        self.one_store::<P>(&stores[s], columns[c], self.starts[s] + at, end - at);
+                    if self.group[s] == g {
+                        let column = &mut *columns[stores[s].column];
+                        self.one_store::<P>(&stores[s], column, self.starts[s] + at, end - at);
                     }
                 }
             }
-            c += 1;
+            g += 1;
         }
         let mut w = 0;
         while w < W {
@@ -485,23 +535,23 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
         }
     }
 
-    /// All stores of a column, element by element.
+    /// All stores of a group, element by element.
     #[inline(always)]
     fn together<P: Pack>(
         &mut self,
         stores: &[Store],
         column: &mut [T],
-        c: usize,
+        g: usize,
         at: usize,
         end: usize,
         is_last: bool,
     ) {
-        let [least, most] = self.ends[c];
+        let [least, most] = self.ends[g];
         // Elements that iterations before the first one would reach have fewer changes.
-        while self.next[c] < most && (is_last || self.next[c] < least + end) {
-            self.element(stores, column, c, at, end);
+        while self.next[g] < most && (is_last || self.next[g] < least + end) {
+            self.element(stores, column, g, at, end);
         }
-        let mut element = self.next[c];
+        let mut element = self.next[g];
         while element + STRIDE <= least + end {
             let places = &mut column[element..element + STRIDE];
             let mut value = T::gather::<P>(places);
@@ -509,7 +559,7 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
             while k < S {
                 let s = self.order[k];
                 let store = &stores[s];
-                if store.column == c {
+                if self.group[s] == g {
                     let place = element - self.starts[s] + CARRY - at;
                     let a = T::gather::<P>(&self.results[store.by[0]][place..place + STRIDE]);
                     let b = T::gather::<P>(&self.results[store.by[1]][place..place + STRIDE]);
@@ -520,19 +570,19 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
             T::scatter::<P>(value, places);
             element += STRIDE;
         }
-        self.next[c] = element;
-        while is_last && self.next[c] < most + end {
-            self.element(stores, column, c, at, end);
+        self.next[g] = element;
+        while is_last && self.next[g] < most + end {
+            self.element(stores, column, g, at, end);
         }
     }
 
-    /// The next element of a column, by itself.
+    /// The next element of a group, by itself.
     #[inline(always)]
-    fn element(&mut self, stores: &[Store], column: &mut [T], c: usize, at: usize, end: usize) {
-        let element = self.next[c];
+    fn element(&mut self, stores: &[Store], column: &mut [T], g: usize, at: usize, end: usize) {
+        let element = self.next[g];
         for s in self.order {
             let (store, start) = (&stores[s], self.starts[s]);
-            if store.column == c && element >= start && element - start < end {
+            if self.group[s] == g && element >= start && element - start < end {
                 let place = element - start + CARRY - at;
                 let by = [
                     self.results[store.by[0]][place],
@@ -541,7 +591,7 @@ impl<T: Real, const C: usize, const S: usize, const W: usize> Waiting<T, C, S, W
                 column[element] = changed(store.change, column[element], by);
             }
         }
-        self.next[c] = element + 1;
+        self.next[g] = element + 1;
     }
 
     /// One store of a column.

@@ -9,6 +9,7 @@ mod lengths;
 mod limits;
 mod nests;
 mod precedence;
+mod stencils;
 mod stub;
 mod truths;
 

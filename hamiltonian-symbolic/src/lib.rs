@@ -30,6 +30,7 @@ pub mod schedule;
 pub mod share;
 pub mod simplify;
 pub mod split;
+mod stencil;
 pub mod structure;
 pub mod transform;
 mod validate;

@@ -18,6 +18,7 @@ use crate::program::{Program, Purpose, Step, Target};
 use crate::rational::Rational;
 use crate::schedule::{Request, Store, prepared, schedule};
 use crate::share::share;
+use crate::stencil::at_sites;
 
 /// The most operations a function may need after simplification.
 pub const CAP: usize = 1 << 15;
@@ -243,9 +244,8 @@ fn request(
             );
         }
         Purpose::VectorField if !model.force.is_empty() => {
-            for entry in along(model, (false, true)) {
-                request.stores.push(added(scaled(&mut model.dag, entry)));
-            }
+            let entries = along(model, (false, true));
+            request.stores = sums(&mut model.dag, entries);
             let gradient = along(model, (true, false));
             request.stores.extend(driven(model, &gradient));
         }
@@ -268,9 +268,8 @@ fn request(
         }
         Purpose::VectorField | Purpose::Kick | Purpose::Drift => {
             let sides = (purpose != Purpose::Drift, purpose != Purpose::Kick);
-            for entry in along(model, sides) {
-                request.stores.push(added(scaled(&mut model.dag, entry)));
-            }
+            let entries = along(model, sides);
+            request.stores = sums(&mut model.dag, entries);
         }
         Purpose::Piece(number) => {
             let piece = model.pieces.get(usize::from(number)).cloned();
@@ -291,7 +290,8 @@ fn driven(model: &mut Model, gradient: &[VectorEntry]) -> Vec<Store> {
         let value = model.dag.mul(&[c, entry.value]);
         added(VectorEntry { value, ..entry })
     };
-    slopes.map(scaled).collect()
+    let stores = slopes.map(scaled).collect();
+    at_sites(&mut model.dag, stores)
 }
 
 /// The stores that make the flow of a piece.
@@ -334,9 +334,15 @@ fn updates(dag: &mut Dag, motion: &Motion) -> Vec<Store> {
 
 /// The stores that add c·J∇h of an expression.
 fn rates(model: &mut Model, h: Node) -> Vec<Store> {
-    let entries = model.partials(h).into_iter();
-    let dag = &mut model.dag;
-    entries.map(|entry| added(scaled(dag, entry))).collect()
+    let entries = model.partials(h);
+    sums(&mut model.dag, entries)
+}
+
+/// The stores that add c·J∇H, from the entries of ∇H.
+fn sums(dag: &mut Dag, entries: Vec<VectorEntry>) -> Vec<Store> {
+    let entries = entries.into_iter();
+    let stores = entries.map(|entry| added(scaled(dag, entry))).collect();
+    at_sites(dag, stores)
 }
 
 /// The store that adds an entry.
@@ -363,6 +369,7 @@ fn vector(
         outputs.extend(columns.map(|(column, rows)| (Target::Phase(column), rows)));
     }
     let stores = entries.into_iter().map(added).collect();
+    let stores = at_sites(&mut model.dag, stores);
     overwritten(&mut model.dag, stores, outputs, request);
 }
 

@@ -38,9 +38,6 @@ pub struct Context<'a> {
     pub is_run_time: &'a [bool],
     /// Access to the point of a body.
     pub access: Access,
-    /// Whether long sums are trees: everywhere but in the flows of pieces, whose iterations may follow
-    /// from each other.
-    pub has_trees: bool,
 }
 
 /// Access to the point of a body.
@@ -71,7 +68,6 @@ impl<'a> Context<'a> {
             },
             is_run_time: &generics.is_run_time,
             access: Access::Apart,
-            has_trees: true,
         }
     }
 

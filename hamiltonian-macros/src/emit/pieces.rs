@@ -158,10 +158,8 @@ impl Emission<'_> {
         let arguments = self.arguments(&[from, to]);
         let name = format!("{}_{method}", holder.name);
         self.bodies.context.access = access;
-        self.bodies.context.has_trees = false;
         let text = self.evaluation(&name, Some(holder), &arguments, function);
         self.bodies.context.access = Access::Apart;
-        self.bodies.context.has_trees = true;
         line!(
             self,
             "#[inline(always)]\n\

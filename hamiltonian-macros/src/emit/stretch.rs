@@ -89,8 +89,7 @@ impl Writer<'_> {
             added: Vec::new(),
             rest: Vec::new(),
         };
-        if self.context.access != Access::Apart || !(self.context.has_trees || made.sums.is_empty())
-        {
+        if self.context.access != Access::Apart {
             return None;
         }
         for step in &inner.body {
@@ -209,7 +208,7 @@ impl Writer<'_> {
         if let Some(stretch) = stretch {
             self.body(stretch);
         }
-        let sums = match self.context.has_trees && self.context.access == Access::Apart {
+        let sums = match self.context.access == Access::Apart {
             true => sums(inner),
             false => Vec::new(),
         };
@@ -240,7 +239,7 @@ impl Writer<'_> {
     /// Writes what stands after a loop: long sums are put together.
     pub(super) fn close(&mut self, inner: &Loop) {
         self.trees.clear();
-        if !self.context.has_trees || self.context.access != Access::Apart {
+        if self.context.access != Access::Apart {
             return;
         }
         let d = inner.domain.0;

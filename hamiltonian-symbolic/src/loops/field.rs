@@ -6,7 +6,7 @@
 //! cannot be solved, a condition `index = k` is summed instead; where not even that can be said,
 //! there is no answer.
 
-use crate::dag::{Array, Dag, Kind, Node};
+use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index};
 
 /// The loop over the elements of an array with this many rows.
@@ -44,8 +44,8 @@ fn gather(
     rows: &Affine,
 ) -> Option<Node> {
     if row.outer.is_some() {
-        // The number of an element says no index of an axis without a division.
-        return None;
+        let loops = dag.loops_of_rows(row, rows)?;
+        return at_number(dag, row, loops, adjoint, k);
     }
     let Some(&outermost) = chain.first() else {
         return row
@@ -152,6 +152,28 @@ fn gather(
         value = dag.reduce(domain, value);
     }
     Some(value)
+}
+
+/// The value at a site of an array with several axes, in loops over all of them, as an expression of the
+/// number k of the element; `None` where it reads more than elements at that site: the number says no
+/// index of an axis without a division.
+fn at_number(dag: &mut Dag, site: &Index, loops: u64, value: Node, k: Domain) -> Option<Node> {
+    let number = Index::plain(Affine::variable(k));
+    let mut new: Map<Node, Node> = Map::default();
+    for node in dag.reachable(&[value]) {
+        let image = match dag.kind(node).clone() {
+            _ if dag.variables(node) & loops == 0 => node,
+            Kind::Element(array, row, None) if row == *site => {
+                dag.element(array, number.clone(), None)
+            }
+            Kind::Element(..) | Kind::Variable(_) | Kind::Reduce(..) | Kind::Count(_) => {
+                return None;
+            }
+            _ => dag.rebuild(node, &|child| new[&child]),
+        };
+        new.insert(node, image);
+    }
+    Some(new[&value])
 }
 
 /// The value where `index = k`, 0 elsewhere.

@@ -159,11 +159,11 @@ fn velocity(
     if model.dag.has_too_many_loops() {
         return Err(Refusal::TooManyLoops);
     }
-    let found = found.ok_or_else(|| Refusal::Power {
-        momentum: model.groups[group].momentum.clone(),
-    })?;
     let own = elements(&mut model.dag, &rows);
-    Ok(model.dag.replace(found, own, &entry.row.affine))
+    let found = found.and_then(|found| model.dag.reindexed(found, own, &entry.row));
+    found.ok_or_else(|| Refusal::Power {
+        momentum: model.groups[group].momentum.clone(),
+    })
 }
 
 /// The name, or the name with the first number that makes it free.

@@ -1,4 +1,4 @@
-//! Coordinates with two axes, whose loops stay loops.
+//! Coordinates with several axes, whose loops stay loops.
 
 use crate::common::{bits, derivatives};
 use hamiltonian::prelude::*;
@@ -46,6 +46,35 @@ hamiltonian! {
     pub struct Damped { n: usize, m: usize, gamma = 0.25 }
     H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) { (p[i][j]^2 + u[i][j]^2)/2 };
     force(u; p) = -gamma*p
+}
+
+hamiltonian! {
+    /// Three axes: periodic in each, a bond across all of them, open ends, a field of three components.
+    pub struct Solid { n: usize, m: usize, k: usize, c = 0.75 }
+    H(u[n][m][k], v[n][m][3]; p[n][m][k], w[n][m][3]) = sum(i in 0..n, j in 0..m, l in 0..k) {
+        p[i][j][l]^2/2 + c*(1 - cos(u[i][j][l])) + (u[(i + 1) % n][j][l] - u[i][j][l])^2/2
+            + (u[i][(j + 1) % m][l] - u[i][j][l])^4/4 + exp(u[i][j][(l + 1) % k] - u[i][j][l])
+            + u[(i + 1) % n][(j - 1) % m][(l + 1) % k]*u[i][j][l]/4 + v[i][j][0]*u[i][j][l]
+    } + sum(i in 0..n, j in 1..m) { norm_squared(w[i][j])/2 + dot(v[i][j], v[i][j - 1])
+        + norm_squared(v[i][j]) }
+}
+
+hamiltonian! {
+    /// Four axes.
+    pub struct Tesseract { n: usize }
+    H(u[n][n][n][2]; p[n][n][n][2]) = sum(i in 0..n, j in 0..n, k in 0..n, l in 0..2) {
+        p[i][j][k][l]^2/2 + (u[(i + 1) % n][j][(k - 1) % n][l] - u[i][j][k][1 - l])^2/2
+    }
+}
+
+hamiltonian! {
+    /// Bonds alone, in three directions: momentum is conserved.
+    pub struct Bonds { n: usize, m: usize }
+    H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/2 + exp(u[i][j] - u[(i + 1) % n][j]) + (u[i][(j + 1) % m] - u[i][j])^4/4
+            + (u[(i + 1) % n][(j - 2) % m] - u[i][j])^2/2
+    };
+    invariant momentum = sum(i in 0..n, j in 0..m) { p[i][j] }
 }
 
 /// A number of modest size for a place.
@@ -138,6 +167,134 @@ fn lanes_have_the_bits_of_iterations_one_by_one() {
         }
     }
     bits::check(&Wide::<5>::default(), 1);
+}
+
+#[test]
+fn the_total_momentum_of_bonds_is_proven_and_kept() {
+    let system = Bonds::new(4, 37).unwrap();
+    let start = State::new(nested(4, 37, 0), nested(4, 37, 1));
+    let before = system.momentum(&start);
+    let mut run = Integrator::new(&system, StormerVerlet::default(), start, 1e-2).unwrap();
+    run.advance(100).unwrap();
+    let after = system.momentum(run.state());
+    assert!((after - before).abs() < 1e-12, "{before} and {after}");
+}
+
+/// The places of an array with three axes.
+fn cells([n, m, k]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    places(n, m).flat_map(move |(i, j)| (0..k).map(move |l| [i, j, l]))
+}
+
+fn solid(extents: [usize; 3], salt: usize) -> Lattice<f64, 3> {
+    Lattice::from_fn(extents, |[i, j, l]| given(i + 2 * l, j, salt))
+}
+
+#[test]
+fn three_axes_have_the_derivatives_of_sums_by_hand() {
+    for [n, m, k] in (0..125).map(|at| [at / 25 + 1, at / 5 % 5 + 1, at % 5 + 1]) {
+        let (u, v) = (solid([n, m, k], 0), solid([n, m, 3], 1));
+        let (p, w) = (solid([n, m, k], 2), solid([n, m, 3], 3));
+        let (mut h, mut du, mut dv) = (0.0, Lattice::zeros([n, m, k]), Lattice::zeros([n, m, 3]));
+        for [i, j, l] in cells([n, m, k]) {
+            let own = u[[i, j, l]];
+            let [a, b, c] = [
+                [(i + 1) % n, j, l],
+                [i, (j + 1) % m, l],
+                [i, j, (l + 1) % k],
+            ];
+            let (da, db) = (u[a] - own, u[b] - own);
+            let far = [(i + 1) % n, (j + m - 1) % m, (l + 1) % k];
+            let e = (u[c] - own).exp();
+            h += p[[i, j, l]].powi(2) / 2.0 + 0.75 * (1.0 - own.cos());
+            h += da * da / 2.0 + db.powi(4) / 4.0 + e + u[far] * own / 4.0 + v[[i, j, 0]] * own;
+            du[[i, j, l]] += 0.75 * own.sin() - da - db.powi(3) - e + u[far] / 4.0 + v[[i, j, 0]];
+            du[a] += da;
+            du[b] += db.powi(3);
+            du[c] += e;
+            du[far] += own / 4.0;
+            dv[[i, j, 0]] += own;
+        }
+        for [i, j, l] in cells([n, m, 3]).filter(|[_, j, _]| *j > 0) {
+            let (own, before) = (v[[i, j, l]], v[[i, j - 1, l]]);
+            h += w[[i, j, l]].powi(2) / 2.0 + own * before + own * own;
+            dv[[i, j, l]] += before + 2.0 * own;
+            dv[[i, j - 1, l]] += own;
+        }
+        let system = Solid::new(n, m, k).unwrap();
+        let q = SolidVector::new(u, v);
+        let start = State {
+            q,
+            p: SolidVector::new(p, w),
+            t: 0.0,
+        };
+        let found = system.energy(&start);
+        assert!(
+            (found - h).abs() <= 1e-12 * h.abs().max(1.0),
+            "{n} × {m} × {k}"
+        );
+        let gradient = system.gradient(&start);
+        let pairs = [(&gradient.q.u, &du), (&gradient.q.v, &dv)];
+        for (found, due) in pairs {
+            let both = found.as_slice().iter().zip(due.as_slice());
+            let most = both
+                .map(|(a, b): (&f64, &f64)| (a - b).abs())
+                .fold(0.0, f64::max);
+            assert!(most < 1e-12, "{n} × {m} × {k}: {most:e}");
+        }
+    }
+}
+
+#[test]
+fn more_axes_have_the_derivatives_of_duals_and_the_bits_of_iterations_one_by_one() {
+    for (n, m, k) in [(1, 1, 1), (2, 3, 4), (3, 2, 37)] {
+        let system = Solid::new(n, m, k).unwrap();
+        derivatives::check(&system);
+        bits::check(&system, (100 * n + 10 * m + k) as u64);
+    }
+    derivatives::check(&Tesseract::new(3).unwrap());
+    bits::check(&Tesseract::new(4).unwrap(), 1);
+}
+
+#[test]
+fn elements_of_more_axes_are_named_as_declared_and_saved() {
+    let system = Tesseract::new(2).unwrap();
+    let at = |salt: usize| {
+        Lattice::from_fn([2, 2, 2, 2], |[i, j, k, l]| {
+            given(i + 4 * k, j + 2 * l, salt)
+        })
+    };
+    let mut run = Integrator::new(
+        &system,
+        StormerVerlet::default(),
+        State::new(at(0), at(1)),
+        0.1,
+    )
+    .unwrap()
+    .observe(Recorder::new());
+    run.advance(3).unwrap();
+    let columns = run.observer().columns();
+    assert_eq!(
+        columns[..5],
+        [
+            "t",
+            "u[0][0][0][0]",
+            "u[0][0][0][1]",
+            "u[0][0][1][0]",
+            "u[0][0][1][1]"
+        ]
+    );
+    assert_eq!(columns[32], "p[1][1][1][1]");
+    let other = State::new(Lattice::zeros([2, 2, 1, 2]), Lattice::zeros([2, 2, 1, 2]));
+    let refused = Integrator::new(&system, StormerVerlet::default(), other, 0.1);
+    assert_eq!(
+        refused.expect_err("another shape").to_string(),
+        "axis 2 of `u` must have the extent 2, found 1"
+    );
+    let error = Tesseract::new(1 << 20).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "`u` does not fit into memory: the sizes are too large"
+    );
 }
 
 #[test]

@@ -31,6 +31,9 @@ use proc_macro2::{Ident, Span, TokenStream};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+/// The most axes of an array.
+pub const AXES: usize = 4;
+
 /// A whole definition.
 #[derive(Debug, Default)]
 pub struct Ast {

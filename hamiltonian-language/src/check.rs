@@ -210,17 +210,10 @@ impl<'a> Checker<'a> {
 
     /// `[n][3]`
     fn extents_shown(&self, ty: Type) -> String {
-        match ty {
-            Type::Bool | Type::Scalar => String::new(),
-            Type::Vector(extent) => format!("[{}]", self.extent_shown(extent)),
-            Type::Matrix(rows, columns) => {
-                format!(
-                    "[{}][{}]",
-                    self.extent_shown(rows),
-                    self.extent_shown(columns)
-                )
-            }
-        }
+        let extents = ty.extents().into_iter();
+        extents
+            .map(|extent| format!("[{}]", self.extent_shown(extent)))
+            .collect()
     }
 
     /// A type in words.
@@ -230,6 +223,7 @@ impl<'a> Checker<'a> {
             Type::Scalar => "a scalar".into(),
             Type::Vector(_) => format!("a vector `{}`", self.extents_shown(ty)),
             Type::Matrix(..) => format!("a matrix `{}`", self.extents_shown(ty)),
+            Type::Array(_) => format!("an array `{}`", self.extents_shown(ty)),
         }
     }
 

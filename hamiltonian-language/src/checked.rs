@@ -21,7 +21,7 @@
 //!   provably out of range.
 //! - There is exactly one definition, and at least one group.
 
-use crate::ast::{BinaryOp, Function, Header, UnaryOp};
+use crate::ast::{AXES, BinaryOp, Function, Header, UnaryOp};
 use crate::names::Builtin;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
@@ -140,8 +140,8 @@ pub struct Group {
     pub velocity: Option<Ident>,
     /// The type of each of them.
     pub ty: Type,
-    /// Whether it is a matrix stored row after row, which loops run through. The columns of any other
-    /// matrix are arrays of their own, and their number is literal.
+    /// Whether it is an array of several axes stored row after row, which loops run through. The columns of
+    /// any other matrix are arrays of their own, and their number is literal.
     pub is_lattice: bool,
 }
 
@@ -261,9 +261,66 @@ pub enum Type {
     Vector(Extent),
     /// `[rows][columns]`
     Matrix(Extent, Extent),
+    /// `[extent][extent][extent]…`: three axes or more.
+    Array(Axes),
+}
+
+/// The extents of an array with several axes, the first one first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Axes {
+    count: usize,
+    /// Those past `count` are 1.
+    extents: [Extent; AXES],
+}
+
+impl Axes {
+    /// The extents.
+    pub fn extents(&self) -> &[Extent] {
+        &self.extents[..self.count]
+    }
 }
 
 impl Type {
+    /// The type of an array of these extents, at most [`AXES`].
+    pub fn of(extents: &[Extent]) -> Type {
+        match *extents {
+            [] => Type::Scalar,
+            [extent] => Type::Vector(extent),
+            [rows, columns] => Type::Matrix(rows, columns),
+            _ => {
+                let mut axes = Axes {
+                    count: extents.len().min(AXES),
+                    extents: [Extent::Literal(1); AXES],
+                };
+                for (own, extent) in axes.extents.iter_mut().zip(extents) {
+                    *own = *extent;
+                }
+                Type::Array(axes)
+            }
+        }
+    }
+    /// The extents of its axes.
+    pub fn extents(self) -> Vec<Extent> {
+        match self {
+            Type::Bool | Type::Scalar => Vec::new(),
+            Type::Vector(extent) => vec![extent],
+            Type::Matrix(rows, columns) => vec![rows, columns],
+            Type::Array(axes) => axes.extents().to_vec(),
+        }
+    }
+    /// The extent of the first axis, and the type of an element of it.
+    pub fn rows(self) -> Option<(Extent, Type)> {
+        let extents = self.extents();
+        let (rows, inner) = extents.split_first()?;
+        Some((*rows, Type::of(inner)))
+    }
+    /// The number of its elements; `None` where a coefficient overflows.
+    pub fn elements(self) -> Option<Affine> {
+        let mut extents = self.extents().into_iter();
+        extents.try_fold(Affine::constant(1), |product, extent| {
+            product.checked_times(&extent.affine())
+        })
+    }
     /// A number.
     pub fn is_scalar(self) -> bool {
         self == Type::Scalar
@@ -314,7 +371,7 @@ pub enum Kind {
     /// `[c]` → `[r]`. `/`: X, S → X. `^`, and `pow(x, y)`: S, S → S. Comparisons: S, S → B.
     /// `&& ||`: B, B → B. Never `%`.
     Binary(BinaryOp, NodeId, NodeId),
-    /// `base[index]`: V → S, M → V (a row)
+    /// `base[index]`: V → S, M → V (a row), an array of more axes → one of the other axes
     Index {
         /// The indexed value.
         base: NodeId,

@@ -61,10 +61,7 @@ impl Checker<'_> {
 
     /// Notes that there is to be a body 0, to which the others are relative.
     fn needs_first(&mut self, positions: &Ident, group: u16) {
-        if let Type::Vector(bodies) | Type::Matrix(bodies, _) =
-            self.out.groups[usize::from(group)].ty
-            && let Extent::Size(_) = bodies
-        {
+        if let Some((bodies @ Extent::Size(_), _)) = self.out.groups[usize::from(group)].ty.rows() {
             self.note(Reach {
                 shown: format!("{positions}[0]"),
                 span: positions.span(),
@@ -230,10 +227,8 @@ impl Checker<'_> {
             );
             return None;
         };
-        let extents = match self.out.groups[group.0 as usize].ty {
-            Type::Vector(bodies) | Type::Matrix(bodies, _) => Some(bodies),
-            Type::Scalar | Type::Bool => None,
-        };
+        let extents = self.out.groups[group.0 as usize].ty.rows();
+        let extents = extents.map(|(bodies, _)| bodies);
         if self.out.groups[group.0 as usize].is_lattice {
             let message = format!("`{positions}` has more components a body than space has");
             self.report.error(positions.span(), message, form);

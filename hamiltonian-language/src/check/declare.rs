@@ -219,14 +219,16 @@ impl Checker<'_> {
             self.report.error(rows.span(), message, help);
             return None;
         }
-        match sizes {
-            [] => Some(Type::Scalar),
-            [size] => Some(Type::Vector(self.extent(size)?)),
-            [rows, columns, ..] => {
-                let (rows, columns) = (self.extent(rows), self.extent(columns));
-                Some(Type::Matrix(rows?, columns?))
-            }
+        if let [_, _, third, ..] = sizes {
+            let message = "parameters and the coordinates of a Lagrangian have at most two extents";
+            let help =
+                "write several arrays; the coordinates of `H(q; p)` may have up to four extents";
+            self.report.error(third.span(), message, help);
+            return None;
         }
+        // All unknown sizes are reported.
+        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).collect();
+        Some(Type::of(&extents.into_iter().collect::<Option<Vec<_>>>()?))
     }
 
     /// Exactly one H or L.

@@ -430,10 +430,9 @@ impl Checker<'_> {
         frame: &Frame,
     ) -> Option<NodeId> {
         let (value, ty) = self.number(base, frame)?;
-        let (extent, ty) = match ty {
-            Type::Vector(extent) => (extent, Type::Scalar),
-            Type::Matrix(rows, columns) => (rows, Type::Vector(columns)),
-            Type::Scalar | Type::Bool => {
+        let (extent, ty) = match ty.rows() {
+            Some(rows) => rows,
+            None => {
                 let node = &self.ast.nodes[base.0 as usize];
                 let message = match &node.kind {
                     ExprKind::Name(symbol, _) => {

@@ -94,11 +94,7 @@ impl Checker<'_> {
         let [group] = &self.out.groups[..] else {
             return None;
         };
-        let (rows, ty) = match group.ty {
-            Type::Vector(rows) => (rows, Type::Scalar),
-            Type::Matrix(rows, columns) => (rows, Type::Vector(columns)),
-            _ => return None,
-        };
+        let (rows, ty) = group.ty.rows()?;
         let variables = signature.sections.iter().take(2).flatten();
         let names = variables.map(|variable| match &variable.sizes[..] {
             [Size::Name(name)] => Some(name),

@@ -100,7 +100,7 @@ impl Checker<'_> {
             Type::Matrix(_, Extent::Literal(columns)) => {
                 velocity.is_none() && columns > WRITTEN_OUT
             }
-            Type::Matrix(_, Extent::Size(_)) => true,
+            Type::Matrix(_, Extent::Size(_)) | Type::Array(_) => true,
             _ => false,
         };
         self.out.groups.push(Group {
@@ -298,8 +298,12 @@ impl Checker<'_> {
 
     /// The shape of a coordinate or momentum.
     fn variable_type(&mut self, variable: &Declarator, lagrangian: bool) -> Option<Type> {
-        let [rows, columns] = variable.sizes.as_slice() else {
-            return self.array(&variable.sizes);
+        let [_, columns] = variable.sizes.as_slice() else {
+            return match variable.sizes.len() {
+                0 | 1 => self.array(&variable.sizes),
+                _ if lagrangian => self.array(&variable.sizes),
+                _ => self.lattice(&variable.sizes),
+            };
         };
         match columns {
             Size::Name(_) if lagrangian => {
@@ -313,23 +317,25 @@ impl Checker<'_> {
             }
             Size::Literal(..) if lagrangian => self.array(&variable.sizes),
             Size::Literal(number, _) if *number <= WRITTEN_OUT => self.array(&variable.sizes),
-            _ => self.lattice(rows, columns),
+            _ => self.lattice(&variable.sizes),
         }
     }
 
     /// The shape of coordinates that are stored row after row, on the heap.
-    fn lattice(&mut self, rows: &Size, columns: &Size) -> Option<Type> {
-        let (of_rows, of_columns) = (self.extent(rows)?, self.extent(columns)?);
-        let numbers = of_rows.affine().checked_times(&of_columns.affine());
+    fn lattice(&mut self, sizes: &[Size]) -> Option<Type> {
+        // All unknown sizes are reported.
+        let extents: Vec<Option<Extent>> = sizes.iter().map(|size| self.extent(size)).collect();
+        let ty = Type::of(&extents.into_iter().collect::<Option<Vec<_>>>()?);
+        let numbers = ty.elements();
         let numbers = numbers.map_or(i64::MAX, |n| n.as_constant().unwrap_or_default());
         if numbers > LARGEST {
             let message = format!("an array of {numbers} numbers may not fit into memory");
             let help = "set the sizes at run time, where `new` tells whether they fit: \
                         `pub struct Name { n: usize, m: usize }` and `[n][m]`";
-            self.report.error(rows.span(), message, help);
+            self.report.error(sizes[0].span(), message, help);
             return None;
         }
-        Some(Type::Matrix(of_rows, of_columns))
+        Some(ty)
     }
 }
 

@@ -12,29 +12,31 @@ pub fn shape(ty: Type) -> Shape {
         Type::Bool | Type::Scalar => Shape::Scalar,
         Type::Vector(rows) => Shape::Vector(rows.affine()),
         Type::Matrix(rows, columns) => Shape::Matrix(rows.affine(), columns.affine()),
+        Type::Array(_) => Shape::Vector(ty.elements().unwrap_or_default()),
     }
 }
 
 /// The extents of the axes of a lattice, row after row; none of other groups.
 pub fn axes(group: &Group) -> Vec<Affine> {
-    match group.ty {
-        Type::Matrix(rows, columns) if group.is_lattice => vec![rows.affine(), columns.affine()],
-        _ => Vec::new(),
+    let extents = group.ty.extents().into_iter();
+    match group.is_lattice {
+        true => extents.map(Extent::affine).collect(),
+        false => Vec::new(),
     }
 }
 
 /// The shape of a group of coordinates: a lattice is a vector of its elements, the columns of another
 /// matrix are literal. `None` where they are not, which check refuses.
 pub fn group_shape(group: &Group) -> Option<Shape<u16>> {
+    if group.is_lattice {
+        return Some(Shape::Vector(group.ty.elements()?));
+    }
     Some(match group.ty {
-        Type::Matrix(rows, columns) if group.is_lattice => {
-            Shape::Vector(rows.affine().checked_times(&columns.affine())?)
-        }
         Type::Bool | Type::Scalar => Shape::Scalar,
         Type::Vector(rows) => Shape::Vector(rows.affine()),
         Type::Matrix(rows, Extent::Literal(columns)) => {
             Shape::Matrix(rows.affine(), u16::try_from(columns).ok()?)
         }
-        Type::Matrix(_, Extent::Size(_)) => return None,
+        Type::Matrix(_, Extent::Size(_)) | Type::Array(_) => return None,
     })
 }

@@ -5,7 +5,7 @@
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};
-use crate::ast::{Expression, Header, Item, Parameter, ParameterKind, Size};
+use crate::ast::{AXES, Expression, Header, Item, Parameter, ParameterKind, Size};
 use crate::report::Spans;
 use crate::tokens::TokenKind;
 use proc_macro2::{Delimiter, Ident, TokenStream, TokenTree};
@@ -342,11 +342,11 @@ impl Parser<'_> {
                 return self.abort(self.here(), message, help);
             }
             self.leave(outer);
-            if sizes.len() == 2 {
+            if sizes.len() == AXES {
                 return self.abort(
                     spans,
-                    "arrays have at most two extents",
-                    "write `[n][3]`, or several arrays",
+                    "arrays have at most four extents",
+                    "write `[n][m][k][3]`, or several arrays",
                 );
             }
             sizes.push(size);

@@ -256,7 +256,7 @@ fn more_axes_have_the_derivatives_of_duals_and_the_bits_of_iterations_one_by_one
 }
 
 #[test]
-fn elements_of_more_axes_are_named_as_declared_and_saved() {
+fn elements_of_more_axes_are_named_as_declared() {
     let system = Tesseract::new(2).unwrap();
     let at = |salt: usize| {
         Lattice::from_fn([2, 2, 2, 2], |[i, j, k, l]| {

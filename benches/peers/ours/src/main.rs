@@ -86,22 +86,23 @@ struct Task {
 }
 
 /// The results of one scheme, unfused and fused: more and more steps, until the error is that of rounding or
-/// runs take too long. A scheme of order above 4 gains much from few more steps: it takes four settings to
-/// double them, the others two.
+/// runs take too long. It takes `parts` settings to double the steps: more for a scheme of high order, which gains
+/// much from few more.
 fn race<S: System<f64>, M: Scheme<f64, S>>(
     problem: &str,
     system: &S,
     scheme: M,
     (start, end, exact): (&State<S::Vector>, f64, &[DoubleDouble]),
-    first: u64,
+    (first, parts): (u64, u32),
 ) {
-    let parts = if scheme.order() > 4 { 4 } else { 2 };
+    let method = scheme.entry().to_string();
     for fused in [false, true] {
         let mut best = f64::INFINITY;
         for setting in 0..12 * parts {
             let steps = (first as f64 * (setting as f64 / parts as f64).exp2()).round() as u64;
             let begin = || {
-                let run = Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
+                let run =
+                    Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
                 run.map(|run| if fused { run.fused() } else { run })
             };
             // A step too long to be solved is no result.
@@ -114,7 +115,7 @@ fn race<S: System<f64>, M: Scheme<f64, S>>(
                 let mut run = begin().expect("it began before");
                 let _ = run.advance(steps);
             });
-            row(problem, &scheme.entry(), fused, steps, error, seconds);
+            row(problem, &method, fused, steps, error, seconds);
             // Rounding: twice the steps gained nothing more.
             if seconds > 1.0 || error < 1e-15 || error > best && best < 1e-9 {
                 break;
@@ -139,7 +140,7 @@ fn row(problem: &str, method: &str, fused: bool, steps: u64, error: f64, seconds
 macro_rules! problem {
     ($task:ident, $name:literal, $system:expr, [$($key:literal: $value:expr),*], $rows:expr, $end:expr,
      reference $steps:literal, $n:ident => $start:expr,
-     [$($scheme:expr, $first:expr;)+]) => {
+     [$($scheme:expr, $first:expr, $parts:literal;)+]) => {
         if $task.only.as_deref().is_none_or(|only| only == $name) {
             let system = $system;
             let end: f64 = $end;
@@ -156,7 +157,7 @@ macro_rules! problem {
             let fine = reference(2 * $steps);
             if $task.rows {
                 let goal = (&start, end, &fine[..]);
-                $(race($name, &system, $scheme, goal, $first);)+
+                $(race($name, &system, $scheme, goal, ($first, $parts));)+
             } else {
                 let coarse = reference($steps);
                 let uncertainty = (coarse.iter().zip(&fine))
@@ -222,23 +223,23 @@ fn solve_all() {
     };
     problem!(task, "kepler", Kepler {}, [], 2, 1000.0 * TAU, reference 60_000,
         n => State::over([n(0.4), n(0.0)], [n(0.0), n(2.0)]),
-        [GaussNystrom::<8>::default(), 15_000; GaussNystrom::<4>::default(), 40_000;
-         BlanesCasasEscorihuela8, 20_000; Srkn11b, 40_000; Processed6::default(), 50_000;
-         StormerVerlet::default(), 1_000_000;]);
+        [GaussNystrom::<8>::default(), 15_000, 4; GaussNystrom::<4>::default(), 40_000, 4;
+         BlanesCasasEscorihuela8, 20_000, 2; Srkn11b, 40_000, 2; Processed6::default(), 50_000, 2;
+         StormerVerlet::default(), 1_000_000, 2;]);
     problem!(task, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
         n => State::over([n(0.12), n(0.23)], [n(0.31), n(-0.17)]),
-        [GaussNystrom::<8>::default(), 3_000; GaussNystrom::<4>::default(), 10_000;
-         BlanesCasasEscorihuela8, 5_000; Srkn11b, 10_000; Processed6::default(), 10_000;
-         StormerVerlet::default(), 100_000;]);
+        [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
+         BlanesCasasEscorihuela8, 5_000, 2; Srkn11b, 10_000, 2; Processed6::default(), 10_000, 2;
+         StormerVerlet::default(), 100_000, 2;]);
     problem!(task, "pendulum", Pendulum {}, [], 1, 1e4, reference 20_000,
         n => State::over([n(1.5)], [n(0.0)]),
-        [GaussNystrom::<8>::default(), 3_000; GaussNystrom::<4>::default(), 10_000;
-         BlanesCasasEscorihuela8, 5_000; Srkn11b, 10_000; Processed6::default(), 10_000;
-         StormerVerlet::default(), 100_000;]);
+        [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
+         BlanesCasasEscorihuela8, 5_000, 2; Srkn11b, 10_000, 2; Processed6::default(), 10_000, 2;
+         StormerVerlet::default(), 100_000, 2;]);
     problem!(task, "coupled", Coupled {}, [], 1, 1e4, reference 60_000,
         n => State::over([n(-3.0)], [n(0.0)]),
-        [Gauss::<8>::default(), 10_000; Gauss::<4>::default(), 40_000; Processed6::default(), 40_000;
-         KahanLi8, 20_000; Strang, 400_000;]);
+        [Gauss::<8>::default(), 10_000, 4; Gauss::<4>::default(), 40_000, 4; Processed6::default(), 40_000, 2;
+         KahanLi8, 20_000, 2; Strang, 400_000, 2;]);
     let masses = PLANETS.map(|(mass, ..)| mass);
     problem!(task, "planets", Planets::new(masses), ["G": [2.95912208286e-4], "m": masses], 6, 365_250.0,
         reference 6_000,
@@ -246,13 +247,13 @@ fn solve_all() {
             PLANETS.map(|(_, q, _)| q.map(n)),
             PLANETS.map(|(mass, _, v)| v.map(|v| n(mass * v))),
         ),
-        [GaussNystrom::<8>::default(), 400; GaussNystrom::<4>::default(), 1_500;
-         BlanesCasasEscorihuela8, 1_000; Srkn11b, 2_000; Processed6::default(), 2_000;
-         StormerVerlet::default(), 20_000;]);
+        [GaussNystrom::<8>::default(), 400, 4; GaussNystrom::<4>::default(), 1_500, 4;
+         BlanesCasasEscorihuela8, 1_000, 2; Srkn11b, 2_000, 2; Processed6::default(), 2_000, 2;
+         StormerVerlet::default(), 20_000, 2;]);
     problem!(task, "black_hole", BlackHole::default(), ["E": [0.995], "L": [4.6]], 2, 1e4, reference 4_000,
         n => State::over([n(11.0), n(FRAC_PI_2)], [n(0.0), n(2.062_449_325_976_816)]),
-        [Gauss::<8>::default(), 200; Gauss::<4>::default(), 500; Processed6::default(), 500;
-         KahanLi8, 400; Strang, 10_000;]);
+        [Gauss::<8>::default(), 200, 4; Gauss::<4>::default(), 500, 4; Processed6::default(), 500, 2;
+         KahanLi8, 400, 2; Strang, 10_000, 2;]);
     let wave = |i: usize| {
         0.5 * (TAU * i as f64 / RING as f64).cos()
             + 0.3 * (TAU * 7.0 * i as f64 / RING as f64).sin()
@@ -260,15 +261,15 @@ fn solve_all() {
     let waves: [f64; RING] = std::array::from_fn(wave);
     problem!(task, "toda", Toda::<RING> {}, [], RING, 20.0, reference 30,
         n => State::over([n(0.0); RING], waves.map(n)),
-        [GaussNystrom::<8>::default(), 10; BlanesCasasEscorihuela8, 10; Srkn11b, 20;
-         Processed6::default(), 20; StormerVerlet::default(), 200;]);
+        [GaussNystrom::<8>::default(), 10, 4; BlanesCasasEscorihuela8, 10, 2; Srkn11b, 20, 2;
+         Processed6::default(), 20, 2; StormerVerlet::default(), 200, 2;]);
     let mode: [f64; CHAIN] =
         std::array::from_fn(|i| (PI * (i + 1) as f64 / (CHAIN + 1) as f64).sin());
     problem!(task, "fput", Fput::<CHAIN>::default(), ["alpha": [0.25]], CHAIN, 1000.0, reference 2_000,
         n => State::over(mode.map(n), [n(0.0); CHAIN]),
-        [GaussNystrom::<8>::default(), 300; GaussNystrom::<4>::default(), 1_000;
-         BlanesCasasEscorihuela8, 500; Srkn11b, 1_000; Processed6::default(), 1_000;
-         StormerVerlet::default(), 10_000;]);
+        [GaussNystrom::<8>::default(), 300, 4; GaussNystrom::<4>::default(), 1_000, 4;
+         BlanesCasasEscorihuela8, 500, 2; Srkn11b, 1_000, 2; Processed6::default(), 1_000, 2;
+         StormerVerlet::default(), 10_000, 2;]);
     let places = scattered(3 * BODIES);
     let cluster = Cluster::new(BODIES).expect("as many bodies as places");
     problem!(task, "cluster", cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
@@ -276,7 +277,7 @@ fn solve_all() {
             places.chunks(3).map(|q| [n(q[0]), n(q[1]), n(q[2])]).collect::<Vec<_>>(),
             places.chunks(3).map(|q| [n(-1e-3 * q[1]), n(1e-3 * q[0]), n(0.0)]).collect::<Vec<_>>(),
         ),
-        [BlanesCasasEscorihuela8, 1; Srkn11b, 2; StormerVerlet::default(), 8;]);
+        [BlanesCasasEscorihuela8, 1, 2; Srkn11b, 2, 2; StormerVerlet::default(), 8, 2;]);
     ensemble(&task);
 }
 

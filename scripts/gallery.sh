@@ -25,6 +25,7 @@ nbody_eight nbody eight.svg
 nbody_collapse nbody collapse.svg
 chaos_map chaos_map map.svg 40000
 basins basins basins.svg 40000
+phi4 phi4 fronts.svg 2
 mixing mixing t5.svg 10000
 LIST
 exit "$large"

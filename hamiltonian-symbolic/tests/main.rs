@@ -13,6 +13,7 @@ mod jumps;
 mod legendre;
 mod limits;
 mod loops;
+mod mathml;
 mod nests;
 mod normal_form;
 mod operations;

@@ -11,6 +11,9 @@ use hamiltonian_symbolic::print::{self, Count, Notation};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::Structure;
 
+/// Formulas in MathML, at most: longer ones stay text, which is easier to search.
+const MATH_BYTES: usize = 20 * 1024;
+
 /// The texts; equations of motion only where H is not large. Of a Lagrangian, H as it is read.
 pub fn text(
     model: &Model,
@@ -26,20 +29,45 @@ pub fn text(
         equations(model, readable, notations)
     };
     let signature = signature(model);
+    let latex = match readable {
+        Some(readable) => readable.latex(),
+        None => format!("H = {}", print::latex(model, h)),
+    };
+    let [math, math_equations] = formulas(&latex, &latex_equations).unwrap_or_default();
     Text {
         hamiltonian: match readable {
             Some(readable) => readable.text(&signature),
             None => format!("{signature} = {}", print::text(model, h)),
         },
         equations,
-        latex: match readable {
-            Some(readable) => readable.latex(),
-            None => format!("H = {}", print::latex(model, h)),
-        },
+        latex,
         latex_equations,
+        math,
+        math_equations,
         facts: facts(structure, !model.force.is_empty()),
         operations: Vec::new(),
     }
+}
+
+/// H and the rows of its equations in MathML; `None` where they are longer than 20 KB together.
+fn formulas(latex: &str, equations: &[String]) -> Option<[String; 2]> {
+    // MathML is about six times as long as LaTeX, and is not made to be thrown away.
+    let length: usize = equations.iter().map(String::len).sum();
+    if latex.len() + length > MATH_BYTES / 4 {
+        return None;
+    }
+    let math = print::mathml(latex)?;
+    let mut rows = String::new();
+    for line in equations {
+        let (left, right) = line.split_once(" = ")?;
+        let (left, right) = (print::mathml(left)?, print::mathml(right)?);
+        rows.push_str("<mtr><mtd style=\"text-align:right\">");
+        rows.push_str(&left);
+        rows.push_str("</mtd><mtd style=\"text-align:left\"><mo>=</mo>");
+        rows.push_str(&right);
+        rows.push_str("</mtd></mtr>\n");
+    }
+    (math.len() + rows.len() <= MATH_BYTES).then_some([math, rows])
 }
 
 /// Hamilton's equations one a line, in each notation.

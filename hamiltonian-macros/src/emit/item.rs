@@ -191,6 +191,17 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
     out
 }
 
+/// Rows of a table that stand open in the docs.
+const LONG_TABLE: usize = 12;
+
+/// Markdown that rustdoc shows on demand.
+fn collapsed(doc: &mut String, summary: &str, markdown: &str) {
+    let _ = write!(
+        doc,
+        "\n<details><summary>{summary}</summary>\n\n{markdown}\n\n</details>\n"
+    );
+}
+
 /// H, its facts, Hamilton's equations and their operations, as docs.
 fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let text = &context.definition.text;
@@ -198,20 +209,27 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     if item.attributes.is_empty() && context.definition.piece.is_none() {
         let _ = writeln!(doc, "The Hamiltonian system `{name}`.\n");
     }
-    let _ = write!(
-        doc,
-        "\n# Hamiltonian\n\n```text\n{}\n```\n",
-        text.hamiltonian
-    );
+    doc.push_str("\n# Hamiltonian\n");
+    if !text.math.is_empty() {
+        let _ = write!(doc, "\n<math display=\"block\">\n{}\n</math>\n", text.math);
+    }
+    let _ = write!(doc, "\n```text\n{}\n```\n", text.hamiltonian);
     for fact in &text.facts {
         let _ = write!(doc, "\n{fact}\n");
     }
     if !text.equations.is_empty() {
-        let _ = write!(
-            doc,
-            "\n# Equations of motion\n\n```text\n{}\n```\n",
-            text.equations.join("\n")
-        );
+        doc.push_str("\n# Equations of motion\n");
+        let lines = format!("```text\n{}\n```", text.equations.join("\n"));
+        if text.math_equations.is_empty() {
+            let _ = write!(doc, "\n{lines}\n");
+        } else {
+            let rows = &text.math_equations;
+            let _ = write!(
+                doc,
+                "\n<math display=\"block\">\n<mtable displaystyle=\"true\">\n{rows}</mtable>\n</math>\n"
+            );
+            collapsed(&mut doc, "As text", &lines);
+        }
     }
     if !context.model.force.is_empty() {
         doc.push_str(
@@ -219,19 +237,26 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
         );
     }
     if !text.latex.is_empty() {
-        let _ = write!(doc, "\n# LaTeX\n\n```text\n{}\n", text.latex);
+        doc.push_str("\n# LaTeX\n");
+        let mut lines = format!("```text\n{}\n", text.latex);
         for line in &text.latex_equations {
-            let _ = writeln!(doc, "{line}");
+            let _ = writeln!(lines, "{line}");
         }
-        doc.push_str("```\n");
+        lines.push_str("```");
+        collapsed(&mut doc, "H and its equations", &lines);
     }
     if !text.operations.is_empty() {
-        let _ = write!(
-            doc,
+        doc.push_str(
             "\n# Operations\n\nOf one evaluation, without what parameters alone decide, which is done once a run. \
-             A fused multiply–add is two, the sine and cosine of an angle are one.\n\n{}\n",
-            text.operations.join("\n")
+             A fused multiply–add is two, the sine and cosine of an angle are one.\n",
         );
+        let table = text.operations.join("\n");
+        // A row for each loop: many of them hide what follows.
+        if text.operations.len() > LONG_TABLE {
+            collapsed(&mut doc, "Each loop", &table);
+        } else {
+            let _ = write!(doc, "\n{table}\n");
+        }
     }
     if context.has_run_time_sizes() {
         doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system. `check_shape` gives an\nerror instead; runs and starts ask it once.\n");

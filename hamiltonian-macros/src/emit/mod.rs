@@ -206,6 +206,10 @@ pub struct Text {
     pub latex: String,
     /// Hamilton's equations in LaTeX, one a line.
     pub latex_equations: Vec<String>,
+    /// H in MathML; empty where formulas are long.
+    pub math: String,
+    /// Hamilton's equations in MathML, one a row of a table; empty where formulas are long.
+    pub math_equations: String,
     /// Facts of H, one sentence a line.
     pub facts: Vec<String>,
     /// A table of the operations of value and gradient, one row a line.

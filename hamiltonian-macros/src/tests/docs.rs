@@ -39,6 +39,13 @@ fn section(docs: &str, heading: &str) -> String {
         .to_owned()
 }
 
+/// The text of a section, between its fences.
+fn text_of(docs: &str, heading: &str) -> String {
+    let section = section(docs, heading);
+    let (_, from) = section.split_once("```text\n").expect(heading);
+    from.split("\n```").next().unwrap_or_default().to_owned()
+}
+
 /// The rows of the table of operations.
 fn operations(source: &str) -> Vec<String> {
     let docs = docs(source);
@@ -181,32 +188,63 @@ fn a_lagrangian_reads_well() {
         "struct Cart { m = 1, M = 2, l = 1, g = 9.81 }
          L(x, theta; v, w) = (m + M)*v^2/2 + m*l*v*w*cos(theta) + m*l^2*w^2/2 + m*g*l*cos(theta)",
     );
-    assert!(section(&docs, "Hamiltonian").starts_with(
-        "```text
-let D = m + M - m*cos(theta)^2;
-H(x, theta; p_x, p_theta) = (m*l^2*p_x^2 - 2*m*l*p_x*p_theta*cos(theta) + (m + M)*p_theta^2)/(2*m*l^2*D) - m*g*l*cos(theta)
-```"
+    assert!(text_of(&docs, "Hamiltonian").starts_with(
+        "let D = m + M - m*cos(theta)^2;
+H(x, theta; p_x, p_theta) = (m*l^2*p_x^2 - 2*m*l*p_x*p_theta*cos(theta) + (m + M)*p_theta^2)/(2*m*l^2*D) - m*g*l*cos(theta)"
     ));
     assert_eq!(
-        section(&docs, "Equations of motion"),
-        "```text
-dx/dt = (l*p_x - p_theta*cos(theta))/(l*D)
+        text_of(&docs, "Equations of motion"),
+        "dx/dt = (l*p_x - p_theta*cos(theta))/(l*D)
 dtheta/dt = ((m + M)*p_theta - m*l*p_x*cos(theta))/(m*l^2*D)
 dp_x/dt = 0
 dp_theta/dt = -(m*g*l + m*l*v*w)*sin(theta)
 where v = dx/dt
-where w = dtheta/dt
-```"
+where w = dtheta/dt"
     );
-    let latex = section(&docs, "LaTeX");
+    let latex = text_of(&docs, "LaTeX");
     assert!(
         latex.contains(r",\quad D = m + M - m \cos^{2}(\theta)"),
         "{latex}"
     );
     assert!(
-        latex.ends_with("w = \\frac{\\mathrm{d} \\theta}{\\mathrm{d} t}\n```"),
+        latex.ends_with("w = \\frac{\\mathrm{d} \\theta}{\\mathrm{d} t}"),
         "{latex}"
     );
+}
+
+/// Formulas are MathML, and their text and LaTeX open on demand; long ones are text alone.
+#[test]
+fn formulas_are_set() {
+    let pendulum = docs(PENDULUM);
+    let hamiltonian = section(&pendulum, "Hamiltonian");
+    assert!(
+        hamiltonian.starts_with("<math display=\"block\">\n<mi>H</mi><mo>=</mo><mfrac>"),
+        "{hamiltonian}"
+    );
+    let equations = section(&pendulum, "Equations of motion");
+    assert_eq!(equations.matches("<mtr>").count(), 2, "{equations}");
+    assert!(equations.contains("</math>\n\n<details><summary>As text</summary>\n\n```text\n"));
+    assert!(section(&pendulum, "LaTeX").starts_with("<details>"));
+    for tag in ["math", "mtable", "details", "mfrac", "msup", "mrow", "mtd"] {
+        let (open, close) = (format!("<{tag}"), format!("</{tag}>"));
+        let starts = pendulum.match_indices(&open).filter(|(at, _)| {
+            let after = pendulum[at + open.len()..].chars().next();
+            matches!(after, Some('>' | ' '))
+        });
+        assert_eq!(starts.count(), pendulum.matches(&close).count(), "{tag}");
+    }
+    // No empty line ends a block of HTML early.
+    for block in pendulum.split("<math").skip(1) {
+        let inner = block.split("</math>").next().unwrap_or_default();
+        assert!(!inner.contains("\n\n"), "{inner}");
+    }
+    let terms: Vec<String> = (1..400).map(|k| format!("{k}/7*cos({k}*q)")).collect();
+    let long = docs(&format!(
+        "pub struct Long {{}} H = p^2/2 + {}",
+        terms.join(" + ")
+    ));
+    assert!(!long.contains("<math"));
+    assert!(section(&long, "Hamiltonian").starts_with("```text"));
 }
 
 #[test]

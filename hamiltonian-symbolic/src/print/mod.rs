@@ -1,4 +1,4 @@
-//! Expressions as people read them: text in the language's own notation, and LaTeX.
+//! Expressions as people read them: text in the language's own notation, LaTeX, and MathML of that LaTeX.
 //!
 //! Input: a model and a node of its arena. Output: text. Invariant: the language reads [`text`] of an
 //! expression that it can say back as the same expression (up to the order of evaluation); sums and products keep the order they were written in.
@@ -6,12 +6,14 @@
 mod equations;
 mod latex;
 mod layout;
+mod mathml;
 mod names;
 mod operations;
 mod text;
 
 pub(crate) use equations::scalar_equation;
 pub use equations::{Equations, hamilton_equations};
+pub use mathml::mathml;
 pub(crate) use names::is_taken;
 pub use operations::{Count, operations};
 

@@ -2,8 +2,8 @@
 //!
 //! `cargo bench --bench members` prints, for pendulums and Störmer–Verlet, million trajectory-steps a
 //! second: the kernel of `benches/ensemble.rs`, [`Ensemble`] on one thread, and what parameters per member,
-//! `reproducible`, failing members, time in H and an observer of the energy at each step cost. Rounds
-//! alternate, and CPU time is compared; two threads are compared by wall time.
+//! `reproducible`, failing members, time in H, an observer of the energy at each step, a section and a Lyapunov
+//! exponent cost. Rounds alternate, and CPU time is compared; two threads are compared by wall time.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -15,7 +15,8 @@ use hamiltonian::{Carried, Clock, Map, Scheme, Scratch, Step};
 hamiltonian! {
     /// A planar pendulum.
     pub struct Pendulum { m = 1.0, l = 10.0, g = 9.81 }
-    H(q; p) = p^2/(2*m*l^2) - m*g*l*cos(q)
+    H(q; p) = p^2/(2*m*l^2) - m*g*l*cos(q);
+    event bottom = q
 }
 
 hamiltonian! {
@@ -129,13 +130,15 @@ fn main() {
             .expect("there are members")
             .threads(1);
         let (mut q, mut p): (Vec<f64>, Vec<f64>) = (0..COUNT).map(|k| start(k).into()).unzip();
-        let mut least = [f64::INFINITY; 9];
+        let mut least = [f64::INFINITY; 10];
         let mut drifts = swarm(&plain).observe(|_| EnergyDrift::new());
+        let section = |_| Events::new([Event::named("bottom").rising()]);
+        let mut sections = swarm(&plain).observe(section);
         let mut two = swarm(&plain).threads(2);
         let mut walls = [f64::INFINITY; 2];
         let system = black_box(Pendulum::default());
         for _ in 0..5 {
-            let mut times = [0.0; 9];
+            let mut times = [0.0; 10];
             times[0] = seconds(|| {
                 dispatch(Steps {
                     system: &system,
@@ -160,6 +163,16 @@ fn main() {
             times[7] = seconds(|| {
                 drifts.advance(STEPS);
             });
+            times[8] = seconds(|| {
+                sections.advance(STEPS);
+            });
+            times[9] = seconds(|| {
+                let rates = Lyapunov::new(COUNT, plain, scheme(), STEP)
+                    .steps(STEPS)
+                    .threads(1)
+                    .collect();
+                black_box(rates.expect("there are members"));
+            });
             for (swarm, least) in [&mut all[1].1, &mut two].into_iter().zip(&mut walls) {
                 let begin = Instant::now();
                 swarm.advance(STEPS);
@@ -172,7 +185,12 @@ fn main() {
         let names = ["kernel by hand"]
             .into_iter()
             .chain(all.iter().map(|(name, _)| *name))
-            .chain(["time-dependent", "EnergyDrift at each step"]);
+            .chain([
+                "time-dependent",
+                "EnergyDrift at each step",
+                "section event",
+                "Lyapunov exponent",
+            ]);
         println!("{cpu:?} two threads: {:.2} × one", walls[0] / walls[1]);
         for (name, time) in names.zip(least) {
             let rate = COUNT as f64 * STEPS as f64 / time / 1e6;
@@ -182,8 +200,9 @@ fn main() {
                     time / least[2] * STEPS as f64
                 ),
                 _ => println!(
-                    "{cpu:?} {name}: {rate:.1} M steps/s, {:.3} of the kernel",
-                    least[0] / time
+                    "{cpu:?} {name}: {rate:.1} M steps/s, {:.3} of the kernel, {:.2} × the ensemble",
+                    least[0] / time,
+                    time / least[2]
                 ),
             }
         }

@@ -5,154 +5,22 @@
 //! Invariants: no bit of the run changes; an event is where the function changes its sign, so a run that
 //! starts on it has none there, and touching 0 is none.
 
+mod event;
+
+pub use event::Event;
+
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Observer, View};
+use crate::observe::{Follower, Observer, Quantity, Section, View};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
 use crate::system::{Dynamics, System};
 use crate::vector::Vector;
-use alloc::borrow::ToOwned;
 use alloc::collections::VecDeque;
-use alloc::format;
-use alloc::string::String;
-use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::cell::OnceCell;
-use core::fmt;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
-
-/// A function of the state whose roots a run locates, see [`Events`].
-///
-/// Both directions count and the run goes on, unless it is told otherwise:
-///
-/// ```
-/// use hamiltonian::nalgebra::SVector;
-/// use hamiltonian::prelude::*;
-///
-/// type Plane = State<SVector<f64, 2>>;
-/// let section = Event::named("meridian").rising();
-/// let ground = Event::of("ground", |state: &Plane| state.q[1]).falling().ending();
-/// let node = Event::of("node", |state: &Plane| state.q[0] - 0.5).modulo(std::f64::consts::TAU);
-/// # let _: [Event<SVector<f64, 2>>; 3] = [section, ground, node];
-/// ```
-pub struct Event<V: Vector> {
-    name: String,
-    function: Option<Function<V>>,
-    /// The sign of the slope that is asked for; 0 for both.
-    slope: i8,
-    period: Option<V::Scalar>,
-    ends_after: Option<u64>,
-}
-
-type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
-
-impl<V: Vector> Event<V> {
-    /// The event that the system declares under that name, or a monitor or an invariant of it.
-    pub fn named(name: &str) -> Self {
-        Event {
-            name: name.to_owned(),
-            function: None,
-            slope: 0,
-            period: None,
-            ends_after: None,
-        }
-    }
-
-    /// The roots of a function of the state, under a name of yours.
-    pub fn of(
-        name: &str,
-        function: impl Fn(&State<V>) -> V::Scalar + Send + Sync + 'static,
-    ) -> Self {
-        Event {
-            function: Some(Arc::new(function)),
-            ..Event::named(name)
-        }
-    }
-
-    /// Only where the function grows, in the direction of the run.
-    #[must_use]
-    pub fn rising(self) -> Self {
-        Event { slope: 1, ..self }
-    }
-
-    /// Only where the function falls, in the direction of the run.
-    #[must_use]
-    pub fn falling(self) -> Self {
-        Event { slope: -1, ..self }
-    }
-
-    /// The function is a multiple of `period`, which is positive: for angles, that grow or jump by
-    /// 2π. In a step it changes by less than half a period.
-    #[must_use]
-    pub fn modulo(self, period: V::Scalar) -> Self {
-        Event {
-            period: Some(period),
-            ..self
-        }
-    }
-
-    /// Ends the run where it happens for the first time.
-    #[must_use]
-    pub fn ending(self) -> Self {
-        self.ending_after(1)
-    }
-
-    /// Ends the run where it has happened `count` times.
-    #[must_use]
-    pub fn ending_after(self, count: u64) -> Self {
-        Event {
-            ends_after: Some(count),
-            ..self
-        }
-    }
-
-    /// Its name and the roots that count: a saved run goes on with the same alone. Where it ends the run may be
-    /// changed.
-    fn text(&self) -> String {
-        let direction = match self.slope {
-            0 => "",
-            1.. => ", rising",
-            _ => ", falling",
-        };
-        let period = self.period.map(|period| format!(", modulo {period:?}"));
-        format!("{}{direction}{}", self.name, period.unwrap_or_default())
-    }
-
-    /// The difference of two values, or of a value and 0, to the nearest of what is the same.
-    fn difference(&self, value: V::Scalar) -> V::Scalar {
-        let Some(period) = self.period else {
-            return value;
-        };
-        let turns = (value / period).to_f64();
-        let below = turns as i64 as f64;
-        // Halves go away from 0.
-        let turns = (2.0 * (turns - below)) as i64 as f64 + below;
-        value - V::Scalar::constant(turns, 0.0) * period
-    }
-}
-
-impl<V: Vector> Clone for Event<V> {
-    fn clone(&self) -> Self {
-        Event {
-            name: self.name.clone(),
-            function: self.function.clone(),
-            ..*self
-        }
-    }
-}
-
-impl<V: Vector> fmt::Debug for Event<V> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Event")
-            .field("name", &self.name)
-            .field("slope", &self.slope)
-            .field("period", &self.period)
-            .field("ends_after", &self.ends_after)
-            .finish_non_exhaustive()
-    }
-}
 
 /// A state at which an event happened.
 #[derive(Debug, Clone, PartialEq)]
@@ -173,8 +41,8 @@ pub struct Located<V: Vector> {
 /// to rounding. (A scheme that carries a second point starts it anew in a part of a step; the state is
 /// then moved on to meet the run at the end of the step.)
 /// The run itself is not changed. Two roots within a step are found where the values of three steps
-/// tell that there can be two (the function falls towards 0 by more than half its value a step, and is
-/// convex); further ones are missed: take shorter steps. A change of sign at a pole or a jump is no event.
+/// tell that there can be two (the function has fallen towards 0 by more than half its value, and falls by
+/// less than half as much in the step); further ones are missed: take shorter steps. A change of sign at a pole or a jump is no event.
 /// Several events in one step come in the order of time.
 ///
 /// An event that is [ending](Event::ending) ends the run, and the run's state is then the one at the
@@ -222,7 +90,8 @@ pub struct Events<V: Vector> {
     failure: Option<Error>,
 }
 
-/// A function's value after a step, and its past.
+/// A function's value after a step, and its past: besides the last sign that is not 0, the values after two
+/// steps alone.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Track<T> {
     /// The index of an observable; none for a closure.
@@ -235,6 +104,19 @@ struct Track<T> {
     side: i8,
     /// The number of times the event happened.
     count: u64,
+}
+
+impl<T: Real> Track<T> {
+    /// Goes on to a value after the next step.
+    fn move_on<V: Vector<Scalar = T>>(&mut self, event: &Event<V>, value: T) {
+        let counted = event.counted(self.value, value);
+        self.change = counted - self.value;
+        self.value = event.difference(value);
+        match side(self.value) {
+            0 if value.is_finite() => {}
+            side => self.side = side,
+        }
+    }
 }
 
 impl<V: Vector> Events<V> {
@@ -358,8 +240,9 @@ impl<V: Vector> Events<V> {
                 |state: &State<V>| Self::value::<S>(event, track.observable, view.prepared, state);
             // Counted on from the value before, angles do not jump.
             let from = track.value;
-            let counted = |value| from + event.difference(value - from);
-            let value = counted(at(view.state));
+            let counted = |value| event.counted(from, value);
+            let here = at(view.state);
+            let value = counted(here);
             let mut function = |theta| Ok(counted(at(&part(theta)?)));
             let start = Sample {
                 at: zero,
@@ -367,8 +250,11 @@ impl<V: Vector> Events<V> {
             };
             let end = Sample { at: one, value };
             let (now, was) = (side(value), track.side);
-            let falls = track.change * V::Scalar::constant(-2.0 * f64::from(was), 0.0);
-            let may_dip = was != 0 && now == was && from.abs().lt(falls).any();
+            // Towards 0, in two steps.
+            let towards = V::Scalar::constant(-2.0 * f64::from(was), 0.0);
+            let (fell, falls) = (towards * track.change, towards * (value - from));
+            let is_convex = (falls + falls).lt(fell).any();
+            let may_dip = was != 0 && now == was && is_convex && from.abs().lt(fell).any();
             let mut ends = Vec::new();
             if was != 0 && now == -was {
                 ends.push((start, end));
@@ -377,6 +263,9 @@ impl<V: Vector> Events<V> {
             }
             for (left, right) in ends {
                 let rising = side(right.value) > 0;
+                if event.slope == -i8::from(rising) + i8::from(!rising) {
+                    continue;
+                }
                 let sample = match side(left.value) {
                     0 => left,
                     _ => root(left, right, &mut function)?,
@@ -387,7 +276,7 @@ impl<V: Vector> Events<V> {
                     .iter()
                     .any(|end| end.at.equals(sample.at).all());
                 let is_root = is_end || 2.0 * sample.value.magnitude() <= bound;
-                if !is_root || event.slope == -i8::from(rising) + i8::from(!rising) {
+                if !is_root {
                     continue;
                 }
                 let state = part(sample.at)?;
@@ -398,12 +287,7 @@ impl<V: Vector> Events<V> {
                 };
                 found.push((sample.at, located));
             }
-            track.change = value - from;
-            track.value = event.difference(value);
-            match side(track.value) {
-                0 if value.is_finite() => {}
-                side => track.side = side,
-            }
+            track.move_on(event, here);
         }
         // Stable: simultaneous events come in their own order.
         found.sort_by(|a, b| a.0.to_f64().total_cmp(&b.0.to_f64()));
@@ -430,6 +314,21 @@ impl<V: Vector> Events<V> {
     fn fail(&mut self, error: Error) -> ControlFlow<()> {
         self.failure = Some(error);
         ControlFlow::Break(())
+    }
+
+    /// Goes on to a state at whose step nothing happened.
+    fn pass_over<S: System<V::Scalar, Vector = V>>(&mut self, view: &View<'_, V::Scalar, S>) {
+        for (event, track) in self.events.iter().zip(&mut self.tracks) {
+            let value = Self::value::<S>(event, track.observable, view.prepared, view.state);
+            track.move_on(event, value);
+        }
+        match &mut self.before {
+            Some((step, state)) => {
+                *step = view.step;
+                state.clone_from(view.state);
+            }
+            none => *none = Some((view.step, view.state.clone())),
+        }
     }
 }
 
@@ -479,6 +378,36 @@ impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
             Ok(()) => self.count_up(),
             Err(error) => self.fail(error),
         }
+    }
+
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        // A closure is a function of one member's state. Where functions come from at the first state is found by
+        // a step back.
+        let is_named = self.events.iter().all(|event| event.function.is_none());
+        if !is_named || self.failure.is_some() || self.tracks.len() != self.events.len() {
+            return false;
+        }
+        for (event, track) in self.events.iter().zip(&self.tracks) {
+            let Some(index) = track.observable else {
+                return false;
+            };
+            with.section(Section {
+                quantity: Quantity::Observable(index),
+                period: event.period,
+                value: track.value,
+                change: track.change,
+                ends: event.ends_after.is_some(),
+            });
+        }
+        true
+    }
+
+    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
+        if quiet {
+            self.pass_over(view);
+            return ControlFlow::Continue(());
+        }
+        <Self as Observer<T, S>>::observe(self, view)
     }
 
     fn save(&self, to: &mut Memory) {

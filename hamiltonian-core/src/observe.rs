@@ -4,18 +4,27 @@
 //! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
 //! changes no bit of the run.
 
+mod deviation;
+mod drift;
 mod follow;
+mod quantity;
+mod section;
 
+pub use deviation::Deviation;
+pub use drift::{EnergyDrift, Monitor, Monitors};
+
+pub(crate) use follow::Tracker;
 #[doc(hidden)]
-pub use follow::{Follower, Quantity};
-pub(crate) use follow::{Track, Tracker};
+pub use follow::{Follower, Follows};
+#[doc(hidden)]
+pub use quantity::Quantity;
+pub(crate) use section::{Section, Watcher};
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::state::State;
-use crate::system::{Dynamics, ObservableKind, System, declared_energy};
+use crate::system::{Dynamics, System, declared_energy};
 use crate::vector::Vector;
-use alloc::vec::Vec;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
@@ -89,11 +98,17 @@ pub trait Observer<T: Real, S: System<T>> {
     }
     /// Shows it a state whose step number is a multiple of its interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
-    /// Visits what it follows, if that is the drift of functions of the state and nothing else, seen after
-    /// every so many steps: ensembles then follow it in lanes.
+    /// Visits what it follows, if that is the drift of functions of the state, seen after every so many
+    /// steps, and the changes of their signs, and nothing else: ensembles then follow it in lanes.
     #[doc(hidden)]
     fn follow(&mut self, _: &mut Follower<T>) -> bool {
         false
+    }
+    /// Shows an observer whose changes of signs lanes follow the state after a step, in the order of the run:
+    /// each at which a sign may have changed, and (`quiet`) at least two before it, at which none did.
+    #[doc(hidden)]
+    fn pass(&mut self, _view: &View<'_, T, S>, _quiet: bool) -> ControlFlow<()> {
+        ControlFlow::Continue(())
     }
     /// Writes what it remembers. An observer that remembers nothing writes its name alone.
     fn save(&self, to: &mut Memory) {
@@ -234,7 +249,11 @@ impl<T: Real, S: System<T>, O: Observer<T, S>> Observer<T, S> for Every<O> {
         self.inner.end()
     }
     fn follow(&mut self, with: &mut Follower<T>) -> bool {
-        self.inner.follow(with)
+        // Signs are followed from step to step alone.
+        self.inner.follow(with) && (self.steps == 1 || !with.has_sections())
+    }
+    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
+        self.inner.pass(view, quiet)
     }
 }
 
@@ -259,6 +278,9 @@ impl<T: Real, S: System<T>, O: Observer<T, S> + ?Sized> Observer<T, S> for &mut 
     }
     fn follow(&mut self, with: &mut Follower<T>) -> bool {
         (**self).follow(with)
+    }
+    fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
+        (**self).pass(view, quiet)
     }
 }
 
@@ -333,6 +355,11 @@ macro_rules! tuple {
                 })+
                 true
             }
+            fn pass(&mut self, view: &View<'_, T, S>, quiet: bool) -> ControlFlow<()> {
+                let mut control = ControlFlow::Continue(());
+                $(control = both(control, self.$index.pass(view, quiet));)+
+                control
+            }
         }
     };
 }
@@ -344,100 +371,6 @@ tuple!(A 0, B 1, C 2, D 3);
 tuple!(A 0, B 1, C 2, D 3, E 4);
 tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 
-/// The largest change of a function of the state since the observer was attached.
-///
-/// Differences are taken in the run's scalar, then rounded to `f64`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Deviation<T> {
-    pub(crate) start: T,
-    pub(crate) count: u64,
-    pub(crate) max: f64,
-    pub(crate) sum_of_sizes: f64,
-    pub(crate) sum: f64,
-}
-
-impl<T: Real> Deviation<T> {
-    pub(crate) fn new(start: T) -> Self {
-        Deviation {
-            start,
-            count: 0,
-            max: 0.0,
-            sum_of_sizes: 0.0,
-            sum: 0.0,
-        }
-    }
-
-    fn record(&mut self, value: T) {
-        let change = (value - self.start).to_f64();
-        let size = if change < 0.0 { -change } else { change };
-        self.count += 1;
-        // A NaN stays, which `f64::max` would drop.
-        if size > self.max || size.is_nan() {
-            self.max = size;
-        }
-        self.sum_of_sizes += size;
-        self.sum += change;
-    }
-
-    pub(crate) fn save(&self, to: &mut Memory) {
-        to.scalar(self.start);
-        to.count(self.count);
-        for number in [self.max, self.sum_of_sizes, self.sum] {
-            to.number(number);
-        }
-    }
-
-    pub(crate) fn restored(from: &mut Memory) -> Result<Self, Error> {
-        Ok(Deviation {
-            start: from.read_scalar()?,
-            count: from.read_count()?,
-            max: from.read_number()?,
-            sum_of_sizes: from.read_number()?,
-            sum: from.read_number()?,
-        })
-    }
-
-    /// The value f₀ at the start.
-    pub fn start(&self) -> T {
-        self.start
-    }
-
-    /// The number of states seen.
-    pub fn count(&self) -> u64 {
-        self.count
-    }
-
-    /// max |f − f₀|.
-    pub fn max_absolute(&self) -> f64 {
-        self.max
-    }
-
-    /// max |f/f₀ − 1|; infinite or NaN when f₀ = 0.
-    pub fn max_relative(&self) -> f64 {
-        self.max / self.scale()
-    }
-
-    /// The mean of |f − f₀|.
-    pub fn mean_absolute(&self) -> f64 {
-        self.sum_of_sizes / self.count as f64
-    }
-
-    /// The mean of |f/f₀ − 1|; infinite or NaN when f₀ = 0.
-    pub fn mean_relative(&self) -> f64 {
-        self.mean_absolute() / self.scale()
-    }
-
-    /// The mean of f.
-    pub fn mean(&self) -> f64 {
-        self.start.to_f64() + self.sum / self.count as f64
-    }
-
-    /// |f₀|.
-    fn scale(&self) -> f64 {
-        Real::abs(self.start.to_f64())
-    }
-}
-
 /// Fails to compile over packs of lanes: what an observer makes of one trajectory would be that of lane 0.
 #[inline(always)]
 pub(crate) fn one_trajectory<T: Real>() {
@@ -447,176 +380,5 @@ pub(crate) fn one_trajectory<T: Real>() {
             "this observer follows one trajectory, and a pack holds several: an `Ensemble` has an observer \
              for each of its members"
         );
-    }
-}
-
-/// The drift of H, see [`Deviation`]; in another time, `dt = g*ds`, that of the declared H.
-///
-/// For a system that depends on time H is no invariant, and this is no error.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct EnergyDrift<T = f64> {
-    drift: Option<Deviation<T>>,
-}
-
-impl<T: Real> EnergyDrift<T> {
-    /// An observer that has seen nothing.
-    pub fn new() -> Self {
-        EnergyDrift { drift: None }
-    }
-
-    /// The extremes seen; `None` before it is attached.
-    pub fn drift(&self) -> Option<&Deviation<T>> {
-        self.drift.as_ref()
-    }
-
-    /// max |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
-    pub fn max_relative(&self) -> f64 {
-        self.drift
-            .as_ref()
-            .map_or(f64::NAN, Deviation::max_relative)
-    }
-
-    /// The mean of |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
-    pub fn mean_relative(&self) -> f64 {
-        self.drift
-            .as_ref()
-            .map_or(f64::NAN, Deviation::mean_relative)
-    }
-
-    /// The mean of H; NaN before it is attached.
-    pub fn mean(&self) -> f64 {
-        self.drift.as_ref().map_or(f64::NAN, Deviation::mean)
-    }
-}
-
-impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
-    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        one_trajectory::<T>();
-        self.drift = None;
-        <Self as Observer<T, S>>::observe(self, view)
-    }
-    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        let energy = view.energy();
-        self.drift
-            .get_or_insert_with(|| Deviation::new(energy))
-            .record(energy);
-        ControlFlow::Continue(())
-    }
-    fn save(&self, to: &mut Memory) {
-        to.begin("EnergyDrift");
-        to.count(u64::from(self.drift.is_some()));
-        if let Some(drift) = &self.drift {
-            drift.save(to);
-        }
-    }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
-        with.drift(Quantity::Energy, &mut self.drift);
-        true
-    }
-    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
-        from.expect("EnergyDrift")?;
-        self.drift = match from.read_count()? {
-            0 => None,
-            _ => Some(Deviation::restored(from)?),
-        };
-        Ok(())
-    }
-}
-
-/// The drift of every observable of the system: its monitors, invariants and events.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Monitors<T = f64> {
-    monitors: Vec<Monitor<T>>,
-}
-
-/// One line of [`Monitors`].
-#[derive(Debug, Clone, PartialEq)]
-pub struct Monitor<T> {
-    /// The declared name, with the component in brackets for vectors.
-    pub name: &'static str,
-    /// Its declaration.
-    pub kind: ObservableKind,
-    /// The extremes seen.
-    pub drift: Deviation<T>,
-}
-
-impl<T: Real> Monitors<T> {
-    /// An observer that has seen nothing.
-    pub fn new() -> Self {
-        Monitors {
-            monitors: Vec::new(),
-        }
-    }
-
-    /// All observables in declaration order; empty before it is attached.
-    pub fn all(&self) -> &[Monitor<T>] {
-        &self.monitors
-    }
-
-    /// The drift of the observable of that name.
-    pub fn get(&self, name: &str) -> Option<&Deviation<T>> {
-        self.monitors
-            .iter()
-            .find(|monitor| monitor.name == name)
-            .map(|monitor| &monitor.drift)
-    }
-}
-
-impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
-    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        one_trajectory::<T>();
-        self.monitors = (0..)
-            .zip(S::OBSERVABLES)
-            .map(|(index, observable)| Monitor {
-                name: observable.name,
-                kind: observable.kind,
-                drift: Deviation::new(view.observable(index)),
-            })
-            .collect();
-        <Self as Observer<T, S>>::observe(self, view)
-    }
-    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
-        for (index, monitor) in self.monitors.iter_mut().enumerate() {
-            monitor.drift.record(view.observable(index));
-        }
-        ControlFlow::Continue(())
-    }
-    fn save(&self, to: &mut Memory) {
-        to.begin("Monitors");
-        to.count(self.monitors.len() as u64);
-        for monitor in &self.monitors {
-            monitor.drift.save(to);
-        }
-    }
-    fn follow(&mut self, with: &mut Follower<T>) -> bool {
-        for (index, observable) in S::OBSERVABLES.iter().enumerate() {
-            let mut drift = self.monitors.get(index).map(|one| one.drift.clone());
-            with.drift(Quantity::Observable(index), &mut drift);
-            let Some(drift) = drift else { continue };
-            match self.monitors.get_mut(index) {
-                Some(monitor) => monitor.drift = drift,
-                None => self.monitors.push(Monitor {
-                    name: observable.name,
-                    kind: observable.kind,
-                    drift,
-                }),
-            }
-        }
-        true
-    }
-    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
-        from.expect("Monitors")?;
-        let count = from.read_count()?;
-        self.monitors = (S::OBSERVABLES.iter())
-            .take(usize::try_from(count).unwrap_or(usize::MAX))
-            .map(|observable| {
-                Ok(Monitor {
-                    name: observable.name,
-                    kind: observable.kind,
-                    drift: Deviation::restored(from)?,
-                })
-            })
-            .collect::<Result<_, Error>>()?;
-        Ok(())
     }
 }

@@ -4,12 +4,13 @@
 //! bits of a lane depend on that lane alone, and are those of [`Map::run`] however steps are cut into
 //! blocks.
 
+use super::marks::Marks;
 use crate::map::Map;
-use crate::observe::Tracker;
+use crate::observe::{Tracker, Watcher};
 use crate::state::{Carried, State};
 use crate::system::System;
 use crate::vector::Vector;
-use hamiltonian_lanes::{KernelAt, Level, Real};
+use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
 
 /// Times of lanes that began at different steps: `start + (k + ahead)·interval`.
 #[derive(Debug, Clone, Copy)]
@@ -65,6 +66,10 @@ impl<U: Real> Apart<U> {
 pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) prepared: &'a S::Prepared,
     pub(crate) trackers: &'a mut [Tracker<U>],
+    /// The functions whose sign is followed: the first state is then after one step, the next after another.
+    pub(crate) watchers: &'a mut [Watcher<U>],
+    /// The lanes whose observers follow signs.
+    pub(crate) watched: U::Mask,
     /// Scratch for the state that is seen.
     pub(crate) state: &'a mut State<S::Vector>,
     /// The steps to the first state that a lane sees.
@@ -75,6 +80,40 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) apart: Option<Apart<U>>,
     /// The lanes that see their first state at the end of this block, of no steps.
     pub(crate) attach: Option<U::Mask>,
+}
+
+impl<U: Real, S: System<U>> Followed<'_, U, S> {
+    /// Follows the state after step `k`, with what is carried then. Returns whether the block should end.
+    #[inline(always)]
+    fn see<C: Carried<Scalar = U>>(
+        &mut self,
+        k: u64,
+        carried: &C,
+        marks: &mut Marks<C, U::Mask>,
+    ) -> bool {
+        let due = match (&mut self.apart, self.attach) {
+            (Some(apart), None) => Some(apart.due(self.interval)),
+            _ => None,
+        };
+        for tracker in self.trackers.iter_mut() {
+            let value = tracker.quantity.at::<U, S>(self.prepared, self.state);
+            match self.attach {
+                Some(lanes) => tracker.begin(lanes, value),
+                None => tracker.record(due, value),
+            }
+        }
+        if self.watchers.is_empty() || self.attach.is_some() {
+            return false;
+        }
+        marks.add(carried);
+        let mut loud = U::Mask::splat(false);
+        for watcher in self.watchers.iter_mut() {
+            let value = watcher.quantity.at::<U, S>(self.prepared, self.state);
+            loud = loud | watcher.is_loud(value);
+        }
+        loud = loud & self.watched;
+        loud.any() && marks.mark(k, loud)
+    }
 }
 
 /// The block.
@@ -89,6 +128,7 @@ pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: Sy
     pub(crate) shown: &'a mut R::Carried,
     pub(crate) work: &'a mut R::Work,
     pub(crate) followed: Followed<'a, U, S>,
+    pub(crate) marks: &'a mut Marks<R::Carried, U::Mask>,
 }
 
 impl<L, R, U, S> KernelAt<L> for Block<'_, R, U, S>
@@ -98,8 +138,9 @@ where
     U: Real,
     S: System<U>,
 {
-    /// The lanes in which everything is finite.
-    type Output = U::Mask;
+    /// The lanes in which everything is finite, and the steps since the count of times began: fewer than `n`
+    /// were made where too many are marked.
+    type Output = (U::Mask, u64);
 
     #[inline(always)]
     fn run(self) -> Self::Output {
@@ -113,9 +154,11 @@ where
             shown,
             work,
             mut followed,
+            marks,
         } = self;
-        let end = made + n;
-        let follows = !followed.trackers.is_empty();
+        let mut end = made + n;
+        let watches = !followed.watchers.is_empty();
+        let follows = watches || !followed.trackers.is_empty();
         // Moved out, the carried value is a variable of this loop alone and stays in registers.
         let mut z = carried.take();
         let mut k = made;
@@ -124,7 +167,8 @@ where
             _ if follows => end.min(made.saturating_add(followed.first)),
             _ => end,
         };
-        let is_due = |k: u64| (k - made) % followed.interval == followed.first % followed.interval;
+        let (first, interval) = (followed.first, followed.interval);
+        let is_due = |k: u64| (k - made) % interval == first % interval;
         // Each piece occurs once, which keeps the code of a level small.
         loop {
             let t = times.at(k);
@@ -140,18 +184,8 @@ where
                 }
                 if follows && (followed.attach.is_some() || (n > 0 && is_due(k))) {
                     see(shown, t, followed.state);
-                    let due = match (&mut followed.apart, followed.attach) {
-                        (Some(apart), None) => Some(apart.due(followed.interval)),
-                        _ => None,
-                    };
-                    for tracker in followed.trackers.iter_mut() {
-                        let value = tracker
-                            .quantity
-                            .at::<U, S>(followed.prepared, followed.state);
-                        match followed.attach {
-                            Some(lanes) => tracker.begin(lanes, value),
-                            None => tracker.record(due, value),
-                        }
+                    if followed.see(k, &z, marks) {
+                        end = k;
                     }
                 }
                 if k == end {
@@ -177,7 +211,7 @@ where
         *carried = z;
         let t = times.at(end);
         let finite = shown.finite() & carried.finite();
-        finite & shown.time(t).finite()
+        (finite & shown.time(t).finite(), end)
     }
 }
 

@@ -8,8 +8,7 @@ use super::guard::guard;
 use super::seat::{Host, Seat};
 use crate::error::Error;
 use crate::map::Clock;
-use crate::observe::{Follower, Track};
-use crate::observe::{Observer, View};
+use crate::observe::{Follower, Follows, Observer, View};
 use crate::state::State;
 use crate::system::System;
 use crate::vector::Vector;
@@ -178,8 +177,16 @@ pub(crate) struct Going<'a, S: System<f64>, O, F> {
     pub(crate) see: F,
 }
 
+/// The state to which an observer has ended a member: none for the one that it was shown.
+type EndOf<S> = Result<Option<State<<S as System<f64>>::Vector>>, Error>;
+
 /// What an observer makes of a view: whether the member ends, and where.
-pub(crate) type Seen<S> = ControlFlow<Result<Option<State<<S as System<f64>>::Vector>>, Error>>;
+pub(crate) type Seen<S> = ControlFlow<EndOf<S>>;
+
+/// See [`EndOf`].
+pub(crate) fn end_of<S: System<f64>, O: Observer<f64, S>>(observer: &O) -> EndOf<S> {
+    observer.end().map(Option::<&_>::cloned)
+}
 
 impl<S, O, F> Going<'_, S, O, F>
 where
@@ -196,13 +203,31 @@ where
         due.min(self.target)
     }
 
-    /// The drifts that lanes follow for a member: none if they do not follow all that its observer follows.
-    fn tracks(&mut self, key: usize) -> Vec<Track<f64>> {
+    /// Notes where a member has ended. Returns that it does not go on.
+    fn end(&mut self, key: usize, view: &View<'_, f64, S>, end: EndOf<S>) -> bool {
+        let out = match end {
+            Ok(end) => {
+                let end = end.unwrap_or_else(|| view.state.clone());
+                Out::Ended(Box::new(end), view.step)
+            }
+            Err(error) => Out::Failed(error, view.step),
+        };
+        self.chunk.out.insert(key, out);
+        false
+    }
+
+    /// Writes what lanes follow for a member: nothing if they do not follow all that its observer follows.
+    fn follows(&mut self, key: usize, into: &mut Follows<f64>) {
         let observer = &mut self.chunk.observers[key];
-        if !(self.looks && self.follows) {
-            return Vec::new();
+        let can = self.looks && self.follows;
+        Follower::take(into, |with| can && observer.follow(with));
+        // Observers that see their first state have yet to find where functions come from.
+        if self.attaches && !into.sections.is_empty() {
+            *into = Follows::default();
         }
-        Follower::take(|with| observer.follow(with)).unwrap_or_default()
+        if self.attaches {
+            into.drifts.iter_mut().for_each(|track| track.drift = None);
+        }
     }
 }
 
@@ -221,10 +246,12 @@ where
             return false;
         }
         self.next += 1;
-        let mut tracks = self.tracks(key);
-        if self.attaches {
-            tracks.iter_mut().for_each(|track| track.drift = None);
-        }
+        // The storage of the member before is used again.
+        let mut follows = match seat {
+            Some(seat) => core::mem::take(&mut seat.follows),
+            None => Follows::default(),
+        };
+        self.follows(key, &mut follows);
         let (Some(prepared), Some(start), Some(template)) = (
             self.chunk.prepared.get(key),
             self.chunk.starts.get(key),
@@ -234,7 +261,7 @@ where
         };
         let made = self.common.steps;
         let interval = self.chunk.observers[key].interval();
-        let stop = match tracks.is_empty() {
+        let stop = match follows.is_empty() {
             true => self.stop(key, made),
             false => self.target,
         };
@@ -252,7 +279,8 @@ where
                 }
                 seat.words.copy_from_slice(words);
                 (seat.key, seat.clock, seat.made, seat.stop) = (key, clock, made, stop);
-                (seat.tracks, seat.interval, seat.since) = (tracks, interval, made);
+                (seat.follows, seat.interval) = (follows, interval);
+                (seat.since, seat.seen) = (made, made);
             }
             None => {
                 *seat = Some(Seat {
@@ -264,9 +292,10 @@ where
                     made,
                     stop,
                     words: words.into(),
-                    tracks,
+                    follows,
                     interval,
                     since: made,
+                    seen: made,
                     state: template.clone(),
                 });
             }
@@ -274,8 +303,15 @@ where
         true
     }
 
-    fn arrive(&mut self, key: usize, stop: &mut u64, view: &View<'_, f64, S>) -> bool {
-        if !self.tracks(key).is_empty() {
+    fn arrive(
+        &mut self,
+        key: usize,
+        stop: &mut u64,
+        follows: &mut Follows<f64>,
+        view: &View<'_, f64, S>,
+    ) -> bool {
+        // Lanes have followed it to its target.
+        if !follows.is_empty() {
             return false;
         }
         let observer = &mut self.chunk.observers[key];
@@ -285,21 +321,27 @@ where
                 *stop = self.stop(key, view.step);
                 view.step < self.target
             }
-            Ok(ControlFlow::Break(Ok(end))) => {
-                let end = end.unwrap_or_else(|| view.state.clone());
-                (self.chunk.out).insert(key, Out::Ended(Box::new(end), view.step));
-                false
-            }
-            Ok(ControlFlow::Break(Err(error))) | Err(error) => {
-                self.chunk.out.insert(key, Out::Failed(error, view.step));
-                false
-            }
+            Ok(ControlFlow::Break(end)) => self.end(key, view, end),
+            Err(error) => self.end(key, view, Err(error)),
         }
     }
 
-    fn follow(&mut self, key: usize, tracks: &[Track<f64>]) {
+    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, quiet: bool) -> bool {
         let observer = &mut self.chunk.observers[key];
-        Follower::give(tracks.into(), |with| observer.follow(with));
+        let passed = guard(|| match observer.pass(view, quiet) {
+            ControlFlow::Continue(()) => ControlFlow::Continue(()),
+            ControlFlow::Break(()) => ControlFlow::Break(end_of(observer)),
+        });
+        match passed {
+            Ok(ControlFlow::Continue(())) => true,
+            Ok(ControlFlow::Break(end)) => self.end(key, view, end),
+            Err(error) => self.end(key, view, Err(error)),
+        }
+    }
+
+    fn follow(&mut self, key: usize, follows: &mut Follows<f64>) {
+        let observer = &mut self.chunk.observers[key];
+        Follower::give(follows, |with| observer.follow(with));
     }
 
     fn phase(&self) -> u64 {
@@ -332,5 +374,5 @@ pub(crate) fn observe<S: System<f64>, O: Observer<f64, S>>(
     if !is_due || observer.observe(view).is_continue() {
         return ControlFlow::Continue(());
     }
-    ControlFlow::Break(observer.end().map(Option::<&_>::cloned))
+    ControlFlow::Break(end_of(observer))
 }

@@ -207,25 +207,28 @@ impl<T: Real, S: System<T>> Crew<T, S> {
 
     /// The steps between two states that the first member sees which is followed.
     fn interval(&self) -> u64 {
-        let followed = self.under().find(|seat| !seat.tracks.is_empty());
+        let followed = self.under().find(|seat| !seat.follows.drifts.is_empty());
         followed.map_or(1, |seat| seat.interval.max(1))
     }
 
     /// The steps since the last of them.
     fn phase(&self) -> u64 {
-        let followed = self.under().find(|seat| !seat.tracks.is_empty());
+        let followed = self.under().find(|seat| !seat.follows.drifts.is_empty());
         followed.map_or(0, |seat| seat.made % seat.interval.max(1))
     }
 
     /// The steps at which the lanes see states.
     pub(crate) fn schedule(&self) -> Schedule {
         let (interval, first) = (self.interval(), self.interval() - self.phase());
-        let followed = || self.under().filter(|seat| !seat.tracks.is_empty());
+        let followed = || self.under().filter(|seat| !seat.follows.drifts.is_empty());
         let ahead = |seat: &Seat<T, S>| {
             let interval = seat.interval.max(1);
             [interval - seat.made % interval, interval]
         };
-        if followed().all(|seat| ahead(seat) == [first, interval]) {
+        // Signs are followed from step to step.
+        let watches = self.under().any(|seat| !seat.follows.sections.is_empty());
+        let is_due = !watches || (first, interval) == (1, 1);
+        if is_due && followed().all(|seat| ahead(seat) == [first, interval]) {
             return Schedule {
                 first,
                 interval,
@@ -233,12 +236,12 @@ impl<T: Real, S: System<T>> Crew<T, S> {
             };
         }
         let mut lanes = [(); 2].map(|()| alloc::vec![0; self.place.len()]);
-        let mut common = 0;
+        let mut common = u64::from(watches);
         for (lane, (seat, place)) in self.seats.iter().zip(&self.place).enumerate() {
             let Some(seat) = seat.as_ref().filter(|_| *place == Place::Under) else {
                 continue;
             };
-            if seat.tracks.is_empty() || seat.interval >= NEVER {
+            if seat.follows.drifts.is_empty() || seat.interval >= NEVER {
                 continue;
             }
             for (lanes, steps) in lanes.iter_mut().zip(ahead(seat)) {
@@ -257,7 +260,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
     /// Notes that drifts have begun.
     pub(crate) fn attached(&mut self) {
         for seat in self.seats.iter_mut().flatten() {
-            for track in &mut seat.tracks {
+            for track in &mut seat.follows.drifts {
                 track.drift.get_or_insert_with(|| Deviation {
                     count: 1,
                     ..Deviation::new(T::zero())
@@ -272,7 +275,8 @@ impl<T: Real, S: System<T>> Crew<T, S> {
             let Some(seat) = seat.as_mut().filter(|_| *place == Place::Under) else {
                 continue;
             };
-            let Some(Some(drift)) = seat.tracks.get_mut(k).map(|track| &mut track.drift) else {
+            let Some(Some(drift)) = seat.follows.drifts.get_mut(k).map(|track| &mut track.drift)
+            else {
                 continue;
             };
             drift.start = lanes[0][lane];
@@ -332,6 +336,30 @@ impl<T: Real, S: System<T>> Crew<T, S> {
                 *place = Place::Leaving;
             }
         }
+    }
+
+    /// Whether a member at its stop after `n` more steps has an observer of signs.
+    pub(crate) fn is_any_watched_due(&self, n: u64) -> bool {
+        let mut due = self.under().filter(|seat| seat.made + n == seat.stop);
+        due.any(|seat| !seat.follows.sections.is_empty())
+    }
+
+    /// Calls a function with each member under way whose observer follows signs, which returns whether it
+    /// goes on.
+    pub(crate) fn for_each_watched(&mut self, mut of: impl FnMut(usize, &mut Seat<T, S>) -> bool) {
+        for (lane, (seat, place)) in self.seats.iter_mut().zip(&mut self.place).enumerate() {
+            let under = seat.as_mut().filter(|_| *place == Place::Under);
+            if let Some(seat) = under.filter(|seat| !seat.follows.sections.is_empty())
+                && !of(lane, seat)
+            {
+                *place = Place::Leaving;
+            }
+        }
+    }
+
+    /// Notes that something other is followed for a member.
+    pub(crate) fn follows_other(&mut self) {
+        self.change.get_or_insert_default();
     }
 
     /// Whether a member leaves.

@@ -4,20 +4,21 @@
 //! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
 //! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
 
+mod alone;
+mod watching;
+
+use self::alone::{arrivals, explain};
 use super::block::{Apart, Block, Followed, Opening, Times};
 use super::crew::Crew;
+use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
-use crate::error::Error;
-use crate::failed::Failed;
 use crate::flow::Scratch;
 use crate::gather::{self, Gather, VectorOver};
-use crate::integrator::{Part, Recipe};
 use crate::map::{Map, Step};
-use crate::observe::Tracker;
-use crate::observe::View;
+use crate::observe::{Section, Tracker, Watcher};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
-use crate::system::{System, clock};
+use crate::system::System;
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -64,10 +65,18 @@ where
             };
             lanes.before.copy_from(&lanes.carried);
             lanes.trackers_before.clone_from(&lanes.trackers);
+            let watches = !lanes.watchers.is_empty();
+            if watches {
+                lanes.watchers_before.clone_from(&lanes.watchers);
+                lanes.marks.last(&mut lanes.three);
+                lanes.marks.steps.clear();
+            }
             let schedule = crew.schedule();
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
                 trackers: &mut lanes.trackers,
+                watchers: &mut lanes.watchers,
+                watched: lanes.watched,
                 state: &mut lanes.state,
                 first: schedule.first,
                 interval: schedule.interval,
@@ -77,7 +86,7 @@ where
                 }),
                 attach,
             };
-            let finite = L::enter_at(Block {
+            let (finite, end) = L::enter_at(Block {
                 map: &lanes.map,
                 times: lanes.times,
                 made: lanes.made,
@@ -87,7 +96,9 @@ where
                 shown: &mut lanes.shown,
                 work: &mut lanes.work,
                 followed,
+                marks: &mut lanes.marks,
             });
+            let n = end - lanes.made;
             if n > 0 {
                 lanes.opening = Opening::Join;
             }
@@ -95,7 +106,10 @@ where
                 crew.attached();
             }
             if !finite.all() {
-                lanes.part_with(self, finite, &mut crew, host);
+                lanes.part_with::<L>(self, finite, &mut crew, host);
+            }
+            if watches {
+                lanes.show_marks::<L>(self, n, &mut crew, host);
             }
             crew.made(n);
             lanes.made += n;
@@ -130,6 +144,19 @@ where
     /// The drifts that are followed, and those at the beginning of the block.
     trackers: Vec<Tracker<T::Over<P>>>,
     trackers_before: Vec<Tracker<T::Over<P>>>,
+    /// The functions whose sign is followed, and those at the beginning of the block.
+    watchers: Vec<Watcher<T::Over<P>>>,
+    watchers_before: Vec<Watcher<T::Over<P>>>,
+    /// The same functions over the members' scalar.
+    functions: Vec<Section<T>>,
+    /// The lanes whose observers follow signs.
+    watched: <T::Over<P> as Real>::Mask,
+    marks: Marks<<MapIn<T, S, P, M> as Map>::Carried, <T::Over<P> as Real>::Mask>,
+    /// The carried values after the three steps before the block.
+    three: Three<<MapIn<T, S, P, M> as Map>::Carried>,
+    /// Scratch for the states that are shown on the way.
+    passing: <MapIn<T, S, P, M> as Map>::Carried,
+    passing_rows: Vec<T>,
     /// Scratch for the state that is followed.
     state: State<<S as System<T::Over<P>>>::Vector>,
     /// The lanes whose drift begins at their present state.
@@ -172,6 +199,14 @@ where
             map: Scheme::<T::Over<P>, S>::prepare(scheme, &prepared, Step::of(h)),
             work: Scratch::like(&carried),
             before: carried.clone(),
+            marks: Marks::new(&carried),
+            three: [carried.clone(), carried.clone(), carried.clone()],
+            watchers: Vec::new(),
+            watchers_before: Vec::new(),
+            functions: Vec::new(),
+            passing: carried.clone(),
+            passing_rows: Vec::new(),
+            watched: Mask::splat(false),
             shown: carried.clone(),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
             carried,
@@ -198,6 +233,8 @@ where
         let Some(changed) = crew.changed() else {
             return;
         };
+        self.write_sections(&self.watchers, crew);
+        store::<T, P, _>(&self.carried, P::LANES as usize, &mut self.rows);
         crew.write_columns(&mut self.rows);
         let seats = crew.seats();
         let steps = each(&seats, |seat| seat.step);
@@ -212,6 +249,8 @@ where
         }
         load::<T, P, _>(&self.rows, P::LANES as usize, &mut self.carried);
         self.track(&seats);
+        self.watch(&seats);
+        self.marks.replace(&self.carried);
         self.made = 0;
         let made = T::gather::<P>(&each(&seats, |seat| count(seat.made)));
         self.times = Times {
@@ -231,14 +270,14 @@ where
     fn track(&mut self, seats: &[&Seat<T, S>]) {
         self.trackers.clear();
         // The first that is followed stands for all: others are seen at their stops.
-        let Some(first) = seats.iter().find(|seat| !seat.tracks.is_empty()) else {
+        let Some(first) = seats.iter().find(|seat| !seat.follows.drifts.is_empty()) else {
             return;
         };
         let mut begins = vec![T::zero(); seats.len()];
-        for (k, track) in first.tracks.iter().enumerate() {
+        for (k, track) in first.follows.drifts.iter().enumerate() {
             let mut lanes = [(); 4].map(|()| vec![T::zero(); seats.len()]);
             for (lane, seat) in seats.iter().enumerate() {
-                let Some(track) = seat.tracks.get(k) else {
+                let Some(track) = seat.follows.drifts.get(k) else {
                     continue;
                 };
                 let Some(drift) = &track.drift else {
@@ -281,7 +320,7 @@ where
     /// that was one step, as failed.
     #[cold]
     #[inline(never)]
-    fn part_with(
+    fn part_with<L: Level>(
         &mut self,
         scheme: &M,
         finite: <T::Over<P> as Real>::Mask,
@@ -297,12 +336,12 @@ where
         let mut times = vec![T::default(); lanes];
         T::scatter::<P>(self.shown.time(self.times.at(self.made + 1)), &mut times);
         Self::write_tracks(&self.trackers_before, crew);
-        let mut bad = Vec::new();
-        for lane in 0..P::LANES {
-            if !finite.lane(lane) {
-                bad.push(lane as usize);
-            }
+        let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
+        if !self.watchers.is_empty() {
+            self.write_sections(&self.watchers_before, crew);
+            self.show::<L>(scheme, self.made, (true, &bad), crew, host);
         }
+        let bad = (0..lanes).filter(|lane| bad[*lane]);
         let size = self.shown.point().q.len();
         for lane in bad {
             let column = |rows: &[T], c: usize| rows[c * lanes + lane];
@@ -335,8 +374,8 @@ where
         }
         if !self.trackers.is_empty() {
             crew.for_each_due(|_, seat| {
-                if !seat.tracks.is_empty() {
-                    host.follow(seat.key, &seat.tracks);
+                if !seat.follows.drifts.is_empty() {
+                    host.follow(seat.key, &mut seat.follows);
                 }
                 true
             });
@@ -365,65 +404,6 @@ where
             crew.leave(&self.rows, host);
         }
     }
-}
-
-/// Shows the members at their stops to the host. This is code over the members' scalar: once for all packs.
-#[inline(never)]
-fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
-    scheme: &M,
-    crew: &mut Crew<T, S>,
-    host: &mut dyn Host<T, S>,
-    durations: Option<&[T]>,
-) {
-    let recipe: &dyn Recipe<T, S, M::Map> = scheme;
-    crew.for_each_due(|lane, seat| {
-        let part = Part {
-            prepared: &seat.prepared,
-            recipe,
-            state: &seat.state,
-            step: seat.step,
-            clock: seat.clock,
-            duration: durations.map(|durations| durations[lane]),
-        };
-        let view = View {
-            step: seat.made,
-            state: &seat.state,
-            prepared: &seat.prepared,
-            between: &part,
-        };
-        host.arrive(seat.key, &mut seat.stop, &view)
-    });
-}
-
-/// Why a member's next step is not finite: the step is made again alone, over its own scalar. `point` is
-/// the state after it, `reached` its time.
-#[inline(never)]
-fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
-    scheme: &M,
-    seat: &Seat<T, S>,
-    point: &[f64],
-    reached: f64,
-) -> Error {
-    let mut carried = scheme.start(&seat.prepared, &seat.state, seat.step);
-    for (c, word) in seat.words.iter().enumerate() {
-        *carried.component_mut(c) = *word;
-    }
-    let map = scheme.prepare(&seat.prepared, Step::of(seat.step));
-    let mut work = Scratch::like(&carried);
-    let (begin, end) = (seat.clock.at(seat.made), seat.clock.at(seat.made + 1));
-    let first = seat.made == 0;
-    let cause = map.explain(begin, end, first, &mut carried, &mut work);
-    let (q, p) = point.split_at(point.len() / 2);
-    let failed = Failed {
-        step: seat.made + 1,
-        lane: None,
-        clock: clock::<T, S>(),
-        begin: begin.to_f64(),
-        end: reached,
-        q: q.into(),
-        p: p.into(),
-    };
-    failed.because(cause)
 }
 
 /// A number of each lane.

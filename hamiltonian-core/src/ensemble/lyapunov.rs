@@ -13,7 +13,7 @@ use super::threads;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
-use crate::observe::{Track, View};
+use crate::observe::{Follows, View};
 use crate::state::State;
 use crate::system::System;
 use crate::tangent::{check_deviations, gram_schmidt, lifted, towards};
@@ -404,9 +404,10 @@ where
                         made: self.made,
                         stop: self.target,
                         words: words.clone(),
-                        tracks: Vec::new(),
+                        follows: Follows::default(),
                         interval: u64::MAX,
                         since: self.made,
+                        seen: self.made,
                         state: state.clone(),
                     });
                 }
@@ -415,7 +416,13 @@ where
         }
     }
 
-    fn arrive(&mut self, key: usize, _: &mut u64, view: &View<'_, D, S>) -> bool {
+    fn arrive(
+        &mut self,
+        key: usize,
+        _: &mut u64,
+        _: &mut Follows<D>,
+        view: &View<'_, D, S>,
+    ) -> bool {
         let deviation = key % self.deviations;
         let member = &mut self.members[key / self.deviations];
         let State { t, q, p } = view.state;
@@ -429,7 +436,11 @@ where
         false
     }
 
-    fn follow(&mut self, _: usize, _: &[Track<D>]) {}
+    fn pass(&mut self, _: usize, _: &View<'_, D, S>, _: bool) -> bool {
+        true
+    }
+
+    fn follow(&mut self, _: usize, _: &mut Follows<D>) {}
 
     fn phase(&self) -> u64 {
         0

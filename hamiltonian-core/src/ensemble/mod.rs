@@ -5,7 +5,8 @@
 //! bit of a member.
 //!
 //! The modules follow the data: a member at its seat ([`seat`]), the crew of a pack ([`crew`]), a block of
-//! steps ([`block`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
+//! steps ([`block`]), the steps that observers of signs must see
+//! ([`marks`], [`close`]), the drive of members to their ends in one pack type ([`drive`]), the bound that
 //! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`],
 //! [`until`]), and members that leave a
 //! record ([`sweep`], [`sweep::running`],
@@ -14,11 +15,13 @@
 mod block;
 mod bound;
 mod chunk;
+mod close;
 mod crew;
 mod drive;
 mod guard;
 pub(crate) mod hash;
 mod lyapunov;
+mod marks;
 mod ordered;
 mod record;
 mod saved;

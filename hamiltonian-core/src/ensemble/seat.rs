@@ -6,8 +6,7 @@
 
 use crate::error::Error;
 use crate::map::Clock;
-use crate::observe::Track;
-use crate::observe::View;
+use crate::observe::{Follows, View};
 use crate::state::State;
 use crate::system::System;
 use alloc::vec::Vec;
@@ -31,12 +30,14 @@ pub struct Seat<T: Real, S: System<T>> {
     pub(crate) stop: u64,
     /// All that the scheme carries: on loading, and when it leaves.
     pub(crate) words: Vec<T>,
-    /// The drifts that lanes follow for its observer: up to date when it leaves and at its stops.
-    pub(crate) tracks: Vec<Track<T>>,
-    /// The number of steps between two states that it follows.
+    /// All that lanes follow for its observer. Drifts are up to date when it leaves and at its stops.
+    pub(crate) follows: Follows<T>,
+    /// The number of steps between two states whose drift it follows.
     pub(crate) interval: u64,
-    /// The number of steps made when `tracks` were up to date.
+    /// The number of steps made when the drifts were up to date.
     pub(crate) since: u64,
+    /// The number of steps made when its observer last saw a state, if lanes follow signs for it.
+    pub(crate) seen: u64,
     /// The start on loading; the state on arrival.
     pub(crate) state: State<S::Vector>,
 }
@@ -45,10 +46,20 @@ pub struct Seat<T: Real, S: System<T>> {
 pub trait Host<T: Real, S: System<T>> {
     /// Puts the next member into a seat, which may hold one that has left. Returns false if there is none.
     fn load(&mut self, seat: &mut Option<Seat<T, S>>) -> bool;
-    /// Receives a member's state at its stop. Returns whether the member stays, with its stop moved on.
-    fn arrive(&mut self, key: usize, stop: &mut u64, view: &View<'_, T, S>) -> bool;
+    /// Receives a member's state at its stop. Returns whether the member stays, with its stop moved on. Lanes
+    /// follow from now on what is in `follows`.
+    fn arrive(
+        &mut self,
+        key: usize,
+        stop: &mut u64,
+        follows: &mut Follows<T>,
+        view: &View<'_, T, S>,
+    ) -> bool;
+    /// Shows the observer of a member a state on the way to its stop, see
+    /// [`Observer::pass`](crate::Observer::pass). Returns whether the member goes on.
+    fn pass(&mut self, key: usize, view: &View<'_, T, S>, quiet: bool) -> bool;
     /// Takes the drifts of a member at its stop.
-    fn follow(&mut self, key: usize, tracks: &[Track<T>]);
+    fn follow(&mut self, key: usize, follows: &mut Follows<T>);
     /// The number of steps that members which are followed have made when they are loaded.
     fn phase(&self) -> u64;
     /// Takes back what a member carries when it leaves.

@@ -4,7 +4,7 @@
 
 use super::Member;
 use super::bound::{Engine, Ensembles};
-use super::chunk::{Chunk, ChunkOf, Common, Going, Out, Seen, observe};
+use super::chunk::{Chunk, ChunkOf, Common, Going, Out, Seen, end_of, observe};
 use super::guard::guard;
 use super::threads;
 use crate::checkpoint::Memory;
@@ -184,7 +184,7 @@ impl<S: System<f64>> Ensemble<S> {
         }
         observed.drive(now, true, |_, observer, view| match observer.attach(view) {
             ControlFlow::Continue(()) => ControlFlow::Continue(()),
-            ControlFlow::Break(()) => ControlFlow::Break(observer.end().map(Option::<&_>::cloned)),
+            ControlFlow::Break(()) => ControlFlow::Break(end_of(observer)),
         });
         observed
     }

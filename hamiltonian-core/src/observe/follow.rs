@@ -1,36 +1,13 @@
 //! What observers follow that lanes can follow for them.
 //!
-//! Input: observers. Output: the quantities whose drift they follow, and back the drift. Invariant: an
-//! observer that lanes follow sees what it would see state by state, in the arithmetic of the lanes.
+//! Input: observers. Output: the quantities whose drift or sign they follow, and back the drift. Invariant:
+//! an observer that lanes follow sees what it would see state by state, in the arithmetic of the lanes.
 
-use crate::observe::Deviation;
-use crate::state::State;
-use crate::system::{Dynamics, System, declared_energy};
+use super::deviation::Deviation;
+use super::quantity::Quantity;
+use super::section::Section;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
-
-/// A function of the state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
-    /// H, as it was declared.
-    Energy,
-    /// The observable of that index.
-    Observable(usize),
-}
-
-impl Quantity {
-    #[inline(always)]
-    pub(crate) fn at<T: Real, S: System<T>>(
-        self,
-        prepared: &S::Prepared,
-        state: &State<S::Vector>,
-    ) -> T {
-        match self {
-            Quantity::Energy => declared_energy::<T, S>(prepared, state),
-            Quantity::Observable(index) => prepared.observable(index, state.t, &state.q, &state.p),
-        }
-    }
-}
 
 /// A quantity of a member, and its drift so far.
 #[derive(Debug, Clone)]
@@ -40,43 +17,90 @@ pub struct Track<T> {
     pub(crate) drift: Option<Deviation<T>>,
 }
 
-/// A visitor of the drifts in an observer, see [`Observer::follow`](crate::Observer::follow).
+/// All that lanes follow for an observer.
+#[derive(Debug, Clone)]
+pub struct Follows<T> {
+    pub(crate) drifts: Vec<Track<T>>,
+    pub(crate) sections: Vec<Section<T>>,
+}
+
+impl<T> Default for Follows<T> {
+    fn default() -> Self {
+        Follows {
+            drifts: Vec::new(),
+            sections: Vec::new(),
+        }
+    }
+}
+
+impl<T> Follows<T> {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.drifts.is_empty() && self.sections.is_empty()
+    }
+}
+
+/// A visitor of what an observer follows, see [`Observer::follow`](crate::Observer::follow).
 #[derive(Debug)]
 pub struct Follower<T> {
-    tracks: Vec<Track<T>>,
-    /// The track that is given back next; none while they are taken.
+    follows: Follows<T>,
+    /// The drift that is given back next; none while they are taken.
     back: Option<usize>,
 }
 
 impl<T: Real> Follower<T> {
-    /// Takes all drifts of an observer; `None` if it follows anything else.
-    pub(crate) fn take(follow: impl FnOnce(&mut Self) -> bool) -> Option<Vec<Track<T>>> {
+    /// Takes all that an observer follows, if lanes can follow it: nothing otherwise. The storage of `into` is
+    /// used again.
+    pub(crate) fn take(into: &mut Follows<T>, follow: impl FnOnce(&mut Self) -> bool) {
+        let mut follows = core::mem::take(into);
+        follows.drifts.clear();
+        follows.sections.clear();
         let mut follower = Follower {
-            tracks: Vec::new(),
+            follows,
             back: None,
         };
-        follow(&mut follower).then_some(follower.tracks)
+        let is_all = follow(&mut follower);
+        let Follows { drifts, sections } = &mut follower.follows;
+        // Lanes go on for some steps after an event that ends a member, and drifts would too.
+        let outlive = !drifts.is_empty() && sections.iter().any(|section| section.ends);
+        if !is_all || outlive {
+            drifts.clear();
+            sections.clear();
+        }
+        *into = follower.follows;
     }
 
     /// Gives the drifts back.
-    pub(crate) fn give(tracks: Vec<Track<T>>, follow: impl FnOnce(&mut Self) -> bool) {
+    pub(crate) fn give(follows: &mut Follows<T>, follow: impl FnOnce(&mut Self) -> bool) {
         let mut follower = Follower {
-            tracks,
+            follows: core::mem::take(follows),
             back: Some(0),
         };
         follow(&mut follower);
+        *follows = follower.follows;
+    }
+
+    /// Visits a function whose sign is followed.
+    pub(crate) fn section(&mut self, section: Section<T>) {
+        if self.back.is_none() {
+            self.follows.sections.push(section);
+        }
+    }
+
+    /// Whether signs are followed.
+    pub(crate) fn has_sections(&self) -> bool {
+        !self.follows.sections.is_empty()
     }
 
     /// Visits a drift.
     pub(crate) fn drift(&mut self, quantity: Quantity, drift: &mut Option<Deviation<T>>) {
         match &mut self.back {
             Some(index) => {
-                if let Some(track) = self.tracks.get(*index) {
+                if let Some(track) = self.follows.drifts.get(*index) {
                     drift.clone_from(&track.drift);
                 }
                 *index += 1;
             }
-            None => self.tracks.push(Track {
+            None => self.follows.drifts.push(Track {
                 quantity,
                 drift: drift.clone(),
             }),

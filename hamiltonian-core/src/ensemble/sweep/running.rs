@@ -12,8 +12,7 @@ use crate::ensemble::seat::{Host, Seat};
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::map::Clock;
-use crate::observe::{Follower, Track};
-use crate::observe::{Observer, View};
+use crate::observe::{Follower, Follows, Observer, View};
 use crate::state::State;
 use crate::system::{System, clock};
 use alloc::boxed::Box;
@@ -145,10 +144,18 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         // An observer that sees nothing need not be attached.
         let looks = under.observer.interval() < u64::MAX;
         let interval = under.observer.interval();
-        let followed = Follower::take(|with| under.observer.follow(with));
-        let mut tracks = followed.unwrap_or_default();
-        tracks.iter_mut().for_each(|track| track.drift = None);
-        under.is_followed = !tracks.is_empty();
+        // The storage of the member before is used again.
+        let mut follows = match seat {
+            Some(seat) => core::mem::take(&mut seat.follows),
+            None => Follows::default(),
+        };
+        Follower::take(&mut follows, |with| under.observer.follow(with));
+        // Observers of signs have yet to find where functions come from.
+        if !follows.sections.is_empty() {
+            follows = Follows::default();
+        }
+        (follows.drifts.iter_mut()).for_each(|track| track.drift = None);
+        under.is_followed = !follows.is_empty();
         under.is_attached = !looks || under.is_followed;
         let stop = if under.is_attached {
             self.stop(&under, 0)
@@ -163,7 +170,8 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
                 seat.state = start;
                 (seat.key, seat.clock, seat.step) = (key, clock, step);
                 (seat.made, seat.stop) = (0, stop);
-                (seat.tracks, seat.interval, seat.since) = (tracks, interval, 0);
+                (seat.follows, seat.interval) = (follows, interval);
+                (seat.since, seat.seen) = (0, 0);
             }
             None => {
                 *seat = Some(Seat {
@@ -175,9 +183,10 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
                     made: 0,
                     stop,
                     words: self.words.clone(),
-                    tracks,
+                    follows,
                     interval,
                     since: 0,
+                    seen: 0,
                     state: start,
                 });
             }
@@ -294,6 +303,31 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         (self.sweep.record.write)(&end, &mut under.values);
     }
 
+    /// Notes where a member has ended, and whether its observer did that. Returns that it does not go on.
+    fn end(
+        &mut self,
+        key: usize,
+        under: &Under<O>,
+        view: &View<'_, f64, S>,
+        end: Result<(State<S::Vector>, bool), Error>,
+    ) -> bool {
+        let values = &under.values;
+        match end {
+            Ok((state, stopped)) => {
+                let status = match stopped {
+                    true => Status::Stopped,
+                    false => Status::Ended,
+                };
+                self.finish(key, status, state.t, view.step, values, None);
+            }
+            Err(error) => {
+                let status = Status::of(&error, true);
+                self.finish(key, status, view.state.t, view.step, values, Some(error));
+            }
+        }
+        false
+    }
+
     /// Notes the end of a member.
     fn finish(
         &mut self,
@@ -347,7 +381,13 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
         false
     }
 
-    fn arrive(&mut self, key: usize, stop: &mut u64, view: &View<'_, f64, S>) -> bool {
+    fn arrive(
+        &mut self,
+        key: usize,
+        stop: &mut u64,
+        follows: &mut Follows<f64>,
+        view: &View<'_, f64, S>,
+    ) -> bool {
         let Some(mut under) = self.under[key].take() else {
             return false;
         };
@@ -360,37 +400,44 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
         });
         match seen.and_then(|seen| seen) {
             Ok(ControlFlow::Continue(())) => {
+                if !under.is_followed && view.step == 0 {
+                    Follower::take(follows, |with| under.observer.follow(with));
+                    under.is_followed = !follows.is_empty();
+                }
                 *stop = self.stop(&under, view.step);
                 self.under[key] = Some(under);
                 true
             }
-            Ok(ControlFlow::Break((state, stopped))) => {
-                let status = if stopped {
-                    Status::Stopped
-                } else {
-                    Status::Ended
-                };
-                self.finish(key, status, state.t, view.step, &under.values, None);
-                false
-            }
-            Err(error) => {
-                let status = Status::of(&error, true);
-                self.finish(
-                    key,
-                    status,
-                    view.state.t,
-                    view.step,
-                    &under.values,
-                    Some(error),
-                );
-                false
-            }
+            Ok(ControlFlow::Break(end)) => self.end(key, &under, view, Ok(end)),
+            Err(error) => self.end(key, &under, view, Err(error)),
         }
     }
 
-    fn follow(&mut self, key: usize, tracks: &[Track<f64>]) {
+    fn pass(&mut self, key: usize, view: &View<'_, f64, S>, quiet: bool) -> bool {
+        let Some(mut under) = self.under[key].take() else {
+            return false;
+        };
+        let passed = guard(|| match under.observer.pass(view, quiet) {
+            ControlFlow::Continue(()) => Ok(None),
+            ControlFlow::Break(()) => {
+                let end = under.observer.end()?.unwrap_or(view.state).clone();
+                self.write(&mut under, view, &end, true);
+                Ok(Some((end, true)))
+            }
+        });
+        match passed.and_then(|passed| passed) {
+            Ok(None) => {
+                self.under[key] = Some(under);
+                true
+            }
+            Ok(Some(end)) => self.end(key, &under, view, Ok(end)),
+            Err(error) => self.end(key, &under, view, Err(error)),
+        }
+    }
+
+    fn follow(&mut self, key: usize, follows: &mut Follows<f64>) {
         if let Some(under) = &mut self.under[key] {
-            Follower::give(tracks.into(), |with| under.observer.follow(with));
+            Follower::give(follows, |with| under.observer.follow(with));
         }
     }
 

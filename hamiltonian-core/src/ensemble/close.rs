@@ -1,0 +1,57 @@
+//! States of lanes in rows, out of line.
+//!
+//! Input: what lanes carry. Output: the states that it shows, closed. Invariant: what is carried stays.
+
+use super::block::Times;
+use crate::flow::Scratch;
+use crate::map::Map;
+use crate::state::{Carried, Point};
+use crate::vector::Vector;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
+
+/// Closes a copy of what is carried and writes it to rows of lanes: coordinates, momenta, the time, the
+/// duration of a step.
+pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
+    pub(crate) map: &'a R,
+    pub(crate) times: Times<T::Over<P>>,
+    /// Steps since the count of times began; before it where this is negative.
+    pub(crate) made: u64,
+    pub(crate) carried: &'a R::Carried,
+    pub(crate) shown: &'a mut R::Carried,
+    pub(crate) rows: &'a mut Vec<T>,
+}
+
+impl<L, R, T, P> KernelAt<L> for Close<'_, R, T, P>
+where
+    L: Level,
+    R: Map<Carried: Carried<Scalar = T::Over<P>>>,
+    T: Real,
+    P: Pack,
+{
+    /// Whether the duration of a step is carried.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        let lanes = P::LANES as usize;
+        let t = self.times.at(self.made);
+        self.shown.copy_from(self.carried);
+        let mut work = R::Work::like(self.carried);
+        self.map.close(t, self.shown, &mut work);
+        let Point { q, p } = self.shown.point();
+        self.rows.resize((2 * q.len() + 2) * lanes, T::zero());
+        let mut rows = self.rows.chunks_exact_mut(lanes);
+        for vector in [q, p] {
+            for (c, row) in (0..vector.len()).zip(&mut rows) {
+                T::scatter::<P>(vector.component(c), row);
+            }
+        }
+        let duration = self.carried.duration(self.times.interval);
+        let last = [Some(self.shown.time(t)), duration];
+        for (number, row) in last.into_iter().flatten().zip(rows) {
+            T::scatter::<P>(number, row);
+        }
+        duration.is_some()
+    }
+}

@@ -1,0 +1,145 @@
+//! What is rare in the drive of members: over their own scalar, and so once for all packs.
+//!
+//! Input: numbers of the lanes. Output: members that have seen states, causes of failures. Invariant: nothing
+//! here depends on the level.
+
+use crate::ensemble::crew::Crew;
+use crate::ensemble::seat::{Host, Seat};
+use crate::error::Error;
+use crate::failed::Failed;
+use crate::flow::Scratch;
+use crate::integrator::{Part, Recipe};
+use crate::map::{Map, Step};
+use crate::observe::View;
+use crate::scheme::Scheme;
+use crate::state::State;
+use crate::system::{System, clock};
+use crate::vector::Vector;
+use hamiltonian_lanes::Real;
+
+/// Shows the members at their stops to the host. This is code over the members' scalar: once for all packs.
+#[inline(never)]
+pub(super) fn arrivals<T: Real, S: System<T>, M: Scheme<T, S>>(
+    scheme: &M,
+    crew: &mut Crew<T, S>,
+    host: &mut dyn Host<T, S>,
+    durations: Option<&[T]>,
+) {
+    let recipe: &dyn Recipe<T, S, M::Map> = scheme;
+    let mut follows_other = false;
+    crew.for_each_due(|lane, seat| {
+        let part = Part {
+            prepared: &seat.prepared,
+            recipe,
+            state: &seat.state,
+            step: seat.step,
+            clock: seat.clock,
+            duration: durations.map(|durations| durations[lane]),
+        };
+        let view = View {
+            step: seat.made,
+            state: &seat.state,
+            prepared: &seat.prepared,
+            between: &part,
+        };
+        let follows = !seat.follows.is_empty();
+        let stays = host.arrive(seat.key, &mut seat.stop, &mut seat.follows, &view);
+        if !follows && !seat.follows.is_empty() {
+            (seat.since, seat.seen) = (seat.made, seat.made);
+            follows_other = true;
+        }
+        stays
+    });
+    if follows_other {
+        crew.follows_other();
+    }
+}
+
+/// States of lanes, for observers that follow signs.
+pub(super) struct Passing<'a, T> {
+    /// As [`Close`] writes them.
+    pub(super) rows: &'a [T],
+    pub(super) carries_duration: bool,
+    /// The lanes that are shown them.
+    pub(super) which: &'a [bool],
+    /// The steps since the beginning of the block.
+    pub(super) ahead: u64,
+    /// The steps by which the states are behind.
+    pub(super) back: u64,
+    pub(super) quiet: bool,
+}
+
+impl<T: Real> Passing<'_, T> {
+    /// Shows them. This is code over the members' scalar: once for all packs.
+    #[inline(never)]
+    pub(super) fn show<S: System<T>, M: Scheme<T, S>>(
+        &self,
+        scheme: &M,
+        crew: &mut Crew<T, S>,
+        host: &mut dyn Host<T, S>,
+    ) {
+        let recipe: &dyn Recipe<T, S, M::Map> = scheme;
+        crew.for_each_watched(|lane, seat| {
+            let step = (seat.made + self.ahead).checked_sub(self.back);
+            let Some(step) = step.filter(|step| self.which[lane] && *step > seat.seen) else {
+                return true;
+            };
+            let mut rows = self.rows.chunks_exact(self.which.len());
+            let mut next = || rows.next().map_or(T::zero(), |row| row[lane]);
+            let State { t, q, p } = &mut seat.state;
+            for vector in [q, p] {
+                for c in 0..vector.len() {
+                    *vector.component_mut(c) = next();
+                }
+            }
+            *t = next();
+            seat.seen = step;
+            let part = Part {
+                prepared: &seat.prepared,
+                recipe,
+                state: &seat.state,
+                step: seat.step,
+                clock: seat.clock,
+                duration: self.carries_duration.then(next),
+            };
+            let view = View {
+                step,
+                state: &seat.state,
+                prepared: &seat.prepared,
+                between: &part,
+            };
+            host.pass(seat.key, &view, self.quiet)
+        });
+    }
+}
+
+/// Why a member's next step is not finite: the step is made again alone, over its own scalar. `point` is
+/// the state after it, `reached` its time.
+#[inline(never)]
+pub(super) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
+    scheme: &M,
+    seat: &Seat<T, S>,
+    point: &[f64],
+    reached: f64,
+) -> Error {
+    let mut carried = scheme.start(&seat.prepared, &seat.state, seat.step);
+    for (c, word) in seat.words.iter().enumerate() {
+        *carried.component_mut(c) = *word;
+    }
+    let map = scheme.prepare(&seat.prepared, Step::of(seat.step));
+    let mut work = Scratch::like(&carried);
+    let (begin, end) = (seat.clock.at(seat.made), seat.clock.at(seat.made + 1));
+    let first = seat.made == 0;
+    let cause = map.explain(begin, end, first, &mut carried, &mut work);
+    let (q, p) = point.split_at(point.len() / 2);
+    let failed = Failed {
+        step: seat.made + 1,
+        lane: None,
+        clock: clock::<T, S>(),
+        begin: begin.to_f64(),
+        end: reached,
+        q: q.into(),
+        p: p.into(),
+    };
+    failed.because(cause)
+}

@@ -1,0 +1,146 @@
+//! Signs of functions, followed in lanes.
+//!
+//! Input: the marks of a block. Output: observers that have seen the states at which a sign may have changed,
+//! with the two before. Invariant: they remember what they would remember had they seen every state.
+
+use super::alone::Passing;
+use super::{Lanes, each, store};
+use crate::ensemble::close::Close;
+use crate::ensemble::crew::Crew;
+use crate::ensemble::seat::{Host, Seat};
+use crate::gather::{Gather, VectorOver};
+use crate::observe::{Section, Watcher};
+use crate::scheme::Scheme;
+use crate::system::System;
+use alloc::vec;
+use alloc::vec::Vec;
+use hamiltonian_lanes::{Level, Mask, Pack, Real};
+
+impl<T, S, P, M> Lanes<T, S, P, M>
+where
+    T: Real,
+    P: Pack,
+    S: System<T, Prepared: Gather<T>>
+        + System<
+            T::Over<P>,
+            Vector = VectorOver<<S as System<T>>::Vector, P>,
+            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
+        >,
+    M: Scheme<T, S> + Scheme<T::Over<P>, S>,
+{
+    /// Puts the functions whose sign is followed into lanes: those of any member.
+    #[inline(always)]
+    pub(super) fn watch(&mut self, seats: &[&Seat<T, S>]) {
+        self.watchers.clear();
+        let watched = each(seats, |seat| match seat.follows.sections.is_empty() {
+            true => T::zero(),
+            false => T::one(),
+        });
+        self.watched = T::gather::<P>(&watched).equals(<T::Over<P> as Real>::one());
+        self.functions.clear();
+        for section in seats.iter().flat_map(|seat| &seat.follows.sections) {
+            if !self.functions.iter().any(|other| other.is_of(section)) {
+                self.functions.push(*section);
+            }
+        }
+        for function in &self.functions {
+            let of = |seat: &Seat<T, S>, number: fn(&Section<T>) -> T| {
+                let mut own = seat.follows.sections.iter();
+                let own = own.find(|section| section.is_of(function));
+                own.map_or(T::zero(), number)
+            };
+            let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
+            self.watchers.push(Watcher {
+                quantity: function.quantity,
+                period: function.period.map(|period| T::gather::<P>(&[period])),
+                value: T::gather::<P>(&in_lanes(|section| section.value)),
+                change: T::gather::<P>(&in_lanes(|section| section.change)),
+            });
+        }
+    }
+
+    /// Writes the values of the functions back into the seats.
+    #[inline(always)]
+    pub(super) fn write_sections(&self, watchers: &[Watcher<T::Over<P>>], crew: &mut Crew<T, S>) {
+        let [mut values, mut changes] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
+        for (function, watcher) in self.functions.iter().zip(watchers) {
+            T::scatter::<P>(watcher.value, &mut values);
+            T::scatter::<P>(watcher.change, &mut changes);
+            crew.for_each_watched(|lane, seat| {
+                let mut own = seat.follows.sections.iter_mut();
+                let own = own.find(|section| section.is_of(function));
+                // A member whose observer has only now seen its first state has values of its own.
+                if let Some(section) = own.filter(|_| self.watched.lane(lane as u32)) {
+                    (section.value, section.change) = (values[lane], changes[lane]);
+                }
+                true
+            });
+        }
+    }
+
+    /// Shows the marked steps of a block of `n`, in their order, to the observers that follow signs, and the
+    /// last step to those of members at their stops.
+    #[inline(always)]
+    pub(super) fn show_marks<L: Level>(
+        &mut self,
+        scheme: &M,
+        n: u64,
+        crew: &mut Crew<T, S>,
+        host: &mut dyn Host<T, S>,
+    ) {
+        let steps = core::mem::take(&mut self.marks.steps);
+        for (mark, (step, lanes)) in steps.iter().enumerate() {
+            let which: Vec<bool> = (0..P::LANES).map(|lane| lanes.lane(lane)).collect();
+            self.three.clone_from(self.marks.states(mark));
+            self.show::<L>(scheme, *step, (false, &which), crew, host);
+        }
+        self.marks.steps = steps;
+        if crew.is_any_watched_due(n) {
+            let mut which = vec![false; P::LANES as usize];
+            crew.for_each_watched(|lane, seat| {
+                which[lane] = seat.made + n == seat.stop;
+                true
+            });
+            self.marks.last(&mut self.three);
+            self.show::<L>(scheme, self.made + n, (true, &which), crew, host);
+        }
+    }
+
+    /// Shows the states after a step and the two before, of which `three` has what was carried, to the
+    /// observers of some lanes, as far as they have not seen them. `quiet` is whether nothing happened at the
+    /// last.
+    #[inline(never)]
+    pub(super) fn show<L: Level>(
+        &mut self,
+        scheme: &M,
+        step: u64,
+        (quiet, which): (bool, &[bool]),
+        crew: &mut Crew<T, S>,
+        host: &mut dyn Host<T, S>,
+    ) {
+        let ahead = step - self.made;
+        for (back, carried) in [2, 1, 0].into_iter().zip(&self.three) {
+            let carries_duration = L::enter_at(Close::<'_, _, T, P> {
+                map: &self.map,
+                times: self.times,
+                made: step.wrapping_sub(back),
+                carried,
+                shown: &mut self.passing,
+                rows: &mut self.passing_rows,
+            });
+            let passing = Passing {
+                rows: &self.passing_rows,
+                carries_duration,
+                which,
+                ahead,
+                back,
+                quiet: quiet || back > 0,
+            };
+            passing.show(scheme, crew, host);
+        }
+        if crew.is_any_leaving() {
+            store::<T, P, _>(&self.three[2], P::LANES as usize, &mut self.rows);
+            crew.leave(&self.rows, host);
+        }
+    }
+}

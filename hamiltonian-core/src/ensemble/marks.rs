@@ -1,0 +1,79 @@
+//! Steps of lanes that observers of signs must see.
+//!
+//! Input: what lanes carry, step by step. Output: the steps that are marked, with what was carried then and
+//! after the two steps before. Invariant: the lanes go on past a marked step, so what a member has made of
+//! it, even its end, is known at the end of the block.
+
+use crate::vector::Vector;
+use alloc::vec::Vec;
+
+/// As many marked steps end a block.
+const MOST: usize = 16;
+
+/// What is carried after three steps, the last one last.
+pub(crate) type Three<C> = [C; 3];
+
+/// The marks of a block.
+pub(crate) struct Marks<C, M> {
+    /// What was carried after the last three steps.
+    ring: Three<C>,
+    /// The place of the last of them.
+    turn: usize,
+    /// The steps that are marked, and their lanes.
+    pub(crate) steps: Vec<(u64, M)>,
+    /// What was carried then. There are as many as have ever been of use.
+    states: Vec<Three<C>>,
+}
+
+impl<C: Vector, M> Marks<C, M> {
+    #[inline(always)]
+    pub(crate) fn new(carried: &C) -> Self {
+        Marks {
+            ring: [carried.clone(), carried.clone(), carried.clone()],
+            turn: 0,
+            steps: Vec::new(),
+            states: Vec::new(),
+        }
+    }
+
+    /// Replaces the last carried value: some lanes have new members.
+    #[inline(always)]
+    pub(crate) fn replace(&mut self, carried: &C) {
+        self.ring[self.turn].copy_from(carried);
+    }
+
+    /// Adds what is carried after a step.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, carried: &C) {
+        self.turn = (self.turn + 1) % 3;
+        self.ring[self.turn].copy_from(carried);
+    }
+
+    /// The last three.
+    #[inline(always)]
+    pub(crate) fn last(&self, to: &mut Three<C>) {
+        for (ahead, to) in (1..).zip(to) {
+            to.copy_from(&self.ring[(self.turn + ahead) % 3]);
+        }
+    }
+
+    /// Marks the last step. Returns whether the block should end.
+    #[inline(always)]
+    pub(crate) fn mark(&mut self, step: u64, lanes: M) -> bool {
+        let place = self.steps.len();
+        if place == self.states.len() {
+            self.states.push(self.ring.clone());
+        }
+        for (ahead, to) in (1..).zip(&mut self.states[place]) {
+            to.copy_from(&self.ring[(self.turn + ahead) % 3]);
+        }
+        self.steps.push((step, lanes));
+        self.steps.len() >= MOST
+    }
+
+    /// What was carried at a mark.
+    #[inline(always)]
+    pub(crate) fn states(&self, mark: usize) -> &Three<C> {
+        &self.states[mark]
+    }
+}

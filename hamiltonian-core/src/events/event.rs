@@ -1,0 +1,151 @@
+//! An event: a function of the state, and which of its roots count.
+//!
+//! Input: a name, or a closure. Output: an [`Event`], and differences of its values.
+
+use crate::state::State;
+use crate::vector::Vector;
+use alloc::borrow::ToOwned;
+use alloc::format;
+use alloc::string::String;
+use alloc::sync::Arc;
+use core::fmt;
+use hamiltonian_lanes::Real;
+
+/// A function of the state whose roots a run locates, see [`Events`].
+///
+/// Both directions count and the run goes on, unless it is told otherwise:
+///
+/// ```
+/// use hamiltonian::nalgebra::SVector;
+/// use hamiltonian::prelude::*;
+///
+/// type Plane = State<SVector<f64, 2>>;
+/// let section = Event::named("meridian").rising();
+/// let ground = Event::of("ground", |state: &Plane| state.q[1]).falling().ending();
+/// let node = Event::of("node", |state: &Plane| state.q[0] - 0.5).modulo(std::f64::consts::TAU);
+/// # let _: [Event<SVector<f64, 2>>; 3] = [section, ground, node];
+/// ```
+pub struct Event<V: Vector> {
+    pub(super) name: String,
+    pub(super) function: Option<Function<V>>,
+    /// The sign of the slope that is asked for; 0 for both.
+    pub(super) slope: i8,
+    pub(super) period: Option<V::Scalar>,
+    pub(super) ends_after: Option<u64>,
+}
+
+type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
+
+impl<V: Vector> Event<V> {
+    /// The event that the system declares under that name, or a monitor or an invariant of it.
+    pub fn named(name: &str) -> Self {
+        Event {
+            name: name.to_owned(),
+            function: None,
+            slope: 0,
+            period: None,
+            ends_after: None,
+        }
+    }
+
+    /// The roots of a function of the state, under a name of yours.
+    pub fn of(
+        name: &str,
+        function: impl Fn(&State<V>) -> V::Scalar + Send + Sync + 'static,
+    ) -> Self {
+        Event {
+            function: Some(Arc::new(function)),
+            ..Event::named(name)
+        }
+    }
+
+    /// Only where the function grows, in the direction of the run.
+    #[must_use]
+    pub fn rising(self) -> Self {
+        Event { slope: 1, ..self }
+    }
+
+    /// Only where the function falls, in the direction of the run.
+    #[must_use]
+    pub fn falling(self) -> Self {
+        Event { slope: -1, ..self }
+    }
+
+    /// The function is a multiple of `period`, which is positive: for angles, that grow or jump by
+    /// 2π. In a step it changes by less than half a period.
+    #[must_use]
+    pub fn modulo(self, period: V::Scalar) -> Self {
+        Event {
+            period: Some(period),
+            ..self
+        }
+    }
+
+    /// Ends the run where it happens for the first time.
+    #[must_use]
+    pub fn ending(self) -> Self {
+        self.ending_after(1)
+    }
+
+    /// Ends the run where it has happened `count` times.
+    #[must_use]
+    pub fn ending_after(self, count: u64) -> Self {
+        Event {
+            ends_after: Some(count),
+            ..self
+        }
+    }
+
+    /// Its name and the roots that count: a saved run goes on with the same alone. Where it ends the run may be
+    /// changed.
+    pub(super) fn text(&self) -> String {
+        let direction = match self.slope {
+            0 => "",
+            1.. => ", rising",
+            _ => ", falling",
+        };
+        let period = self.period.map(|period| format!(", modulo {period:?}"));
+        format!("{}{direction}{}", self.name, period.unwrap_or_default())
+    }
+
+    /// The difference of two values, or of a value and 0, to the nearest of what is the same.
+    pub(super) fn difference(&self, value: V::Scalar) -> V::Scalar {
+        let Some(period) = self.period else {
+            return value;
+        };
+        let turns = (value / period).to_f64();
+        let below = turns as i64 as f64;
+        // Halves go away from 0.
+        let turns = (2.0 * (turns - below)) as i64 as f64 + below;
+        value - V::Scalar::constant(turns, 0.0) * period
+    }
+
+    /// A value, counted on from the one before.
+    pub(super) fn counted(&self, from: V::Scalar, value: V::Scalar) -> V::Scalar {
+        match self.period {
+            None => value,
+            Some(_) => from + self.difference(value - from),
+        }
+    }
+}
+
+impl<V: Vector> Clone for Event<V> {
+    fn clone(&self) -> Self {
+        Event {
+            name: self.name.clone(),
+            function: self.function.clone(),
+            ..*self
+        }
+    }
+}
+
+impl<V: Vector> fmt::Debug for Event<V> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Event")
+            .field("name", &self.name)
+            .field("slope", &self.slope)
+            .field("period", &self.period)
+            .field("ends_after", &self.ends_after)
+            .finish_non_exhaustive()
+    }
+}

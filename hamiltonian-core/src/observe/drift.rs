@@ -1,0 +1,186 @@
+//! The drift of functions of the state.
+//!
+//! Input: states of a run. Output: the extremes and means of H ([`EnergyDrift`]) and of the observables
+//! ([`Monitors`]). Invariant: nothing of a run is kept but sums.
+
+use super::deviation::Deviation;
+use super::follow::Follower;
+use super::quantity::Quantity;
+use super::{Observer, View, one_trajectory};
+use crate::checkpoint::Memory;
+use crate::error::Error;
+use crate::system::{ObservableKind, System};
+use alloc::vec::Vec;
+use core::ops::ControlFlow;
+use hamiltonian_lanes::Real;
+
+/// The drift of H, see [`Deviation`]; in another time, `dt = g*ds`, that of the declared H.
+///
+/// For a system that depends on time H is no invariant, and this is no error.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct EnergyDrift<T = f64> {
+    drift: Option<Deviation<T>>,
+}
+
+impl<T: Real> EnergyDrift<T> {
+    /// An observer that has seen nothing.
+    pub fn new() -> Self {
+        EnergyDrift { drift: None }
+    }
+
+    /// The extremes seen; `None` before it is attached.
+    pub fn drift(&self) -> Option<&Deviation<T>> {
+        self.drift.as_ref()
+    }
+
+    /// max |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    pub fn max_relative(&self) -> f64 {
+        self.drift
+            .as_ref()
+            .map_or(f64::NAN, Deviation::max_relative)
+    }
+
+    /// The mean of |ΔH/H₀|; NaN before it is attached and where H₀ = 0.
+    pub fn mean_relative(&self) -> f64 {
+        self.drift
+            .as_ref()
+            .map_or(f64::NAN, Deviation::mean_relative)
+    }
+
+    /// The mean of H; NaN before it is attached.
+    pub fn mean(&self) -> f64 {
+        self.drift.as_ref().map_or(f64::NAN, Deviation::mean)
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for EnergyDrift<T> {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
+        self.drift = None;
+        <Self as Observer<T, S>>::observe(self, view)
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        let energy = view.energy();
+        self.drift
+            .get_or_insert_with(|| Deviation::new(energy))
+            .record(energy);
+        ControlFlow::Continue(())
+    }
+    fn save(&self, to: &mut Memory) {
+        to.begin("EnergyDrift");
+        to.count(u64::from(self.drift.is_some()));
+        if let Some(drift) = &self.drift {
+            drift.save(to);
+        }
+    }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        with.drift(Quantity::Energy, &mut self.drift);
+        true
+    }
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+        from.expect("EnergyDrift")?;
+        self.drift = match from.read_count()? {
+            0 => None,
+            _ => Some(Deviation::restored(from)?),
+        };
+        Ok(())
+    }
+}
+
+/// The drift of every observable of the system: its monitors, invariants and events.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Monitors<T = f64> {
+    monitors: Vec<Monitor<T>>,
+}
+
+/// One line of [`Monitors`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Monitor<T> {
+    /// The declared name, with the component in brackets for vectors.
+    pub name: &'static str,
+    /// Its declaration.
+    pub kind: ObservableKind,
+    /// The extremes seen.
+    pub drift: Deviation<T>,
+}
+
+impl<T: Real> Monitors<T> {
+    /// An observer that has seen nothing.
+    pub fn new() -> Self {
+        Monitors {
+            monitors: Vec::new(),
+        }
+    }
+
+    /// All observables in declaration order; empty before it is attached.
+    pub fn all(&self) -> &[Monitor<T>] {
+        &self.monitors
+    }
+
+    /// The drift of the observable of that name.
+    pub fn get(&self, name: &str) -> Option<&Deviation<T>> {
+        self.monitors
+            .iter()
+            .find(|monitor| monitor.name == name)
+            .map(|monitor| &monitor.drift)
+    }
+}
+
+impl<T: Real, S: System<T>> Observer<T, S> for Monitors<T> {
+    fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
+        self.monitors = (0..)
+            .zip(S::OBSERVABLES)
+            .map(|(index, observable)| Monitor {
+                name: observable.name,
+                kind: observable.kind,
+                drift: Deviation::new(view.observable(index)),
+            })
+            .collect();
+        <Self as Observer<T, S>>::observe(self, view)
+    }
+    fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        for (index, monitor) in self.monitors.iter_mut().enumerate() {
+            monitor.drift.record(view.observable(index));
+        }
+        ControlFlow::Continue(())
+    }
+    fn save(&self, to: &mut Memory) {
+        to.begin("Monitors");
+        to.count(self.monitors.len() as u64);
+        for monitor in &self.monitors {
+            monitor.drift.save(to);
+        }
+    }
+    fn follow(&mut self, with: &mut Follower<T>) -> bool {
+        for (index, observable) in S::OBSERVABLES.iter().enumerate() {
+            let mut drift = self.monitors.get(index).map(|one| one.drift.clone());
+            with.drift(Quantity::Observable(index), &mut drift);
+            let Some(drift) = drift else { continue };
+            match self.monitors.get_mut(index) {
+                Some(monitor) => monitor.drift = drift,
+                None => self.monitors.push(Monitor {
+                    name: observable.name,
+                    kind: observable.kind,
+                    drift,
+                }),
+            }
+        }
+        true
+    }
+    fn restore(&mut self, _: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
+        from.expect("Monitors")?;
+        let count = from.read_count()?;
+        self.monitors = (S::OBSERVABLES.iter())
+            .take(usize::try_from(count).unwrap_or(usize::MAX))
+            .map(|observable| {
+                Ok(Monitor {
+                    name: observable.name,
+                    kind: observable.kind,
+                    drift: Deviation::restored(from)?,
+                })
+            })
+            .collect::<Result<_, Error>>()?;
+        Ok(())
+    }
+}

@@ -1,0 +1,89 @@
+//! Changes of sign, found in lanes.
+//!
+//! Input: the values of a function after each step, lane by lane. Output: the lanes in which its sign may
+//! have changed, so that [`Events`](crate::Events) must see the step. Invariant: the step of a lane that is
+//! not found is one at which the observer would find nothing, and after which it remembers two values alone.
+
+use super::quantity::Quantity;
+use hamiltonian_lanes::{Mask, Real};
+
+/// A function whose sign an observer follows, with its values after the last two steps.
+#[derive(Debug, Clone, Copy)]
+pub struct Section<T> {
+    pub(crate) quantity: Quantity,
+    /// The function is 0 at all multiples of it.
+    pub(crate) period: Option<T>,
+    /// The value after the last step.
+    pub(crate) value: T,
+    /// Its change in that step.
+    pub(crate) change: T,
+    /// Whether it may end the run.
+    pub(crate) ends: bool,
+}
+
+impl<T: Real> Section<T> {
+    /// Whether another section is of the same function.
+    pub(crate) fn is_of(&self, other: &Self) -> bool {
+        let is_same_period = match (self.period, other.period) {
+            (Some(one), Some(other)) => one.equals(other).all(),
+            (one, other) => one.is_none() && other.is_none(),
+        };
+        self.quantity == other.quantity && is_same_period
+    }
+}
+
+/// A function in lanes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Watcher<U> {
+    pub(crate) quantity: Quantity,
+    pub(crate) period: Option<U>,
+    pub(crate) value: U,
+    pub(crate) change: U,
+}
+
+/// `x` to the nearest multiple of 1 below 2⁵¹: sums of this size have no digits after the point.
+#[inline(always)]
+fn nearest<U: Real>(x: U) -> U {
+    let large = U::constant(6_755_399_441_055_744.0, 0.0);
+    (x + large) - large
+}
+
+impl<U: Real> Watcher<U> {
+    /// Goes on to the values after the next step. Returns the lanes in which something can have happened.
+    ///
+    /// An observer evaluates the function once more without fused products. A lane whose value is so small
+    /// against its change that the rounding of either might decide the sign is loud, at this step and at the
+    /// next.
+    #[inline(always)]
+    pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
+        let (value, counted) = match self.period {
+            None => (value, value),
+            Some(period) => {
+                let value = value - nearest(value / period) * period;
+                let change = value - self.value;
+                (
+                    value,
+                    self.value + (change - nearest(change / period) * period),
+                )
+            }
+        };
+        let (from, changed) = (self.value, self.change);
+        let change = counted - from;
+        self.value = value;
+        self.change = change;
+        // from·counted is above a small part of the square of the change.
+        let least = U::constant(1.0 / 1_048_576.0, 0.0);
+        let product = change.fma(from, from * from);
+        let is_steady = (least * change).fma(-change, product);
+        let steady = U::zero().lt(is_steady);
+        // As in `Events`, times the value before; the factor allows for rounding.
+        let fell = changed * U::constant(-2.002, 0.0);
+        let is_near = (from * from).lt(from * fell);
+        let loud = !steady | is_near;
+        if !is_near.any() {
+            return loud;
+        }
+        let falls = change * U::constant(-4.0, 0.0);
+        !steady | (is_near & (from * falls).lt(from * fell))
+    }
+}

@@ -1,0 +1,151 @@
+//! Events of members, which lanes follow, are those of single runs.
+
+use super::*;
+use std::f64::consts::TAU;
+
+/// Members that librate and members that turn over.
+fn swinging(member: Member) -> (Pendulum, StateOf<Pendulum>) {
+    let at = part(member.index);
+    let system = Pendulum {
+        l: 1.0 - 0.3 * at,
+        ..Default::default()
+    };
+    (system, State::new([2.0 * at - 1.0], [4.0 * at - 1.5]))
+}
+
+/// What members look for: neighbours look for different functions, from different sides, to different ends.
+fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
+    let bottom = || Event::named("bottom");
+    let count = 1 + member.index as u64 % 5;
+    match member.index % 7 {
+        0 => Events::new([bottom()]),
+        1 => Events::new([bottom().rising()]),
+        2 => Events::new([Event::named("angular").falling(), bottom()]),
+        3 => Events::new([bottom().modulo(TAU), Event::named("angular")]),
+        4 => Events::new([bottom().modulo(1.5).rising().ending_after(count)]),
+        5 => Events::new([Event::named("angular").ending_after(count)]),
+        // A closure is seen member by member.
+        _ => Events::new([Event::of("level", |state: &StateOf<Pendulum>| {
+            state.q[0] - 0.3
+        })]),
+    }
+}
+
+#[test]
+fn events_of_members_are_those_of_single_runs() {
+    at_each_level(|cpu| {
+        // Long steps: functions come near 0 and turn within two of them.
+        for step in [0.03, 0.9, -0.2] {
+            let mut swarm = Ensemble::new(COUNT, swinging, StormerVerlet::default(), step)
+                .expect("there are members")
+                .reproducible()
+                .observe(|member| (sought(member), every(1, Monitors::new())));
+            swarm.advance(400).advance(1).advance(1100);
+            let mut found = 0;
+            let ends = swarm.observers().zip(swarm.states());
+            for (index, ((events, monitors), end)) in
+                ends.map(|((o, m), e)| ((o, m), e)).enumerate()
+            {
+                let member = Member::new(index, 0);
+                let (system, start) = swinging(member);
+                let mut run = Integrator::new(&system, StormerVerlet::default(), start, step)
+                    .expect("a good start")
+                    .observe((sought(member), every(1, Monitors::new())));
+                run.advance(1501).expect("finite");
+                let place = format!("{cpu:?}, step {step}, member {index}");
+                assert_eq!(events.located(), run.observer().0.located(), "{place}");
+                assert_eq!(monitors.inner, run.observer().1.inner, "{place}");
+                assert_eq!(bits(&end.expect("finite")), bits(run.state()), "{place}");
+                assert_eq!(swarm.steps_of(index), Some(run.steps()), "{place}");
+                found += events.located().len();
+            }
+            assert!(found > 1_000, "{found} events");
+        }
+    });
+}
+
+#[test]
+fn neighbours_of_events_change_no_bit() {
+    let sweep = || {
+        Sweep::new(COUNT, swinging, BlanesMoan4::default(), 0.05)
+            .until_each(|member| 20.0 + 30.0 * part(member.index))
+            .observe(sought)
+            .rows(["event", "t", "q", "p"], |end| {
+                let located = end.observer.located().iter().map(|located| {
+                    let State { t, q, p } = &located.state;
+                    [located.event as f64, *t, q[0], p[0]]
+                });
+                let State { t, q, p } = end.state;
+                located.chain([[-1.0, *t, q[0], p[0]]]).collect::<Vec<_>>()
+            })
+    };
+    at_each_level(|cpu| {
+        let all = rows(&sweep());
+        let stopped = all.iter().filter(|row| row.1 == Status::Stopped).count();
+        assert!(all.len() > 2_000 && stopped > 50, "{} {stopped}", all.len());
+        for chunk in [1, 7] {
+            assert_eq!(all, rows(&sweep().chunk(chunk)), "{cpu:?}");
+        }
+        assert_eq!(all, rows(&sweep().threads(2).chunk(20)), "{cpu:?}");
+    });
+}
+
+hamiltonian! {
+    /// A particle that falls past a mark into a hole, where its potential ends.
+    pub struct Marked { k = 1.0 }
+    H(q; p) = p^2/2 + k*sqrt(q);
+    event mark = q - 0.3
+}
+
+#[test]
+fn events_before_a_failure_are_found_once() {
+    // Every third falls past the mark; every sixth ends there, before it would fail.
+    let falls = |member: Member| {
+        let q = if member.index.is_multiple_of(3) {
+            0.5
+        } else {
+            90.0
+        };
+        (
+            Marked::default(),
+            State::new([q + 0.1 * part(member.index)], [0.0]),
+        )
+    };
+    let marks = |member: Member| {
+        let mark = Event::named("mark");
+        Events::new([if member.index.is_multiple_of(6) {
+            mark.ending()
+        } else {
+            mark
+        }])
+    };
+    at_each_level(|cpu| {
+        let mut swarm = Ensemble::new(COUNT, falls, StormerVerlet::default(), 0.01)
+            .expect("there are members")
+            .reproducible()
+            .observe(marks);
+        swarm.advance(900);
+        for (index, (events, end)) in swarm.observers().zip(swarm.states()).enumerate() {
+            let (system, start) = falls(Member::new(index, 0));
+            let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.01)
+                .expect("a good start")
+                .observe(marks(Member::new(index, 0)));
+            let expected = run.advance(900).cloned();
+            let place = format!("{cpu:?}, member {index}");
+            assert_eq!(events.located(), run.observer().located(), "{place}");
+            assert_eq!(
+                events.located().len(),
+                usize::from(index.is_multiple_of(3)),
+                "{place}"
+            );
+            assert_eq!(end.is_err(), index % 6 == 3, "{place}");
+            match (end, expected) {
+                (Ok(end), Ok(expected)) => assert_eq!(bits(&end), bits(&expected), "{place}"),
+                (Err(Error::Member { error, .. }), Err(expected)) => {
+                    assert_eq!(error.to_string(), expected.to_string(), "{place}");
+                }
+                (end, expected) => panic!("{place}: {end:?}, alone {expected:?}"),
+            }
+        }
+    });
+}

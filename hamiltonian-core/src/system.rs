@@ -320,8 +320,18 @@ pub(crate) fn declared_energy<T: Real, S: System<T>>(
     prepared: &S::Prepared,
     state: &State<S::Vector>,
 ) -> T {
-    let State { t, q, p } = state;
-    let energy = prepared.energy(*t, q, p);
+    declared_energy_at::<T, S>(prepared, state.t, &state.q, &state.p)
+}
+
+/// See [`declared_energy`].
+#[inline(always)]
+pub(crate) fn declared_energy_at<T: Real, S: System<T>>(
+    prepared: &S::Prepared,
+    t: T,
+    q: &S::Vector,
+    p: &S::Vector,
+) -> T {
+    let energy = prepared.energy(t, q, p);
     let Some(last) = p.len().checked_sub(1) else {
         return energy;
     };
@@ -329,7 +339,7 @@ pub(crate) fn declared_energy<T: Real, S: System<T>>(
         return energy;
     }
     let mut velocities = p.zeros_like();
-    prepared.gradient_p(*t, q, p, &mut velocities);
+    prepared.gradient_p(t, q, p, &mut velocities);
     energy / velocities.component(last) - p.component(last)
 }
 

@@ -7,7 +7,7 @@
 use super::marks::Marks;
 use crate::map::Map;
 use crate::observe::{Tracker, Watcher};
-use crate::state::{Carried, State};
+use crate::state::Carried;
 use crate::system::System;
 use crate::vector::Vector;
 use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
@@ -70,8 +70,6 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) watchers: &'a mut [Watcher<U>],
     /// The lanes whose observers follow signs.
     pub(crate) watched: U::Mask,
-    /// Scratch for the state that is seen.
-    pub(crate) state: &'a mut State<S::Vector>,
     /// The steps to the first state that a lane sees.
     pub(crate) first: u64,
     /// The steps between two of them.
@@ -83,20 +81,23 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
 }
 
 impl<U: Real, S: System<U>> Followed<'_, U, S> {
-    /// Follows the state after step `k`, with what is carried then. Returns whether the block should end.
+    /// Follows the state after step `k`, where the clock stands at `t`, with what is carried then. Returns
+    /// whether the block should end.
     #[inline(always)]
-    fn see<C: Carried<Scalar = U>>(
+    fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
-        k: u64,
+        (k, t): (u64, U),
+        shown: &C,
         carried: &C,
         marks: &mut Marks<C, U::Mask>,
     ) -> bool {
+        let (t, point) = (shown.time(t), shown.point());
         let due = match (&mut self.apart, self.attach) {
             (Some(apart), None) => Some(apart.due(self.interval)),
             _ => None,
         };
         for tracker in self.trackers.iter_mut() {
-            let value = tracker.quantity.at::<U, S>(self.prepared, self.state);
+            let value = tracker.quantity.at::<U, S>(self.prepared, t, point);
             match self.attach {
                 Some(lanes) => tracker.begin(lanes, value),
                 None => tracker.record(due, value),
@@ -108,7 +109,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         marks.add(carried);
         let mut loud = U::Mask::splat(false);
         for watcher in self.watchers.iter_mut() {
-            let value = watcher.quantity.at::<U, S>(self.prepared, self.state);
+            let value = watcher.quantity.at::<U, S>(self.prepared, t, point);
             loud = loud | watcher.is_loud(value);
         }
         loud = loud & self.watched;
@@ -182,11 +183,9 @@ where
                 if let Opening::Mixed(fresh) = opens {
                     shown.copy_where(fresh, &z);
                 }
-                if follows && (followed.attach.is_some() || (n > 0 && is_due(k))) {
-                    see(shown, t, followed.state);
-                    if followed.see(k, &z, marks) {
-                        end = k;
-                    }
+                let sees = follows && (followed.attach.is_some() || (n > 0 && is_due(k)));
+                if sees && followed.see((k, t), shown, &z, marks) {
+                    end = k;
                 }
                 if k == end {
                     break;
@@ -213,13 +212,4 @@ where
         let finite = shown.finite() & carried.finite();
         (finite & shown.time(t).finite(), end)
     }
-}
-
-/// Writes the state that a closed value shows.
-#[inline(always)]
-fn see<C: Carried>(shown: &C, t: C::Scalar, state: &mut State<C::Vector>) {
-    let point = shown.point();
-    state.q.copy_from(&point.q);
-    state.p.copy_from(&point.p);
-    state.t = shown.time(t);
 }

@@ -77,7 +77,6 @@ where
                 trackers: &mut lanes.trackers,
                 watchers: &mut lanes.watchers,
                 watched: lanes.watched,
-                state: &mut lanes.state,
                 first: schedule.first,
                 interval: schedule.interval,
                 apart: schedule.apart.map(|[left, interval]| Apart {
@@ -157,8 +156,6 @@ where
     /// Scratch for the states that are shown on the way.
     passing: <MapIn<T, S, P, M> as Map>::Carried,
     passing_rows: Vec<T>,
-    /// Scratch for the state that is followed.
-    state: State<<S as System<T::Over<P>>>::Vector>,
     /// The lanes whose drift begins at their present state.
     attach: Option<<T::Over<P> as Real>::Mask>,
     /// The step of each lane for which the map is made.
@@ -217,7 +214,6 @@ where
             },
             opening: Opening::Open,
             prepared,
-            state,
             trackers: Vec::new(),
             trackers_before: Vec::new(),
             attach: None,

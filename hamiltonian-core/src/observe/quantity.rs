@@ -2,8 +2,8 @@
 //!
 //! Input: a state. Output: H or an observable there, over any scalar.
 
-use crate::state::State;
-use crate::system::{Dynamics, System, declared_energy};
+use crate::state::Point;
+use crate::system::{Dynamics, System, declared_energy_at};
 use hamiltonian_lanes::Real;
 
 /// A function of the state.
@@ -20,11 +20,13 @@ impl Quantity {
     pub(crate) fn at<T: Real, S: System<T>>(
         self,
         prepared: &S::Prepared,
-        state: &State<S::Vector>,
+        t: T,
+        point: &Point<S::Vector>,
     ) -> T {
+        let Point { q, p } = point;
         match self {
-            Quantity::Energy => declared_energy::<T, S>(prepared, state),
-            Quantity::Observable(index) => prepared.observable(index, state.t, &state.q, &state.p),
+            Quantity::Energy => declared_energy_at::<T, S>(prepared, t, q, p),
+            Quantity::Observable(index) => prepared.observable(index, t, q, p),
         }
     }
 }

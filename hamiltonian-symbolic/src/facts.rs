@@ -13,13 +13,18 @@
 //!
 //! Invariant: a flag is set only by a rule that holds at all such points.
 
+mod domain;
+mod leaves;
+mod pairs;
+
+pub use domain::conditions;
+
 use crate::dag::bounds::is_nonnegative_product;
-use crate::dag::{Array, Dag, Dependence, Kind, Map, Node};
-use crate::index::{Affine, Domain, Index};
-use crate::model::Model;
-use crate::op::{At, Break, Domain as Values, Far, Op, Range};
-use crate::print;
+use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::op::{At, Break, Far, Op, Range};
 use crate::rational::Rational;
+use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
+use pairs::{difference, is_pair};
 
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -511,12 +516,6 @@ impl Facts {
     }
 }
 
-/// A coordinate, a momentum, the time.
-fn is_moving_leaf(dag: &Dag, node: Node) -> bool {
-    let is_leaf = matches!(dag.kind(node), Kind::Element(..) | Kind::Time);
-    is_leaf && dag.dependence(node).on(Dependence::MOVING)
-}
-
 /// Whether a sum or product is certainly ≤ 0.
 fn is_nonpositive(dag: &Dag, node: Node) -> bool {
     match dag.kind(node) {
@@ -533,126 +532,6 @@ fn is_nonpositive(dag: &Dag, node: Node) -> bool {
     }
 }
 
-/// The leaves of which a node is the difference, up to a number, an absolute value and a root.
-fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
-    while let Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) = dag.kind(node) {
-        node = x[0];
-    }
-    let Kind::Sum(c, terms) = dag.kind(node) else {
-        return None;
-    };
-    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..));
-    match terms.as_slice() {
-        [(k, a), (l, b)] if c.is_zero() && *k == l.neg() && is_leaf(*a) && is_leaf(*b) => {
-            Some((*a.min(b), *a.max(b)))
-        }
-        _ => None,
-    }
-}
-
-/// Whether two leaves are elements of one array at the variables of two loops, one of which stays
-/// below the other: no two iterations have the same pair.
-fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
-    let variable = |leaf: Node| match dag.kind(leaf) {
-        Kind::Element(array, row, None) => match row.affine.loops.as_slice() {
-            [(domain, 1)] if *row == Index::plain(Affine::variable(*domain)) => {
-                Some((*array, *domain))
-            }
-            _ => None,
-        },
-        _ => None,
-    };
-    let (Some((one, i)), Some((other, j))) = (variable(a), variable(b)) else {
-        return false;
-    };
-    let is_below = |inner: Domain, outer: Domain| dag.range(inner).end == Affine::variable(outer);
-    one == other && (is_below(i, j) || is_below(j, i))
-}
-
-/// Whether a node varies with what moves, whatever the parameters: its zeros are not everything,
-/// but in iterations of loops in which two leaves are the same one and it is 0.
-fn varies(dag: &Dag, node: Node) -> bool {
-    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..) | Kind::Time);
-    match dag.kind(node) {
-        Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
-            varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
-        }),
-        Kind::Call(op, x) => op.row().arguments.len() == 1 && varies(dag, x[0]),
-        // A leaf that one term reads alone.
-        Kind::Sum(_, terms) => terms.iter().enumerate().any(|(at, (_, term))| {
-            let leaves = || dag.reachable(&[*term]).into_iter().filter(|n| is_leaf(*n));
-            let mut others = terms.iter().enumerate().filter(|(other, _)| *other != at);
-            varies(dag, *term)
-                && others.all(|(_, (_, other))| {
-                    let nodes = dag.reachable(&[*other]);
-                    leaves().all(|leaf| nodes.binary_search(&leaf).is_err())
-                })
-        }),
-        _ => is_leaf(node),
-    }
-}
-
-/// Whether one expression is 0 at one value of a coordinate or momentum that the other does not read,
-/// as x + cos t is beside y + sin t: where the other is 0, too, two dimensions are lost.
-fn is_solved_beside(dag: &Dag, one: Node, other: Node) -> bool {
-    let others = moving(dag, other);
-    let is_free = |leaf: Node| {
-        let own = moving(dag, leaf);
-        !own.iter()
-            .any(|own| others.iter().any(|other| may_be_same(*own, *other)))
-    };
-    let mut node = one;
-    while let Kind::Product(_, factors) = dag.kind(node)
-        && let [(factor, 1..)] = factors.as_slice()
-    {
-        node = *factor;
-    }
-    let Kind::Sum(_, terms) = dag.kind(node) else {
-        return false;
-    };
-    terms.iter().enumerate().any(|(at, (_, leaf))| {
-        let reads = |node: Node| dag.reachable(&[node]).binary_search(leaf).is_ok();
-        let mut rest = terms.iter().enumerate().filter(|(other, _)| *other != at);
-        // At the variables of loops, another leaf may be the same element.
-        let is_plain = matches!(dag.kind(*leaf), Kind::Element(Array::Phase(_), ..))
-            && dag.variables(*leaf) == 0;
-        is_plain && is_free(*leaf) && rest.all(|(_, (_, term))| !reads(*term))
-    })
-}
-
-/// A coordinate or momentum: its array, and its row where that is a number. Nothing is the time.
-type Leaf = Option<(Array, Option<i64>)>;
-
-fn may_be_same(a: Leaf, b: Leaf) -> bool {
-    match (a, b) {
-        (None, None) => true,
-        (Some((a, i)), Some((b, j))) => a == b && (i.is_none() || j.is_none() || i == j),
-        _ => false,
-    }
-}
-
-/// Whether no coordinate or momentum, and not the time, is read by both: their zeros and poles meet
-/// in sets that separate nothing.
-fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
-    let others = moving(dag, b);
-    !moving(dag, a)
-        .iter()
-        .any(|a| others.iter().any(|b| may_be_same(*a, *b)))
-}
-
-/// The coordinates, momenta and time in a node.
-fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
-    let leaf = |node: Node| match dag.kind(node) {
-        Kind::Time => Some(None),
-        Kind::Element(array @ Array::Phase(_), row, _) => Some(Some((*array, row.as_constant()))),
-        _ => None,
-    };
-    dag.reachable(&[node])
-        .into_iter()
-        .filter_map(leaf)
-        .collect()
-}
-
 /// The sides of the comparisons that a condition is made of.
 pub(crate) fn comparisons(dag: &Dag, condition: Node) -> Vec<(Node, Node)> {
     let nodes = dag.reached(&[condition], |node, ahead| {
@@ -665,55 +544,4 @@ pub(crate) fn comparisons(dag: &Dag, condition: Node) -> Vec<(Node, Node)> {
         _ => None,
     });
     sides.collect()
-}
-
-/// The conditions under which expressions have values, as text: "`q - a` is not 0".
-#[must_use]
-pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
-    let dag = &model.dag;
-    let facts = Facts::of(dag, roots, &Given::default());
-    let mut found: Vec<String> = Vec::new();
-    let mut note = |x: Node, is: &str| {
-        let condition = format!("`{}` {is}", print::text(model, x));
-        if dag.dependence(x).on(Dependence::MOVING) && !found.contains(&condition) {
-            found.push(condition);
-        }
-    };
-    for node in dag.reachable(roots) {
-        match dag.kind(node) {
-            Kind::Product(_, factors) => {
-                let below = factors.iter().filter(|(_, n)| *n < 0);
-                below
-                    .filter(|(base, _)| !facts.get(*base).has_no_moving_zero)
-                    .for_each(|(base, _)| note(*base, "is not 0"));
-            }
-            Kind::Call(op, x) => {
-                let regularity = op.row().regularity;
-                match regularity.domain {
-                    Values::From(least) if !(least <= 0 && dag.is_nonnegative(x[0])) => {
-                        let is = if regularity.pole.is_some() {
-                            ">"
-                        } else {
-                            "≥"
-                        };
-                        note(x[0], &format!("{is} {least}"));
-                    }
-                    Values::Units => note(x[0], "is between -1 and 1"),
-                    Values::Power if !dag.is_nonnegative(x[0]) => match dag.as_constant(x[1]) {
-                        Some(_) => note(x[0], "≥ 0"),
-                        None => {
-                            let exponent = print::text(model, x[1]);
-                            note(x[0], &format!("≥ 0, or `{exponent}` is whole"));
-                        }
-                    },
-                    _ => {}
-                }
-                if regularity.pole == Some(At::Cosine) {
-                    note(x[0], "is no odd multiple of pi/2");
-                }
-            }
-            _ => {}
-        }
-    }
-    found
 }

@@ -1,0 +1,94 @@
+//! What expressions read of the coordinates, momenta and the time: whether they vary with these, and
+//! where they are 0 together.
+
+use crate::dag::{Array, Dag, Dependence, Kind, Node};
+
+/// A coordinate, a momentum, the time.
+pub fn is_moving_leaf(dag: &Dag, node: Node) -> bool {
+    let is_leaf = matches!(dag.kind(node), Kind::Element(..) | Kind::Time);
+    is_leaf && dag.dependence(node).on(Dependence::MOVING)
+}
+
+/// Whether a node varies with what moves, whatever the parameters: its zeros are not everything,
+/// but in iterations of loops in which two leaves are the same one and it is 0.
+pub fn varies(dag: &Dag, node: Node) -> bool {
+    let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..) | Kind::Time);
+    match dag.kind(node) {
+        Kind::Product(_, factors) => factors.iter().all(|(factor, n)| {
+            varies(dag, *factor) || *n < 0 && !dag.dependence(*factor).on(Dependence::MOVING)
+        }),
+        Kind::Call(op, x) => op.row().arguments.len() == 1 && varies(dag, x[0]),
+        // A leaf that one term reads alone.
+        Kind::Sum(_, terms) => terms.iter().enumerate().any(|(at, (_, term))| {
+            let leaves = || dag.reachable(&[*term]).into_iter().filter(|n| is_leaf(*n));
+            let mut others = terms.iter().enumerate().filter(|(other, _)| *other != at);
+            varies(dag, *term)
+                && others.all(|(_, (_, other))| {
+                    let nodes = dag.reachable(&[*other]);
+                    leaves().all(|leaf| nodes.binary_search(&leaf).is_err())
+                })
+        }),
+        _ => is_leaf(node),
+    }
+}
+
+/// Whether one expression is 0 at one value of a coordinate or momentum that the other does not read,
+/// as x + cos t is beside y + sin t: where the other is 0, too, two dimensions are lost.
+pub fn is_solved_beside(dag: &Dag, one: Node, other: Node) -> bool {
+    let others = moving(dag, other);
+    let is_free = |leaf: Node| {
+        let own = moving(dag, leaf);
+        !own.iter()
+            .any(|own| others.iter().any(|other| may_be_same(*own, *other)))
+    };
+    let mut node = one;
+    while let Kind::Product(_, factors) = dag.kind(node)
+        && let [(factor, 1..)] = factors.as_slice()
+    {
+        node = *factor;
+    }
+    let Kind::Sum(_, terms) = dag.kind(node) else {
+        return false;
+    };
+    terms.iter().enumerate().any(|(at, (_, leaf))| {
+        let reads = |node: Node| dag.reachable(&[node]).binary_search(leaf).is_ok();
+        let mut rest = terms.iter().enumerate().filter(|(other, _)| *other != at);
+        // At the variables of loops, another leaf may be the same element.
+        let is_plain = matches!(dag.kind(*leaf), Kind::Element(Array::Phase(_), ..))
+            && dag.variables(*leaf) == 0;
+        is_plain && is_free(*leaf) && rest.all(|(_, (_, term))| !reads(*term))
+    })
+}
+
+/// A coordinate or momentum: its array, and its row where that is a number. Nothing is the time.
+type Leaf = Option<(Array, Option<i64>)>;
+
+fn may_be_same(a: Leaf, b: Leaf) -> bool {
+    match (a, b) {
+        (None, None) => true,
+        (Some((a, i)), Some((b, j))) => a == b && (i.is_none() || j.is_none() || i == j),
+        _ => false,
+    }
+}
+
+/// Whether no coordinate or momentum, and not the time, is read by both: their zeros and poles meet
+/// in sets that separate nothing.
+pub fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
+    let others = moving(dag, b);
+    !moving(dag, a)
+        .iter()
+        .any(|a| others.iter().any(|b| may_be_same(*a, *b)))
+}
+
+/// The coordinates, momenta and time in a node.
+fn moving(dag: &Dag, node: Node) -> Vec<Leaf> {
+    let leaf = |node: Node| match dag.kind(node) {
+        Kind::Time => Some(None),
+        Kind::Element(array @ Array::Phase(_), row, _) => Some(Some((*array, row.as_constant()))),
+        _ => None,
+    };
+    dag.reachable(&[node])
+        .into_iter()
+        .filter_map(leaf)
+        .collect()
+}

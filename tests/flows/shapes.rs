@@ -31,6 +31,25 @@ hamiltonian! {
     H(q; p) = cos(a*q + b*p)
 }
 
+hamiltonian! {
+    /// Flight past a centre, which is free where l = 0.
+    pub struct Radial { l = 0.0 }
+    H(r; p) = p^2 + l/r^2 + r^4;
+    split { Flight = p^2 + l/r^2; Well = r^4; }
+}
+
+hamiltonian! {
+    /// Flight in spherical coordinates, along a meridian where pf = 0.
+    pub struct Meridian {}
+    H(r, th, f; pr, pt, pf) = pr^2/2 + (pt^2 + pf^2/sin(th)^2)/(2*r^2) - 1/r
+}
+
+hamiltonian! {
+    /// A spin that a field turns, and that turns by itself where J = 0.
+    pub struct Turned { J = 0.0, D = 0.6 }
+    H(f; z) = J*sqrt(1 - z^2)*cos(f) + D*z^2
+}
+
 /// The flow and its equations, with one number near 0 as well as 0.
 macro_rules! limits {
     ($($test:ident: $system:ident, $signature:literal, $name:ident in $values:expr, [$($other:ident = $value:expr),*], $ranges:expr;)*) => {$(
@@ -50,6 +69,76 @@ const SMALL: [f64; 4] = [0.0, 1e-12, -1e-7, 0.8];
 limits! {
     speeds_whose_rate_vanishes: Speeds, "q, x, y; p, u, v", k in SMALL, [k = k, c = 1.0], [(-0.8, 0.8); 6];
     waves_in_one_variable: Wave, "q; p", b in SMALL, [a = 1.0, b = b], [ANY; 2];
+}
+
+/// Of p² + l/r², for l of both signs and 0: flights that do not come to r = 0.
+#[test]
+fn flights_past_a_centre_that_vanishes() {
+    for l in [0.0, 1e-12, -1e-7, 0.8, -0.1] {
+        let signature = "r; p";
+        let parameters: &[(&str, &[f64])] = &[("l", &[l])];
+        let ranges = &[(2.0, 3.0), (-0.3, 0.3)];
+        check(
+            &RadialFlight { l },
+            &Case {
+                signature,
+                parameters,
+                ranges,
+            },
+        );
+    }
+}
+
+/// Flights whose angular momentum about the axis, or all of it, vanishes, and that do not come to a pole.
+#[test]
+fn flights_along_a_meridian_and_a_radius() {
+    for [pt, pf] in [
+        [1.0, 0.0],
+        [1.0, 1e-12],
+        [-0.7, -1e-7],
+        [0.8, 0.5],
+        [0.0, 0.0],
+        [1e-12, 0.0],
+    ] {
+        let signature = "r, th, f; pr, pt, pf";
+        let ranges = &[
+            (2.0, 3.0),
+            (1.2, 1.9),
+            (-1.0, 1.0),
+            (-0.5, 0.5),
+            (pt, pt),
+            (pf, pf),
+        ];
+        check(
+            &Meridian::default(),
+            &Case {
+                signature,
+                parameters: &[],
+                ranges,
+            },
+        );
+    }
+}
+
+/// The flow of J·√(1 − z²)·cos f is the identity where J = 0, so it is tested beside a flow that moves:
+/// f grows by 2Dzt. A small J shows, so a flow that is not the limit would.
+#[test]
+fn a_spin_turns_by_itself_without_a_field() {
+    assert_eq!(Turned::NAMES.len(), 2, "{:?}", Turned::NAMES);
+    assert!(Turned::NAMES.contains(&"J*sqrt(1 - z^2)*cos(f)"));
+    for (f, z) in [(0.3, 0.6), (-2.5, -0.9), (1.5, 0.0)] {
+        let off = |J: f64| {
+            let turned = Turned { J, D: 0.6 };
+            let start = State::new([f], [z]);
+            let mut run = Integrator::new(&turned, Strang, start, 0.1).expect("it can be run");
+            run.advance(20).expect("it stays in its domain");
+            let end = run.state();
+            apart(&[end.q[0], end.p[0]], &[f + 2.4 * z, z])
+        };
+        assert!(off(0.0) < 4e-15, "{:e}", off(0.0));
+        assert!(off(1e-12) < 1e-11, "{:e}", off(1e-12));
+        assert!(off(1e-6) > 1e-7, "{:e}", off(1e-6));
+    }
 }
 
 /// Rows of a flow that meet in one site each: two sites are one bond.

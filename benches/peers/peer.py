@@ -59,7 +59,8 @@ def seconds_of(run):
             if taken >= SECONDS:
                 break
         times.append(taken / count)
-        if taken > 20.0:
+        # A run this long is measured once: the clock is no matter then.
+        if taken > 2.0:
             break
     return statistics.median(times)
 

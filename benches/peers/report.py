@@ -161,7 +161,7 @@ def write(problems, rows, machine, root):
     out = ["# This library and its peers", "",
            "CPU time of one thread on one core against the error of the end point: the largest difference of a "
            "component from a reference in double-double arithmetic (106 bits), whose own error is given. Each time is "
-           "the median of three to nine measurements; each cell is the fastest setting of the method that reaches the error of "
+           "the median of three to nine measurements, or one of a run of more than two seconds; each cell is the fastest setting of the method that reaches the error of "
            "its column. This library's curves and cells are those of its default, which has the same bits on every CPU; "
            "fused runs stand in the first table. `python3 benches/peers/run.py` makes these numbers again.", "",
            f"Machine: {machine}. " + ", ".join(f"{peer} {version}" for peer, version in versions) + "."

@@ -16,6 +16,7 @@ import platform
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import report
@@ -23,6 +24,7 @@ import report
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 OUT = ROOT / "target" / "peers"
+VERSION = tomllib.loads((ROOT / "Cargo.toml").read_text(encoding="utf-8"))["workspace"]["package"]["version"]
 PROBLEMS, ROWS = OUT / "problems.jsonl", OUT / "rows.jsonl"
 SCRIPTS = ("heyoka_peer.py", "rebound_peer.py", "scipy_peer.py", "numba_peer.py")
 
@@ -60,17 +62,19 @@ def lines(text):
     return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
 
 
+def kept(file, wanted):
+    """The lines of other problems than those that are made anew."""
+    old = lines(file.read_text(encoding="utf-8")) if file.exists() and wanted else []
+    return [line for line in old if line["problem"] not in wanted]
+
+
 def main():
     wanted = [word for word in sys.argv[1:] if not word.startswith("--")]
     OUT.mkdir(parents=True, exist_ok=True)
     if "--report" not in sys.argv:
-        ours = built("ours")
-        if not PROBLEMS.exists():
-            print("references", flush=True)
-            made = pinned([ours, "problems"], check=True, stdout=subprocess.PIPE).stdout
-            PROBLEMS.write_text(made, encoding="utf-8")
         python = environment()
-        commands = [("hamiltonian", [ours, "rows"]), ("diffsol", [built("diffsol")])]
+        # This library is first: it makes the references as well.
+        commands = [("hamiltonian", [built("ours")]), ("diffsol", [built("diffsol")])]
         commands += [(script, [python, HERE / script]) for script in SCRIPTS]
         if shutil.which("julia"):
             setup = ["julia", f"--project={HERE}", "-e", "using Pkg; Pkg.instantiate()"]
@@ -78,16 +82,18 @@ def main():
             commands.append(("julia", ["julia", f"--project={HERE}", HERE / "julia_peer.jl"]))
         else:
             print("julia is not installed: its packages are left out", flush=True)
-        rows = lines(ROWS.read_text(encoding="utf-8")) if ROWS.exists() and wanted else []
-        rows = [row for row in rows if row["problem"] not in wanted]
+        problems, rows = kept(PROBLEMS, wanted), kept(ROWS, wanted)
         for name, command in commands:
             for problem in wanted or [""]:
                 print(name, problem, flush=True)
                 done = pinned([*command, *([problem] if problem else [])], stdout=subprocess.PIPE)
                 if done.returncode:
                     print(f"{name} ended with status {done.returncode}: its rows so far are kept")
-                rows += lines(done.stdout)
-                ROWS.write_text("".join(json.dumps(row) + "\n" for row in rows), encoding="utf-8")
+                for line in lines(done.stdout):
+                    line.setdefault("version", VERSION)
+                    (problems if "reference" in line else rows).append(line)
+                for file, content in ((PROBLEMS, problems), (ROWS, rows)):
+                    file.write_text("".join(json.dumps(line) + "\n" for line in content), encoding="utf-8")
     report.write(lines(PROBLEMS.read_text(encoding="utf-8")), lines(ROWS.read_text(encoding="utf-8")), machine(), ROOT)
 
 

@@ -1,9 +1,8 @@
 //! This library on the problems of the comparison with its peers.
 //!
-//! `peers-ours problems` prints the problems with their references, `peers-ours rows` the results of this
-//! library; both print one JSON object a line. References are made in double-double (106 bits) with Gauss's
-//! collocation of order 32, and once more with half the step: `uncertainty` is the difference. With a name as
-//! second argument only that problem is treated.
+//! Prints each problem with its reference, then the results of this library on it, one JSON object a line.
+//! References are made in double-double (106 bits) with Gauss's collocation of order 32, and once more with half
+//! the step: `uncertainty` is the difference. With a name as argument only that problem is treated.
 
 mod problems;
 
@@ -79,12 +78,6 @@ fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
     end.iter().zip(exact).map(difference).fold(0.0, f64::max)
 }
 
-/// The choices of the command line.
-struct Task {
-    rows: bool,
-    only: Option<String>,
-}
-
 /// The results of one scheme, unfused and fused: more and more steps, until the error is that of rounding or
 /// runs take too long. It takes `parts` settings to double the steps: more for a scheme of high order, which gains
 /// much from few more.
@@ -129,19 +122,18 @@ fn race<S: System<f64>, M: Scheme<f64, S>>(
 
 /// Prints a result.
 fn row(problem: &str, method: &str, fused: bool, steps: u64, error: f64, seconds: f64) {
-    let version = env!("CARGO_PKG_VERSION");
     println!(
-        "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"version\":\"{version}\",\"method\":\"{method}\",\
+        "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"method\":\"{method}\",\
          \"fused\":{fused},\"setting\":\"{steps} steps\",\"error\":{error:e},\"seconds\":{seconds:e}}}"
     );
 }
 
-/// A problem: its reference, or the rows of the schemes. `$n` lifts a number to the scalar of the state.
+/// A problem: its reference, and the rows of the schemes. `$n` lifts a number to the scalar of the state.
 macro_rules! problem {
-    ($task:ident, $name:literal, $system:expr, [$($key:literal: $value:expr),*], $rows:expr, $end:expr,
+    ($only:ident, $name:literal, $system:expr, [$($key:literal: $value:expr),*], $rows:expr, $end:expr,
      reference $steps:literal, $n:ident => $start:expr,
      [$($scheme:expr, $first:expr, $parts:literal;)+]) => {
-        if $task.only.as_deref().is_none_or(|only| only == $name) {
+        if $only.as_deref().is_none_or(|only| only == $name) {
             let system = $system;
             let end: f64 = $end;
             let start = {
@@ -155,28 +147,25 @@ macro_rules! problem {
                 numbers(run.expect("a good start").advance(steps).expect("good steps"))
             };
             let fine = reference(2 * $steps);
-            if $task.rows {
-                let goal = (&start, end, &fine[..]);
-                $(race($name, &system, $scheme, goal, ($first, $parts));)+
-            } else {
-                let coarse = reference($steps);
-                let uncertainty = (coarse.iter().zip(&fine))
-                    .map(|(a, b)| (*a - *b).hi().abs())
-                    .fold(0.0, f64::max);
-                let parameters: &[(&str, String)] = &[$(($key, list($value))),*];
-                let parameters: Vec<_> =
-                    parameters.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
-                println!(
-                    "{{\"problem\":\"{}\",\"parameters\":{{{}}},\"rows\":{},\"end\":{end:e},\
-                     \"start\":{},\"reference\":{},\"reference_low\":{},\"uncertainty\":{uncertainty:e}}}",
-                    $name,
-                    parameters.join(","),
-                    $rows,
-                    list(numbers(&start)),
-                    list(fine.iter().map(|x| x.hi())),
-                    list(fine.iter().map(|x| x.lo())),
-                );
-            }
+            let coarse = reference($steps);
+            let uncertainty = (coarse.iter().zip(&fine))
+                .map(|(a, b)| (*a - *b).hi().abs())
+                .fold(0.0, f64::max);
+            let parameters: &[(&str, String)] = &[$(($key, list($value))),*];
+            let parameters: Vec<_> =
+                parameters.iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
+            println!(
+                "{{\"problem\":\"{}\",\"parameters\":{{{}}},\"rows\":{},\"end\":{end:e},\
+                 \"start\":{},\"reference\":{},\"reference_low\":{},\"uncertainty\":{uncertainty:e}}}",
+                $name,
+                parameters.join(","),
+                $rows,
+                list(numbers(&start)),
+                list(fine.iter().map(|x| x.hi())),
+                list(fine.iter().map(|x| x.lo())),
+            );
+            let goal = (&start, end, &fine[..]);
+            $(race($name, &system, $scheme, goal, ($first, $parts));)+
         }
     };
 }
@@ -216,32 +205,28 @@ fn main() {
 }
 
 fn solve_all() {
-    let mut arguments = std::env::args().skip(1);
-    let task = Task {
-        rows: arguments.next().as_deref() == Some("rows"),
-        only: arguments.next(),
-    };
-    problem!(task, "kepler", Kepler {}, [], 2, 1000.0 * TAU, reference 60_000,
+    let only = std::env::args().nth(1);
+    problem!(only, "kepler", Kepler {}, [], 2, 1000.0 * TAU, reference 60_000,
         n => State::over([n(0.4), n(0.0)], [n(0.0), n(2.0)]),
         [GaussNystrom::<8>::default(), 15_000, 4; GaussNystrom::<4>::default(), 40_000, 4;
          BlanesCasasEscorihuela8, 20_000, 2; Srkn11b, 40_000, 2; Processed6::default(), 50_000, 2;
          StormerVerlet::default(), 1_000_000, 2;]);
-    problem!(task, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
+    problem!(only, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
         n => State::over([n(0.12), n(0.23)], [n(0.31), n(-0.17)]),
         [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
          BlanesCasasEscorihuela8, 5_000, 2; Srkn11b, 10_000, 2; Processed6::default(), 10_000, 2;
          StormerVerlet::default(), 100_000, 2;]);
-    problem!(task, "pendulum", Pendulum {}, [], 1, 1e4, reference 20_000,
+    problem!(only, "pendulum", Pendulum {}, [], 1, 1e4, reference 20_000,
         n => State::over([n(1.5)], [n(0.0)]),
         [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
          BlanesCasasEscorihuela8, 5_000, 2; Srkn11b, 10_000, 2; Processed6::default(), 10_000, 2;
          StormerVerlet::default(), 100_000, 2;]);
-    problem!(task, "coupled", Coupled {}, [], 1, 1e4, reference 60_000,
+    problem!(only, "coupled", Coupled {}, [], 1, 1e4, reference 60_000,
         n => State::over([n(-3.0)], [n(0.0)]),
         [Gauss::<8>::default(), 10_000, 4; Gauss::<4>::default(), 40_000, 4; Processed6::default(), 40_000, 2;
          KahanLi8, 20_000, 2; Strang, 400_000, 2;]);
     let masses = PLANETS.map(|(mass, ..)| mass);
-    problem!(task, "planets", Planets::new(masses), ["G": [2.95912208286e-4], "m": masses], 6, 365_250.0,
+    problem!(only, "planets", Planets::new(masses), ["G": [2.95912208286e-4], "m": masses], 6, 365_250.0,
         reference 6_000,
         n => State::over(
             PLANETS.map(|(_, q, _)| q.map(n)),
@@ -250,7 +235,7 @@ fn solve_all() {
         [GaussNystrom::<8>::default(), 400, 4; GaussNystrom::<4>::default(), 1_500, 4;
          BlanesCasasEscorihuela8, 1_000, 2; Srkn11b, 2_000, 2; Processed6::default(), 2_000, 2;
          StormerVerlet::default(), 20_000, 2;]);
-    problem!(task, "black_hole", BlackHole::default(), ["E": [0.995], "L": [4.6]], 2, 1e4, reference 4_000,
+    problem!(only, "black_hole", BlackHole::default(), ["E": [0.995], "L": [4.6]], 2, 1e4, reference 4_000,
         n => State::over([n(11.0), n(FRAC_PI_2)], [n(0.0), n(2.062_449_325_976_816)]),
         [Gauss::<8>::default(), 200, 4; Gauss::<4>::default(), 500, 4; Processed6::default(), 500, 2;
          KahanLi8, 400, 2; Strang, 10_000, 2;]);
@@ -259,32 +244,32 @@ fn solve_all() {
             + 0.3 * (TAU * 7.0 * i as f64 / RING as f64).sin()
     };
     let waves: [f64; RING] = std::array::from_fn(wave);
-    problem!(task, "toda", Toda::<RING> {}, [], RING, 20.0, reference 30,
+    problem!(only, "toda", Toda::<RING> {}, [], RING, 20.0, reference 30,
         n => State::over([n(0.0); RING], waves.map(n)),
         [GaussNystrom::<8>::default(), 10, 4; BlanesCasasEscorihuela8, 10, 2; Srkn11b, 20, 2;
          Processed6::default(), 20, 2; StormerVerlet::default(), 200, 2;]);
     let mode: [f64; CHAIN] =
         std::array::from_fn(|i| (PI * (i + 1) as f64 / (CHAIN + 1) as f64).sin());
-    problem!(task, "fput", Fput::<CHAIN>::default(), ["alpha": [0.25]], CHAIN, 1000.0, reference 2_000,
+    problem!(only, "fput", Fput::<CHAIN>::default(), ["alpha": [0.25]], CHAIN, 1000.0, reference 2_000,
         n => State::over(mode.map(n), [n(0.0); CHAIN]),
         [GaussNystrom::<8>::default(), 300, 4; GaussNystrom::<4>::default(), 1_000, 4;
          BlanesCasasEscorihuela8, 500, 2; Srkn11b, 1_000, 2; Processed6::default(), 1_000, 2;
          StormerVerlet::default(), 10_000, 2;]);
     let places = scattered(3 * BODIES);
     let cluster = Cluster::new(BODIES).expect("as many bodies as places");
-    problem!(task, "cluster", cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
+    problem!(only, "cluster", cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
         n => State::over(
             places.chunks(3).map(|q| [n(q[0]), n(q[1]), n(q[2])]).collect::<Vec<_>>(),
             places.chunks(3).map(|q| [n(-1e-3 * q[1]), n(1e-3 * q[0]), n(0.0)]).collect::<Vec<_>>(),
         ),
         [BlanesCasasEscorihuela8, 1, 2; Srkn11b, 2, 2; StormerVerlet::default(), 8, 2;]);
-    ensemble(&task);
+    ensemble(only.as_deref());
 }
 
 /// Pendulums that start apart, in the lanes of packs.
-fn ensemble(task: &Task) {
+fn ensemble(only: Option<&str>) {
     const END: f64 = 100.0;
-    if task.only.as_deref().is_some_and(|only| only != "ensemble") {
+    if only.is_some_and(|only| only != "ensemble") {
         return;
     }
     let start = |k: usize| {
@@ -304,23 +289,20 @@ fn ensemble(task: &Task) {
         (0..PENDULUMS).map(solve).collect()
     };
     let exact = reference(256);
-    if !task.rows {
-        let of = |part: fn(&(DoubleDouble, DoubleDouble)) -> f64| list(exact.iter().map(part));
-        let uncertainty = (exact.iter().zip(reference(128)))
-            .map(|((q, p), (a, b))| (*q - a).hi().abs().max((*p - b).hi().abs()))
-            .fold(0.0, f64::max);
-        println!(
-            "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{END:e},\"start\":{},\
-             \"reference\":{},\"uncertainty\":{uncertainty:e}}}",
-            list(
-                (0..PENDULUMS)
-                    .map(|k| start(k).0)
-                    .chain((0..PENDULUMS).map(|k| start(k).1))
-            ),
-            of(|end| end.0.hi()).replace(']', ",") + &of(|end| end.1.hi())[1..],
-        );
-        return;
-    }
+    let of = |part: fn(&(DoubleDouble, DoubleDouble)) -> f64| list(exact.iter().map(part));
+    let uncertainty = (exact.iter().zip(reference(128)))
+        .map(|((q, p), (a, b))| (*q - a).hi().abs().max((*p - b).hi().abs()))
+        .fold(0.0, f64::max);
+    println!(
+        "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{END:e},\"start\":{},\
+         \"reference\":{},\"uncertainty\":{uncertainty:e}}}",
+        list(
+            (0..PENDULUMS)
+                .map(|k| start(k).0)
+                .chain((0..PENDULUMS).map(|k| start(k).1))
+        ),
+        of(|end| end.0.hi()).replace(']', ",") + &of(|end| end.1.hi())[1..],
+    );
     let exact: Vec<DoubleDouble> = exact
         .iter()
         .map(|end| end.0)

@@ -42,7 +42,8 @@ pub struct Located<V: Vector> {
 /// then moved on to meet the run at the end of the step.)
 /// The run itself is not changed. Two roots within a step are found where the values of three steps
 /// tell that there can be two (the function has fallen towards 0 by more than half its value, and falls by
-/// less than half as much in the step); further ones are missed: take shorter steps. A change of sign at a pole or a jump is no event.
+/// less than half as much in the step); further ones are missed: take shorter steps. A change of sign at a
+/// pole or a jump is no event.
 /// Several events in one step come in the order of time.
 ///
 /// An event that is [ending](Event::ending) ends the run, and the run's state is then the one at the

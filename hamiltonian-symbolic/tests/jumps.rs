@@ -162,7 +162,7 @@ fn one_jump_among_many_poles() {
     match verdict(&mut free(11), &last) {
         Verdict::Jumps { why, .. } => assert_eq!(
             why,
-            "no rule says that both sides agree where `q[0] - 2*q[10]` is 0"
+            "may jump, which no derivative shows; no rule says that both sides agree where `q[0] - 2*q[10]` is 0"
         ),
         other => panic!("{other:?}"),
     }
@@ -202,4 +202,24 @@ fn with_a_force_nothing_is_kept_away() {
     assert!(matches!(found, Verdict::Jumps { .. }), "{found:?}");
     let found = verdict(&mut well, "p^2/2 + 1/q^2");
     assert!(matches!(found, Verdict::Disproven { .. }), "{found:?}");
+}
+
+/// H changes its sign at poles and jumps, which are no points of the shell H = 0; a component of the shell that
+/// no momentum leads to has points.
+#[test]
+fn points_of_a_shell_have_its_energy() {
+    let on_zero = |h: &str, invariant: &str| {
+        let mut model = system("q; p", "", "", h);
+        let (node, zero) = (parse(&mut model, invariant), model.dag.integer(0));
+        is_invariant(&model, node, Some(zero))
+    };
+    let found = on_zero("q*p", "p");
+    assert!(matches!(found, Verdict::Disproven { .. }), "{found:?}");
+    for h in ["p^2/2 - 1/q", "p^2/2 + sign(q)", "p^2/2 + q/(q - 1)"] {
+        let found = on_zero(h, &format!("q*({h})"));
+        assert!(
+            !matches!(found, Verdict::Disproven { .. }),
+            "{h}: {found:?}"
+        );
+    }
 }

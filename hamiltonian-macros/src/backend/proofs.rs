@@ -72,7 +72,7 @@ fn invariants(checked: &Checked, lowered: &Lowered, report: &mut Report) {
                 ),
                 Verdict::Jumps { part, why } => (
                     format!(
-                        "it is not proven that {what} is conserved{on}: `{}` may jump, which no derivative shows; {why}",
+                        "it is not proven that {what} is conserved{on}: `{}` {why}",
                         shortened(&part)
                     ),
                     if_known(name),

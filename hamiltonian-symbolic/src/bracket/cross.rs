@@ -16,13 +16,13 @@ use crate::op::{At, Break, Op};
 use crate::print;
 use crate::rational::Rational;
 
-const BOTH_SIDES: &str = "no rule says that both sides agree";
+const BOTH_SIDES: &str = "may jump, which no derivative shows; no rule says that both sides agree";
 
 /// An obstacle to a proof.
 pub(super) struct Obstacle {
-    /// The part that may jump, as text.
+    /// The part that stands in the way, as text.
     pub(super) part: String,
-    /// The rule that is missing: a clause.
+    /// What it may do, and the rule that is missing: a predicate of the part.
     pub(super) why: String,
 }
 
@@ -55,8 +55,7 @@ pub(super) fn find(
         if claim.passes(&model, &given) {
             return (!is_constant).then(|| Obstacle {
                 part: print::text(&model, expression),
-                why: "it may change where a condition on constants of the motion switches"
-                    .to_owned(),
+                why: "may change where a condition on constants of the motion switches".to_owned(),
             });
         }
     }
@@ -285,25 +284,28 @@ impl Claim {
         let is_quotient = |regular: Regular| regular.is_meromorphic;
         let (part, why) = if self.is_on_shell {
             let part = culprit(&model.dag, &everywhere, &roots, is_quotient);
-            let why = "on a shell, H and the statement are to be quotients of analytic functions";
+            let why = "is no quotient of analytic functions, of which proofs on a shell are made";
             (part, why.to_owned())
         } else if let Some(part) = culprit(&model.dag, &most, &roots[..2], is_projective) {
             let mut loci = most.loci.iter();
             let place = loci.find_map(|locus| place(model, *locus, part));
             (Some(part), place.unwrap_or_else(|| BOTH_SIDES.to_owned()))
         } else if let Some(part) = culprit(&model.dag, &everywhere, &roots[2..], is_gentle) {
-            let why = "under a force that is not Lipschitz there, motion may stop or branch";
+            let why = "is not Lipschitz everywhere: under such a force motion may stop or branch, which no \
+                       derivative shows";
             (Some(part), why.to_owned())
         } else if model.force.is_empty()
             && let Some(part) = culprit(&model.dag, &everywhere, &roots[..2], is_projective)
         {
-            let why = "where H has a kink or a steep root, motion may stop or branch";
+            let why = "may jump, which no derivative shows: where H has a kink or a steep root, motion may \
+                       stop or branch";
             (Some(part), why.to_owned())
         } else {
             let part = culprit(&model.dag, &most, &roots[1..2], |regular| {
                 regular.is_continuous
             });
-            let why = "H changes in time, so that nothing keeps orbits away from its infinities";
+            let why =
+                "may be infinite, and as H changes in time, nothing keeps orbits away from there";
             (part, why.to_owned())
         };
         let part = part.unwrap_or(self.expression);
@@ -344,8 +346,8 @@ fn place(model: &mut Model, locus: Locus, part: Node) -> Option<String> {
     let one = dag.integer(1);
     let zero = match locus.at {
         At::Cut => {
-            let why =
-                "the angle of a point jumps where the point crosses the negative half of an axis";
+            let why = "may jump, which no derivative shows; the angle of a point does where the point crosses the \
+                 negative half of an axis";
             return Some(why.to_owned());
         }
         At::Zero => locus.x,

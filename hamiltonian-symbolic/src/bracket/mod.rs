@@ -49,9 +49,9 @@ pub enum Verdict {
     },
     /// It is conserved as long as nothing jumps.
     Jumps {
-        /// The part of the statement or of H that may jump, as text.
+        /// The part of the statement, of H or of the force that may jump, as text.
         part: String,
-        /// Where, and what does not decide it: a clause.
+        /// What it may do, where, and what does not decide it: a predicate of the part.
         why: String,
     },
     /// The statement is about a shell that orbits leave.

@@ -121,24 +121,34 @@ fn remainder(
     }
 }
 
-/// A point with `shell` = 0 where the residual is certainly not.
+/// A point with `shell` = 0 where the residual is certainly not. The shell is solved for momenta, and
+/// where these lead to no such point, as p does not from q·p = 0, for coordinates.
 pub(super) fn witness(
     model: &Model,
     residual: Node,
     shell: Node,
     others: &[Node],
 ) -> Option<(Point, f64)> {
-    let momenta: Vec<Node> = model
-        .dag
-        .reachable(&[shell])
-        .into_iter()
-        .filter(|n| {
-            matches!(
-                model.dag.kind(*n),
-                Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..)
-            )
-        })
-        .collect();
+    let below = model.dag.reachable(&[shell]);
+    let of_side = |wanted: Side| -> Vec<Node> {
+        let is_wanted = |node: &&Node| match model.dag.kind(**node) {
+            Kind::Element(Array::Phase(Column { side, .. }), ..) => *side == wanted,
+            _ => false,
+        };
+        below.iter().filter(is_wanted).copied().collect()
+    };
+    let mut sides = [Side::P, Side::Q].into_iter();
+    sides.find_map(|side| solved(model, residual, shell, others, &of_side(side)))
+}
+
+/// The same, of points where the shell is solved for one of some variables.
+fn solved(
+    model: &Model,
+    residual: Node,
+    shell: Node,
+    others: &[Node],
+    variables: &[Node],
+) -> Option<(Point, f64)> {
     let mut all = vec![shell, residual];
     all.extend(others);
     let positive = (0..6).map(|seed| Sample {
@@ -161,15 +171,17 @@ pub(super) fn witness(
         if *found == 2 {
             continue;
         }
-        for &momentum in &momenta {
+        for &variable in variables {
             let at =
-                |roots: &[Node], value: f64| sample(model, roots, &[], how, &[(momentum, value)]);
+                |roots: &[Node], value: f64| sample(model, roots, &[], how, &[(variable, value)]);
             let off_shell = |p| at(&[shell], p).map_or(f64::NAN, |(values, _)| values[0].value);
             let Some(root) = solve(off_shell) else {
                 continue;
             };
             let (values, point) = at(&all, root)?;
-            if !values.iter().all(|value| value.value.is_finite()) {
+            // H changes its sign at jumps and poles too, which are no points of the shell.
+            let is_met = values[0].value.abs() < 1e-8;
+            if !(is_met && values.iter().all(|value| value.value.is_finite())) {
                 continue;
             }
             // The change of the residual over the distance the root may be off.

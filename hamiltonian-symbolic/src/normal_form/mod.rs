@@ -107,11 +107,10 @@ impl Answer {
     pub(crate) fn why(self) -> String {
         match self {
             Answer::Zero | Answer::Other => {
-                "no rule of the normal form makes it 0, and no point was found where it is not"
-                    .to_owned()
+                "no rule shows that it is 0, and no point was found where it is not".to_owned()
             }
             Answer::Limit => format!(
-                "the normal form has more than {} terms or takes more than {} products",
+                "multiplied out, it has more than {} terms or takes more than {} products",
                 BUDGET.terms, BUDGET.products
             ),
         }

@@ -86,6 +86,72 @@ fn loops_end_where_orbits_do() {
     assert!(right > RINGS.len());
 }
 
+/// H with one kink, with powers that are parameters, with time, and rings whose neighbours coincide at small
+/// sizes.
+const OTHERS: &[(&str, &str, &str)] = &[
+    ("q; p", "", "abs(q*p)"),
+    ("q; p", "", "(q*p)^(1/3)"),
+    ("q; p", "a", "(q*p)^a"),
+    ("q; p", "", "abs(q - p)"),
+    ("q; p", "", "abs(q^2 + p^2 - 1)"),
+    ("q; p", "", "(q^2 + p^2)^(3/2)"),
+    ("q; p", "", "if q^2 + p^2 < 1 { q^2 + p^2 } else { 1 }"),
+    ("q; p", "", "atan(p/q)"),
+    ("q; p", "a", "p*(q^2 + a)"),
+    ("q; p", "a", "p*(q^2 - a^2)"),
+    ("q; p", "a", "p^2*(a - q^2)"),
+    ("q; p", "a", "sin(a*t)*q*p + q^2"),
+    ("q; p", "", "(q*t + 1)*p"),
+    ("x, y; u, v", "", "abs(x*v - y*u)"),
+    ("x, y; u, v", "", "max(x*v - y*u, 0)"),
+    ("x, y; u, v", "", "sign(x*v - y*u)*(x*v - y*u)^2"),
+    ("x, y; u, v", "", "abs(x)*v + x*u"),
+    ("q[n]; p[n]", "", "sum(i in 0..n) { q[i]*p[(i + 2) % n] }"),
+    (
+        "q[n]; p[n]",
+        "",
+        "sum(i in 0..n) { q[i]^2*p[(i + 1) % n]^2 }",
+    ),
+    (
+        "q[n]; p[n]",
+        "",
+        "sum(i in 0..n) { q[i]^2 + q[i]*p[(i + 1) % n] }",
+    ),
+    (
+        "q[n]; p[n]",
+        "",
+        "sum(i in 0..n) { sin(q[i])*cos(p[(i + 1) % n]) }",
+    ),
+    (
+        "q[n]; p[n]",
+        "",
+        "sum(i in 0..n) { (q[i] + p[(i + 1) % n])^3 }",
+    ),
+    (
+        "q[n]; p[n]",
+        "",
+        "sum(i in 0..n) { abs(q[(i + 3) % n]*p[i]) }",
+    ),
+];
+
+#[test]
+fn other_flows_end_where_orbits_do() {
+    let mut definitions = Vec::new();
+    for (signature, parameters, h) in OTHERS {
+        let sizes = if signature.contains('n') {
+            1..=4
+        } else {
+            0..=0
+        };
+        definitions.extend(sizes.map(|n| Definition::of(signature, parameters, h, n)));
+    }
+    let points = common::cases(4, 200);
+    let (wrong, right, missing) = wrong(&definitions, Subject::split, points, 0.04);
+    println!("{right} right; missing: {missing:#?}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+    assert!(right > 2 * OTHERS.len());
+}
+
 /// Where ψ = 0, a turn about the first body axis goes through the pole of the chart. Beside ψ = 0 all angles
 /// jump near there, to other names of one rotation: those of ψ = 0 are the ones of ψ > 0.
 #[test]

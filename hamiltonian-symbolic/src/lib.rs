@@ -2,7 +2,7 @@
 //!
 //! Input: a [`Model`](model::Model), whose expressions are nodes of one arena, the [`Dag`](dag::Dag).
 //! Output: derivatives ([`diff`]), proofs ([`bracket`]), pieces with exact flows ([`split`]), text and LaTeX
-//! ([`print`]), and a [`Program`](program::Program) whose values are computed as seldom as they can be
+//! ([`print`](mod@print)), and a [`Program`](program::Program) whose values are computed as seldom as they can be
 //! ([`pipeline`]). Invariant: numbers are exact rationals until a program is emitted.
 //!
 //! H = ½(q² + 1)(p² + 1): its derivative as LaTeX, a proof, and its pieces.

@@ -67,7 +67,7 @@ fn events_of_members_are_those_of_single_runs() {
 #[test]
 fn neighbours_of_events_change_no_bit() {
     let sweep = || {
-        Sweep::new(COUNT, swinging, BlanesMoan4::default(), 0.05)
+        Sweep::new(COUNT, swinging, BlanesMoan4, 0.05)
             .until_each(|member| 20.0 + 30.0 * part(member.index))
             .observe(sought)
             .rows(["event", "t", "q", "p"], |end| {

@@ -35,6 +35,10 @@ pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
 
 /// The map of a scheme over the lanes of `P`.
 type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
+/// What such a map carries.
+type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
+/// A truth for each lane.
+type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
 impl<T, S, P, M> InPack<T, S, P> for M
 where
@@ -131,13 +135,13 @@ where
     prepared: <S as System<T::Over<P>>>::Prepared,
     map: MapIn<T, S, P, M>,
     work: <MapIn<T, S, P, M> as Map>::Work,
-    carried: <MapIn<T, S, P, M> as Map>::Carried,
+    carried: CarriedIn<T, S, P, M>,
     /// The carried value at the beginning of the block.
-    before: <MapIn<T, S, P, M> as Map>::Carried,
+    before: CarriedIn<T, S, P, M>,
     /// The carried value, closed.
-    shown: <MapIn<T, S, P, M> as Map>::Carried,
+    shown: CarriedIn<T, S, P, M>,
     times: Times<T::Over<P>>,
-    opening: Opening<<T::Over<P> as Real>::Mask>,
+    opening: Opening<MaskIn<T, P>>,
     /// Steps since the crew last changed.
     made: u64,
     /// The drifts that are followed, and those at the beginning of the block.
@@ -149,15 +153,15 @@ where
     /// The same functions over the members' scalar.
     functions: Vec<Section<T>>,
     /// The lanes whose observers follow signs.
-    watched: <T::Over<P> as Real>::Mask,
-    marks: Marks<<MapIn<T, S, P, M> as Map>::Carried, <T::Over<P> as Real>::Mask>,
+    watched: MaskIn<T, P>,
+    marks: Marks<CarriedIn<T, S, P, M>, MaskIn<T, P>>,
     /// The carried values after the three steps before the block.
-    three: Three<<MapIn<T, S, P, M> as Map>::Carried>,
+    three: Three<CarriedIn<T, S, P, M>>,
     /// Scratch for the states that are shown on the way.
-    passing: <MapIn<T, S, P, M> as Map>::Carried,
+    passing: CarriedIn<T, S, P, M>,
     passing_rows: Vec<T>,
     /// The lanes whose drift begins at their present state.
-    attach: Option<<T::Over<P> as Real>::Mask>,
+    attach: Option<MaskIn<T, P>>,
     /// The step of each lane for which the map is made.
     steps: Vec<T>,
     /// Whether all lanes have the same parameters.
@@ -319,7 +323,7 @@ where
     fn part_with<L: Level>(
         &mut self,
         scheme: &M,
-        finite: <T::Over<P> as Real>::Mask,
+        finite: MaskIn<T, P>,
         crew: &mut Crew<T, S>,
         host: &mut dyn Host<T, S>,
     ) {

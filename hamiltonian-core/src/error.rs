@@ -9,6 +9,7 @@ mod shard;
 #[cfg(feature = "std")]
 mod store;
 mod table;
+mod words;
 
 pub use knots::KnotError;
 pub use shard::ShardError;
@@ -19,6 +20,7 @@ pub use table::TableError;
 use alloc::boxed::Box;
 use alloc::string::String;
 use alloc::vec::Vec;
+use words::{Lane, Number, Numbers, Part, Remedy, Within};
 
 /// An error of a run. Memory is allocated only when one happened.
 #[derive(Clone, PartialEq, thiserror::Error)]
@@ -513,94 +515,6 @@ pub enum CheckpointError {
         /// That of the program.
         given: String,
     },
-}
-
-/// ` in the flow of …`, where there is one.
-struct Within(Option<&'static str>);
-
-impl core::fmt::Display for Within {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            Some(piece) => write!(f, " in the flow of `{piece}`"),
-            None => Ok(()),
-        }
-    }
-}
-
-/// A number in the fewest digits that read back to it, with an exponent where it is large or small.
-struct Number(f64);
-
-impl core::fmt::Display for Number {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        // Those that `{:?}` writes so; it writes whole numbers with `.0`.
-        let size = self.0.abs();
-        match size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size) {
-            true => write!(f, "{:e}", self.0),
-            false => write!(f, "{}", self.0),
-        }
-    }
-}
-
-/// Components: the first few of many, and the first of them that is not finite.
-struct Numbers<'a>(&'a [f64]);
-
-impl core::fmt::Display for Numbers<'_> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        const MOST: usize = 12;
-        let all = self.0;
-        let [a, b, c, ..] = all else {
-            return write!(f, "{all:?}");
-        };
-        if all.len() <= MOST {
-            return write!(f, "{all:?}");
-        }
-        write!(f, "[{a:?}, {b:?}, {c:?}, … {} numbers", all.len())?;
-        if let Some(at) = all.iter().position(|x| !x.is_finite()) {
-            write!(f, ", number {at} is {:?}", all[at])?;
-        }
-        write!(f, "]")
-    }
-}
-
-/// `the derivative part of …`, where it is that.
-struct Part(bool);
-
-impl core::fmt::Display for Part {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(if self.0 {
-            "the derivative part of "
-        } else {
-            ""
-        })
-    }
-}
-
-/// The way to a start with values, and with derivative parts where they are missing.
-struct Remedy<'a>(&'a Option<Box<str>>, bool);
-
-impl core::fmt::Display for Remedy<'_> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),
-            None if self.1 => write!(
-                f,
-                "start where H and its first and second derivatives are finite"
-            ),
-            None => write!(f, "start where H and its first derivatives are finite"),
-        }
-    }
-}
-
-/// ` in lane …`, where there are several.
-struct Lane(Option<u32>);
-
-impl core::fmt::Display for Lane {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self.0 {
-            Some(lane) => write!(f, " in lane {lane}"),
-            None => Ok(()),
-        }
-    }
 }
 
 /// The message, because that is what `fn main() -> Result<(), Error>` shows.

@@ -1,0 +1,92 @@
+//! Parts of messages: where, which number, what to do.
+
+use alloc::boxed::Box;
+use core::fmt::{Display, Formatter, Result};
+
+/// ` in the flow of …`, where there is one.
+pub(super) struct Within(pub(super) Option<&'static str>);
+
+impl Display for Within {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self.0 {
+            Some(piece) => write!(f, " in the flow of `{piece}`"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A number in the fewest digits that read back to it, with an exponent where it is large or small.
+pub(super) struct Number(pub(super) f64);
+
+impl Display for Number {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        // Those that `{:?}` writes so; it writes whole numbers with `.0`.
+        let size = self.0.abs();
+        match size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size) {
+            true => write!(f, "{:e}", self.0),
+            false => write!(f, "{}", self.0),
+        }
+    }
+}
+
+/// Components: the first few of many, and the first of them that is not finite.
+pub(super) struct Numbers<'a>(pub(super) &'a [f64]);
+
+impl Display for Numbers<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        const MOST: usize = 12;
+        let all = self.0;
+        let [a, b, c, ..] = all else {
+            return write!(f, "{all:?}");
+        };
+        if all.len() <= MOST {
+            return write!(f, "{all:?}");
+        }
+        write!(f, "[{a:?}, {b:?}, {c:?}, … {} numbers", all.len())?;
+        if let Some(at) = all.iter().position(|x| !x.is_finite()) {
+            write!(f, ", number {at} is {:?}", all[at])?;
+        }
+        write!(f, "]")
+    }
+}
+
+/// `the derivative part of …`, where it is that.
+pub(super) struct Part(pub(super) bool);
+
+impl Display for Part {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        f.write_str(if self.0 {
+            "the derivative part of "
+        } else {
+            ""
+        })
+    }
+}
+
+/// The way to a start with values, and with derivative parts where they are missing.
+pub(super) struct Remedy<'a>(pub(super) &'a Option<Box<str>>, pub(super) bool);
+
+impl Display for Remedy<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self.0 {
+            Some(parameter) => write!(f, "the parameter `{parameter}` must be finite"),
+            None if self.1 => write!(
+                f,
+                "start where H and its first and second derivatives are finite"
+            ),
+            None => write!(f, "start where H and its first derivatives are finite"),
+        }
+    }
+}
+
+/// ` in lane …`, where there are several.
+pub(super) struct Lane(pub(super) Option<u32>);
+
+impl Display for Lane {
+    fn fmt(&self, f: &mut Formatter<'_>) -> Result {
+        match self.0 {
+            Some(lane) => write!(f, " in lane {lane}"),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Results that wait until no earlier store of their elements is to come.
+//!
+//! Input: the results of a block of iterations. Output: the columns they are stored in. Invariant: each
+//! element is changed in the order of the iterations.
+
+use super::{BLOCK, CARRY, REACH, STRIDE, Store, changed};
+use hamiltonian_lanes::{Pack, Real};
+
+/// Results of a block of iterations on their way to columns that several stores of an iteration reach.
+///
+/// The further ahead a store reaches, the earlier the iteration that reaches a given element. So each
+/// element is changed by the stores in descending order of their starts, all at once where the starts
+/// are close to each other; results of the block before are kept for that. A store that reaches no element
+/// of another one does not wait.
+pub(super) struct Waiting<T, const S: usize, const W: usize> {
+    pub(super) results: [[T; CARRY + BLOCK]; W],
+    starts: [usize; S],
+    /// The stores, by descending start.
+    order: [usize; S],
+    /// For each store its group: the first one of those that reach common elements, in order; `NONE` if it
+    /// does not wait.
+    pub(super) group: [usize; S],
+    /// For each group the next element to be changed.
+    next: [usize; S],
+    /// For each group the least and the largest start.
+    ends: [[usize; 2]; S],
+}
+
+/// The group of a store that does not wait.
+pub(super) const NONE: usize = usize::MAX;
+
+impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
+    #[inline(always)]
+    pub(super) fn new(stores: &[Store], starts: [usize; S], length: usize) -> Self {
+        let mut order = [0; S];
+        let mut s = 0;
+        while s < S {
+            let mut place = s;
+            while place > 0 && starts[order[place - 1]] < starts[s] {
+                order[place] = order[place - 1];
+                place -= 1;
+            }
+            order[place] = s;
+            s += 1;
+        }
+        let mut group = [NONE; S];
+        let mut ends = [[0; 2]; S];
+        let mut k = 0;
+        while k < S {
+            let s = order[k];
+            // The next one below it, if they reach common elements, is of its group.
+            let mut below = k + 1;
+            while below < S && stores[order[below]].column != stores[s].column {
+                below += 1;
+            }
+            if stores[s].is_shared && below < S && starts[s] - starts[order[below]] < length {
+                if group[s] == NONE {
+                    group[s] = s;
+                    ends[s] = [starts[s]; 2];
+                }
+                let first = group[s];
+                group[order[below]] = first;
+                ends[first][0] = starts[order[below]];
+            }
+            k += 1;
+        }
+        let mut next = [0; S];
+        let mut s = 0;
+        while s < S {
+            next[s] = ends[s][0];
+            s += 1;
+        }
+        Waiting {
+            results: [[T::zero(); CARRY + BLOCK]; W],
+            starts,
+            order,
+            group,
+            next,
+            ends,
+        }
+    }
+
+    /// Whether results of any store wait.
+    #[inline(always)]
+    pub(super) fn is_any(&self) -> bool {
+        let mut s = 0;
+        while s < S {
+            if self.group[s] != NONE {
+                return true;
+            }
+            s += 1;
+        }
+        false
+    }
+
+    /// Stores the results of iterations `at..end`.
+    #[inline(always)]
+    pub(super) fn settle<P: Pack, const C: usize>(
+        &mut self,
+        stores: &[Store],
+        columns: &mut [&mut [T]; C],
+        at: usize,
+        end: usize,
+        is_last: bool,
+    ) {
+        let mut g = 0;
+        while g < S {
+            let [least, most] = self.ends[g];
+            if self.group[g] != g {
+                // It waits with another one, or not at all.
+            } else if most - least <= REACH {
+                let column = &mut *columns[stores[g].column];
+                self.together::<P>(stores, column, g, at, end, is_last);
+            } else {
+                for s in self.order {
+                    if self.group[s] == g {
+                        let column = &mut *columns[stores[s].column];
+                        self.one_store::<P>(&stores[s], column, self.starts[s] + at, end - at);
+                    }
+                }
+            }
+            g += 1;
+        }
+        let mut w = 0;
+        while w < W {
+            self.results[w].copy_within(end - at..end - at + CARRY, 0);
+            w += 1;
+        }
+    }
+
+    /// All stores of a group, element by element.
+    #[inline(always)]
+    fn together<P: Pack>(
+        &mut self,
+        stores: &[Store],
+        column: &mut [T],
+        g: usize,
+        at: usize,
+        end: usize,
+        is_last: bool,
+    ) {
+        let [least, most] = self.ends[g];
+        // Elements that iterations before the first one would reach have fewer changes.
+        while self.next[g] < most && (is_last || self.next[g] < least + end) {
+            self.element(stores, column, g, at, end);
+        }
+        let mut element = self.next[g];
+        while element + STRIDE <= least + end {
+            let places = &mut column[element..element + STRIDE];
+            let mut value = T::gather::<P>(places);
+            let mut k = 0;
+            while k < S {
+                let s = self.order[k];
+                let store = &stores[s];
+                if self.group[s] == g {
+                    let place = element - self.starts[s] + CARRY - at;
+                    let a = T::gather::<P>(&self.results[store.by[0]][place..place + STRIDE]);
+                    let b = T::gather::<P>(&self.results[store.by[1]][place..place + STRIDE]);
+                    value = changed(store.change, value, [a, b]);
+                }
+                k += 1;
+            }
+            T::scatter::<P>(value, places);
+            element += STRIDE;
+        }
+        self.next[g] = element;
+        while is_last && self.next[g] < most + end {
+            self.element(stores, column, g, at, end);
+        }
+    }
+
+    /// The next element of a group, by itself.
+    #[inline(always)]
+    fn element(&mut self, stores: &[Store], column: &mut [T], g: usize, at: usize, end: usize) {
+        let element = self.next[g];
+        for s in self.order {
+            let (store, start) = (&stores[s], self.starts[s]);
+            if self.group[s] == g && element >= start && element - start < end {
+                let place = element - start + CARRY - at;
+                let by = [
+                    self.results[store.by[0]][place],
+                    self.results[store.by[1]][place],
+                ];
+                column[element] = changed(store.change, column[element], by);
+            }
+        }
+        self.next[g] = element + 1;
+    }
+
+    /// One store of a column.
+    #[inline(always)]
+    fn one_store<P: Pack>(&self, store: &Store, column: &mut [T], start: usize, count: usize) {
+        let places = &mut column[start..start + count];
+        let [a, b] = store.by.map(|by| &self.results[by][CARRY..CARRY + count]);
+        let mut k = 0;
+        while k < count {
+            let end = count.min(k + STRIDE);
+            let by = [T::gather::<P>(&a[k..end]), T::gather::<P>(&b[k..end])];
+            let old = T::gather::<P>(&places[k..end]);
+            T::scatter::<P>(changed(store.change, old, by), &mut places[k..end]);
+            k = end;
+        }
+    }
+}

@@ -1,5 +1,6 @@
 //! Ensembles and sweeps: every member is what a single run of it is.
 
+mod allocations;
 mod events;
 mod exponents;
 mod members;

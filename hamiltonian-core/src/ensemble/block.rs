@@ -96,21 +96,28 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             (Some(apart), None) => Some(apart.due(self.interval)),
             _ => None,
         };
-        for tracker in self.trackers.iter_mut() {
-            let value = tracker.quantity.at::<U, S>(self.prepared, t, point);
-            match self.attach {
-                Some(lanes) => tracker.begin(lanes, value),
-                None => tracker.record(due, value),
-            }
+        let watches = !self.watchers.is_empty() && self.attach.is_none();
+        if watches {
+            marks.add(carried);
         }
-        if self.watchers.is_empty() || self.attach.is_some() {
-            return false;
-        }
-        marks.add(carried);
         let mut loud = U::Mask::splat(false);
-        for watcher in self.watchers.iter_mut() {
-            let value = watcher.quantity.at::<U, S>(self.prepared, t, point);
-            loud = loud | watcher.is_loud(value);
+        // One place evaluates them all: each would have a copy of H, as long as a pack is wide.
+        let drifts = self.trackers.len();
+        let all = drifts + if watches { self.watchers.len() } else { 0 };
+        for at in 0..all {
+            let quantity = match at < drifts {
+                true => self.trackers[at].quantity,
+                false => self.watchers[at - drifts].quantity,
+            };
+            let value = quantity.at::<U, S>(self.prepared, t, point);
+            if at >= drifts {
+                loud = loud | self.watchers[at - drifts].is_loud(value);
+                continue;
+            }
+            match self.attach {
+                Some(lanes) => self.trackers[at].begin(lanes, value),
+                None => self.trackers[at].record(due, value),
+            }
         }
         loud = loud & self.watched;
         loud.any() && marks.mark(k, loud)

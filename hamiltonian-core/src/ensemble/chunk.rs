@@ -111,6 +111,17 @@ impl<R: Clone, V: Vector<Scalar = f64>> Chunk<R, V, ()> {
         self.observers.push(());
         self.count += 1;
     }
+
+    /// Gives back the memory that was kept for further members.
+    pub(crate) fn shrink(&mut self) {
+        self.words.shrink_to_fit();
+        if let Shared::Each(prepared) = &mut self.prepared {
+            prepared.shrink_to_fit();
+        }
+        if let Shared::Each(starts) = &mut self.starts {
+            starts.shrink_to_fit();
+        }
+    }
 }
 
 impl<R: Clone, V: Vector<Scalar = f64>, O> Chunk<R, V, O> {

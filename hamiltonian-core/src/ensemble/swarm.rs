@@ -132,6 +132,7 @@ impl<S: System<f64>> Ensemble<S> {
             }
             chunk.words.resize(chunk.count * common.width, 0.0);
             chunk.words.shrink_to_fit();
+            chunk.shrink();
             chunks.push(chunk);
         }
         Ok(Ensemble {

@@ -1,0 +1,124 @@
+//! What ensembles and sweeps hold in memory, counted.
+
+use super::*;
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::cell::Cell;
+
+/// The allocator of this process, which counts for each thread the bytes that it holds.
+struct Counting;
+
+thread_local! {
+    /// The bytes that this thread has allocated and not freed, and the most there have been.
+    static HELD: Cell<[isize; 2]> = const { Cell::new([0; 2]) };
+}
+
+fn count(bytes: isize) {
+    // A thread that ends frees what it holds after its variables are gone.
+    let _ = HELD.try_with(|held| {
+        let [now, most] = held.get();
+        held.set([now + bytes, most.max(now + bytes)]);
+    });
+}
+
+// SAFETY: all is passed on to the allocator of the system.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        count(layout.size() as isize);
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, at: *mut u8, layout: Layout) {
+        count(-(layout.size() as isize));
+        unsafe { Heap.dealloc(at, layout) }
+    }
+}
+
+#[global_allocator]
+static COUNTING: Counting = Counting;
+
+/// The bytes that are still held after some work of this thread, and the most that it held on the way.
+fn bytes<A>(work: impl FnOnce() -> A) -> (A, [isize; 2]) {
+    let [before, _] = HELD.get();
+    HELD.set([before; 2]);
+    let made = work();
+    (made, HELD.get().map(|bytes| bytes - before))
+}
+
+/// Members enough for several chunks.
+const MANY: usize = 8 * 1024;
+
+/// One pendulum for all, or one for each.
+fn many(each: bool) -> impl Fn(Member) -> (Pendulum, StateOf<Pendulum>) {
+    move |member| {
+        let at = (member.index as f64 / MANY as f64).fract();
+        let l = if each { 1.0 + at } else { 1.0 };
+        (
+            Pendulum {
+                l,
+                ..Default::default()
+            },
+            State::new([at], [0.1]),
+        )
+    }
+}
+
+#[test]
+fn an_ensemble_holds_what_members_carry() {
+    let _level = one_level();
+    let swarm = |count, each| {
+        Ensemble::new(count, many(each), StormerVerlet::default(), 0.01)
+            .expect("there are members")
+            .threads(1)
+    };
+    // The bytes that a member adds.
+    let adds = |held: &dyn Fn(usize) -> isize| {
+        let more = held(2 * MANY) - held(MANY);
+        more as f64 / MANY as f64
+    };
+    // q and p, and chunks themselves.
+    let plain = adds(&|count| bytes(|| swarm(count, false)).1[0]);
+    assert!((16.0..18.0).contains(&plain), "{plain} bytes a member");
+    let parameters = size_of::<<Pendulum as System<f64>>::Prepared>() as f64;
+    let each = adds(&|count| bytes(|| swarm(count, true)).1[0]);
+    assert!(
+        (each - plain - parameters).abs() < 2.0,
+        "{each} bytes a member"
+    );
+    let drift = size_of::<EnergyDrift>() as f64;
+    let observed = adds(&|count| {
+        let held = bytes(|| swarm(count, false).observe(|_| EnergyDrift::new()));
+        held.1[0]
+    });
+    assert!(
+        (observed - plain - drift).abs() < 2.0,
+        "{observed} bytes a member"
+    );
+    // Steps need the memory of a pack, whatever the number of members.
+    let steps = |count| {
+        let mut swarm = swarm(count, false).observe(|_| EnergyDrift::new());
+        swarm.advance(3);
+        bytes(|| {
+            swarm.advance(100);
+        })
+        .1
+    };
+    let [after, most] = steps(MANY);
+    assert_eq!(after, 0);
+    assert!(most < 200_000, "{most} bytes for steps");
+}
+
+#[test]
+fn a_sweep_holds_its_chunks_in_work() {
+    let _level = one_level();
+    let most = |count| {
+        let sweep = Sweep::new(count, many(true), StormerVerlet::default(), 0.01)
+            .steps(5)
+            .chunk(256)
+            .threads(1)
+            .observe(|_| EnergyDrift::new())
+            .record(["q"], |end| [end.state.q[0]]);
+        let sum = |sum: f64, row: &hamiltonian::Row<'_>| sum + row.values[0];
+        bytes(|| sweep.fold(0.0, sum).expect("there are members")).1[1]
+    };
+    let few = most(MANY);
+    assert!(few < 400_000, "{few} bytes");
+}

@@ -43,9 +43,7 @@ fn events_of_members_are_those_of_single_runs() {
             swarm.advance(400).advance(1).advance(1100);
             let mut found = 0;
             let ends = swarm.observers().zip(swarm.states());
-            for (index, ((events, monitors), end)) in
-                ends.map(|((o, m), e)| ((o, m), e)).enumerate()
-            {
+            for (index, ((events, monitors), end)) in ends.enumerate() {
                 let member = Member::new(index, 0);
                 let (system, start) = swinging(member);
                 let mut run = Integrator::new(&system, StormerVerlet::default(), start, step)

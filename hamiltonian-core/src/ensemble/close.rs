@@ -29,7 +29,7 @@ where
     T: Real,
     P: Pack,
 {
-    /// Whether the duration of a step is carried.
+    /// True if the duration of a step is carried.
     type Output = bool;
 
     #[inline(always)]

@@ -338,7 +338,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Whether a member at its stop after `n` more steps has an observer of signs.
+    /// Returns whether a member at its stop after `n` more steps has an observer of signs.
     pub(crate) fn is_any_watched_due(&self, n: u64) -> bool {
         let mut due = self.under().filter(|seat| seat.made + n == seat.stop);
         due.any(|seat| !seat.follows.sections.is_empty())

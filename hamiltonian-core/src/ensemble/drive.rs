@@ -35,7 +35,7 @@ pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
 
 /// The map of a scheme over the lanes of `P`.
 type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
-/// What such a map carries.
+/// The value that such a map carries.
 type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
 /// A truth for each lane.
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;

@@ -10,12 +10,12 @@ use alloc::vec::Vec;
 /// As many marked steps end a block.
 const MOST: usize = 16;
 
-/// What is carried after three steps, the last one last.
+/// The values carried after three steps, the last one last.
 pub(crate) type Three<C> = [C; 3];
 
 /// The marks of a block.
 pub(crate) struct Marks<C, M> {
-    /// What was carried after the last three steps.
+    /// The values carried after the last three steps.
     ring: Three<C>,
     /// The place of the last of them.
     turn: usize,

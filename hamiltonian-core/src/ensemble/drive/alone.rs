@@ -1,4 +1,4 @@
-//! What is rare in the drive of members: over their own scalar, and so once for all packs.
+//! Rare parts of the drive of members: they work over the members' own scalar, once for all packs.
 //!
 //! Input: numbers of the lanes. Output: members that have seen states, causes of failures. Invariant: nothing
 //! here depends on the level.

@@ -15,7 +15,10 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Carried, Clock, Map, Scheme, Scratch, Step, System};
+use hamiltonian::{
+    Scheme, System,
+    schemes::author::{Carried, Clock, Map, Scratch, Step},
+};
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
 
 hamiltonian! {

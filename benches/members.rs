@@ -10,7 +10,10 @@ use std::time::Instant;
 
 use hamiltonian::lanes::{Cpu, Kernel, Level, Pack, dispatch};
 use hamiltonian::prelude::*;
-use hamiltonian::{Carried, Clock, Map, Scheme, Scratch, Step};
+use hamiltonian::{
+    Scheme,
+    schemes::author::{Carried, Clock, Map, Scratch, Step},
+};
 
 hamiltonian! {
     /// A planar pendulum.

@@ -12,7 +12,9 @@ use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};
 use std::fmt::{Display, Write as _};
 use std::path::Path;

@@ -16,7 +16,10 @@ use crate::tree;
 use expressions::compiled;
 use generate::{COUNT, TESTS, file, trees};
 use hamiltonian::private::SVector;
-use hamiltonian::{Dynamics, Flow, Piece, Point, Scratch, Separable, System, VectorField};
+use hamiltonian::{
+    Separable, System,
+    schemes::author::{Dynamics, Flow, Piece, Point, Scratch, VectorField},
+};
 use interpret::Interpreted;
 
 /// An `f64` whose functions are calls: inlined, they would be most of what rustc

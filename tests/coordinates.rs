@@ -291,7 +291,7 @@ fn vectors_become_numbers() {
     for q in [[0.7, -0.4], [-0.8, 0.6], [-0.5, -0.9], [0.0, 1.0]] {
         same_system!(Flat::default(), Plane::default(), State::new(q, [0.3, 1.1]));
     }
-    let names = |groups: &[hamiltonian::Group]| -> Vec<_> {
+    let names = |groups: &[hamiltonian::schemes::author::Group]| -> Vec<_> {
         groups.iter().map(|g| (g.coordinate, g.momentum)).collect()
     };
     assert_eq!(

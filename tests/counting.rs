@@ -11,7 +11,10 @@ mod solar_system;
 mod toda;
 
 use counted::{Called, Counted, Counts, counted};
-use hamiltonian::{Dynamics, System, Vector, VectorField};
+use hamiltonian::{
+    System, Vector,
+    schemes::author::{Dynamics, VectorField},
+};
 use solar_system::Gravity;
 use toda::Toda;
 

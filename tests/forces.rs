@@ -4,7 +4,9 @@
 use crate::allocator::allocations;
 use crate::common::order::slope;
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::{Visitor, visit_any, visit_implicit, visit_separable, visit_split};
+use hamiltonian::schemes::author::{
+    Visitor, visit_any, visit_implicit, visit_separable, visit_split,
+};
 use hamiltonian::{DoubleDouble, Scheme, Separable, Split, hamiltonian};
 
 hamiltonian! {

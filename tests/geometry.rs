@@ -3,6 +3,9 @@
 use crate::common::geometry::*;
 use crate::common::measured_here;
 use crate::common::systems::*;
+use hamiltonian::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
 use hamiltonian::schemes::*;
 use hamiltonian::{Dual, Separable, Split, Unforced};
 

@@ -3,7 +3,7 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, momentum_from_energy};
-use hamiltonian::{Monitor, ObservableKind};
+use hamiltonian::{observers::Monitor, schemes::author::ObservableKind};
 
 hamiltonian! {
     /// Point masses; how many is known at run time.

@@ -2,7 +2,8 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::{
-    Autonomous, DoubleDouble, Dual, Dynamics, Observable, QuadraticKinetic, Separable,
+    Autonomous, DoubleDouble, Dual, QuadraticKinetic, Separable,
+    schemes::author::{Dynamics, Observable},
 };
 
 hamiltonian! {
@@ -209,7 +210,7 @@ fn check<S, const N: usize>(system: &S, q: [f64; N], p: [f64; N])
 where
     S: System<f64, Vector = Scalars<f64, N>> + System<Dual<f64>, Vector = Scalars<Dual<f64>, N>>,
 {
-    use hamiltonian::VectorField;
+    use hamiltonian::schemes::author::VectorField;
     let t = 0.3;
     let state = State::new(q, p).at(t);
     let gradient = System::<f64>::gradient(system, &state);

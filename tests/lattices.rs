@@ -2,7 +2,7 @@
 
 use crate::common::{bits, derivatives};
 use hamiltonian::prelude::*;
-use hamiltonian::{Lattice, Recorder, Scheme};
+use hamiltonian::{Lattice, Scheme, observers::Recorder};
 
 hamiltonian! {
     /// Periodic in both directions, of any size.

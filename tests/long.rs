@@ -2,7 +2,10 @@
 //! conditions, to each other.
 
 use hamiltonian::prelude::*;
-use hamiltonian::{Dual, Dynamics, VectorField};
+use hamiltonian::{
+    Dual,
+    schemes::author::{Dynamics, VectorField},
+};
 
 macro_rules! long {
     ($($k:tt)*) => {

@@ -7,7 +7,7 @@ use crate::common::derivatives::numbers;
 use crate::eval;
 use crate::symbolic;
 use hamiltonian::prelude::*;
-use hamiltonian::{Dynamics, VectorField};
+use hamiltonian::schemes::author::{Dynamics, VectorField};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};

@@ -5,9 +5,10 @@ use crate::common::order::{Order, slope};
 use crate::common::reference::difference;
 use crate::common::systems::Relativistic;
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::{Visitor, Zigzag, ZigzagOf};
+use hamiltonian::schemes::author::{Visitor, Zigzag, ZigzagOf};
 use hamiltonian::{
-    DoubleDouble, Entry, Listed, Nystrom, Point, Scheme, Split, Step, Vector, hamiltonian,
+    DoubleDouble, Nystrom, Scheme, Split, Vector, hamiltonian,
+    schemes::author::{Entry, Listed, Point, Step},
 };
 
 hamiltonian! {

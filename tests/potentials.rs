@@ -1,7 +1,7 @@
 //! Rust functions as potentials: derivatives by dual numbers, and functions with data as parameters.
 
-use hamiltonian::Dynamics;
 use hamiltonian::prelude::*;
+use hamiltonian::schemes::author::Dynamics;
 
 fn morse<T: Real>(r: T) -> T {
     let x = T::one() - (T::one() - r).exp();

@@ -5,7 +5,7 @@ mod friction;
 
 use hamiltonian::prelude::*;
 use hamiltonian::start::{Branch, Section, momentum_from_energy, on_section};
-use hamiltonian::{Dual, Dynamics};
+use hamiltonian::{Dual, schemes::author::Dynamics};
 
 use crate::common::canonical::{close, equal};
 

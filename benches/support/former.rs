@@ -3,7 +3,10 @@
 
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::collocation::Collocation;
-use hamiltonian::{DoubleDouble, Dynamics, Point, Vector, VectorField};
+use hamiltonian::{
+    DoubleDouble, Vector,
+    schemes::author::{Dynamics, Point, VectorField},
+};
 use std::array::from_fn;
 
 /// A change that no longer shrinks is rounding if it is at most this many ε of the numbers added.

@@ -30,7 +30,7 @@ pub struct WrongDerivative {
 /// [`WrongDerivative`] with the argument and both values, for the first derivative that differs.
 ///
 /// ```
-/// use hamiltonian::check_derivatives;
+/// use hamiltonian::schemes::author::check_derivatives;
 /// use hamiltonian::prelude::*;
 ///
 /// fn morse<T: Real>(x: T) -> T { let e = T::one() - (-x).exp(); e*e }

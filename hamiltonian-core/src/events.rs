@@ -76,7 +76,7 @@ pub struct Located<V: Vector> {
 /// # Errors
 /// The run returns [`Error::Event`] for a name that the system does not declare, for a period that is
 /// not positive, over packs of lanes, each of which has events of its own, and inside
-/// [`every`](crate::every), since every step must be seen; and the errors of parts of a step.
+/// [`every`](crate::observers::every), since every step must be seen; and the errors of parts of a step.
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,

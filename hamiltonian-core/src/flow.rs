@@ -41,7 +41,7 @@ impl<X, A: Scratch<X>, B: Scratch<X>> Scratch<X> for (A, B) {
 
 /// The exact map of a piece of H over a fixed duration, with t frozen.
 ///
-/// `X` is the space it acts on: a [`Point`](crate::Point) of phase space, or whatever a scheme
+/// `X` is the space it acts on: a [`Point`](crate::schemes::author::Point) of phase space, or whatever a scheme
 /// carries. Outside its domain a flow writes NaN into every component it moves; the check of the
 /// block finds that.
 pub trait Flow<X: Vector>: Clone + Debug {

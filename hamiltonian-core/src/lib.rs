@@ -31,7 +31,6 @@ mod vector;
 mod state;
 
 mod system;
-pub use system::gather;
 
 mod exponential;
 mod flow;
@@ -89,44 +88,57 @@ mod reach;
 pub mod private;
 
 pub use any::AnyRun;
-pub use checkpoint::{Checkpoint, Memory};
-pub use derivatives::{WrongDerivative, check_derivatives};
+pub use checkpoint::Checkpoint;
 pub use ensemble::{End, Ensemble, Ensembles, Lyapunov, Member, Record, Row, Status, Sweep};
-#[cfg(feature = "std")]
-pub use error::StoreError;
-pub use error::{CheckpointError, Error, KnotError, ShardError, TableError};
-pub use events::{Event, Events, Located};
-pub use flow::{Flow, Nothing, Piece, Pieces, Sandwich, Scratch, Turn, VectorField};
-pub use function::{Function, Grid, Spline};
-pub use hamiltonian_lanes::{DoubleDouble, Dual, Lift, Mask, Real};
-pub use integrator::{ErrorEstimate, Integrator, MapOf, Run, States};
+pub use error::Error;
+pub use hamiltonian_lanes::{DoubleDouble, Dual, Real};
+pub use integrator::{ErrorEstimate, Integrator, Run, States};
 pub use lattice::Lattice;
-pub use map::{Cause, Clock, Either, Map, ScalarOf, Step};
-pub use observe::{
-    Deviation, EnergyDrift, Every, Monitor, Monitors, Observer, Unobserved, Verdict, View, Watch,
-    every, watch,
-};
-pub use observed::{FieldObserved, Observed, ReadyObserved};
-pub use output::Recorder;
-pub use periodic::{Closing, PeriodicOrbit};
-#[cfg(feature = "progress")]
-pub use progress::Progress;
-pub use push::{Both, Coupled, SubStep};
-pub use scheme::{Entry, Form, Listed, Needs, OneStep, Scheme, Symmetric};
+pub use observe::{Observer, View};
+pub use scheme::Scheme;
 pub use shard::Shard;
-pub use state::{Carried, Gradient, Pair, Plain, Point, State};
-#[cfg(feature = "std")]
-pub use store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
-pub use system::gather::{Gather, InLanes, Kept};
+pub use state::{Gradient, Plain, State};
 pub use system::{
-    Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
-    QuadraticKinetic, Separable, Split, System, Unforced,
+    Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };
 pub use table::Table;
-pub use tangent::{Tangent, monodromy, multipliers, symplectic_defect};
-pub use times::{AtTimes, at_times};
-pub use transformed::{FieldInNewTime, InNewTime, TimeTransformed, WithTime};
+pub use transformed::TimeTransformed;
 pub use vector::{IntoVector, Vector, shape};
+
+/// What watches a run: observers, events on the way, and what they see.
+///
+/// An [`Observer`] is called with a [`View`] of the run after each step, or after each so many
+/// ([`every`](observers::every)). [`watch`](observers::watch) makes one of a closure, and a tuple of observers is one.
+pub mod observers {
+    pub use crate::checkpoint::Memory;
+    pub use crate::events::{Event, Events, Located};
+    pub use crate::observe::{
+        Deviation, EnergyDrift, Every, Monitor, Monitors, Unobserved, Verdict, Watch, every, watch,
+    };
+    pub use crate::output::Recorder;
+    #[cfg(feature = "progress")]
+    pub use crate::progress::Progress;
+    pub use crate::times::{AtTimes, at_times};
+}
+
+/// The parts of [`Error`]: what is wrong with a saved run, a table, a store, a shard or given points.
+pub mod errors {
+    #[cfg(feature = "std")]
+    pub use crate::error::StoreError;
+    pub use crate::error::{CheckpointError, KnotError, ShardError, TableError};
+}
+
+/// Zarr stores of sweeps, chunk by chunk.
+#[cfg(feature = "std")]
+pub mod stores {
+    pub use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
+}
+
+/// What a step does to neighbouring trajectories: tangent maps, Lyapunov exponents, periodic orbits.
+pub mod tangents {
+    pub use crate::periodic::{Closing, PeriodicOrbit};
+    pub use crate::tangent::{Tangent, monodromy, multipliers, symplectic_defect};
+}
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
 pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
@@ -138,6 +150,10 @@ pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 pub mod prelude {
     pub use crate::{Observer as _, System as _};
 
+    pub use crate::function::{Function, Grid, Spline};
+    pub use crate::observers::{
+        EnergyDrift, Event, Events, Monitors, Recorder, at_times, every, watch,
+    };
     pub use crate::schemes::{
         Aba104, Aba864, Aba1064, Adjoint, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4,
         BlanesMoan6, Compensated, Composition, ConsecutiveSubTrajectories, Density,
@@ -149,10 +165,10 @@ pub mod prelude {
         Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17,
         Yoshida4, Yoshida6,
     };
+    pub use crate::tangents::{Closing, PeriodicOrbit, Tangent, monodromy, symplectic_defect};
     pub use crate::{
-        AnyRun, Checkpoint, Closing, DoubleDouble, Dual, EnergyDrift, Ensemble, Ensembles, Error,
-        Event, Events, Function, Gradient, Grid, Integrator, Lyapunov, Member, Monitors, Observer,
-        PeriodicOrbit, Real, Recorder, Run, Shard, Spline, Split, State, StateOf, Status, Sweep,
-        System, Tangent, TimeTransformed, at_times, every, monodromy, symplectic_defect, watch,
+        AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Ensembles, Error, Gradient, Integrator,
+        Lyapunov, Member, Observer, Real, Run, Shard, Split, State, StateOf, Status, Sweep, System,
+        TimeTransformed,
     };
 }

@@ -1,7 +1,7 @@
 //! Watching a run.
 //!
 //! Input: states of a run, as [`View`]s. Output: the results of an [`Observer`]:
-//! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::Recorder), a closure. Invariant: watching
+//! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::observers::Recorder), a closure. Invariant: watching
 //! changes no bit of the run.
 
 mod deviation;
@@ -117,8 +117,8 @@ pub trait Observer<T: Real, S: System<T>> {
     /// Reads what it wrote, instead of being attached to the run whose present state it is shown.
     ///
     /// # Errors
-    /// [`CheckpointError::Other`](crate::CheckpointError::Other) where another observer wrote it,
-    /// [`CheckpointError::Damaged`](crate::CheckpointError::Damaged).
+    /// [`CheckpointError::Other`](crate::errors::CheckpointError::Other) where another observer wrote it,
+    /// [`CheckpointError::Damaged`](crate::errors::CheckpointError::Damaged).
     fn restore(&mut self, _view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("")
     }

@@ -18,7 +18,7 @@ use hamiltonian_lanes::{Dual, Real};
 /// momentum, the second along a direction likewise.
 ///
 /// ```
-/// use hamiltonian::Observed;
+/// use hamiltonian::schemes::author::Observed;
 #[doc = include_str!("doc/oscillator.md")]
 ///
 /// // The oscillator declares none.

@@ -71,7 +71,7 @@ pub struct PeriodicOrbit<V: Vector<Scalar = f64>> {
     /// The largest difference of a component after a period.
     pub gap: f64,
     /// The derivative of the state after a period with respect to the start, as of
-    /// [`monodromy`](crate::monodromy).
+    /// [`monodromy`](crate::tangents::monodromy).
     pub monodromy: DMatrix<f64>,
 }
 

@@ -20,7 +20,6 @@ pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
 pub use crate::function::Function;
-pub use crate::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
 pub use crate::lattice::{Lattice, fits};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
@@ -28,6 +27,7 @@ pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
+pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
 pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,

@@ -5,7 +5,7 @@
 //! [`SubStep`], a symmetric step for a force that has no exact flow. Invariant: only momenta move.
 
 use crate::flow::{Flow, Scratch, VectorField};
-use crate::schemes::{Contraction, iterate};
+use crate::schemes::author::{Contraction, iterate};
 use crate::state::Point;
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};

@@ -50,7 +50,7 @@ pub enum Needs {
     TimeTransformed,
 }
 
-/// Facts about a scheme: one line of the [catalogue](crate::schemes::catalogue).
+/// Facts about a scheme: one line of the [catalogue](crate::schemes::author::catalogue).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Entry {
     /// The type's name.

@@ -293,12 +293,12 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
 
     /// Runs a kernel with this system in all lanes of a pack, on the best level of this CPU. The provided
     /// method, for systems written by hand, hands the kernel back: they stay scalar. With [`Gather`] it is
-    /// [`gather::in_lanes`](crate::gather::in_lanes)`(self, kept, kernel)`. `kept` is memory of the caller's.
+    /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes)`(self, kept, kernel)`. `kept` is memory of the caller's.
     ///
     /// # Errors
     /// The kernel, if there are no lanes for this scalar or this system.
     ///
-    /// [`Gather`]: crate::Gather
+    /// [`Gather`]: crate::schemes::author::Gather
     #[inline(always)]
     fn in_lanes<K: InLanes<T, Self::Vector>>(
         &self,

@@ -399,7 +399,7 @@ pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
 /// have modulus 1.
 ///
 /// ```
-/// use hamiltonian::multipliers;
+/// use hamiltonian::tangents::multipliers;
 /// use hamiltonian::nalgebra::DMatrix;
 ///
 /// let turn = DMatrix::from_row_slice(2, 2, &[0.0, 1.0, -1.0, 0.0]);

@@ -6,9 +6,9 @@
 
 use crate::error::Error;
 use crate::flow::VectorField;
-use crate::gather::Gather;
 use crate::observed::Observed;
 use crate::state::{Pair, State};
+use crate::system::gather::Gather;
 use crate::system::{Arithmetic, Autonomous, Dynamics, Group, Observable, System, Unforced};
 use crate::vector::{Vector, dot};
 use alloc::vec::Vec;
@@ -29,8 +29,8 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// are steps of g in t: g is to be small where steps are to be short.
 ///
 /// `energy` and `gradient` of this system are those of K: on the shell its energy is 0 to the error of the
-/// scheme. The energy that a run, a [`Recorder`](crate::Recorder) and an
-/// [`EnergyDrift`](crate::EnergyDrift) show is K/g − p_t = H; of a state it is
+/// scheme. The energy that a run, a [`Recorder`](crate::observers::Recorder) and an
+/// [`EnergyDrift`](crate::observers::EnergyDrift) show is K/g − p_t = H; of a state it is
 /// `system.system.energy(&system.declared(&state))`.
 ///
 /// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the H of another system of

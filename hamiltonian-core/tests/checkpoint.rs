@@ -4,8 +4,13 @@ use crate::common::start;
 use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::*;
-use hamiltonian_core::{CheckpointError, Deviation, DoubleDouble, Every, Listed, Scheme};
+use hamiltonian_core::schemes::author::{Visitor, visit_any, visit_split};
+use hamiltonian_core::{
+    DoubleDouble, Scheme,
+    errors::CheckpointError,
+    observers::{Deviation, Every},
+    schemes::author::Listed,
+};
 use std::path::PathBuf;
 
 pub type Watchers<T> = (EnergyDrift<T>, (Monitors<T>, Every<Recorder>));
@@ -280,8 +285,8 @@ impl System<f64> for Spring {
     type Vector = hamiltonian_core::private::SVector<f64, 1>;
     type Prepared = Ready<Pendulum, 1>;
     const NAME: &'static str = "Spring";
-    const GROUPS: &'static [hamiltonian_core::Group] = &[scalar("q", "p", 0)];
-    const OBSERVABLES: &'static [hamiltonian_core::Observable] = &[];
+    const GROUPS: &'static [hamiltonian_core::schemes::author::Group] = &[scalar("q", "p", 0)];
+    const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
     fn describe_parameters(&self, to: &mut dyn core::fmt::Write) -> core::fmt::Result {
         writeln!(to, "k = {:?}", self.0)
     }

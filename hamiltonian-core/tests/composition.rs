@@ -6,8 +6,11 @@ use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Reversed, Splitting, Visitor, Weight};
-use hamiltonian_core::{DoubleDouble, Form, OneStep, Scheme, Vector};
+use hamiltonian_core::schemes::author::{Reversed, Splitting, Visitor, Weight};
+use hamiltonian_core::{
+    DoubleDouble, Scheme, Vector,
+    schemes::author::{Form, OneStep},
+};
 
 /// The slope of the error at t = 1 between two steps, in double-double, against a fourth-order
 /// method with a step 64 times smaller, whose error is below a thousandth of any here.

@@ -3,7 +3,7 @@
 use crate::common::systems::*;
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::{ErrorEstimate, Listed, Scheme};
+use hamiltonian_core::{ErrorEstimate, Scheme, schemes::author::Listed};
 
 type Estimate = ErrorEstimate<hamiltonian_core::private::SVector<f64, 1>>;
 
@@ -60,7 +60,8 @@ fn estimates_that_cannot_be_trusted_show_another_order() {
     assert!((rounding.order - 8.0).abs() > 2.0, "{rounding:?}");
     assert!(rounding.error < 1e-12, "{rounding:?}");
     // A scheme of order 2 that is entered with order 6.
-    let weights = [1.0, 0.0, 0.0].map(|weight| hamiltonian_core::schemes::Weight(weight, 0.0));
+    let weights =
+        [1.0, 0.0, 0.0].map(|weight| hamiltonian_core::schemes::author::Weight(weight, 0.0));
     let wrong = Composition::new(
         StormerVerlet::KickDriftKick,
         weights,

@@ -5,8 +5,10 @@ use core::f64::consts::{PI, TAU};
 use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian_core::{DoubleDouble, Error, Located, Scheme, View};
+use hamiltonian_core::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
+use hamiltonian_core::{DoubleDouble, Error, Scheme, View, observers::Located};
 
 type Heiles = Hand<HenonHeiles, 2>;
 type Plane = SVector<f64, 2>;

@@ -2,7 +2,10 @@
 
 use crate::common::four::Four;
 use hamiltonian_core::private::{Exponential, SVector};
-use hamiltonian_core::{Flow, Point, Real};
+use hamiltonian_core::{
+    Real,
+    schemes::author::{Flow, Point},
+};
 
 /// The rates of h = ½p² + gqp + ½kq² + q.
 #[derive(Debug, Clone)]

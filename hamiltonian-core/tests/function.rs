@@ -1,6 +1,10 @@
 //! Splines and grids: the conditions that define them, packs against single numbers, bad knots.
 
-use hamiltonian_core::{Dual, Function, Grid, KnotError, Real, Spline};
+use hamiltonian_core::{
+    Dual, Real,
+    errors::KnotError,
+    function::{Function, Grid, Spline},
+};
 use hamiltonian_lanes::{Nf, W};
 
 const KNOTS: [f64; 7] = [-1.0, -0.4, 0.1, 0.2, 1.3, 2.0, 3.5];

@@ -5,8 +5,13 @@ use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian_core::{Clock, Flow, Map, Point, Real, Scheme, Scratch, Step, Vector, VectorField};
+use hamiltonian_core::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
+use hamiltonian_core::{
+    Real, Scheme, Vector,
+    schemes::author::{Clock, Flow, Map, Point, Scratch, Step, VectorField},
+};
 
 /// (34) from these, and the Hénon–Heiles system.
 const STARTS: [[f64; 4]; 2] = [[0.4, -1.1, 0.05, 0.8], [0.3, 0.1, -0.02, -0.5]];
@@ -61,7 +66,7 @@ fn check<H, M, const N: usize>(
     };
     map.run(clock, 0, 700, &mut carried, &mut work);
     map.close(clock.at(700), &mut carried, &mut work);
-    let point = hamiltonian_core::Carried::point(&carried);
+    let point = hamiltonian_core::schemes::author::Carried::point(&carried);
     let end = State {
         t: clock.at(700),
         q: point.q,

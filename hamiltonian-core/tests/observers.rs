@@ -3,7 +3,10 @@
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::{DVector, Group, SVector};
-use hamiltonian_core::{Dynamics, Observer, Pair, Vector, View};
+use hamiltonian_core::{
+    Observer, Vector, View,
+    schemes::author::{Dynamics, Pair},
+};
 
 use std::ops::ControlFlow;
 
@@ -166,7 +169,7 @@ fn names_of_mixed_shapes() {
                 columns: 1,
             },
         ];
-        const OBSERVABLES: &'static [hamiltonian_core::Observable] = &[];
+        const OBSERVABLES: &'static [hamiltonian_core::schemes::author::Observable] = &[];
         fn prepare(&self) -> Mixed {
             Mixed
         }
@@ -179,7 +182,7 @@ fn names_of_mixed_shapes() {
     }
     #[derive(Debug, Clone)]
     struct NoField;
-    impl hamiltonian_core::VectorField<V> for NoField {
+    impl hamiltonian_core::schemes::author::VectorField<V> for NoField {
         fn add(&self, _: f64, _: &V, _: &V, _: &mut V, _: &mut V) {}
     }
     impl Dynamics<f64> for Mixed {

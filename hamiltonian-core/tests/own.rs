@@ -3,9 +3,15 @@
 use crate::common::systems::*;
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
-use hamiltonian_core::{Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point, Scheme};
-use hamiltonian_core::{Split, Step, Symmetric, Vector, VectorField};
+use hamiltonian_core::schemes::author::{Durations, Splitting, Weight, Zigzag, ZigzagOf};
+use hamiltonian_core::{
+    Scheme,
+    schemes::author::{Dynamics, Entry, Form, Listed, Map, Needs, OneStep, Point},
+};
+use hamiltonian_core::{
+    Split, Vector,
+    schemes::author::{Step, Symmetric, VectorField},
+};
 use std::marker::PhantomData;
 
 // A one-step scheme.

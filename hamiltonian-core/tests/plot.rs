@@ -4,7 +4,7 @@ use crate::common::python;
 use crate::common::systems::*;
 use hamiltonian_core::plot::{Curve, DENSE, Figure};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::{Error, TableError};
+use hamiltonian_core::{Error, errors::TableError};
 
 fn recorded(start: f64, recorder: Recorder) -> Recorder {
     let start = State::new([0.0], [start]);

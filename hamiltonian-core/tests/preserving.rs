@@ -10,7 +10,8 @@ use super::common::systems::{
 use super::common::{difference, start};
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    DoubleDouble, Error, Group, Integrator, Map, Real, Scheme, Scratch, State, Step, System, Vector,
+    DoubleDouble, Error, Integrator, Real, Scheme, State, System, Vector,
+    schemes::author::{Group, Map, Scratch, Step},
 };
 
 /// The Jacobi function cn(u | m), by the arithmetic–geometric mean (Abramowitz and Stegun, 16.4).

@@ -5,9 +5,11 @@ use crate::common::systems::*;
 use crate::common::{difference, start};
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::Splitting;
-use hamiltonian_core::schemes::*;
-use hamiltonian_core::{Entry, Listed, OneStep, Scheme};
+use hamiltonian_core::schemes::author::{Durations, Kernel4, Kernel6, Splitting, Weight};
+use hamiltonian_core::{
+    Scheme,
+    schemes::author::{Entry, Listed, OneStep},
+};
 
 /// A processor that does nothing.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,7 +2,7 @@
 
 use crate::common::systems::*;
 use core::ops::ControlFlow;
-use hamiltonian_core::Progress;
+use hamiltonian_core::observers::Progress;
 use hamiltonian_core::prelude::*;
 use indicatif::ProgressBar;
 

@@ -3,8 +3,10 @@
 use crate::common::systems::*;
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian_core::{Real, Scheme, Vector, private::SVector, watch};
+use hamiltonian_core::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
+use hamiltonian_core::{Real, Scheme, Vector, observers::watch, private::SVector};
 
 fn oscillating() -> State<SVector<f64, 2>> {
     State::new([0.1, -0.25], [0.42, 0.1])

@@ -6,7 +6,8 @@ use hamiltonian_core::start::{
     Branch, Section, coordinate_on_event, momentum_from_energy, on_section,
 };
 use hamiltonian_core::{
-    DoubleDouble, Dual, Error, Group, Observable, ObservableKind, Real, State, System, Vector,
+    DoubleDouble, Dual, Error, Real, State, System, Vector,
+    schemes::author::{Group, Observable, ObservableKind},
 };
 
 fn number<T: Real>(x: f64) -> T {

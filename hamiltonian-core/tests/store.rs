@@ -4,7 +4,11 @@
 mod kills;
 
 use crate::common::python;
-use hamiltonian_core::{ChunkData, Error, Layout, Real, Rows, Store, StoreError};
+use hamiltonian_core::{
+    Error, Real,
+    errors::StoreError,
+    stores::{ChunkData, Layout, Rows, Store},
+};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 

@@ -3,7 +3,7 @@
 use crate::common::python;
 use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::{Error, Table, TableError};
+use hamiltonian_core::{Error, Table, errors::TableError};
 use std::io::{self, ErrorKind, Write};
 
 /// A run of 2000 steps, all of them recorded.

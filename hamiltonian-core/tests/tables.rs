@@ -3,7 +3,7 @@
 //! Input: every table and the collocation methods. Output: the largest defect of each. Invariant: a
 //! table satisfies the conditions of its class up to its order, and not one order further.
 
-use hamiltonian_core::schemes::Weight;
+use hamiltonian_core::schemes::author::Weight;
 use hamiltonian_core::schemes::collocation::Collocation;
 use hamiltonian_core::schemes::tables::{
     Class, First, Listing, ProcessedListing, all, all_processed,

@@ -5,8 +5,10 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::nalgebra::{Complex, DMatrix};
 use hamiltonian_core::private::{Group, SVector};
-use hamiltonian_core::schemes::{Visitor, visit_any, visit_separable, visit_split, visit_unforced};
-use hamiltonian_core::{Scheme, Vector, multipliers};
+use hamiltonian_core::schemes::author::{
+    Visitor, visit_any, visit_separable, visit_split, visit_unforced,
+};
+use hamiltonian_core::{Scheme, Vector, tangents::multipliers};
 
 type Heiles = Hand<HenonHeiles, 2>;
 type Plane = State<SVector<f64, 2>>;

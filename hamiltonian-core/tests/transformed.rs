@@ -6,8 +6,9 @@ use super::schemes::{assert_order, defect, tangent};
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    Autonomous, DoubleDouble, Dual, Dynamics, Error, Group, Integrator, QuadraticKinetic, Real,
-    Scheme, State, System, TimeTransformed, Vector, VectorField, WithTime,
+    Autonomous, DoubleDouble, Dual, Error, Integrator, QuadraticKinetic, Real, Scheme, State,
+    System, TimeTransformed, Vector,
+    schemes::author::{Dynamics, Group, VectorField, WithTime},
 };
 
 /// g = √(x² + y²), and a term of p_y where it is asked for.

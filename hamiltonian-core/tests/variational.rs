@@ -10,11 +10,12 @@ use super::common::systems::{
 };
 use super::schemes::{assert_order, on_34, on_the_double_pendulum, symplectic};
 use hamiltonian_core::private::SVector;
+use hamiltonian_core::schemes::author::Ends;
 use hamiltonian_core::schemes::collocation::Collocation;
 use hamiltonian_core::schemes::*;
 use hamiltonian_core::{
-    DoubleDouble, Dual, Dynamics, Error, Group, Integrator, Listed, Observable, Real, Scheme,
-    State, System, VectorField,
+    DoubleDouble, Dual, Error, Integrator, Real, Scheme, State, System,
+    schemes::author::{Dynamics, Group, Listed, Observable, VectorField},
 };
 
 type Pendulums = Hand<DoublePendulum, 2>;

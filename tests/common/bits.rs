@@ -5,7 +5,10 @@
 use super::derivatives::numbers;
 use crate::counting::counted::Called;
 use hamiltonian::prelude::*;
-use hamiltonian::{Dynamics, Vector, VectorField};
+use hamiltonian::{
+    Vector,
+    schemes::author::{Dynamics, VectorField},
+};
 use hamiltonian_lanes::Cpu;
 
 /// Every output of a system: values, then elements.

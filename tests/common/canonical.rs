@@ -50,7 +50,7 @@ pub fn symplectic(columns: &[Vec<f64>]) {
 macro_rules! same_system {
     ($declared:expr, $new:expr, $state:expr) => {{
         use hamiltonian::prelude::{Integrator, RungeKutta4, State};
-        use hamiltonian::{Dual, Dynamics, System, Vector};
+        use hamiltonian::{Dual, System, Vector, schemes::author::Dynamics};
         use $crate::common::canonical::{close, equal, flat, shaped, symplectic};
         let (declared, new, written) = ($declared, $new, $state);
         let ones = State {

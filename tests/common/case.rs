@@ -6,7 +6,7 @@ use super::order::slope;
 use super::reference::{difference, solution};
 use super::{assert_digits, state};
 use hamiltonian::prelude::*;
-use hamiltonian::{DoubleDouble, Dual, Dynamics, Real, Vector};
+use hamiltonian::{DoubleDouble, Dual, Real, Vector, schemes::author::Dynamics};
 
 pub fn exactly(text: &str) -> DoubleDouble {
     text.parse().expect("a number")

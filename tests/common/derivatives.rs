@@ -1,7 +1,10 @@
 //! Derivatives of a system against dual numbers, against its energy in plain Rust, and against
 //! another definition of it.
 
-use hamiltonian::{Dual, Dynamics, Real, State, System, Vector, VectorField};
+use hamiltonian::{
+    Dual, Real, State, System, Vector,
+    schemes::author::{Dynamics, VectorField},
+};
 
 /// The lengths that systems with a length are checked at.
 pub const LENGTHS: [usize; 6] = [1, 2, 3, 7, 64, 200];

@@ -1,9 +1,10 @@
 //! The 2-form a scheme preserves, measured by exact tangents.
 
 use super::state;
-use hamiltonian::schemes::Visitor;
+use hamiltonian::schemes::author::Visitor;
 use hamiltonian::{
-    Clock, Dual, Entry, Form, Integrator, Map, Scheme, Scratch, State, Step, System, Vector,
+    Dual, Integrator, Scheme, State, System, Vector,
+    schemes::author::{Clock, Entry, Form, Map, Scratch, Step},
 };
 
 /// MᵀJM − J, and ‖M‖², both in the maximum norm of entries; columns of M are `columns`.

@@ -10,8 +10,8 @@ pub mod order;
 pub mod reference;
 pub mod systems;
 
-use hamiltonian::schemes::catalogue;
-use hamiltonian::{Needs, Real, State, System, Vector};
+use hamiltonian::schemes::author::catalogue;
+use hamiltonian::{Real, State, System, Vector, schemes::author::Needs};
 
 /// A point in any scalar.
 pub fn state<T: Real, S: System<T>>(

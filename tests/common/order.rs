@@ -2,8 +2,8 @@
 
 use super::reference::{difference, solution};
 use super::state;
-use hamiltonian::schemes::Visitor;
-use hamiltonian::{DoubleDouble, Entry, Integrator, Real, Scheme, State, System};
+use hamiltonian::schemes::author::Visitor;
+use hamiltonian::{DoubleDouble, Integrator, Real, Scheme, State, System, schemes::author::Entry};
 
 /// The exponent of the error against the step, by least squares over all points.
 pub fn slope(points: &[(f64, f64)]) -> f64 {

@@ -1,6 +1,6 @@
 //! Solutions to compare with, by methods that share nothing with the library's schemes.
 
-use hamiltonian::{DoubleDouble, Dynamics, Real, State, System, Vector};
+use hamiltonian::{DoubleDouble, Real, State, System, Vector, schemes::author::Dynamics};
 
 /// The local error a step of [`solution`] is accepted with, estimated two orders below its own:
 /// with the rounding of double-doubles (2.5e-32) amplified by the extrapolation (some 10³), what a

@@ -5,7 +5,7 @@
 //! counts, once each; lifting, constants, signs, comparisons and choices are no arithmetic.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-use hamiltonian::{Lift, Real};
+use hamiltonian::{Real, lanes::Lift};
 use std::cell::Cell;
 
 /// Operations by kind.

@@ -8,7 +8,7 @@ where
     S: System<f64>,
     M: Ensembles<S>,
 {
-    let name = hamiltonian::Listed::entry(&scheme).to_string();
+    let name = hamiltonian::schemes::author::Listed::entry(&scheme).to_string();
     let h = 0.03125;
     let mut swarm = Ensemble::new(COUNT, make, scheme.clone(), h)
         .expect("there are members")

@@ -4,7 +4,7 @@ use super::pieces::{Case, Each, check, flat, point};
 use crate::common::geometry::{defect, one_point};
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::Strang;
-use hamiltonian::{DoubleDouble, Dual, Error, Point, Real, Split, System};
+use hamiltonian::{DoubleDouble, Dual, Error, Real, Split, System, schemes::author::Point};
 
 hamiltonian! {
     /// An orbit about a centre that attracts or repels, and a weak field.

@@ -3,7 +3,10 @@
 use crate::common::geometry::{defect, one_point};
 use crate::eval::{self, run};
 use crate::symbolic as text;
-use hamiltonian::{DoubleDouble, Dual, Flow, Piece, Point, Real, Scratch, Split, System, Vector};
+use hamiltonian::{
+    DoubleDouble, Dual, Real, Split, System, Vector,
+    schemes::author::{Flow, Piece, Point, Scratch},
+};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
 use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::pipeline::derive;

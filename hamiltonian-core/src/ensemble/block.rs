@@ -22,7 +22,7 @@ pub(crate) struct Times<U> {
 }
 
 impl<U: Real> Times<U> {
-    /// The times `k` steps after the count began. As for [`Clock::at`](crate::Clock::at), it vanishes where
+    /// The times `k` steps after the count began. As for [`Clock::at`](crate::schemes::author::Clock::at), it vanishes where
     /// a system does not look at the time.
     #[inline(always)]
     pub(crate) fn at(&self, k: u64) -> U {

@@ -6,13 +6,13 @@
 use super::drive::InPack;
 use super::seat::Host;
 use crate::error::Error;
-use crate::gather::Gather;
 use crate::integrator::Recipe;
 use crate::map::Map;
 use crate::scheme::Entry;
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
 use crate::system::System;
+use crate::system::gather::Gather;
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;

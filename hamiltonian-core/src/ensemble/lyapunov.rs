@@ -2,7 +2,7 @@
 //!
 //! Input: a system and a start for each index, a scheme, a step. Output: the exponents of each. Invariants:
 //! each deviation of a member is a run over dual numbers, in lanes beside others; what is done to deviations
-//! between blocks is what [`Tangent`](crate::Tangent) does, in the same order.
+//! between blocks is what [`Tangent`](crate::tangents::Tangent) does, in the same order.
 
 use super::Member;
 use super::bound::Ensembles;
@@ -35,7 +35,7 @@ type Make<'a, S> =
 
 /// The Lyapunov exponents of many starts, in the lanes of packs and on threads: maps of chaos.
 ///
-/// They are those of [`Tangent::lyapunov`](crate::Tangent::lyapunov) for each member: mean rates of growth
+/// They are those of [`Tangent::lyapunov`](crate::tangents::Tangent::lyapunov) for each member: mean rates of growth
 /// of deviations over a finite stretch, in units of 1/time. Each deviation is carried by a run over
 /// [`Dual`](crate::Dual)s.
 ///
@@ -57,7 +57,7 @@ type Make<'a, S> =
 /// # Bits
 /// As for an [`Ensemble`](crate::Ensemble): threads and the other members change no bit, and with
 /// [`reproducible`](Lyapunov::reproducible) each has the bits of a single
-/// [`Tangent`](crate::Tangent) on every CPU.
+/// [`Tangent`](crate::tangents::Tangent) on every CPU.
 pub struct Lyapunov<'a, S: System<f64>, M> {
     count: usize,
     make: Make<'a, S>,
@@ -140,7 +140,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     }
 
     /// Fuses no products and sums, so that each member has the bits of its single
-    /// [`Tangent`](crate::Tangent) on every CPU.
+    /// [`Tangent`](crate::tangents::Tangent) on every CPU.
     #[must_use]
     pub fn reproducible(mut self) -> Self {
         self.fuses = false;

@@ -38,7 +38,7 @@ where
     /// alone.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::Cancelled`]; [`StoreError`](crate::StoreError) for a store of another
+    /// [`Error::NoMembers`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) for a store of another
     /// sweep or of other members, and for files that cannot be written.
     pub fn store(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
         if self.count == 0 {

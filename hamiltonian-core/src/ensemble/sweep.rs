@@ -379,7 +379,7 @@ where
     /// `status`, see [`Status`](crate::Status); with several rows the first is `member`.
     ///
     /// # Errors
-    /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::TableError::Twice) for a name that
+    /// Those of [`fold`](Sweep::fold); [`TableError::Twice`](crate::errors::TableError::Twice) for a name that
     /// occurs twice.
     pub fn collect(&self) -> Result<Table, Error> {
         let columns = self.record.columns.iter().map(String::as_str);

@@ -1,6 +1,6 @@
 //! Errors of knots and of the values at them.
 
-/// Data that a [`Spline`](crate::Spline) or a [`Grid`](crate::Grid) cannot pass through.
+/// Data that a [`Spline`](crate::function::Spline) or a [`Grid`](crate::function::Grid) cannot pass through.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum KnotError {

@@ -11,7 +11,7 @@ use alloc::sync::Arc;
 use core::fmt;
 use hamiltonian_lanes::Real;
 
-/// A function of the state whose roots a run locates, see [`Events`](crate::Events).
+/// A function of the state whose roots a run locates, see [`Events`](crate::observers::Events).
 ///
 /// Both directions count and the run goes on, unless it is told otherwise:
 ///

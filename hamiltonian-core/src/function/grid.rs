@@ -32,7 +32,7 @@ use hamiltonian_lanes::Real;
 /// // ∂/∂y, by a dual number.
 /// let slope = grid.value([Dual::fixed(x), Dual::variable(y)]).eps;
 /// assert!((slope + x.cos() * y.sin()).abs() < 1e-5);
-/// # Ok::<(), hamiltonian::KnotError>(())
+/// # Ok::<(), hamiltonian::errors::KnotError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Grid(Arc<Data>);

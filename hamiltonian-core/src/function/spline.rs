@@ -26,7 +26,7 @@ use hamiltonian_lanes::Real;
 /// // Its slope, by a dual number.
 /// assert!((spline.value([Dual::variable(0.73)]).eps - 0.73f64.cos()).abs() < 1e-5);
 /// assert!(spline.value([2.1_f64]).is_nan());
-/// # Ok::<(), hamiltonian::KnotError>(())
+/// # Ok::<(), hamiltonian::errors::KnotError>(())
 /// ```
 #[derive(Debug, Clone)]
 pub struct Spline(Arc<Pieces>);
@@ -72,7 +72,7 @@ impl Spline {
     /// the first again. It needs four knots.
     ///
     /// ```
-    /// use hamiltonian::KnotError;
+    /// use hamiltonian::errors::KnotError;
     /// use hamiltonian::prelude::*;
     ///
     /// let spline = Spline::periodic(&[0.0, 1.0, 2.0, 3.0], &[0.0, 1.0, -1.0, 0.0])?;

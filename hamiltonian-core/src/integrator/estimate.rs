@@ -25,7 +25,7 @@ pub struct ErrorEstimate<V: Vector> {
     pub energy_error: f64,
     /// The observed order p of `error` = O(hᵖ). NaN if steps make no difference.
     ///
-    /// If it is far from the order of the [entry](crate::Entry), the estimates are not reliable: the step is
+    /// If it is far from the order of the [entry](crate::schemes::author::Entry), the estimates are not reliable: the step is
     /// too long for the asymptotic error, errors are those of rounding, or the orbit is chaotic and the run
     /// longer than its memory.
     pub order: f64,
@@ -49,7 +49,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// With the end points z(h), z(h/2), z(h/4) and the differences a = |z(h) − z(h/2)| and
     /// b = |z(h/2) − z(h/4)| in the maximum norm, the observed order is log₂(a/b) and the error of z(h)
     /// a²/(a − b). If a ≤ √2 b, the error is the larger difference, a lower bound. H at the end is treated
-    /// likewise; [`EnergyDrift`](crate::EnergyDrift) measures it along a run.
+    /// likewise; [`EnergyDrift`](crate::observers::EnergyDrift) measures it along a run.
     ///
     /// Source: L. F. Richardson, Philos. Trans. R. Soc. A 226 (1927) 299, doi:10.1098/rsta.1927.0008.
     ///

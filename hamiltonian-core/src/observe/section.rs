@@ -1,7 +1,7 @@
 //! Changes of sign, found in lanes.
 //!
 //! Input: the values of a function after each step, lane by lane. Output: the lanes in which its sign may
-//! have changed, so that [`Events`](crate::Events) must see the step. Invariant: the step of a lane that is
+//! have changed, so that [`Events`](crate::observers::Events) must see the step. Invariant: the step of a lane that is
 //! not found is one at which the observer would find nothing, and after which it remembers two values alone.
 
 use super::quantity::Quantity;

@@ -83,7 +83,7 @@ impl Figure {
     /// Draws columns of a table against its time: the column `t`, or the first one if there is none.
     ///
     /// # Errors
-    /// [`TableError::Unknown`](crate::TableError::Unknown) if there is no such column.
+    /// [`TableError::Unknown`](crate::errors::TableError::Unknown) if there is no such column.
     pub fn against_time<'n>(
         table: &Table,
         columns: impl IntoIterator<Item = &'n str>,
@@ -112,7 +112,7 @@ impl Figure {
     /// rows, from one end of (−π, π] to the other.
     ///
     /// # Errors
-    /// [`TableError::Unknown`](crate::TableError::Unknown) if there is no such column.
+    /// [`TableError::Unknown`](crate::errors::TableError::Unknown) if there is no such column.
     pub fn phase_portrait(table: &Table, x: &str, y: &str) -> Result<Self, Error> {
         let (across, up) = (values(table, x)?, values(table, y)?);
         let mut points: Vec<(f64, f64)> = Vec::with_capacity(across.len());
@@ -138,7 +138,7 @@ impl Figure {
         })
     }
 
-    /// Draws a section: a dot for each point (x, y), for example of a [`Events`](crate::Events) observer
+    /// Draws a section: a dot for each point (x, y), for example of a [`Events`](crate::observers::Events) observer
     /// or of a sweep.
     ///
     /// ```
@@ -167,8 +167,8 @@ impl Figure {
     /// difference |H − H₀| if that is 0.
     ///
     /// # Errors
-    /// [`TableError::Unknown`](crate::TableError::Unknown) if the table has no column `H`:
-    /// [`Recorder::with_energy`](crate::Recorder::with_energy) records it.
+    /// [`TableError::Unknown`](crate::errors::TableError::Unknown) if the table has no column `H`:
+    /// [`Recorder::with_energy`](crate::observers::Recorder::with_energy) records it.
     pub fn energy_drift(table: &Table) -> Result<Self, Error> {
         let (time, t) = time_of(table)?;
         let energy = values(table, "H")?;

@@ -54,7 +54,7 @@ macro_rules! catalogue {
         /// The entries of all schemes, those for any H first.
         ///
         /// ```
-        /// for entry in hamiltonian::schemes::catalogue() {
+        /// for entry in hamiltonian::schemes::author::catalogue() {
         ///     println!("{entry}, {}: order {}", entry.equations, entry.order);
         /// }
         /// ```

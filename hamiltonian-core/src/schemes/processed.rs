@@ -26,7 +26,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// or the caller sees. K has to satisfy those order conditions alone that no change of variables removes, so
 /// it takes fewer stages than a splitting of the same order, or has smaller errors with as many.
 /// Observers of every step pay for the processor in every step; see
-/// [`every`](crate::every).
+/// [`every`](crate::observers::every).
 ///
 /// Both K and π are compositions of the exact flows, so Φ preserves dq∧dp. Its adjoint is
 /// π₋ₕ ∘ K* ∘ π₋ₕ⁻¹; π and π₋ₕ agree to the order of the scheme but not to the last bit, so Φ is symmetric to

@@ -12,10 +12,10 @@ use super::rows::{
 };
 use super::stages::{Stages, extrapolation};
 use crate::flow::Scratch;
-use crate::gather::{InLanes, Kept};
 use crate::map::{Cause, Clock, Map, Step};
 use crate::scheme::{Entry, Form, Listed, Needs, Scheme};
 use crate::state::{Pair, Point, State};
+use crate::system::gather::{InLanes, Kept};
 use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::vector::Vector;
 use core::fmt;

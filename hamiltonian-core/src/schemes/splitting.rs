@@ -60,8 +60,8 @@ pub trait Splitting: Listed + Copy {
 pub struct Reversed<W>(pub W);
 
 impl<W: Splitting> Listed for Reversed<W> {
-    fn entry(&self) -> crate::Entry {
-        crate::Entry {
+    fn entry(&self) -> crate::scheme::Entry {
+        crate::scheme::Entry {
             variant: "adjoint",
             ..self.0.entry()
         }
@@ -98,8 +98,8 @@ where
 pub struct Negated<W>(pub W);
 
 impl<W: Splitting> Listed for Negated<W> {
-    fn entry(&self) -> crate::Entry {
-        crate::Entry {
+    fn entry(&self) -> crate::scheme::Entry {
+        crate::scheme::Entry {
             variant: "adjoint",
             ..self.0.entry()
         }

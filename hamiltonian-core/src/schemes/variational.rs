@@ -340,7 +340,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// shape, [`Error::Stationary`] where no path was found.
     ///
     /// ```
-    /// use hamiltonian::schemes::Ends;
+    /// use hamiltonian::schemes::author::Ends;
     #[doc = include_str!("../doc/oscillator.md")]
     ///
     /// // From 0 to 1 in a quarter of a period, S = (p₁q₁ − p₀q₀)/2 = 0; in an eighth it is ½.

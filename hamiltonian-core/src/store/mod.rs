@@ -30,7 +30,7 @@ use std::path::{Path, PathBuf};
 /// Processes write chunks of one store without coordination, each its own; threads share a store.
 ///
 /// ```
-/// use hamiltonian::{ChunkData, Layout, Store};
+/// use hamiltonian::stores::{ChunkData, Layout, Store};
 /// use hamiltonian::prelude::*;
 ///
 /// fn main() -> Result<(), Error> {

@@ -30,7 +30,7 @@ pub const MOST: usize = 128;
 /// ensembles and, with [`Dynamics::in_lanes`], to let implicit schemes use packs in a single run:
 ///
 /// ```
-/// use hamiltonian::{Dynamics, Gather, InLanes, Unforced, Vector, VectorField, gather};
+/// use hamiltonian::{Unforced, Vector, schemes::author::{Dynamics, Gather, InLanes, VectorField, gather}};
 /// use hamiltonian::lanes::Pack;
 /// use hamiltonian::nalgebra::SVector;
 /// use hamiltonian::prelude::*;
@@ -94,7 +94,7 @@ pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
 pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     /// The computation.
     type Output;
-    /// The pack that is used on a level; wrapped in [`Nf`] unless products [fuse](crate::Arithmetic::fused), so that
+    /// The pack that is used on a level; wrapped in [`Nf`] unless products [fuse](crate::schemes::author::Arithmetic::fused), so that
     /// a run has the same bits on every level.
     type Pack<L: Level>: Base;
     /// Computes it with the system in every lane. What it keeps, it finds there the next time that a kernel

@@ -1,6 +1,6 @@
 //! Tables of numbers with named columns.
 //!
-//! Input: rows, from a [`Recorder`](crate::Recorder) or a sweep. Output: columns by name, CSV
+//! Input: rows, from a [`Recorder`](crate::observers::Recorder) or a sweep. Output: columns by name, CSV
 //! ([`Table::write_csv`]) and NumPy files ([`Table::write_npy`]). Invariants: names are unique, and
 //! each row has a value for each column.
 
@@ -16,7 +16,7 @@ use hamiltonian_lanes::Real;
 
 /// Rows of `f64` under named columns.
 ///
-/// A [`Recorder`](crate::Recorder) is read as the table of its run, and a sweep collects one. A table
+/// A [`Recorder`](crate::observers::Recorder) is read as the table of its run, and a sweep collects one. A table
 /// with an index has whole numbers in its first column, for example the member that a row belongs to
 /// where members have several rows.
 ///

@@ -3,8 +3,8 @@
 use super::systems::{Half, Moving, number};
 use hamiltonian_core::private::DVector;
 use hamiltonian_core::{
-    Dynamics, Exact, Flow, Group, Observable, Piece, Point, Real, Separable, Split, System,
-    Unforced, VectorField,
+    Exact, Real, Separable, Split, System, Unforced,
+    schemes::author::{Dynamics, Flow, Group, Observable, Piece, Point, VectorField},
 };
 
 /// A chain of n sites between fixed ends, sized at run time:

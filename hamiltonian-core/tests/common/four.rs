@@ -1,6 +1,7 @@
 //! Four independent numbers as one scalar, without any care for speed.
 
-use hamiltonian_core::{Lift, Mask, Real};
+use hamiltonian_core::Real;
+use hamiltonian_lanes::{Lift, Mask};
 use std::array::from_fn;
 use std::ops::{
     Add, AddAssign, BitAnd, BitOr, Div, DivAssign, Mul, MulAssign, Neg, Not, Sub, SubAssign,

@@ -2,7 +2,10 @@
 
 use super::systems::{Formula, Hand, Ready, scalar};
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::{Flow, Group, Piece, Point, Real, Split};
+use hamiltonian_core::{
+    Real, Split,
+    schemes::author::{Flow, Group, Piece, Point},
+};
 
 fn number<T: Real>(x: f64) -> T {
     T::constant(x, 0.0)

@@ -3,8 +3,10 @@
 pub use super::chain::Chain;
 use hamiltonian_core::private::SVector;
 use hamiltonian_core::{
-    Dual, Dynamics, Exact, Flow, Group, Nystrom, Observable, ObservableKind, Piece, Point, Real,
-    Separable, Split, System, Unforced, VectorField,
+    Dual, Exact, Nystrom, Real, Separable, Split, System, Unforced,
+    schemes::author::{
+        Dynamics, Flow, Group, Observable, ObservableKind, Piece, Point, VectorField,
+    },
 };
 
 /// H as a formula over any scalar, with N coordinates.

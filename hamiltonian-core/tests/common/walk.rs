@@ -5,8 +5,15 @@
 use super::start;
 use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
 use crate::transformed::{InRadius, in_radius, pericentre};
-use hamiltonian_core::schemes::*;
-use hamiltonian_core::{Group, OneStep, QuadraticKinetic, Real, Scheme, State, System};
+use hamiltonian_core::schemes::author::{
+    Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
+    visit_implicit, visit_nystrom, visit_quadratic, visit_separable, visit_split,
+    visit_transformed, visit_unforced,
+};
+use hamiltonian_core::{
+    QuadraticKinetic, Real, Scheme, State, System,
+    schemes::author::{Group, OneStep},
+};
 
 /// H = ½(1 + ½ sin 2t)(q² + 1)(p² + 1): not separable, and with time in it.
 #[derive(Debug, Clone)]

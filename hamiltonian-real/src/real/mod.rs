@@ -14,7 +14,7 @@ use core::ops::{
 /// The result of comparing two [`Real`]s: `bool` for scalars, one flag a lane for packs.
 ///
 /// ```
-/// use hamiltonian::Mask;
+/// use hamiltonian::lanes::Mask;
 /// use hamiltonian::prelude::*;
 ///
 /// fn inside<T: Real>(x: T) -> T::Mask {
@@ -49,7 +49,7 @@ pub trait Mask:
 /// from `f64`); a dual number lifts as a constant.
 ///
 /// ```
-/// use hamiltonian::Lift;
+/// use hamiltonian::lanes::Lift;
 /// use hamiltonian::prelude::*;
 ///
 /// fn twice<P, T: Real + Lift<P>>(parameter: P, x: T) -> T {
@@ -214,7 +214,7 @@ pub trait Real:
     /// The lanes all of whose components are finite.
     ///
     /// ```
-    /// use hamiltonian::Mask;
+    /// use hamiltonian::lanes::Mask;
     /// use hamiltonian::prelude::*;
     /// assert!(!Dual::new(1.0, f64::INFINITY).finite().all());
     /// ```

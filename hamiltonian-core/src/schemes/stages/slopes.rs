@@ -5,7 +5,6 @@
 
 use super::{Carries, Collocated, Stages};
 use crate::flow::VectorField;
-use crate::gather::{InLanes, Kept};
 use crate::map::Clock;
 use crate::schemes::compensated::carry;
 use crate::schemes::iterate::Outcome;
@@ -15,6 +14,7 @@ use crate::schemes::rows::{
 };
 use crate::state::{Pair, Point};
 use crate::system::Dynamics;
+use crate::system::gather::{InLanes, Kept};
 use crate::vector::Vector;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{Level, Mask, Pack, Real};

@@ -5,7 +5,7 @@
 //! the order, whatever the map.
 
 use super::{Class, Coefficients, palindrome, strokes, symmetric};
-use crate::schemes::Weight;
+use crate::schemes::author::Weight;
 
 /// Ruth's scheme of order 3, the least with three stages; not symmetric.
 ///

@@ -5,7 +5,7 @@
 //! class names.
 
 use super::{Class, Coefficients, mirrored};
-use crate::schemes::Weight;
+use crate::schemes::author::Weight;
 
 /// Störmer–Verlet in this notation: error O(εh² + ε²h²).
 pub const SABA_1: Coefficients<1> = Coefficients {

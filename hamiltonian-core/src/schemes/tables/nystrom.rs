@@ -6,7 +6,7 @@
 //! for [`Nystrom`](crate::Nystrom); the piece that is first in the paper is first.
 
 use super::{Class, Coefficients, First, mirrored, palindrome};
-use crate::schemes::Weight;
+use crate::schemes::author::Weight;
 
 /// Blanes and Moan's SRKN₆ᵇ, order 4 with 6 stages, kick first.
 ///

@@ -5,7 +5,7 @@
 //! one after the other satisfy the conditions of the class; the durations of π sum to zero.
 
 use super::{Class, near_integrable::SABA_1, palindrome, symmetric};
-use crate::schemes::{Durations, Weight};
+use crate::schemes::author::{Durations, Weight};
 
 /// A kernel of `K` stages and a processor of `P`.
 #[derive(Debug, Clone, Copy, PartialEq)]

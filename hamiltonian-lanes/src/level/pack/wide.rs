@@ -15,7 +15,7 @@ use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
 /// `K` packs as one of `K` times as many lanes; pack 0 has the first lanes.
 ///
 /// ```
-/// use hamiltonian::Mask;
+/// use hamiltonian::lanes::Mask;
 /// use hamiltonian::lanes::W;
 /// use hamiltonian::prelude::*;
 ///

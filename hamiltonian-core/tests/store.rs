@@ -451,8 +451,11 @@ fn zarr_and_xarray_open_it() {
     let printed = python::run(
         r#"
 import sys, math, numpy as np, xarray as xr, zarr
-def opened(name, **more):
-    return xr.open_zarr(f"{sys.argv[1]}/{name}", consolidated=False, **more)
+def opened(name):
+    # Warnings are errors here. The root of groups of rows, which appear one by one, has no consolidated
+    # metadata: xarray would warn of that.
+    consolidated = False if name == "any" else None
+    return xr.open_zarr(f"{sys.argv[1]}/{name}", consolidated=consolidated)
 def expected(column, member, row=0):
     return math.nan if 4 <= member < 8 else math.sin(member + column) + row
 for name in ["one", "at", "any"]:
@@ -474,7 +477,7 @@ for column, name in [(0.0, "theta"), (0.25, "drift[0]")]:
     np.testing.assert_allclose(at[name].values, values, rtol=1e-15)
 print(float(at.theta.sel(at=2.0, member=3)) - float(one.theta[3]))
 assert opened("any")["count"].values.tolist() == [0, 1, 2, 3] + [0]*4 + [0, 1]
-rows = xr.concat([opened("any", group=f"rows/{k}") for k in [0, 2]], dim="row")
+rows = xr.concat([opened(f"any/rows/{k}") for k in [0, 2]], dim="row")
 assert rows.member.values.tolist() == [1, 2, 2, 3, 3, 3, 9]
 np.testing.assert_allclose(rows.theta.values,
     [expected(0, m, row) for m, row in [(1,0), (2,0), (2,1), (3,0), (3,1), (3,2), (9,0)]], rtol=1e-15)

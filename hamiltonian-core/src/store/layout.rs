@@ -161,7 +161,10 @@ impl Layout {
         Ok(())
     }
 
-    /// The metadata of the group.
+    /// The metadata of the group, with those of its arrays: readers then open one file.
+    ///
+    /// Where members have any number of rows they are left out: each chunk adds a group, and readers of
+    /// consolidated metadata look for no others.
     pub(super) fn group(&self) -> Json {
         let own = [
             ("members".to_owned(), Json::Whole(self.members)),
@@ -169,7 +172,11 @@ impl Layout {
         ];
         let given = self.attributes.iter();
         let given = given.map(|(name, value)| (name.clone(), value.json()));
-        group(Json::Object(own.into_iter().chain(given).collect()))
+        let attributes = Json::Object(own.into_iter().chain(given).collect());
+        match self.rows {
+            Rows::Any => group(attributes),
+            Rows::One | Rows::At { .. } => consolidated(attributes, &self.arrays()),
+        }
     }
 
     /// The arrays of the root.
@@ -324,9 +331,33 @@ impl Array {
 
 /// The metadata of a group.
 pub(super) fn group(attributes: Json) -> Json {
-    Json::object([
+    Json::object(group_members(attributes))
+}
+
+fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
+    [
         ("zarr_format", Json::Whole(3)),
         ("node_type", Json::text("group")),
         ("attributes", attributes),
+    ]
+}
+
+/// The metadata of a group with those of all of its arrays, as zarr-python writes them: the specification
+/// has no word for it yet, and readers may ignore it.
+pub(super) fn consolidated(attributes: Json, arrays: &[Array]) -> Json {
+    let metadata = arrays
+        .iter()
+        .map(|array| (array.name.clone(), array.metadata()));
+    let consolidated = Json::object([
+        ("kind", Json::text("inline")),
+        ("must_understand", Json::Flag(false)),
+        ("metadata", Json::Object(metadata.collect())),
+    ]);
+    let [format, node, attributes] = group_members(attributes);
+    Json::object([
+        format,
+        node,
+        attributes,
+        ("consolidated_metadata", consolidated),
     ])
 }

@@ -204,9 +204,9 @@ impl Store {
         let write = || -> io::Result<()> {
             let part = self.parts.fresh()?;
             fs::create_dir(&part)?;
-            let group = layout::group(json::Json::Object(Vec::new())).to_string();
-            files::write_new(&part.join("zarr.json"), group.as_bytes())?;
             let arrays = self.layout.rows_arrays(data.member.len() as u64);
+            let group = layout::consolidated(json::Json::Object(Vec::new()), &arrays).to_string();
+            files::write_new(&part.join("zarr.json"), group.as_bytes())?;
             let columns = data.columns.iter().map(|c| bytes_of(c, f64::to_le_bytes));
             let members = bytes_of(&data.member, u64::to_le_bytes);
             for (array, bytes) in arrays.iter().zip(core::iter::once(members).chain(columns)) {

@@ -28,12 +28,13 @@ fn formulas_are_set_as_in_print() {
         (
             r"\frac{p^{2}}{2 m l^{2}} - m g l \cos(\theta)",
             "<mfrac><msup><mi>p</mi><mn>2</mn></msup><mrow><mn>2</mn><mi>m</mi><msup><mi>l</mi><mn>2</mn></msup></mrow></mfrac>\
-             <mo>−</mo><mi>m</mi><mi>g</mi><mi>l</mi><mi>cos</mi><mo>\u{2061}</mo><mo>(</mo><mi>θ</mi><mo>)</mo>",
+             <mo>−</mo><mi>m</mi><mi>g</mi><mi>l</mi><mspace width=\"0.17em\"></mspace>\
+             <mi>cos</mi><mo>\u{2061}</mo><mrow><mo>(</mo><mi>θ</mi><mo>)</mo></mrow>",
         ),
         (
             r"p_{\theta}^{2} \sin^{2}(\theta)",
-            "<msubsup><mi>p</mi><mi>θ</mi><mn>2</mn></msubsup><msup><mi>sin</mi><mn>2</mn></msup><mo>\u{2061}</mo>\
-             <mo>(</mo><mi>θ</mi><mo>)</mo>",
+            "<msubsup><mi>p</mi><mi>θ</mi><mn>2</mn></msubsup><mspace width=\"0.17em\"></mspace><msup><mi>sin</mi><mn>2</mn></msup><mo>\u{2061}</mo>\
+             <mrow><mo>(</mo><mi>θ</mi><mo>)</mo></mrow>",
         ),
         (
             r"\left|q\right| + \sqrt[3]{x}",
@@ -41,7 +42,12 @@ fn formulas_are_set_as_in_print() {
         ),
         (
             r"\mathrm{mass} \phi_{\mathrm{dot}}",
-            "<mi mathvariant=\"normal\">mass</mi><msub><mi>φ</mi><mi mathvariant=\"normal\">dot</mi></msub>",
+            "<mi mathvariant=\"normal\">mass</mi><mspace width=\"0.17em\"></mspace><msub><mi>φ</mi><mi mathvariant=\"normal\">dot</mi></msub>",
+        ),
+        (
+            r"2 \mathrm{va} + q \mathrm{d} t",
+            "<mn>2</mn><mspace width=\"0.17em\"></mspace><mi mathvariant=\"normal\">va</mi><mo>+</mo><mi>q</mi>\
+             <mi mathvariant=\"normal\">d</mi><mi>t</mi>",
         ),
         (
             r"\begin{cases} p & \text{if } q < 0 \\ 2 p & \text{otherwise} \end{cases}",
@@ -55,7 +61,7 @@ fn formulas_are_set_as_in_print() {
         ),
         (
             r"-V'(x) + 1.5 \cdot 10^{-30}",
-            "<mo>−</mo><msup><mi>V</mi><mo>′</mo></msup><mo>(</mo><mi>x</mi><mo>)</mo><mo>+</mo><mn>1.5</mn><mo>⋅</mo>\
+            "<mo>−</mo><msup><mi>V</mi><mo>′</mo></msup><mrow><mo>(</mo><mi>x</mi><mo>)</mo></mrow><mo>+</mo><mn>1.5</mn><mo>⋅</mo>\
              <msup><mn>10</mn><mrow><mo>−</mo><mn>30</mn></mrow></msup>",
         ),
     ] {
@@ -74,6 +80,8 @@ fn what_the_printer_does_not_write_has_no_translation() {
         r"\left(a",
         "a & b",
         "a }",
+        "(a",
+        "a)",
         r"\begin{matrix} a",
     ] {
         assert_eq!(mathml(latex), None, "{latex}");

@@ -191,7 +191,7 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
     out
 }
 
-/// Rows of a table that stand open in the docs.
+/// Rows of a table, and lines of equations, that stand open in the docs.
 const LONG_TABLE: usize = 12;
 
 /// Markdown that rustdoc shows on demand.
@@ -199,6 +199,14 @@ fn collapsed(doc: &mut String, summary: &str, markdown: &str) {
     let _ = write!(
         doc,
         "\n<details><summary>{summary}</summary>\n\n{markdown}\n\n</details>\n"
+    );
+}
+
+/// A formula in a block of its own, which is scrolled where it is wider than the page.
+fn formula(doc: &mut String, math: &str) {
+    let _ = write!(
+        doc,
+        "\n<div style=\"overflow-x:auto\">\n<math display=\"block\">\n{math}\n</math>\n</div>\n"
     );
 }
 
@@ -211,7 +219,7 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     }
     doc.push_str("\n# Hamiltonian\n");
     if !text.math.is_empty() {
-        let _ = write!(doc, "\n<math display=\"block\">\n{}\n</math>\n", text.math);
+        formula(&mut doc, &text.math);
     }
     let _ = write!(doc, "\n```text\n{}\n```\n", text.hamiltonian);
     for fact in &text.facts {
@@ -220,13 +228,15 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     if !text.equations.is_empty() {
         doc.push_str("\n# Equations of motion\n");
         let lines = format!("```text\n{}\n```", text.equations.join("\n"));
-        if text.math_equations.is_empty() {
+        if text.math_equations.is_empty() && text.equations.len() > LONG_TABLE {
+            collapsed(&mut doc, "Each variable", &lines);
+        } else if text.math_equations.is_empty() {
             let _ = write!(doc, "\n{lines}\n");
         } else {
             let rows = &text.math_equations;
-            let _ = write!(
-                doc,
-                "\n<math display=\"block\">\n<mtable displaystyle=\"true\">\n{rows}</mtable>\n</math>\n"
+            formula(
+                &mut doc,
+                &format!("<mtable displaystyle=\"true\">\n{rows}</mtable>"),
             );
             collapsed(&mut doc, "As text", &lines);
         }
@@ -247,8 +257,8 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     }
     if !text.operations.is_empty() {
         doc.push_str(
-            "\n# Operations\n\nOf one evaluation, without what parameters alone decide, which is done once a run. \
-             A fused multiply–add is two, the sine and cosine of an angle are one.\n",
+            "\n# Operations\n\nThe operations of one evaluation. What depends on parameters alone is computed once a run and \
+             not counted. A fused multiply–add counts as two operations, the sine and cosine of one angle as one.\n",
         );
         let table = text.operations.join("\n");
         // A row for each loop: many of them hide what follows.

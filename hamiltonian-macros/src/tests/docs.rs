@@ -218,12 +218,16 @@ fn formulas_are_set() {
     let pendulum = docs(PENDULUM);
     let hamiltonian = section(&pendulum, "Hamiltonian");
     assert!(
-        hamiltonian.starts_with("<math display=\"block\">\n<mi>H</mi><mo>=</mo><mfrac>"),
+        hamiltonian.starts_with(
+            "<div style=\"overflow-x:auto\">\n<math display=\"block\">\n<mi>H</mi><mo>=</mo><mfrac>"
+        ),
         "{hamiltonian}"
     );
     let equations = section(&pendulum, "Equations of motion");
     assert_eq!(equations.matches("<mtr>").count(), 2, "{equations}");
-    assert!(equations.contains("</math>\n\n<details><summary>As text</summary>\n\n```text\n"));
+    assert!(
+        equations.contains("</math>\n</div>\n\n<details><summary>As text</summary>\n\n```text\n")
+    );
     assert!(section(&pendulum, "LaTeX").starts_with("<details>"));
     for tag in ["math", "mtable", "details", "mfrac", "msup", "mrow", "mtd"] {
         let (open, close) = (format!("<{tag}"), format!("</{tag}>"));
@@ -245,6 +249,28 @@ fn formulas_are_set() {
     ));
     assert!(!long.contains("<math"));
     assert!(section(&long, "Hamiltonian").starts_with("```text"));
+    // Many lines of text open on demand too.
+    let masses: Vec<String> = (0..13).map(|k| format!("p{k}^2/(2*m{k})")).collect();
+    let terms: Vec<String> = (1..400).map(|k| format!("{k}/7*cos({k}*q0)")).collect();
+    let names = |letter: char| {
+        (0..13)
+            .map(|k| format!("{letter}{k}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let many = docs(&format!(
+        "pub struct Many {{ {} }} H({}; {}) = {} + {}",
+        names('m').replace(", ", " = 1, ") + " = 1",
+        names('q'),
+        names('p'),
+        masses.join(" + "),
+        terms.join(" + "),
+    ));
+    let equations = section(&many, "Equations of motion");
+    assert!(
+        equations.starts_with("<details><summary>Each variable</summary>"),
+        "{equations}"
+    );
 }
 
 #[test]

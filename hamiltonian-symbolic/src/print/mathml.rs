@@ -45,15 +45,33 @@ struct Reader<'t> {
     depth: usize,
 }
 
-/// What scripts do with the element before them.
+/// What an element is, for its scripts and for the space before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Base {
+    /// A sign or a space.
+    Sign,
+    /// A letter, a number, a fraction or parentheses.
     Plain,
+    /// A name of several letters.
+    Word,
     /// Scripts stand below and above.
     Sum,
     /// An argument follows.
     Function,
 }
+
+impl Base {
+    /// Whether a thin space stands between two elements: before a function, as in TeX, and beside a word, which
+    /// would run into its neighbour.
+    fn is_apart_from(self, next: Base) -> bool {
+        matches!(
+            (self, next),
+            (Base::Plain | Base::Word, Base::Function | Base::Word) | (Base::Word, Base::Plain)
+        )
+    }
+}
+
+const THIN_SPACE: &str = "<mspace width=\"0.17em\"></mspace>";
 
 impl<'t> Reader<'t> {
     fn token(&mut self) -> Token<'t> {
@@ -104,13 +122,17 @@ impl<'t> Reader<'t> {
             return None;
         }
         self.depth += 1;
-        let mut row = Vec::new();
+        let (mut row, mut before) = (Vec::new(), Base::Sign);
         let end = loop {
             let token = self.token();
             if ends.contains(&token) {
                 break token;
             }
             let (element, base) = self.element(token)?;
+            if before.is_apart_from(base) {
+                row.push(THIN_SPACE.to_owned());
+            }
+            before = base;
             row.push(self.scripts(element, base)?);
             if base == Base::Function {
                 row.push("<mo>\u{2061}</mo>".to_owned());
@@ -176,10 +198,13 @@ impl<'t> Reader<'t> {
         match token {
             Token::Digits(digits) => plain(format!("<mn>{digits}</mn>")),
             Token::Char('{') => plain(one(self.row(Token::Char('}'))?)),
-            Token::Char('-') => plain("<mo>−</mo>".to_owned()),
+            Token::Char('-') => Some(("<mo>−</mo>".to_owned(), Base::Sign)),
             Token::Char(c) if c.is_alphabetic() => plain(format!("<mi>{c}</mi>")),
-            Token::Char(c) if "()[]+=/,|!<>:;".contains(c) => {
-                plain(format!("<mo>{}</mo>", escaped(&c.to_string())))
+            // A row of their own: parentheses stretch to what is in their row.
+            Token::Char('(') => plain(fenced('(', &self.row(Token::Char(')'))?, ')')),
+            Token::Char('[') => plain(fenced('[', &self.row(Token::Char(']'))?, ']')),
+            Token::Char(c) if "+=/,|!<>:;".contains(c) => {
+                Some((format!("<mo>{}</mo>", escaped(&c.to_string())), Base::Sign))
             }
             Token::Command(name) => self.command(name),
             Token::Char(_) | Token::End => None,
@@ -202,34 +227,37 @@ impl<'t> Reader<'t> {
                 let Token::Char(open) = self.token() else {
                     return None;
                 };
-                let inner = self.row(Token::Command("right"))?.concat();
+                let inner = self.row(Token::Command("right"))?;
                 let Token::Char(close) = self.token() else {
                     return None;
                 };
-                let [open, close] = [open, close].map(|c| escaped(&c.to_string()));
-                format!("<mrow><mo>{open}</mo>{inner}<mo>{close}</mo></mrow>")
+                fenced(open, &inner, close)
             }
             "begin" => self.cases()?,
             "mathrm" => {
                 let word = escaped(&self.words()?.replace('\\', ""));
-                format!("<mi mathvariant=\"normal\">{word}</mi>")
+                let base = match word.chars().nth(1) {
+                    Some(_) => Base::Word,
+                    None => Base::Plain,
+                };
+                return Some((format!("<mi mathvariant=\"normal\">{word}</mi>"), base));
             }
-            "text" => format!(
-                "<mtext>{}</mtext>",
-                escaped(self.words()?).replace(' ', "\u{a0}")
-            ),
+            "text" => {
+                let text = escaped(self.words()?).replace(' ', "\u{a0}");
+                return Some((format!("<mtext>{text}</mtext>"), Base::Sign));
+            }
             "operatorname" => {
                 let word = escaped(self.words()?);
                 return Some((format!("<mi>{word}</mi>"), Base::Function));
             }
             "sum" => return Some(("<mo>∑</mo>".to_owned(), Base::Sum)),
-            "," => "<mspace width=\"0.17em\"></mspace>".to_owned(),
-            "quad" => "<mspace width=\"1em\"></mspace>".to_owned(),
+            "," => return Some((THIN_SPACE.to_owned(), Base::Sign)),
+            "quad" => return Some(("<mspace width=\"1em\"></mspace>".to_owned(), Base::Sign)),
             _ if FUNCTIONS.contains(&name) => {
                 return Some((format!("<mi>{name}</mi>"), Base::Function));
             }
             _ => match SIGNS.iter().find(|(known, _)| *known == name) {
-                Some((_, sign)) => format!("<mo>{sign}</mo>"),
+                Some((_, sign)) => return Some((format!("<mo>{sign}</mo>"), Base::Sign)),
                 None => {
                     let (_, letter) = LETTERS.iter().find(|(known, _)| *known == name)?;
                     format!("<mi>{letter}</mi>")
@@ -258,6 +286,15 @@ impl<'t> Reader<'t> {
         let table = format!("<mrow><mo>{{</mo><mtable>{table}</mtable></mrow>");
         (self.words()? == "cases").then_some(table)
     }
+}
+
+/// Elements between parentheses or bars.
+fn fenced(open: char, inner: &[String], close: char) -> String {
+    let [open, close] = [open, close].map(|c| escaped(&c.to_string()));
+    format!(
+        "<mrow><mo>{open}</mo>{}<mo>{close}</mo></mrow>",
+        inner.concat()
+    )
 }
 
 /// Several elements as one.

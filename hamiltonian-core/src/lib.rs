@@ -150,6 +150,10 @@ pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 pub mod prelude {
     pub use crate::{Observer as _, System as _};
 
+    // The message of `Name::new(…)` for a system whose parameters all have defaults.
+    #[doc(hidden)]
+    pub use crate::private::EveryParameterHasADefault as _;
+
     pub use crate::function::{Function, Grid, Spline};
     pub use crate::observers::{
         EnergyDrift, Event, Events, Monitors, Recorder, at_times, every, watch,
@@ -171,4 +175,7 @@ pub mod prelude {
         Lyapunov, Member, Observer, Real, Run, Shard, Split, State, StateOf, Status, Sweep, System,
         TimeTransformed,
     };
+
+    #[cfg(feature = "progress")]
+    pub use crate::observers::Progress;
 }

@@ -136,8 +136,8 @@ pub trait Observer<T: Real, S: System<T>> {
 #[diagnostic::on_unimplemented(
     message = "this run has an observer: `{Self}`",
     label = "a run takes one observer",
-    note = "pass several as a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`",
-    note = "attach closures after it, `.watch(steps, |view| …)`"
+    note = "pass several as a tuple, `.observe((EnergyDrift::new(), Recorder::new()))`; for the members of an ensemble or a sweep `.observe(|_| (EnergyDrift::new(), Recorder::new()))`",
+    note = "attach closures to a single run after it, `.watch(steps, |view| …)`"
 )]
 pub trait Unobserved {}
 

@@ -89,6 +89,55 @@ pub fn check_parameter<T: Real>(
     }
 }
 
+/// An array that `new` takes in the storage `V` of its parameter, in any form of [`IntoVector`].
+///
+/// It is a trait of its own for the sake of its message: where the forms of [`IntoVector`] do not lead to
+/// `V`, rustc would show the types of both storages.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` does not fit this parameter",
+    label = "expected an array of the declared extents",
+    note = "an extent that is a number or a const generic takes an array, `[1.0, 2.0]`; one that is set at run time takes a `Vec`, `vec![1.0, 2.0]`; with two extents each element is a row",
+    note = "write `1.0` instead of `1`: whole numbers are not converted",
+    note = "`new` takes the sizes, then functions, then the parameters without a default, in the order of their declaration"
+)]
+pub trait ArrayOf<K, V> {
+    /// The same numbers in that storage.
+    fn into_array(self) -> V;
+}
+
+#[diagnostic::do_not_recommend]
+impl<K, V: Vector, A: IntoVector<K, Vector = V>> ArrayOf<K, V> for A {
+    #[inline]
+    fn into_array(self) -> V {
+        self.into_vector()
+    }
+}
+
+/// A system whose parameters all have defaults: `Name::new(…)` leads to a message.
+///
+/// It is a method of a trait, so that a type may have a `new` of its own.
+#[doc(hidden)]
+pub trait EveryParameterHasADefault: Sized {
+    /// Never called.
+    fn new() -> Self
+    where
+        Self: New,
+    {
+        Self::never()
+    }
+}
+
+/// The bound of [`EveryParameterHasADefault::new`], which no system meets.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no `new`: each of its parameters has a default",
+    label = "there is no `new`",
+    note = "write `Name {{ parameter: 2.0, ..Default::default() }}` to change some, `Name::default()` to change none"
+)]
+pub trait New: Sized {
+    /// Never called.
+    fn never() -> Self;
+}
+
 /// Whether the same conditions hold in both.
 pub fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N]) -> bool {
     let same = |k: usize| ((these[k] & those[k]) | (!these[k] & !those[k])).all();

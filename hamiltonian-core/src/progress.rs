@@ -18,7 +18,6 @@ use indicatif::ProgressBar;
 /// the [`ProgressBar`] it is made of, [`Progress::with_bar`].
 ///
 /// ```
-/// use hamiltonian::observers::Progress;
 #[doc = include_str!("doc/oscillator.md")]
 ///
 /// let start = State::new([1.0], [0.0]);

@@ -57,6 +57,11 @@ pub struct Observable {
 /// A Hamiltonian H(q, p, t) with its parameters, over the state scalar `T`.
 ///
 /// Signs: q̇ = ∂H/∂p, ṗ = −∂H/∂q. Units are the caller's.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to be a Hamiltonian system",
+    label = "expected a system of `hamiltonian!`",
+    note = "in generic code bound it by what is used: `S: System<f64>` for energies and gradients, and what the scheme requires, such as `S: Separable<f64>` or `S: Split<f64>`, for a run"
+)]
 pub trait System<T: Real> {
     /// Coordinates, and momenta, which have the same shape.
     type Vector: Vector<Scalar = T>;

@@ -10,7 +10,7 @@ use super::threads;
 use crate::checkpoint::Memory;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
-use crate::observe::{Observer, Verdict, View};
+use crate::observe::{Observer, Unobserved, Verdict, View};
 use crate::state::State;
 use crate::system::System;
 use alloc::boxed::Box;
@@ -144,7 +144,9 @@ impl<S: System<f64>> Ensemble<S> {
             memory: Memory::default(),
         })
     }
+}
 
+impl<S: System<f64>, O> Ensemble<S, O> {
     /// The same ensemble with an observer for each member, made from its index. It receives the present
     /// state at once, and from then on the states of its member as in a single run; one that ends its
     /// member ends no other.
@@ -159,10 +161,15 @@ impl<S: System<f64>> Ensemble<S> {
     /// assert!(swarm.observers().all(|drift| drift.max_relative() < 1e-6));
     /// # Ok::<(), Error>(())
     /// ```
-    pub fn observe<O: Observer<f64, S> + Send>(
+    ///
+    /// Call it once. For several observers the closure returns a tuple.
+    pub fn observe<N: Observer<f64, S> + Send>(
         self,
-        mut observer: impl FnMut(Member) -> O,
-    ) -> Ensemble<S, O> {
+        mut observer: impl FnMut(Member) -> N,
+    ) -> Ensemble<S, N>
+    where
+        O: Unobserved,
+    {
         let chunks = self.chunks.into_iter().map(|chunk| {
             let indices = chunk.first..chunk.first + chunk.count;
             let observers = indices.map(|index| observer(Member::new(index, 0)));

@@ -11,7 +11,7 @@ use super::ordered::in_order;
 use super::record::{Batch, End, Record, Row};
 use super::threads;
 use crate::error::Error;
-use crate::observe::Observer;
+use crate::observe::{Observer, Unobserved};
 use crate::shard::Shard;
 use crate::state::State;
 use crate::system::System;
@@ -124,18 +124,23 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
             progress: None,
         }
     }
-
-    /// With an observer for each member, as in a single run. An observer that ends its member ends no
-    /// other.
-    pub fn observe<O: Observer<f64, S>>(
-        self,
-        observer: impl Fn(Member) -> O + Send + Sync + 'a,
-    ) -> Sweep<'a, S, O> {
-        self.with(Arc::new(observer), ())
-    }
 }
 
 impl<'a, S: System<f64>, O> Sweep<'a, S, O> {
+    /// With an observer for each member, as in a single run. An observer that ends its member ends no
+    /// other.
+    ///
+    /// Call it once. For several observers the closure returns a tuple.
+    pub fn observe<N: Observer<f64, S>>(
+        self,
+        observer: impl Fn(Member) -> N + Send + Sync + 'a,
+    ) -> Sweep<'a, S, N>
+    where
+        O: Unobserved,
+    {
+        self.with(Arc::new(observer), ())
+    }
+
     /// With one row a member: what the closure makes of its end, under these names. A member that failed
     /// has NaN in its row.
     pub fn record<const N: usize>(

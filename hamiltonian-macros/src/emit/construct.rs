@@ -30,7 +30,10 @@ pub fn default(context: Context) -> String {
     };
     let mut text = format!(
         "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
-         fn default() -> Self {{ {value} }}\n}}\n"
+         fn default() -> Self {{ {value} }}\n}}\n\
+         impl{} __h::EveryParameterHasADefault for {} {{}}\n",
+        generics.declaration_without_bounds(),
+        generics.system_type(),
     );
     if let Some(scalar) = generics.scalars.first() {
         let parameters = definition.checked.parameters.iter().enumerate();
@@ -132,11 +135,11 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             lets.extend(quote! { let #local = #given; });
         } else {
             let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
-            let bound = quote! { #kind, #from: __h::IntoVector<#kind, Vector = #ty>, };
+            let bound = quote! { #kind, #from: __h::ArrayOf<#kind, #ty>, };
             // Errors of an argument show its declaration.
             kinds.extend(located(bound, name.span(), 0));
             arguments.extend(quote! { #given: #from, });
-            lets.extend(quote! { let #local = __h::IntoVector::into_vector(#given); });
+            lets.extend(quote! { let #local = __h::ArrayOf::into_array(#given); });
         }
         let whole = match shape {
             Shape::Scalar => as_slice(shape, &format!("[{value}]")),

@@ -62,7 +62,8 @@ pub trait Mask:
 #[diagnostic::on_unimplemented(
     message = "`{P}` is not a number from which a scalar `{Self}` is made",
     label = "a parameter or a captured value is `{P}`",
-    note = "parameters and captured values are `f64`, `f32`, integers or of the state's own scalar"
+    note = "parameters and captured values are `f64`, `f32`, integers or of the state's own scalar",
+    note = "in code that is generic over the scalar `P` of the parameters, write `P: Real` and make states over `P`, or write `where f64: Lift<P>` and make them over `f64`"
 )]
 pub trait Lift<P> {
     /// The value as this scalar.
@@ -129,7 +130,8 @@ pub trait Lift<P> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no scalar",
     label = "expected a scalar such as `f64`",
-    note = "scalars are `f64`, `f32`, `Dual`, `DoubleDouble` and packs of lanes; a number is written `1.0`, not `1`"
+    note = "scalars are `f64`, `f32`, `Dual`, `DoubleDouble` and packs of lanes; a number is written `1.0`, not `1`",
+    note = "in generic code bound the type: `P: Real`"
 )]
 pub trait Real:
     Copy

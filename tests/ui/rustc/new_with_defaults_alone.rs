@@ -1,0 +1,33 @@
+//! A system whose parameters all have defaults has no `new`; a type may have one of its own.
+
+use hamiltonian::prelude::*;
+
+hamiltonian! {
+    /// A pendulum.
+    pub struct Pendulum { m = 1.0, l = 1.0 }
+    H(theta; p) = p^2/(2*m*l^2) - m*l*cos(theta)
+}
+
+hamiltonian! {
+    /// A system without parameters.
+    pub struct Plain {}
+    H = p^2/2 - cos(q)
+}
+
+hamiltonian! {
+    /// A spring that is made of its frequency.
+    pub struct Spring { k = 1.0 }
+    H(x; p) = p^2/2 + k*x^2/2
+}
+
+impl Spring {
+    fn new(omega: f64) -> Self {
+        Spring { k: omega * omega }
+    }
+}
+
+fn main() {
+    let _ = Pendulum::new(1.0, 2.0);
+    let _ = Plain::new();
+    let _ = Spring::new(2.0);
+}

@@ -27,5 +27,7 @@ chaos_map chaos_map map.svg 40000
 basins basins basins.svg 40000
 phi4 phi4 fronts.svg 2
 mixing mixing t5.svg 10000
+work_precision_34 work_precision paper34_energy.svg
+work_precision_schwarzschild work_precision schwarzschild_energy.svg
 LIST
 exit "$large"

@@ -26,13 +26,15 @@
 //! println!("{}", run.state().q[0]);
 //! # Ok::<(), Error>(())
 //! ```
+//!
+//! [`language`] is the reference of the macro, and [`gallery`] shows what the examples draw.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
 pub use hamiltonian_core::*;
 
 /// The scalars with several lanes, and the levels of CPUs they belong to.
-#[doc(no_inline)]
+#[doc(inline)]
 pub use hamiltonian_lanes as lanes;
 
 /// The linear algebra that vectors are stored in. Norms and decompositions (`state.q.norm()`) need
@@ -96,6 +98,39 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
 /// The language, construct by construct: a chapter of the book.
 #[doc = include_str!("../book/src/language.md")]
 pub mod language {}
+
+/// Makes the page of the pictures. They are read for documentation alone, so that no build stores them.
+#[cfg(doc)]
+macro_rules! gallery {
+    ($($name:ident $caption:literal)*) => {
+        /// What the examples draw: `cargo run --release --example NAME` makes the pictures of an example anew.
+        $(
+            #[doc = ""]
+            #[doc = concat!("# ", stringify!($name), "\n\n", $caption, "\n\n<div style=\"overflow-x:auto\">")]
+            #[doc = include_str!(concat!("../book/src/images/", stringify!($name), ".svg"))]
+            #[doc = "</div>"]
+        )*
+        pub mod gallery {}
+    };
+}
+
+#[cfg(doc)]
+gallery! {
+    henon_heiles "The section x = 0 of the Hénon–Heiles system at one energy: each orbit in its colour."
+    kerr "An orbit round a rotating black hole fills a torus; the horizon is in the middle."
+    driven_pendulum "A pendulum whose pivot shakes: hanging, upside down, and the chaotic sea between."
+    double_pendulum "Two double pendulums that start almost alike."
+    dipole "A particle in the radiation belt: gyration, bounce and mirror points."
+    fput "Fermi, Pasta, Ulam and Tsingou: the energy returns to the first mode."
+    nbody_eight "Three bodies on a figure eight."
+    nbody_collapse "A ball of stars falls together and throws some out."
+    chaos_map "Lyapunov exponents of 40 000 starts of Hénon and Heiles: islands of regular orbits in the chaotic sea."
+    phi4 "A bent kink and antikink of the φ⁴ field meet and leave a bubble that shrinks: φ = 0 at four times."
+    basins "A damped pendulum that is pushed to and fro ends on one of three orbits: their basins."
+    mixing "Stars of one energy in a turning bar: those that began on the right and on the left, at t = 5."
+    work_precision_34 "Equation (34): the change of H against the time that a unit of time takes."
+    work_precision_schwarzschild "The same for an orbit round a black hole."
+}
 
 #[doc = include_str!("../README.md")]
 #[cfg(doctest)]

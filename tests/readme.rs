@@ -184,6 +184,66 @@ fn tasks_are_short_programs() {
     }
 }
 
+/// Each example has its picture, of at most 50 KB, in the book and in the API pages, under the same words, and
+/// a script makes it.
+#[test]
+fn each_example_has_its_picture() {
+    let book = root().join("book/src");
+    let (chapter, facade) = (
+        read(&book.join("gallery.md")),
+        read(&root().join("src/lib.rs")),
+    );
+    let script = read(&root().join("scripts/gallery.sh"));
+    let mut pictures = BTreeSet::new();
+    for line in chapter.lines() {
+        let Some((caption, file)) = line
+            .strip_prefix("![")
+            .and_then(|l| l.split_once("](images/"))
+        else {
+            continue;
+        };
+        let name = file.strip_suffix(".svg)").expect("a picture");
+        assert!(
+            chapter.contains(&format!("## {name}\n\n{caption}\n")),
+            "{name}"
+        );
+        assert!(
+            facade.contains(&format!("    {name} \"{caption}\"\n")),
+            "{name} in src/lib.rs"
+        );
+        assert!(
+            script.contains(&format!("\n{name} ")),
+            "{name} in scripts/gallery.sh"
+        );
+        let picture = read(&book.join(format!("images/{name}.svg")));
+        assert!(picture.len() <= 51_200, "{name}: {} bytes", picture.len());
+        // An empty line ends a block of HTML in Markdown.
+        assert!(!picture.contains("\n\n"), "{name} has an empty line");
+        pictures.insert(name.to_owned());
+    }
+    for file in fs::read_dir(book.join("images")).expect("the folder of the pictures") {
+        let name = file.expect("an entry").file_name();
+        let name = name.to_string_lossy();
+        let name = name.strip_suffix(".svg").expect("a picture");
+        assert!(pictures.contains(name), "{name} in gallery.md");
+    }
+    for file in fs::read_dir(root().join("examples")).expect("the folder of the examples") {
+        let name = file.expect("an entry").file_name();
+        let Some(name) = name
+            .to_string_lossy()
+            .strip_suffix(".rs")
+            .map(str::to_owned)
+        else {
+            continue;
+        };
+        let drawn = pictures.iter().any(|picture| picture.starts_with(&name));
+        assert!(
+            drawn || chapter.contains(&format!("`{name}`")),
+            "{name} in gallery.md"
+        );
+    }
+}
+
 /// The chapter on other crates shows the programs of the package that compiles them.
 #[test]
 fn programs_elsewhere_are_those_of_the_package() {
@@ -209,37 +269,54 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found.flatten().collect()
 }
 
-/// Examples of the inner crates are programs of users: they name the facade alone, in hidden lines too.
+/// Examples of all crates, of the README and of the book are programs of users: they name the facade alone, in
+/// hidden lines too.
 #[test]
 fn examples_import_the_facade() {
+    let inner = [
+        "hamiltonian_core",
+        "hamiltonian_lanes",
+        "hamiltonian_real",
+        "hamiltonian_macros",
+        "private::",
+    ];
     let mut listings = 0;
-    for crate_ in ["real", "lanes", "core"] {
-        for file in sources(&root().join(format!("hamiltonian-{crate_}/src"))) {
-            let mut within = false;
-            for line in read(&file).lines().map(str::trim_start) {
-                let text = line
-                    .strip_prefix("///")
-                    .or_else(|| line.strip_prefix("//!"));
-                let text = text.or_else(|| line.strip_prefix("#[doc = concat!(\""));
-                let Some(text) = text.map(str::trim_start) else {
-                    continue;
-                };
-                if text.starts_with("```") {
-                    within = !within;
-                    listings += usize::from(within);
-                } else if within {
-                    let inner = [
-                        "hamiltonian_core",
-                        "hamiltonian_lanes",
-                        "hamiltonian_real",
-                        "private::",
-                    ];
-                    let named = inner.iter().find(|name| text.contains(*name));
-                    assert!(named.is_none(), "{}: {text}", file.display());
-                }
+    let folders = [
+        "src",
+        "hamiltonian-core/src",
+        "hamiltonian-lanes/src",
+        "hamiltonian-real/src",
+    ];
+    for file in folders
+        .into_iter()
+        .flat_map(|folder| sources(&root().join(folder)))
+    {
+        let text = read(&file);
+        let is_page = file.extension().is_some_and(|end| end == "md");
+        let mut within = false;
+        for line in text.lines().map(str::trim_start) {
+            let doc = ["///", "//!", "#[doc = concat!(\""]
+                .into_iter()
+                .find_map(|start| line.strip_prefix(start));
+            let Some(doc) = doc.or(is_page.then_some(line)).map(str::trim_start) else {
+                continue;
+            };
+            if doc.starts_with("```") {
+                within = !within;
+                listings += usize::from(within);
+            } else if within || is_page {
+                // The pages are parts of listings.
+                let named = inner.iter().find(|name| doc.contains(*name));
+                assert!(named.is_none(), "{}: {doc}", file.display());
             }
-            assert!(!within, "{}: a listing does not end", file.display());
         }
+        assert!(!within, "{}: a listing does not end", file.display());
     }
     assert!(listings > 150, "{listings} listings were found");
+    for page in chapters().into_iter().chain([root().join("README.md")]) {
+        for listing in prose_and_listings(&read(&page)).1 {
+            let named = inner.iter().find(|name| listing.contains(*name));
+            assert!(named.is_none(), "{}: {listing}", page.display());
+        }
+    }
 }

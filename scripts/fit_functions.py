@@ -200,7 +200,9 @@ def main():
     b = mpf(float(half_pi - a))
     constant("HALF_PI_HIGH", a, "π/2 rounded.")
     constant("HALF_PI_LOW", b, "π/2 less the above.")
-    constant("HALF_PI_TAIL", half_pi - a - b, "π/2 less both.")
+    b = head(half_pi - a, 33)
+    constant("HALF_PI_LOW_HEAD", b, "HALF_PI_LOW to 33 bits: its product with 20 bits is exact.")
+    constant("HALF_PI_TAIL", half_pi - a - b, "π/2 less HALF_PI_HIGH and the above.")
     a = head(half_pi, 33) / 2
     constant("QUARTER_PI_HEAD", a, "π/4 to 33 bits: its product with 20 bits is exact.")
     constant("QUARTER_PI_REST", pi / 4 - a, "π/4 less the above.")

@@ -5,7 +5,8 @@
 //! left has a second word however near to a multiple of π/2 the angle lies; larger ones go, lane
 //! by lane, through [`reduction`] (Payne and Hanek). The sign bit is
 //! taken off first and put back last, so that odd functions are odd to the bit. Tiny angles are
-//! computed as 0, and stand where they are their own sine.
+//! computed as 0, and stand where they are their own sine. Sine and cosine of fused lanes need
+//! neither: every operation rounds alike on both sides of 0, and squares of tiny angles become 0.
 
 use super::coefficients::*;
 use super::pairs::{
@@ -14,6 +15,9 @@ use super::pairs::{
 use super::reduction;
 use crate::real::Mask;
 use crate::word::{Bits, Word};
+
+/// Added to a square and taken off again; the squares that are lost in it change no sum.
+const LOST: f64 = 1.0 / (1u128 << 100) as f64 / (1u128 << 100) as f64;
 
 /// The largest angle that is reduced in line.
 const LARGE: f64 = (1u64 << 20) as f64;
@@ -44,10 +48,10 @@ fn rest<W: Word>(angle: W, n: W) -> (W, W) {
     if W::FUSED {
         // Exact, since both terms are multiples of 2⁻⁵³ and the difference is below 1.
         let first = n.fma(W::splat(-HALF_PI_HIGH), angle);
-        let low = n * W::splat(HALF_PI_LOW);
-        let cut = n.fma(W::splat(HALF_PI_LOW), -low);
-        let (r, rest) = fast_two_sum(first, -low);
-        (r, n.fma(W::splat(-HALF_PI_TAIL), rest - cut))
+        // The product is exact, so that the two words of the sum are.
+        let r = n.fma(W::splat(-HALF_PI_LOW_HEAD), first);
+        let cut = n.fma(W::splat(-HALF_PI_LOW_HEAD), first - r);
+        (r, n.fma(W::splat(-HALF_PI_TAIL), cut))
     } else {
         // Three exact products; each sum keeps what it rounds off.
         let first = angle - n * W::splat(HALF_PI_1);
@@ -110,7 +114,7 @@ fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     flip(high + low, n.shl::<63>() ^ sign)
 }
 
-/// [`turn`]'s sine, bit by bit. In lanes, where sine and cosine do the same operations, their
+/// [`turn`]'s sine, bit by bit, where the type does not fuse. In lanes, where sine and cosine do the same operations, their
 /// operands are told apart before and the operations done once. A cosine is the sine a quadrant on.
 #[inline(always)]
 fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
@@ -138,11 +142,7 @@ fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
         coefficient::<W, 3>(swapped).fma(z, coefficient::<W, 2>(swapped)),
         coefficient::<W, 5>(swapped).fma(z, coefficient::<W, 4>(swapped)),
     );
-    let series = if W::FUSED {
-        third.fma(square, second).fma(square, first)
-    } else {
-        first + third.fma(square * square, second * square)
-    };
+    let series = first + third.fma(square * square, second * square);
     let y = W::select(swapped, w, r) + factor.fma(series, rest);
     flip(y, (n & W::Bits::splat(2)).shl::<62>() ^ sign)
 }
@@ -153,9 +153,101 @@ fn coefficient<W: Word, const K: usize>(swapped: W::Mask) -> W {
     W::select(swapped, W::splat(COSINE[K]), W::splat(SINE[K]))
 }
 
+/// Less number `K` of [`SINE`] where `is_sine` is set, of [`COSINE`] elsewhere.
+#[inline(always)]
+fn less_coefficient<W: Word, const K: usize>(is_sine: W::Mask) -> W {
+    W::select(is_sine, W::splat(-SINE[K]), W::splat(-COSINE[K]))
+}
+
+/// The polynomial with the given coefficients by Horner's scheme: the fewest operations.
+#[inline(always)]
+fn horner<W: Word>(z: W, coefficients: &[f64; 6]) -> W {
+    let [a, b, c, d, e, f] = *coefficients;
+    let sum = W::splat(f).fma(z, W::splat(e)).fma(z, W::splat(d));
+    let sum = sum.fma(z, W::splat(c)).fma(z, W::splat(b));
+    sum.fma(z, W::splat(a))
+}
+
+/// An angle where the type fuses, modulo π/2.
+#[derive(Clone, Copy)]
+struct Turned<W: Word> {
+    /// The quadrant and 1, modulo 4 in the lowest bits.
+    bits: W::Bits,
+    /// `r + tail` is what is left of the angle.
+    r: W,
+    tail: W,
+}
+
+impl<W: Word> Turned<W> {
+    /// Of the angle up to [`LARGE`], `quadrants` further on. The angle keeps its sign: every operation
+    /// rounds alike on both sides of 0.
+    #[inline(always)]
+    fn of(angle: W, quadrants: f64) -> Self {
+        let rounder = W::splat(ROUNDER + quadrants + 1.0);
+        let shifted = angle.fma(W::splat(TWO_OVER_PI), rounder);
+        let (r, tail) = rest(angle, shifted - rounder);
+        Turned {
+            bits: shifted.bits(),
+            r,
+            tail,
+        }
+    }
+
+    /// `(z, minus, cut)`: z = r², and z/2 − 1 = minus + cut.
+    #[inline(always)]
+    fn square(&self) -> (W, W, W) {
+        // Squares below 2⁻²⁵⁴ become 0, so that no product is subnormal.
+        let lost = W::splat(LOST);
+        let z = self.r.fma(self.r, lost) - lost;
+        let half = W::splat(0.5);
+        let minus = z.fma(half, -W::one());
+        (z, minus, z.fma(half, -W::one() - minus))
+    }
+
+    /// The sine. With −cos r = −1 + r²/2 − …, sine and −cosine are the difference and the sum of two
+    /// words, and their terms have the same signs.
+    #[inline(always)]
+    fn sine(self) -> W {
+        let Turned { bits, r, tail } = self;
+        let (z, minus, cut) = self.square();
+        let is_sine = W::odd(bits);
+        let low = W::select(is_sine, minus, r).fma(tail, W::select(is_sine, W::zero(), cut));
+        let factor = W::select(is_sine, r, z) * z;
+        let mut series = less_coefficient::<W, 5>(is_sine);
+        series = series.fma(z, less_coefficient::<W, 4>(is_sine));
+        series = series.fma(z, less_coefficient::<W, 3>(is_sine));
+        series = series.fma(z, less_coefficient::<W, 2>(is_sine));
+        series = series.fma(z, less_coefficient::<W, 1>(is_sine));
+        series = series.fma(z, less_coefficient::<W, 0>(is_sine));
+        let rest = factor.fma(series, low);
+        let y = W::select(is_sine, r - rest, minus + rest);
+        flip(y, (bits & W::Bits::splat(2)).shl::<62>())
+    }
+
+    /// Sine and cosine, the bits of [`Turned::sine`].
+    #[inline(always)]
+    fn both(self) -> (W, W) {
+        let Turned { bits, r, tail } = self;
+        let (z, minus, cut) = self.square();
+        let is_sine = W::odd(bits);
+        let sine = r - (-(r * z)).fma(horner(z, &SINE), minus.fma(tail, W::zero()));
+        let cosine = minus + (-(z * z)).fma(horner(z, &COSINE), r.fma(tail, cut));
+        let two = W::Bits::splat(2);
+        let next = bits.plus(W::Bits::splat(1));
+        (
+            flip(W::select(is_sine, sine, cosine), (bits & two).shl::<62>()),
+            flip(W::select(is_sine, cosine, sine), (next & two).shl::<62>()),
+        )
+    }
+}
+
 /// Sine.
 #[inline(always)]
 pub fn sin<W: Word>(x: W) -> W {
+    if W::FUSED {
+        let y = Turned::of(x, 0.0).sine();
+        return y.or_rare(x.abs().le(W::splat(LARGE)), x, sin_of_large);
+    }
     let angle = x.abs();
     // First in a single number; last in lanes, where a mask held from here on costs an eighth.
     if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
@@ -177,6 +269,10 @@ pub fn sin<W: Word>(x: W) -> W {
 /// Cosine.
 #[inline(always)]
 pub fn cos<W: Word>(x: W) -> W {
+    if W::FUSED {
+        let y = Turned::of(x, 1.0).sine();
+        return y.or_rare(x.abs().le(W::splat(LARGE)), x, cos_of_large);
+    }
     let angle = x.abs();
     // First in a single number; last in lanes, where a mask held from here on costs an eighth.
     if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
@@ -200,13 +296,17 @@ pub fn cos<W: Word>(x: W) -> W {
 #[inline(always)]
 pub fn sin_cos<W: Word>(x: W) -> (W, W) {
     let angle = x.abs();
-    let tiny = is_tiny(angle);
-    if W::LANES == 1 && tiny.all() {
-        return (x, W::one());
-    }
-    let (n, r, tail) = reduce(unless(tiny, angle));
-    let (sine, cosine) = turn(n, r, tail, sign_bit(x));
-    let sine = W::select(tiny, x, sine);
+    let (sine, cosine) = if W::FUSED {
+        Turned::of(x, 0.0).both()
+    } else {
+        let tiny = is_tiny(angle);
+        if W::LANES == 1 && tiny.all() {
+            return (x, W::one());
+        }
+        let (n, r, tail) = reduce(unless(tiny, angle));
+        let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+        (W::select(tiny, x, sine), cosine)
+    };
     let rare = !angle.le(W::splat(LARGE));
     if rare.any() {
         return (

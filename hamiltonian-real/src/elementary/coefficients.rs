@@ -25,8 +25,10 @@ pub(crate) const HALF_PI_4: f64 = 8.4784276603689e-32;
 pub(crate) const HALF_PI_HIGH: f64 = 1.5707963267948966;
 /// π/2 less the above.
 pub(crate) const HALF_PI_LOW: f64 = 6.123233995736766e-17;
-/// π/2 less both.
-pub(crate) const HALF_PI_TAIL: f64 = -1.4973849048591698e-33;
+/// HALF_PI_LOW to 33 bits: its product with 20 bits is exact.
+pub(crate) const HALF_PI_LOW_HEAD: f64 = 6.12323399538461e-17;
+/// π/2 less HALF_PI_HIGH and the above.
+pub(crate) const HALF_PI_TAIL: f64 = 3.5215598651832e-27;
 /// π/4 to 33 bits: its product with 20 bits is exact.
 pub(crate) const QUARTER_PI_HEAD: f64 = 0.7853981633670628;
 /// π/4 less the above.

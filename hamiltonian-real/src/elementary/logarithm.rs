@@ -88,8 +88,13 @@ pub fn ln_1p<W: Word>(x: W) -> W {
         return x;
     }
     let (u, cut) = two_sum(W::one(), unless(tiny, x));
-    let y = W::select(tiny, x, ln_of_pair(u, cut));
-    y.or_rare((-W::one()).lt(x) & x.le(W::splat(LARGE)), x, ln_1p_of_rare)
+    let mut y = W::select(tiny, x, ln_of_pair(u, cut));
+    let mut plain = (-W::one()).lt(x) & x.le(W::splat(LARGE));
+    if W::LANES > 1 && !plain.all() {
+        y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 0.0), y);
+        plain = (-W::one()).lt(x);
+    }
+    y.or_rare(plain, x, ln_1p_of_rare)
 }
 
 #[cold]
@@ -106,6 +111,14 @@ fn ln_1p_of_rare(x: f64) -> f64 {
 
 /// Beyond, squares may overflow, `1 + x` is `x` to the last bit, and `x + √(x² ± 1)` is `2x`.
 const LARGE: f64 = (1u128 << 100) as f64;
+
+/// [`ln_times`] in lanes.
+#[inline(always)]
+fn ln_of_large<W: Word>(x: W, shift: f64) -> W {
+    let (_, k, f) = split(x);
+    let y = assemble(k + W::splat(shift), f, W::zero());
+    W::select(x.le(W::splat(f64::MAX)), y, x)
+}
 
 /// `ln(2^shift·x)` for a positive normal `x`; `x` itself where infinite or NaN.
 fn ln_times(x: f64, shift: f64) -> f64 {
@@ -132,7 +145,12 @@ pub fn asinh<W: Word>(x: W) -> W {
     let (u, cut) = fast_two_sum(root, long);
     let y = flip(ln_of_pair(u, cut + root_cut), sign_bit(x));
     let y = W::select(tiny, x, y);
-    y.or_rare(size.le(W::splat(LARGE)), x, asinh_of_large)
+    let plain = size.le(W::splat(LARGE));
+    if W::LANES > 1 && !plain.all() {
+        let far = flip(ln_of_large(size, 1.0), sign_bit(x));
+        return W::select(plain, y, far);
+    }
+    y.or_rare(plain, x, asinh_of_large)
 }
 
 #[cold]
@@ -148,8 +166,13 @@ pub fn acosh<W: Word>(x: W) -> W {
     let (difference, cut) = fast_two_sum(square, -W::one());
     let (root, root_cut) = square_root((difference, cut + square_cut));
     let (u, cut) = fast_two_sum(x, root);
-    let y = ln_of_pair(u, cut + root_cut);
-    y.or_rare(W::one().le(x) & x.le(W::splat(LARGE)), x, acosh_of_rare)
+    let mut y = ln_of_pair(u, cut + root_cut);
+    let mut plain = W::one().le(x) & x.le(W::splat(LARGE));
+    if W::LANES > 1 && !plain.all() {
+        y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 1.0), y);
+        plain = W::one().le(x);
+    }
+    y.or_rare(plain, x, acosh_of_rare)
 }
 
 #[cold]

@@ -143,8 +143,18 @@ pub fn cbrt<W: Word>(x: W) -> W {
     if W::LANES == 1 && !plain.all() {
         return x.replace(W::Mask::splat(true), x, cbrt_of_rare);
     }
-    let y = flip(cube_root(size), sign_bit(x));
-    y.or_rare(plain, x, cbrt_of_rare)
+    if plain.all() {
+        return flip(cube_root(size), sign_bit(x));
+    }
+    // The scales are cubes of powers of two.
+    let (large, small) = (W::splat(CUBABLE).lt(size), size.lt(W::splat(1.0 / CUBABLE)));
+    let (up, down) = (W::splat(CUBABLE), W::splat(1.0 / CUBABLE));
+    let scale = W::select(large, down, W::select(small, up, W::one()));
+    let (up, down) = (W::splat(CUBABLE_ROOT), W::splat(1.0 / CUBABLE_ROOT));
+    let back = W::select(large, up, W::select(small, down, W::one()));
+    let root = cube_root(size * scale) * back;
+    let itself = size.equals(W::zero()) | !size.le(W::splat(f64::MAX));
+    W::select(itself, x, flip(root, sign_bit(x)))
 }
 
 #[cold]
@@ -166,6 +176,9 @@ fn cbrt_of_rare(x: f64) -> f64 {
 
 /// Between its inverse and this, squares neither overflow nor lose what they cut off.
 const SQUARABLE: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 << 127) as f64;
+
+/// A power of two that makes every other number squarable.
+const SCALE: f64 = 2.0 * SQUARABLE * SQUARABLE;
 
 /// Beside every number that is squarable, a smaller one is as good as 0.
 const NEGLIGIBLE: f64 = 1.0 / SQUARABLE / (1u128 << 69) as f64;
@@ -194,7 +207,28 @@ pub fn hypot<W: Word>(x: W, y: W) -> W {
     if W::LANES == 1 && !plain.all() {
         return x.replace2(W::Mask::splat(true), x, y, hypot_of_rare);
     }
-    distance(large, small).or_rare2(plain, x, y, hypot_of_rare)
+    if plain.all() {
+        return distance(large, small);
+    }
+    // Scaled by a power of two, where one word of a square would be lost; what is negligible first.
+    let one = W::one();
+    let (above, below) = (
+        W::splat(SQUARABLE).lt(large),
+        large.lt(W::splat(1.0 / SQUARABLE)),
+    );
+    let lost = W::splat(SQUARABLE * SQUARABLE * NEGLIGIBLE);
+    let small = unless(above & small.lt(lost), small);
+    let (up, down) = (W::splat(SCALE), W::splat(1.0 / SCALE));
+    let scale = W::select(above, down, W::select(below, up, one));
+    let back = W::select(above, up, W::select(below, down, one));
+    let scaled = distance(large * scale, small * scale) * back;
+    // Infinities and NaN.
+    scaled.or_rare2(
+        large.le(W::splat(f64::MAX)) & small.le(large),
+        x,
+        y,
+        hypot_of_rare,
+    )
 }
 
 #[cold]
@@ -211,10 +245,6 @@ fn hypot_of_rare(x: f64, y: f64) -> f64 {
     if small == 0.0 {
         return large;
     }
-    let scale = if large > 1.0 {
-        1.0 / (2.0 * SQUARABLE * SQUARABLE)
-    } else {
-        2.0 * SQUARABLE * SQUARABLE
-    };
+    let scale = if large > 1.0 { 1.0 / SCALE } else { SCALE };
     distance(large * scale, small * scale) / scale
 }

@@ -62,8 +62,14 @@ where
                 self.tableau.momenta
             };
             for i in 0..self.point.part(k).len() {
-                let few = spread::<T, L, _, 1, S>([self.tableau.weights], slopes, k, i);
                 let base = L::splat(self.point.part(k)[i]);
+                if S == 1 {
+                    // The factors of a single stage are multiplied before the iteration; α = ½ is exact.
+                    let half_step = matrix[0][0] * self.tableau.weights[0];
+                    points[0].part_mut(k)[i] = half_step * slopes[0].part(k)[i] + base;
+                    continue;
+                }
+                let few = spread::<T, L, _, 1, S>([self.tableau.weights], slopes, k, i);
                 for row in 0..rows::<T, L, S>() {
                     // The small numbers first.
                     let increment = product::<T, L, S>(&matrix[row], &few);

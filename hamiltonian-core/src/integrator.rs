@@ -82,8 +82,8 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     /// Where the run is saved, and every how many steps.
     #[cfg(feature = "std")]
     pub(crate) saving: Option<(u64, std::path::PathBuf)>,
-    /// The text of H, the parameters: by them a saved run is recognised.
-    pub(crate) system: SystemText,
+    /// The parameters with their values, by which a saved run is recognised.
+    pub(crate) parameters: String,
     pub(crate) observer: O,
 }
 
@@ -158,7 +158,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
                 start: start.t,
                 interval: step * duration(&entry),
             },
-            system: SystemText::of(system, &start.q),
+            parameters: parameters(system),
             prepared,
             recipe: Arc::new(scheme),
             entry,
@@ -373,7 +373,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             refused: self.refused,
             #[cfg(feature = "std")]
             saving: self.saving,
-            system: self.system,
+            parameters: self.parameters,
             observer: make(self.observer),
         }
     }
@@ -402,7 +402,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S,
             // Two runs would overwrite each other's file.
             #[cfg(feature = "std")]
             saving: None,
-            system: self.system.clone(),
+            parameters: self.parameters.clone(),
             observer: self.observer.clone(),
         }
     }
@@ -421,35 +421,28 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integr
     }
 }
 
-/// A description of a system in words.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct SystemText {
-    /// Its name, H, the number of components.
-    pub(crate) formula: String,
-    /// Its parameters with their values.
-    pub(crate) parameters: String,
+/// The name of a system, H, and the number of components, by which a saved run is recognised.
+pub(crate) fn formula<T: Real, S: System<T>>(q: &S::Vector) -> String {
+    alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len())
 }
 
-impl SystemText {
-    /// The first parameter that is NaN or infinite, with its value: `m[1] = NaN`.
-    fn parameter_without_value(&self) -> Option<Box<str>> {
-        let mut lines = self.parameters.lines();
-        let line = lines.find(|line| {
-            let words = line.split(|c: char| !c.is_alphanumeric()).skip(1);
-            words.into_iter().any(|word| word == "NaN" || word == "inf")
-        });
-        line.map(Box::from)
-    }
+/// The parameters of a system with their values.
+pub(crate) fn parameters<T: Real, S: System<T>>(system: &S) -> String {
+    // Room for a few, so that short runs do not spend their time on growing it.
+    let mut parameters = String::with_capacity(64);
+    // Writing to a string does not fail.
+    let _ = system.describe_parameters(&mut parameters);
+    parameters
+}
 
-    pub(crate) fn of<T: Real, S: System<T>>(system: &S, q: &S::Vector) -> Self {
-        let mut parameters = String::new();
-        // Writing to a string does not fail.
-        let _ = system.describe_parameters(&mut parameters);
-        SystemText {
-            formula: alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len()),
-            parameters,
-        }
-    }
+/// The first of the parameters that is NaN or infinite, with its value: `m[1] = NaN`.
+fn parameter_without_value(parameters: &str) -> Option<Box<str>> {
+    let mut lines = parameters.lines();
+    let line = lines.find(|line| {
+        let words = line.split(|c: char| !c.is_alphanumeric()).skip(1);
+        words.into_iter().any(|word| word == "NaN" || word == "inf")
+    });
+    line.map(Box::from)
 }
 
 /// The time a step advances, in units of its size.

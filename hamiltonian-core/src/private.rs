@@ -67,7 +67,10 @@ pub fn describe_parameter<T: Real>(
     values: &[T],
 ) -> core::fmt::Result {
     let mut all = elements(rows, values);
-    all.try_for_each(|(i, j, value)| writeln!(out, "{} = {value:?}", element(name, rank, i, j)))
+    all.try_for_each(|(i, j, value)| match rank {
+        0 => writeln!(out, "{name} = {value:?}"),
+        _ => writeln!(out, "{} = {value:?}", element(name, rank, i, j)),
+    })
 }
 
 /// An error where an element of a parameter is NaN.

@@ -6,7 +6,7 @@
 use crate::checkpoint::{Checkpoint, Memory};
 use crate::error::{CheckpointError, Error};
 use crate::integrator::Recipe;
-use crate::integrator::{Integrator, MapOf, SystemText};
+use crate::integrator::{Integrator, MapOf, formula, parameters};
 use crate::map::Clock;
 use crate::observe::Observer;
 use crate::scheme::Scheme;
@@ -40,8 +40,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         let mut observers = Memory::default();
         self.observer.save(&mut observers);
         Checkpoint {
-            system: self.system.formula.clone(),
-            parameters: self.system.parameters.clone(),
+            system: formula::<T, S>(&self.state.q),
+            parameters: self.parameters.clone(),
             scheme: self.recipe.describe(),
             scalar: core::any::type_name::<T>().to_owned(),
             counts: [self.steps, self.began, flags],
@@ -126,9 +126,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         checkpoint: Checkpoint,
     ) -> Result<Self, Error> {
         let zeros = system.zeros();
-        let given = SystemText::of(system, &zeros);
-        Checkpoint::same("system", &checkpoint.system, &given.formula)?;
-        Checkpoint::same("parameter", &checkpoint.parameters, &given.parameters)?;
+        Checkpoint::same("system", &checkpoint.system, &formula::<T, S>(&zeros))?;
+        Checkpoint::same("parameter", &checkpoint.parameters, &parameters(system))?;
         let described = Recipe::<T, S, R>::describe(&scheme);
         Checkpoint::same("scheme", &checkpoint.scheme, &described)?;
         let scalar = core::any::type_name::<T>();

@@ -3,15 +3,13 @@
 //! Input: a step, a start. Output: nothing, or the error. Invariant: a run begins where H and all its
 //! first derivatives are finite, and in another time on the shell H = 0.
 
-use super::{SystemText, numbers};
+use super::{numbers, parameter_without_value, parameters};
 use crate::error::Error;
 use crate::output::names;
 use crate::state::State;
 use crate::system::{Dynamics, System, clock, declared_energy};
 use crate::vector::Vector;
-use alloc::borrow::ToOwned;
 use alloc::format;
-use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
 /// An error for a step that is no step.
@@ -60,7 +58,7 @@ fn check_values<T: Real, S: System<T>>(
 ) -> Result<(), Error> {
     let (mut slopes, mut velocities) = (start.q.clone(), start.p.clone());
     let h = prepared.energy_and_gradient(start.t, &start.q, &start.p, &mut slopes, &mut velocities);
-    let bad = |name: String, value: T| {
+    let bad = |name: &str, value: T| {
         let lane = (!value.finite()).first()?;
         let mut found = value.lane(lane);
         let derivative = found.is_finite();
@@ -77,14 +75,14 @@ fn check_values<T: Real, S: System<T>>(
             derivative,
             value: found,
             lane: (T::LANES > 1).then_some(lane),
-            parameter: SystemText::of(system, &start.q).parameter_without_value(),
+            parameter: parameter_without_value(&parameters(system)),
             clock: clock::<T, S>(),
             time: start.t.to_f64(),
             q: numbers(&start.q).into(),
             p: numbers(&start.p).into(),
         })
     };
-    if let Some(error) = bad("H".to_owned(), h) {
+    if let Some(error) = bad("H", h) {
         return Err(error);
     }
     if !(slopes.is_finite() && velocities.is_finite()) {
@@ -95,15 +93,17 @@ fn check_values<T: Real, S: System<T>>(
             ];
             for (variable, values) in by {
                 let derivative = format!("∂H/∂{}", name.of(variable));
-                if let Some(error) = bad(derivative, values.component(name.index)) {
+                if let Some(error) = bad(&derivative, values.component(name.index)) {
                     return Err(error);
                 }
             }
         }
     }
-    let given = match numbers(&start.p).last() {
-        Some(given) if S::FICTITIOUS_TIME.is_some() => *given,
-        _ => return Ok(()),
+    if S::FICTITIOUS_TIME.is_none() {
+        return Ok(());
+    }
+    let Some(&given) = numbers(&start.p).last() else {
+        return Ok(());
     };
     // H = g·(h + p_t) is held against Σ p ∂H/∂p, in which g·p_t is one term, and by so little that where a
     // run with errors in its energy ended another can go on.

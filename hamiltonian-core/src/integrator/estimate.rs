@@ -122,7 +122,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             refused: None,
             #[cfg(feature = "std")]
             saving: None,
-            system: self.system.clone(),
+            parameters: self.parameters.clone(),
             observer: (),
         }
     }

@@ -9,9 +9,10 @@
 //! so are functions that neither `std` nor `wide` has.) Each number is the least of many short
 //! rounds, which alternate between the rivals, so that only ratios within one line matter.
 //!
-//! With `-- --decades`, instead, what the decades of arguments from 1e-307 to 1e307 cost, of either sign:
-//! the usual nanoseconds, those at 1, and each band of decades in which a value takes more than four
-//! times as long. A star says that results there leave the normal numbers.
+//! With `-- --decades`, instead, what the decades of arguments from 1e-307 to 1e307 cost, of either sign
+//! where the function is defined for both: the usual nanoseconds, those at 1 or 0.1, and each band of
+//! decades in which a value takes more than four times as long. A star says that results there leave the
+//! normal numbers.
 //!
 //! The last line is W1, the pendulum by Störmer–Verlet with one state: the same loop with the sine
 //! of this library and with that of the standard library.
@@ -330,10 +331,14 @@ fn bands<F: Function>(name: &str, pass: &mut dyn FnMut(&[f64], &mut [f64])) {
     let mut into = [0.0; DECADE];
     let mut cost = |k: i32| {
         let scale: f64 = format!("1e{k}").parse().unwrap();
-        let from: [f64; DECADE] = std::array::from_fn(|i| {
+        let mut from = [0.0; DECADE];
+        for (i, x) in from.iter_mut().enumerate() {
             let size = scale * (1.0 + 8.0 * (i * 37 % DECADE) as f64 / DECADE as f64);
-            if i % 2 == 0 { size } else { -size }
-        });
+            let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+            // The other sign where the function is not defined for this one.
+            let signed = [sign * size, -sign * size];
+            *x = *signed.iter().find(|x| !F::ours(**x).is_nan())?;
+        }
         let mut least = f64::INFINITY;
         for _ in 0..9 {
             let start = Instant::now();
@@ -343,12 +348,14 @@ fn bands<F: Function>(name: &str, pass: &mut dyn FnMut(&[f64], &mut [f64])) {
             least = least.min(start.elapsed().as_secs_f64());
         }
         let leaves = into.iter().any(|y| !y.is_normal());
-        (least * 1e9 / (DECADE * PASSES) as f64, leaves)
+        Some((least * 1e9 / (DECADE * PASSES) as f64, leaves))
     };
-    let usual = cost(0).0;
+    let usual = cost(0).or_else(|| cost(-1)).unwrap().0;
     let mut bands: Vec<(i32, i32, f64, bool)> = vec![];
     for k in -307..=307 {
-        let (ns, leaves) = cost(k);
+        let Some((ns, leaves)) = cost(k) else {
+            continue;
+        };
         if ns <= 4.0 * usual {
             continue;
         }

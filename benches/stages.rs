@@ -251,32 +251,45 @@ fn main() {
         former::gauss::<_, 8>,
     );
 
-    println!("\nOne stage against ImplicitMidpoint, times of the steps in ns:");
+    println!("\nOne stage against ImplicitMidpoint, CPU time of a step in ns:");
     let start = State::new([FRAC_PI_4], [0.0]);
+    one_stage("pendulum", &Pendulum {}, start, 0.01);
+    one_stage("(34)", &NonSeparable {}, State::new([-3.0], [0.0]), 0.01);
+    let start = State::new([0.1, -0.1], [0.3, 0.2]);
+    one_stage("Henon-Heiles", &HenonHeiles {}, start, 0.05);
+}
+
+/// Measures [`Gauss`] with one stage against [`ImplicitMidpoint`].
+fn one_stage<Y: System<f64>>(name: &str, system: &Y, start: State<Y::Vector>, h: f64) {
+    const STEPS: u64 = 200_000;
     let mut least = [f64::INFINITY; 2];
     for _ in 0..ROUNDS {
-        let steps = 200_000;
-        let one = |mut run: Run<Pendulum, Gauss<1>>| timed(|| run.advance(steps).map(|_| ())).0;
-        let mid =
-            |mut run: Run<Pendulum, ImplicitMidpoint>| timed(|| run.advance(steps).map(|_| ())).0;
-        let system = Pendulum {};
         let times = [
-            one(
-                Integrator::new(&system, Gauss::default(), start.clone(), 0.01).expect("it begins"),
-            ),
-            mid(
-                Integrator::new(&system, ImplicitMidpoint::default(), start.clone(), 0.01)
-                    .expect("it begins"),
-            ),
+            time_of_steps(system, Gauss::<1>::default(), &start, h, STEPS),
+            time_of_steps(system, ImplicitMidpoint::default(), &start, h, STEPS),
         ];
         for (least, time) in least.iter_mut().zip(times) {
-            *least = least.min(time * 1e9 / steps as f64);
+            *least = least.min(time * 1e9 / STEPS as f64);
         }
     }
+    let [gauss, midpoint] = least;
     println!(
-        "pendulum       {:8.1} {:8.1}  x {:.2}",
-        least[0],
-        least[1],
-        least[0] / least[1]
+        "{name:<14} {gauss:8.1} {midpoint:8.1}  x {:.2}",
+        gauss / midpoint
     );
+}
+
+/// The time of the steps of one run.
+fn time_of_steps<Y: System<f64>, M: Scheme<f64, Y>>(
+    system: &Y,
+    scheme: M,
+    start: &State<Y::Vector>,
+    h: f64,
+    steps: u64,
+) -> f64 {
+    let run = Integrator::new(system, scheme, start.clone(), h);
+    let mut run = run.expect("a run begins");
+    let (time, outcome) = timed(|| run.advance(steps).map(|_| ()));
+    outcome.expect("every step is solved");
+    time
 }

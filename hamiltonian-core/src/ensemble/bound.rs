@@ -76,14 +76,15 @@ where
             fuses,
         } = self;
         // The widths differ in speed alone. Conditions that are constants of a type are decided before code is
-        // emitted, so that the other width costs no time of the compiler.
+        // emitted, so that the other width costs no time of the compiler. Levels that fuse nothing have one
+        // arithmetic.
         if const { is_small::<T, S, M>() } {
-            if fuses {
+            if fuses || const { !L::FUSES } {
                 InPack::<T, S, L::Wide>::drive::<L>(scheme, host);
             } else {
                 InPack::<T, S, Nf<L::Wide>>::drive::<L>(scheme, host);
             }
-        } else if fuses {
+        } else if fuses || const { !L::FUSES } {
             InPack::<T, S, W<L::Pack, 2>>::drive::<L>(scheme, host);
         } else {
             InPack::<T, S, Nf<W<L::Pack, 2>>>::drive::<L>(scheme, host);

@@ -5,15 +5,17 @@
 //! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
 
 mod alone;
+mod rows;
 mod watching;
 
 use self::alone::{arrivals, explain};
+use self::rows::{Prepare, gathered, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
 use super::crew::Crew;
 use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
 use crate::flow::Scratch;
-use crate::map::{Map, Step};
+use crate::map::Map;
 use crate::observe::{Section, Tracker, Watcher};
 use crate::scheme::Scheme;
 use crate::state::{Carried, State};
@@ -58,9 +60,9 @@ where
         if !crew.fill(host) {
             return;
         }
-        let mut lanes = Lanes::<T, S, P, M>::new(self, &crew);
+        let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &crew);
         loop {
-            lanes.board(self, &mut crew);
+            lanes.board::<L>(self, &mut crew);
             // Members whose drift begins here are seen before their first step.
             let attach = lanes.attach.take();
             let n = match attach {
@@ -84,8 +86,8 @@ where
                 first: schedule.first,
                 interval: schedule.interval,
                 apart: schedule.apart.map(|[left, interval]| Apart {
-                    left: counts::<T, P>(&left),
-                    interval: counts::<T, P>(&interval),
+                    left: counts::<L, T, P>(&left),
+                    interval: counts::<L, T, P>(&interval),
                 }),
                 attach,
             };
@@ -116,7 +118,7 @@ where
             }
             crew.made(n);
             lanes.made += n;
-            lanes.arrive(self, &mut crew, host);
+            lanes.arrive::<L>(self, &mut crew, host);
             if !crew.fill(host) {
                 return;
             }
@@ -184,20 +186,20 @@ where
 {
     /// The shapes for the first crew, to be boarded.
     #[inline(always)]
-    fn new(scheme: &M, crew: &Crew<T, S>) -> Self {
+    fn new<L: Level>(scheme: &M, crew: &Crew<T, S>) -> Self {
         let seats = crew.seats();
-        let prepared = prepared_in::<T, S, P>(&seats);
         let steps = each(&seats, |seat| seat.step);
-        let h = T::gather::<P>(&steps);
+        let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &seats, &steps));
+        let h = gathered::<L, T, P>(&steps);
         let state = State {
-            t: T::gather::<P>(&each(&seats, |seat| seat.state.t)),
+            t: gathered::<L, T, P>(&each(&seats, |seat| seat.state.t)),
             q: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.q),
             p: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.p),
         };
         let carried = Scheme::<T::Over<P>, S>::start(scheme, &prepared, &state, h);
         let zero = <T::Over<P> as Real>::zero();
         Lanes {
-            map: Scheme::<T::Over<P>, S>::prepare(scheme, &prepared, Step::of(h)),
+            map,
             work: Scratch::like(&carried),
             before: carried.clone(),
             marks: Marks::new(&carried),
@@ -229,33 +231,32 @@ where
 
     /// Puts a crew that has changed into the lanes.
     #[inline(always)]
-    fn board(&mut self, scheme: &M, crew: &mut Crew<T, S>) {
+    fn board<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>) {
         let Some(changed) = crew.changed() else {
             return;
         };
-        self.write_sections(&self.watchers, crew);
-        store::<T, P, _>(&self.carried, P::LANES as usize, &mut self.rows);
+        self.write_sections::<L>(&self.watchers, crew);
+        store::<L, T, P, _>(&self.carried, &mut self.rows);
         crew.write_columns(&mut self.rows);
         let seats = crew.seats();
         let steps = each(&seats, |seat| seat.step);
         let others = changed.parameters || !self.uniform;
         if others || steps != self.steps {
-            self.prepared = prepared_in::<T, S, P>(&seats);
-            let h = T::gather::<P>(&steps);
-            self.map = Scheme::<T::Over<P>, S>::prepare(scheme, &self.prepared, Step::of(h));
+            (self.prepared, self.map) =
+                L::enter_at(Prepare::<T, S, P, M>::new(scheme, &seats, &steps));
             self.steps = steps;
             let mut pairs = seats.windows(2);
             self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
         }
-        load::<T, P, _>(&self.rows, P::LANES as usize, &mut self.carried);
-        self.track(&seats);
-        self.watch(&seats);
+        load::<L, T, P, _>(&self.rows, &mut self.carried);
+        self.track::<L>(&seats);
+        self.watch::<L>(&seats);
         self.marks.replace(&self.carried);
         self.made = 0;
-        let made = T::gather::<P>(&each(&seats, |seat| count(seat.made)));
+        let made = gathered::<L, T, P>(&each(&seats, |seat| count(seat.made)));
         self.times = Times {
-            start: T::gather::<P>(&each(&seats, |seat| seat.clock.start)),
-            interval: T::gather::<P>(&each(&seats, |seat| seat.clock.interval)),
+            start: gathered::<L, T, P>(&each(&seats, |seat| seat.clock.start)),
+            interval: gathered::<L, T, P>(&each(&seats, |seat| seat.clock.interval)),
             ahead: made,
         };
         self.opening = match (changed.some_fresh, changed.all_fresh) {
@@ -267,7 +268,7 @@ where
 
     /// Puts the drifts of the members into lanes.
     #[inline(always)]
-    fn track(&mut self, seats: &[&Seat<T, S>]) {
+    fn track<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
         self.trackers.clear();
         // The first that is followed stands for all: others are seen at their stops.
         let Some(first) = seats.iter().find(|seat| !seat.follows.drifts.is_empty()) else {
@@ -292,24 +293,24 @@ where
             }
             self.trackers.push(Tracker {
                 quantity: track.quantity,
-                start: T::gather::<P>(&lanes[0]),
-                max: T::gather::<P>(&lanes[1]),
-                sizes: T::gather::<P>(&lanes[2]),
-                sum: T::gather::<P>(&lanes[3]),
+                start: gathered::<L, T, P>(&lanes[0]),
+                max: gathered::<L, T, P>(&lanes[1]),
+                sizes: gathered::<L, T, P>(&lanes[2]),
+                sum: gathered::<L, T, P>(&lanes[3]),
             });
         }
-        let begins = T::gather::<P>(&begins).equals(<T::Over<P> as Real>::one());
+        let begins = gathered::<L, T, P>(&begins).equals(<T::Over<P> as Real>::one());
         self.attach = begins.any().then_some(begins);
     }
 
     /// Writes drifts back into the seats of some lanes.
     #[inline(always)]
-    fn write_tracks(trackers: &[Tracker<T::Over<P>>], crew: &mut Crew<T, S>) {
+    fn write_tracks<L: Level>(trackers: &[Tracker<T::Over<P>>], crew: &mut Crew<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
         for (k, tracker) in trackers.iter().enumerate() {
             let packs = [tracker.start, tracker.max, tracker.sizes, tracker.sum];
             for (lanes, pack) in lanes.iter_mut().zip(packs) {
-                T::scatter::<P>(pack, lanes);
+                scatter::<L, T, P>(&pack, lanes);
             }
             crew.write_track(k, &lanes);
         }
@@ -329,16 +330,16 @@ where
     ) {
         let lanes = P::LANES as usize;
         let mut before = vec![T::default(); self.rows.len()];
-        store::<T, P, _>(&self.before, lanes, &mut before);
+        store::<L, T, P, _>(&self.before, &mut before);
         let mut shown = vec![T::default(); self.rows.len()];
-        store::<T, P, _>(&self.shown, lanes, &mut shown);
-        store::<T, P, _>(&self.carried, lanes, &mut self.rows);
+        store::<L, T, P, _>(&self.shown, &mut shown);
+        store::<L, T, P, _>(&self.carried, &mut self.rows);
         let mut times = vec![T::default(); lanes];
-        T::scatter::<P>(self.shown.time(self.times.at(self.made + 1)), &mut times);
-        Self::write_tracks(&self.trackers_before, crew);
+        scatter::<L, T, P>(&self.shown.time(self.times.at(self.made + 1)), &mut times);
+        Self::write_tracks::<L>(&self.trackers_before, crew);
         let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
         if !self.watchers.is_empty() {
-            self.write_sections(&self.watchers_before, crew);
+            self.write_sections::<L>(&self.watchers_before, crew);
             self.show::<L>(scheme, self.made, (true, &bad), crew, host);
         }
         let bad = (0..lanes).filter(|lane| bad[*lane]);
@@ -363,11 +364,11 @@ where
 
     /// Shows members at their stops to the host, which takes those that leave.
     #[inline(always)]
-    fn arrive(&mut self, scheme: &M, crew: &mut Crew<T, S>, host: &mut dyn Host<T, S>) {
+    fn arrive<L: Level>(&mut self, scheme: &M, crew: &mut Crew<T, S>, host: &mut dyn Host<T, S>) {
         let lanes = P::LANES as usize;
         let is_any_due = crew.is_any_due();
         if !self.trackers.is_empty() && (is_any_due || crew.has_changed()) {
-            Self::write_tracks(&self.trackers, crew);
+            Self::write_tracks::<L>(&self.trackers, crew);
         }
         if !is_any_due {
             return;
@@ -384,15 +385,15 @@ where
             let point = self.shown.point();
             let mut numbers = vec![T::default(); lanes];
             for c in 0..point.q.len() {
-                T::scatter::<P>(point.q.component(c), &mut numbers);
+                scatter::<L, T, P>(&point.q.component(c), &mut numbers);
                 crew.show(&numbers, |state| state.q.component_mut(c));
-                T::scatter::<P>(point.p.component(c), &mut numbers);
+                scatter::<L, T, P>(&point.p.component(c), &mut numbers);
                 crew.show(&numbers, |state| state.p.component_mut(c));
             }
-            T::scatter::<P>(self.shown.time(self.times.at(self.made)), &mut numbers);
+            scatter::<L, T, P>(&self.shown.time(self.times.at(self.made)), &mut numbers);
             crew.show(&numbers, |state| &mut state.t);
             let durations = self.carried.duration(self.times.interval).map(|durations| {
-                T::scatter::<P>(durations, &mut numbers);
+                scatter::<L, T, P>(&durations, &mut numbers);
                 numbers
             });
             arrivals(scheme, crew, host, durations.as_deref());
@@ -400,7 +401,7 @@ where
             crew.for_each_due(|_, _| false);
         }
         if crew.is_any_leaving() {
-            store::<T, P, _>(&self.carried, lanes, &mut self.rows);
+            store::<L, T, P, _>(&self.carried, &mut self.rows);
             crew.leave(&self.rows, host);
         }
     }
@@ -411,18 +412,6 @@ fn each<T: Real, S: System<T>>(seats: &[&Seat<T, S>], of: impl Fn(&Seat<T, S>) -
     seats.iter().map(|seat| of(seat)).collect()
 }
 
-/// The systems of the lanes as one.
-#[inline(always)]
-fn prepared_in<T, S, P>(seats: &[&Seat<T, S>]) -> <S::Prepared as Gather<T>>::Over<T::Over<P>>
-where
-    T: Real,
-    S: System<T, Prepared: Gather<T>>,
-    P: Pack,
-{
-    let prepared: Vec<&S::Prepared> = seats.iter().map(|seat| &seat.prepared).collect();
-    S::Prepared::gather::<P>(&prepared)
-}
-
 /// A number of steps as a scalar.
 fn count<T: Real>(steps: u64) -> T {
     T::constant(steps as i64 as f64, 0.0)
@@ -430,29 +419,7 @@ fn count<T: Real>(steps: u64) -> T {
 
 /// Numbers of steps in lanes.
 #[inline(always)]
-fn counts<T: Real, P: Pack>(steps: &[u64]) -> T::Over<P> {
+fn counts<L: Level, T: Real, P: Pack>(steps: &[u64]) -> T::Over<P> {
     let steps: Vec<T> = steps.iter().map(|n| count(*n)).collect();
-    T::gather::<P>(&steps)
-}
-
-/// The lanes of a carried value from rows, one a component.
-#[inline(always)]
-fn load<T: Real, P: Pack, V: Vector<Scalar = T::Over<P>>>(rows: &[T], lanes: usize, to: &mut V) {
-    let mut rows = rows.chunks_exact(lanes);
-    for k in 0..V::PARTS {
-        for (component, row) in to.part_mut(k).iter_mut().zip(&mut rows) {
-            *component = T::gather::<P>(row);
-        }
-    }
-}
-
-/// The lanes of a carried value into rows.
-#[inline(always)]
-fn store<T: Real, P: Pack, V: Vector<Scalar = T::Over<P>>>(from: &V, lanes: usize, rows: &mut [T]) {
-    let mut rows = rows.chunks_exact_mut(lanes);
-    for k in 0..V::PARTS {
-        for (component, row) in from.part(k).iter().zip(&mut rows) {
-            T::scatter::<P>(*component, row);
-        }
-    }
+    gathered::<L, T, P>(&steps)
 }

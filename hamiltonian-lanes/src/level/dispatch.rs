@@ -8,6 +8,7 @@ use core::fmt::Debug;
 use core::sync::atomic::{AtomicU8, Ordering};
 
 use super::pack::{Base, V, W};
+use super::register::Register;
 
 /// Capabilities of a CPU, from the least on. Which levels exist depends on the architecture; the least
 /// is on all of them.
@@ -149,6 +150,8 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     type Eight: Base;
     /// The level this is.
     const CPU: Cpu;
+    /// Whether its packs round a product with a sum once.
+    const FUSES: bool;
 
     /// Enters the level anew: `kernel.run::<Self>()` in a function that is compiled with this
     /// level's instructions and stands out of line. For large pieces of a kernel that should not be
@@ -368,6 +371,7 @@ macro_rules! level {
             type Eight = W<V<$register>, $eight>;
             type Four = $four;
             const CPU: Cpu = Cpu::$level;
+            const FUSES: bool = <$register as Register>::FUSED;
 
             #[inline(always)]
             fn enter<K: Kernel>(kernel: K) -> K::Output {

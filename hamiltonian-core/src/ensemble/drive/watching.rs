@@ -4,7 +4,8 @@
 //! with the two before. Invariant: they remember what they would remember had they seen every state.
 
 use super::alone::Passing;
-use super::{Lanes, each, store};
+use super::rows::{gathered, scatter, store};
+use super::{Lanes, each};
 use crate::ensemble::close::Close;
 use crate::ensemble::crew::Crew;
 use crate::ensemble::seat::{Host, Seat};
@@ -30,13 +31,13 @@ where
 {
     /// Puts the functions whose sign is followed into lanes: those of any member.
     #[inline(always)]
-    pub(super) fn watch(&mut self, seats: &[&Seat<T, S>]) {
+    pub(super) fn watch<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
         self.watchers.clear();
         let watched = each(seats, |seat| match seat.follows.sections.is_empty() {
             true => T::zero(),
             false => T::one(),
         });
-        self.watched = T::gather::<P>(&watched).equals(<T::Over<P> as Real>::one());
+        self.watched = gathered::<L, T, P>(&watched).equals(<T::Over<P> as Real>::one());
         self.functions.clear();
         for section in seats.iter().flat_map(|seat| &seat.follows.sections) {
             if !self.functions.iter().any(|other| other.is_of(section)) {
@@ -52,20 +53,24 @@ where
             let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
             self.watchers.push(Watcher {
                 quantity: function.quantity,
-                period: function.period.map(|period| T::gather::<P>(&[period])),
-                value: T::gather::<P>(&in_lanes(|section| section.value)),
-                change: T::gather::<P>(&in_lanes(|section| section.change)),
+                period: function.period.map(|period| gathered::<L, T, P>(&[period])),
+                value: gathered::<L, T, P>(&in_lanes(|section| section.value)),
+                change: gathered::<L, T, P>(&in_lanes(|section| section.change)),
             });
         }
     }
 
     /// Writes the values of the functions back into the seats.
     #[inline(always)]
-    pub(super) fn write_sections(&self, watchers: &[Watcher<T::Over<P>>], crew: &mut Crew<T, S>) {
+    pub(super) fn write_sections<L: Level>(
+        &self,
+        watchers: &[Watcher<T::Over<P>>],
+        crew: &mut Crew<T, S>,
+    ) {
         let [mut values, mut changes] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
         for (function, watcher) in self.functions.iter().zip(watchers) {
-            T::scatter::<P>(watcher.value, &mut values);
-            T::scatter::<P>(watcher.change, &mut changes);
+            scatter::<L, T, P>(&watcher.value, &mut values);
+            scatter::<L, T, P>(&watcher.change, &mut changes);
             crew.for_each_watched(|lane, seat| {
                 let mut own = seat.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
@@ -139,7 +144,7 @@ where
             passing.show(scheme, crew, host);
         }
         if crew.is_any_leaving() {
-            store::<T, P, _>(&self.three[2], P::LANES as usize, &mut self.rows);
+            store::<L, T, P, _>(&self.three[2], &mut self.rows);
             crew.leave(&self.rows, host);
         }
     }

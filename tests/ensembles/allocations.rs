@@ -103,7 +103,12 @@ fn an_ensemble_holds_what_members_carry() {
     };
     let [after, most] = steps(MANY);
     assert_eq!(after, 0);
-    assert!(most < 200_000, "{most} bytes for steps");
+    assert!(most < 70_000, "{most} bytes for steps");
+    let [_, of_more] = steps(4 * MANY);
+    assert!(
+        (of_more - most).abs() < 1_000,
+        "{most} bytes, and {of_more} for more members"
+    );
 }
 
 #[test]
@@ -120,5 +125,10 @@ fn a_sweep_holds_its_chunks_in_work() {
         bytes(|| sweep.fold(0.0, sum).expect("there are members")).1[1]
     };
     let few = most(MANY);
-    assert!(few < 400_000, "{few} bytes");
+    assert!(few < 165_000, "{few} bytes");
+    let many = most(8 * MANY);
+    assert!(
+        (many - few).abs() < 20_000,
+        "{few} bytes, and {many} for more members"
+    );
 }

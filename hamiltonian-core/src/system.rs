@@ -297,20 +297,18 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     fn set_arithmetic(&mut self, _: Arithmetic) {}
 
     /// Runs a kernel with this system in all lanes of a pack, on the best level of this CPU. The provided
-    /// method, for systems written by hand, hands the kernel back: they stay scalar. With [`Gather`] it is
-    /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes)`(self, kept, kernel)`. `kept` is memory of the caller's.
-    ///
-    /// # Errors
-    /// The kernel, if there are no lanes for this scalar or this system.
+    /// method, for systems written by hand, runs nothing and returns `None`: they stay scalar. With [`Gather`] it is
+    /// [`gather::in_lanes`](crate::schemes::author::gather::in_lanes)`(self, kept, kernel)`, which returns
+    /// `None` if there are no lanes for this scalar or this system. `kept` is memory of the caller's.
     ///
     /// [`Gather`]: crate::schemes::author::Gather
     #[inline(always)]
     fn in_lanes<K: InLanes<T, Self::Vector>>(
         &self,
         _kept: &mut Kept,
-        kernel: K,
-    ) -> Result<K::Output, K> {
-        Err(kernel)
+        _kernel: K,
+    ) -> Option<K::Output> {
+        None
     }
 }
 

@@ -7,8 +7,8 @@ use super::collocation::{Collocation, constant, whole_ulps};
 use super::compensated::carry;
 use super::iterate::Outcome;
 use super::rows::{
-    Apart, Beside, Equations, LANES, Layout, in_rows, load, matrix_in_rows, multiply, product,
-    rows, solve, spread, store, sum,
+    Apart, Beside, Equations, LANES, LEVELS, Layout, in_rows, load, matrix_in_rows, multiply,
+    product, rows, solve, spread, store, sum,
 };
 use super::stages::{Stages, extrapolation};
 use crate::flow::Scratch;
@@ -19,7 +19,7 @@ use crate::system::gather::{InLanes, Kept};
 use crate::system::{Dynamics, QuadraticKinetic, Separable, System, Unforced};
 use crate::vector::Vector;
 use core::fmt;
-use hamiltonian_lanes::{DoubleDouble, Level, Mask, Pack, Real};
+use hamiltonian_lanes::{Cpu, DoubleDouble, Level, Mask, Pack, Real};
 
 /// Gauss collocation with `S` stages where T is quadratic, in its second-order form: order 2S,
 /// symplectic, time-reversible.
@@ -436,7 +436,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Eliminated<T, P, S> {
                 z,
                 sums: &mut work.sums,
             };
-            let Ok(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+            let Some(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
                 break;
             };
             made += steps;
@@ -473,6 +473,7 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
     /// that was not solved, but for ∂V/∂q.
     type Output = u64;
     type Pack<L: Level> = L::Four;
+    const LEVELS: [Cpu; 2] = LEVELS;
 
     #[inline(always)]
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64

@@ -464,7 +464,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
                 n: n - made,
                 z,
             };
-            let Ok(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
+            let Some(steps) = self.dynamics.in_lanes(&mut work.kept, steps) else {
                 break;
             };
             made += steps;

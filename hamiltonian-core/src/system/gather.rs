@@ -14,7 +14,7 @@ use alloc::boxed::Box;
 use core::any::Any;
 use core::fmt;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{Base, Kernel, Level, Nf, Pack, Real, dispatch};
+use hamiltonian_lanes::{Base, Cpu, Kernel, Level, Nf, Pack, Real, dispatch};
 
 /// The scalar of a vector with a value in each lane of the pack `P`.
 pub type ScalarOver<V, P> = <<V as Vector>::Scalar as Real>::Over<P>;
@@ -97,6 +97,9 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     /// The pack that is used on a level; wrapped in [`Nf`] unless products [fuse](crate::schemes::author::Arithmetic::fused), so that
     /// a run has the same bits on every level.
     type Pack<L: Level>: Base;
+    /// The least level and the best on which packs are faster than one number after the other: for others no
+    /// code is made. A better CPU runs the best of them.
+    const LEVELS: [Cpu; 2];
     /// Computes it with the system in every lane. What it keeps, it finds there the next time that a kernel
     /// runs with the same system in the same packs.
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> Self::Output
@@ -143,27 +146,25 @@ impl fmt::Debug for Kept {
 }
 
 /// Runs a kernel on the best level of this CPU with one system in all lanes: the implementation of
-/// [`Dynamics::in_lanes`] where there is [`Gather`]. The kernel comes back if `T` has no form in lanes, or
-/// if the system's [arithmetic](Dynamics::arithmetic) does not use them.
-///
-/// # Errors
-/// The kernel.
+/// [`Dynamics::in_lanes`] where there is [`Gather`]. Nothing runs if `T` has no form in lanes, if the
+/// system's [arithmetic](Dynamics::arithmetic) does not use them, or if the CPU has none of the kernel's
+/// [levels](InLanes::LEVELS).
 #[inline(always)]
 pub fn in_lanes<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>>(
     system: &D,
     kept: &mut Kept,
     kernel: K,
-) -> Result<K::Output, K> {
+) -> Option<K::Output> {
     if !T::WIDENS || !system.arithmetic().lanes {
-        return Err(kernel);
+        return None;
     }
     let scalar = PhantomData::<T>;
-    Ok(dispatch(Entry {
+    dispatch(Entry {
         system,
         kept,
         kernel,
         scalar,
-    }))
+    })
 }
 
 /// The way into a level for [`in_lanes`].
@@ -198,14 +199,19 @@ impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Entry<'_, T, D, K> {
 }
 
 impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D, K> {
-    type Output = K::Output;
+    type Output = Option<K::Output>;
+    const BEST: Cpu = K::LEVELS[1];
     #[inline(always)]
-    fn run<L: Level>(self) -> K::Output {
-        if self.system.arithmetic().fused {
+    fn run<L: Level>(self) -> Self::Output {
+        // A condition that is a constant of types is decided before code is emitted.
+        if const { (L::CPU as u8) < K::LEVELS[0] as u8 } {
+            return None;
+        }
+        Some(if self.system.arithmetic().fused {
             self.over::<K::Pack<L>>()
         } else {
             self.over::<Nf<K::Pack<L>>>()
-        }
+        })
     }
 }
 

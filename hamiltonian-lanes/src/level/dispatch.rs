@@ -296,6 +296,9 @@ on_every_level!(
 pub trait Kernel {
     /// The computation.
     type Output;
+    /// The best level that code is made for: a lower one than [`Cpu::Avx512`] where wider registers gain
+    /// nothing. It exists on every architecture as the best of those that are not above it.
+    const BEST: Cpu = Cpu::Avx512;
     /// Computes it on level `L`.
     fn run<L: Level>(self) -> Self::Output;
 }
@@ -306,9 +309,11 @@ pub trait Kernel {
 pub fn dispatch<K: Kernel>(kernel: K) -> K::Output {
     match Cpu::best() {
         #[cfg(target_arch = "x86_64")]
-        Cpu::Avx512 => Avx512::enter(kernel),
+        Cpu::Avx512 if const { K::BEST as u8 >= Cpu::Avx512 as u8 } => Avx512::enter(kernel),
         #[cfg(target_arch = "x86_64")]
-        Cpu::Avx2 => Avx2::enter(kernel),
+        Cpu::Avx512 | Cpu::Avx2 if const { K::BEST as u8 >= Cpu::Avx2 as u8 } => {
+            Avx2::enter(kernel)
+        }
         #[cfg(target_arch = "x86_64")]
         _ => Sse2::enter(kernel),
         #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]

@@ -218,7 +218,7 @@ impl<'a> Emission<'a> {
              fn set_arithmetic(&mut self, _to: __h::Arithmetic) {{\nself.arithmetic = _to;\n}}\n\
              #[inline(always)]\nfn in_lanes<__K: __h::InLanes<T, Self::Vector>>(&self, \
              _kept: &mut __h::Kept, _kernel: __K) -> \
-             __h::core::result::Result<__K::Output, __K> {{\n__h::in_lanes(self, _kept, _kernel)\n}}\n}}"
+             __h::core::option::Option<__K::Output> {{\n__h::in_lanes(self, _kept, _kernel)\n}}\n}}"
         );
     }
 

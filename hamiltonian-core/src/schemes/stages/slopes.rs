@@ -9,15 +9,15 @@ use crate::map::Clock;
 use crate::schemes::compensated::carry;
 use crate::schemes::iterate::Outcome;
 use crate::schemes::rows::{
-    Beside, Equations, Layout, in_rows, load, matrix_in_rows, multiply, product, rows, solve,
-    spread, store, sum,
+    Beside, Equations, LEVELS, Layout, in_rows, load, matrix_in_rows, multiply, product, rows,
+    solve, spread, store, sum,
 };
 use crate::state::{Pair, Point};
 use crate::system::Dynamics;
 use crate::system::gather::{InLanes, Kept};
 use crate::vector::Vector;
 use core::marker::PhantomData;
-use hamiltonian_lanes::{Level, Mask, Pack, Real};
+use hamiltonian_lanes::{Cpu, Level, Mask, Pack, Real};
 
 /// The numbers of a method for steps of one size, in rows of stages.
 pub(super) struct Tableau<'a, R, const S: usize> {
@@ -175,6 +175,7 @@ impl<T: Real, Q: Dynamics<T>, const S: usize> InLanes<T, Q::Vector> for StepsBes
     /// that was not solved, but for its slopes.
     type Output = u64;
     type Pack<L: Level> = L::Four;
+    const LEVELS: [Cpu; 2] = LEVELS;
 
     #[inline(always)]
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> u64

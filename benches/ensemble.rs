@@ -8,6 +8,8 @@
 //! on AVX-512 and 12 times on AVX2. Before anything is timed, the ends of all trajectories are
 //! compared with those of single runs: the same bits where nothing fuses.
 //!
+//! After them members of implicit schemes are timed against scalar runs.
+//!
 //! The loop over 100 trajectories at a time shows how much of the gain is overlap alone: there the
 //! processor works on several sines at once, in the other one each step waits for the last.
 
@@ -16,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use hamiltonian::prelude::*;
 use hamiltonian::{
-    Scheme, System,
+    Ensembles, Scheme, System,
     schemes::author::{Carried, Clock, Map, Scratch, Step},
 };
 use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch_at_most};
@@ -240,5 +242,44 @@ fn main() {
             println!("FAILED {name}: {ratio:.2} times the loop by hand, not {target}");
         }
     }
+    if !json {
+        println!("\nMembers of an ensemble, reproducible, against a scalar run:");
+        implicit(ImplicitMidpoint::default());
+        implicit(Gauss::<2>::default());
+        implicit(Gauss::<4>::default());
+        implicit(GaussNystrom::<4>::default());
+    }
     std::process::exit(i32::from(failed));
+}
+
+/// Prints how many times a scalar run members of an ensemble are on one thread of this CPU.
+fn implicit<M: Ensembles<Pendulum>>(scheme: M) {
+    const STEP: f64 = 0.1;
+    const STEPS: u64 = 20;
+    let entry = scheme.entry();
+    let all = starts();
+    let start = |k: usize| State::new([all.q[k]], [all.p[k]]);
+    let (mut alone, mut together) = (Duration::MAX, Duration::MAX);
+    for _ in 0..5 {
+        let run = Integrator::new(&Pendulum::default(), scheme.clone(), start(0), STEP);
+        let mut run = run.expect("a run begins").lanes(false);
+        let began = Instant::now();
+        run.advance(STEPS * COUNT as u64)
+            .expect("every step is solved");
+        alone = alone.min(began.elapsed());
+        let member = |member: Member| (Pendulum::default(), start(member.index));
+        let swarm = Ensemble::new(COUNT, member, scheme.clone(), STEP);
+        let mut swarm = swarm.expect("an ensemble begins").threads(1).reproducible();
+        let began = Instant::now();
+        swarm.advance(STEPS);
+        together = together.min(began.elapsed());
+        assert!(
+            swarm.states().all(|end| end.is_ok()),
+            "{entry}: every step is solved"
+        );
+    }
+    println!(
+        "{entry:<24} {:>8.2} ×",
+        alone.as_secs_f64() / together.as_secs_f64()
+    );
 }

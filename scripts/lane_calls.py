@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""No call is left inside a lane loop.
+"""No call is left inside a lane loop, and no part of a step calls vector instructions.
 
 Input: the assembly of a bench, made here by cargo. Output: for each level's entry, how many lane
 loops it has; the exit status says whether one of them calls anything. A lane loop is an innermost
@@ -18,9 +18,14 @@ import re
 import subprocess
 import sys
 
-ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*5enter5entry")
+ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*(?:5enter|8enter_at)5entry")
 PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
-COLD = re.compile(r"replace")
+# Rare arguments, and functions that enter the level themselves.
+COLD = re.compile(r"replace|11out_of_line5entry|(?:5enter|8enter_at)5entry")
+# Parts of steps, and their closures.
+STEP = re.compile(r"\d(body|run|map|scale|solve|newton|linearise|eliminate|hessian_vector|gradient_[qp])(17h|28_\$u7b)")
+# An instruction of a level as a function.
+INTRINSIC = re.compile(r"\s+call.*core_arch.*_mm\d")
 
 
 def assembly(bench):
@@ -126,6 +131,17 @@ def examine(text):
         yield level, lane_loops, calls
 
 
+def outside(text):
+    """Parts of steps that call vector instructions: they are compiled without the instructions of the level."""
+    found, name = set(), ""
+    for line in text.splitlines():
+        if line.startswith("_"):
+            name = line.rstrip(":")
+        elif STEP.search(name) and INTRINSIC.match(line):
+            found.add(name)
+    return sorted(found)
+
+
 SAMPLE = """
 _ZN_level..dispatch..Avx2$u20$as$u20$_5enter5entryE:
 \tvxorpd\t%ymm0, %ymm0, %ymm0
@@ -148,11 +164,16 @@ def main():
     # What is to be found is found, before its absence says anything.
     assert list(examine(SAMPLE.format("sin"))) == [("Avx2", 1, ["sin"])]
     assert list(examine(SAMPLE.format("replace_in_packs"))) == [("Avx2", 1, [])]
+    name = "_ZN_Collocated4body28_$u7b$$u7b$closure$u7d$$u7d$17h0E"
+    assert outside(f"{name}:\n\tcallq\t_ZN4core9core_arch3x863avx13_mm256_mul_pd17h1E\n") == [name]
 
     failed = False
     for bench in sys.argv[1:] or ["ensemble", "functions", "stages"]:
-        total = 0
-        for level, lane_loops, calls in examine(assembly(bench)):
+        total, text = 0, assembly(bench)
+        for name in outside(text):
+            failed = True
+            print(f"FAILED {bench}: {name} calls vector instructions")
+        for level, lane_loops, calls in examine(text):
             total += lane_loops
             failed |= bool(calls)
             verdict = f"FAILED, calls {', '.join(calls)}" if calls else "no call"

@@ -75,6 +75,30 @@ impl<const S: usize> Gauss<S> {
     }
 }
 
+/// So many stages, in words.
+pub(super) fn stages(count: usize) -> &'static str {
+    const STAGES: [&str; 17] = [
+        "",
+        "1 stage",
+        "2 stages",
+        "3 stages",
+        "4 stages",
+        "5 stages",
+        "6 stages",
+        "7 stages",
+        "8 stages",
+        "9 stages",
+        "10 stages",
+        "11 stages",
+        "12 stages",
+        "13 stages",
+        "14 stages",
+        "15 stages",
+        "16 stages",
+    ];
+    STAGES.get(count).copied().unwrap_or("more than 16 stages")
+}
+
 /// The coefficients follow from S.
 impl<const S: usize> fmt::Debug for Gauss<S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -87,28 +111,9 @@ impl<const S: usize> fmt::Debug for Gauss<S> {
 
 impl<const S: usize> Listed for Gauss<S> {
     fn entry(&self) -> Entry {
-        const STAGES: [&str; 17] = [
-            "",
-            "1 stage",
-            "2 stages",
-            "3 stages",
-            "4 stages",
-            "5 stages",
-            "6 stages",
-            "7 stages",
-            "8 stages",
-            "9 stages",
-            "10 stages",
-            "11 stages",
-            "12 stages",
-            "13 stages",
-            "14 stages",
-            "15 stages",
-            "16 stages",
-        ];
         Entry {
             name: "Gauss",
-            variant: STAGES.get(S).copied().unwrap_or("more than 16 stages"),
+            variant: stages(S),
             equations: "",
             order: 2 * S as u32,
             duration: 1,

@@ -141,7 +141,10 @@ fn apart<X, O, I, W>(
     W: Splitting,
 {
     let mut moved = z.take();
-    X::Scalar::out_of_line(|| processor.step(t, t, &mut moved, work));
+    X::Scalar::out_of_line(
+        #[inline(always)]
+        || processor.step(t, t, &mut moved, work),
+    );
     *z = moved;
 }
 

@@ -89,7 +89,7 @@ impl<const S: usize> Listed for GaussNystrom<S> {
     fn entry(&self) -> Entry {
         Entry {
             name: "GaussNystrom",
-            variant: "",
+            variant: super::gauss::stages(S),
             equations: "",
             order: 2 * S as u32,
             duration: 1,
@@ -564,7 +564,10 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Eliminated<T, P, S> {
 
     #[inline(always)]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        T::out_of_line(|| self.steps(Clock::between(t, end), 0, 1, z, work));
+        T::out_of_line(
+            #[inline(always)]
+            || self.steps(Clock::between(t, end), 0, 1, z, work),
+        );
     }
     #[inline(always)]
     fn run(

@@ -204,6 +204,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
     }
 
     /// `into −=` dq/dt of the polynomial at stage `i`.
+    #[inline(always)]
     pub(super) fn less_velocity(
         &self,
         i: usize,
@@ -224,6 +225,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Slopes<'_, T, P, S> {
     }
 
     /// J∇H at all stages.
+    #[inline(always)]
     fn at_stages(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
@@ -250,7 +252,31 @@ struct Newton<'a, 'b, T: Real, P: Dynamics<T>, const S: usize> {
 impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector>, S>>
     for Newton<'_, '_, T, P, S>
 {
+    // In one function of the level, since it is long and called twice.
+    #[inline(always)]
     fn map(
+        &mut self,
+        unknowns: &Stages<Point<P::Vector>, S>,
+        next: &mut Stages<Point<P::Vector>, S>,
+    ) {
+        T::out_of_line(
+            #[inline(always)]
+            || self.map_here(unknowns, next),
+        );
+    }
+    #[inline(always)]
+    fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
+        let Slopes { map, point, .. } = &self.slopes;
+        // The unknowns count too: a point at the origin has no size of its own.
+        let stages = T::Size::constant(S as f64, 0.0);
+        stages * point.size() / map.h.size() + unknowns.size()
+    }
+}
+
+impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
+    /// What [`map`](Contraction::map) does.
+    #[inline(always)]
+    fn map_here(
         &mut self,
         unknowns: &Stages<Point<P::Vector>, S>,
         next: &mut Stages<Point<P::Vector>, S>,
@@ -264,18 +290,18 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
         for i in 0..S {
             self.slopes.stage(i, unknowns);
             let t = self.slopes.t + map.times[i];
-            let entries = |j: usize| map.entries(i, j);
-            self.linear
-                .linearise(&map.dynamics, t, self.slopes.stage, i, S, entries);
+            self.linear.linearise(
+                &map.dynamics,
+                t,
+                self.slopes.stage,
+                i,
+                S,
+                #[inline(always)]
+                |j| map.entries(i, j),
+            );
         }
         self.linear.solve(next);
         next.accumulate(T::one(), unknowns);
-    }
-    fn scale(&self, unknowns: &Stages<Point<P::Vector>, S>) -> T::Size {
-        let Slopes { map, point, .. } = &self.slopes;
-        // The unknowns count too: a point at the origin has no size of its own.
-        let stages = T::Size::constant(S as f64, 0.0);
-        stages * point.size() / map.h.size() + unknowns.size()
     }
 }
 
@@ -295,6 +321,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
     }
 
     /// The dependence of the point at stage `i`, and of dq/dt there, on the unknowns of stage `j`.
+    #[inline(always)]
     fn entries(&self, i: usize, j: usize) -> Entries<T> {
         let (zero, one) = (T::zero(), T::one());
         let (across, velocity) = match &self.modes {
@@ -312,6 +339,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
 
     /// Solves for the unknowns by Newton's method alone, from where they are, and leaves their
     /// increments in the scratch. `look` is shown the equations, solved.
+    #[inline(always)]
     pub(super) fn solve_between(
         &self,
         t: T,
@@ -391,7 +419,10 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Collocated<T, P, S> {
             },
         } = z;
         if !outcome.solved.all() && self.modes.is_none() && work.linear.fits() {
-            T::out_of_line(|| self.newton(t, &mut outcome, point, unknowns, work));
+            T::out_of_line(
+                #[inline(always)]
+                || self.newton(t, &mut outcome, point, unknowns, work),
+            );
         }
         let solved = outcome.solved.all();
         if !solved {
@@ -492,7 +523,10 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Map for Collocated<T, P, S> {
 
     #[inline(always)]
     fn body(&self, t: T, end: T, z: &mut Self::Carried, work: &mut Self::Work) {
-        T::out_of_line(|| self.steps(Clock::between(t, end), 0, 1, z, work));
+        T::out_of_line(
+            #[inline(always)]
+            || self.steps(Clock::between(t, end), 0, 1, z, work),
+        );
     }
     #[inline(always)]
     fn run(

@@ -164,6 +164,6 @@ impl Bodies<'_> {
             body.receiver.declaration(self.context),
             body.receiver.ty(self.context),
         );
-        format!("<T as __h::Real>::out_of_line(|| {function}(_self{passed}))")
+        format!("<T as __h::Real>::out_of_line(#[inline(always)] || {function}(_self{passed}))")
     }
 }

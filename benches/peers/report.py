@@ -55,7 +55,7 @@ def figure(title, peers):
     (x0, x1), (y0, y1) = ends
     x = lambda value: LEFT + (math.log10(value) - x0) / (x1 - x0) * (WIDTH - LEFT - RIGHT)
     y = lambda value: HEIGHT - BOTTOM - (math.log10(value) - y0) / (y1 - y0) * (HEIGHT - TOP - BOTTOM)
-    power = lambda n: f"10<tspan dy='-5' font-size='9'>{n}</tspan>".replace("-", "−").replace("dy='−", "dy='-")
+    power = lambda n: "10<tspan dy='-5' font-size='9'>" + str(n).replace("-", "−") + "</tspan>"
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH} {HEIGHT}" font-family="sans-serif" '
            f'font-size="12"><rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>'
            f'<text x="{LEFT}" y="20" font-size="14">{title}</text>']
@@ -153,6 +153,25 @@ def against_taylor(found):
     return [*out, ""] if len(out) > 6 else []
 
 
+def which_one(found):
+    """The fastest scheme of this library, by the error of the end point and by that of H."""
+    out = ["## Which scheme?", "",
+           "The fastest scheme of this library, unfused, by the error of the end point and by the largest change of H "
+           "on the way, relative to H. A change of H that stays small says nothing about the phase on the orbit.", "",
+           "| problem | error of | " + " | ".join(map(number, GOALS)) + " |", "|---|---|" + "---|" * len(GOALS)]
+    for name, title in TITLES.items():
+        rows = bitwise(found.get(name, {}).get("hamiltonian", []))
+        for word, key in (("the end point", "error"), ("H", "energy")):
+            known = [row for row in rows if row.get(key) is not None]
+            if not known:
+                continue
+            best = [min((row for row in known if row[key] <= goal), key=lambda row: row["seconds"], default=None)
+                    for goal in GOALS]
+            cells = [f"{row['method']}, {1e3 * row['seconds']:.3g} ms" if row else "–" for row in best]
+            out.append(f"| {title if key == 'error' else ''} | {word} | " + " | ".join(cells) + " |")
+    return [*out, ""]
+
+
 def write(problems, rows, machine, root):
     found = groups(rows)
     versions = sorted({(row["peer"], row["version"]) for row in rows if "version" in row})
@@ -161,9 +180,9 @@ def write(problems, rows, machine, root):
     out = ["# This library and its peers", "",
            "CPU time of one thread on one core against the error of the end point: the largest difference of a "
            "component from a reference in double-double arithmetic (106 bits), whose own error is given. Each time is "
-           "the median of three to nine measurements, or one of a run of more than two seconds; each cell is the fastest setting of the method that reaches the error of "
-           "its column. This library's curves and cells are those of its default, which has the same bits on every CPU; "
-           "fused runs stand in the first table. `python3 benches/peers/run.py` makes these numbers again.", "",
+           "the median of three to nine measurements, or one of a run of more than two seconds; each cell is the "
+           "fastest setting of the method that reaches the error of its column. This library's curves and cells are "
+           "those of its default, which has the same bits on every CPU; fused runs stand in the first table. `python3 benches/peers/run.py` makes these numbers again.", "",
            f"Machine: {machine}. " + ", ".join(f"{peer} {version}" for peer, version in versions) + "."
            + "".join(f" {peer} was not installed and is left out." for peer in COLOURS if peer not in dict(versions)),
            "",
@@ -172,6 +191,7 @@ def write(problems, rows, machine, root):
            "problems, for which diffsol, SciPy's LSODA and Julia's solvers are made; collisions and additional forces, "
            "for which REBOUND is. SciPy calls a Python function for each evaluation, as most of its users do.", ""]
     out += against_taylor(found)
+    out += which_one(found)
     for name, title in TITLES.items():
         if name not in found:
             continue

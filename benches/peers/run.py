@@ -3,6 +3,7 @@
 
     python3 benches/peers/run.py            all peers, all problems
     python3 benches/peers/run.py kepler     one problem, its old rows replaced
+    python3 benches/peers/run.py --ours     this library alone, its old rows replaced
     python3 benches/peers/run.py --report   the report from the rows that are there
 
 Everything is pinned: packages from PyPI in a virtual environment of `requirements.txt`, Rust packages by their
@@ -62,27 +63,34 @@ def lines(text):
     return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
 
 
-def kept(file, wanted):
-    """The lines of other problems than those that are made anew."""
-    old = lines(file.read_text(encoding="utf-8")) if file.exists() and wanted else []
-    return [line for line in old if line["problem"] not in wanted]
+def kept(file, wanted, alone):
+    """The lines of other problems than those that are made anew, or of other programs than this library."""
+    old = lines(file.read_text(encoding="utf-8")) if file.exists() and (wanted or alone) else []
+    return [line for line in old
+            if wanted and line["problem"] not in wanted or alone and line.get("peer", "hamiltonian") != "hamiltonian"]
+
+
+def peers():
+    """The commands of the peers that can run here, with their names."""
+    python = environment()
+    commands = [("diffsol", [built("diffsol")]), *((script, [python, HERE / script]) for script in SCRIPTS)]
+    if shutil.which("julia"):
+        setup = ["julia", f"--project={HERE}", "-e", "using Pkg; Pkg.instantiate()"]
+        subprocess.run(setup, check=True)
+        commands.append(("julia", ["julia", f"--project={HERE}", HERE / "julia_peer.jl"]))
+    else:
+        print("julia is not installed: its packages are left out", flush=True)
+    return commands
 
 
 def main():
     wanted = [word for word in sys.argv[1:] if not word.startswith("--")]
     OUT.mkdir(parents=True, exist_ok=True)
     if "--report" not in sys.argv:
-        python = environment()
+        alone = "--ours" in sys.argv
         # This library is first: it makes the references as well.
-        commands = [("hamiltonian", [built("ours")]), ("diffsol", [built("diffsol")])]
-        commands += [(script, [python, HERE / script]) for script in SCRIPTS]
-        if shutil.which("julia"):
-            setup = ["julia", f"--project={HERE}", "-e", "using Pkg; Pkg.instantiate()"]
-            subprocess.run(setup, check=True)
-            commands.append(("julia", ["julia", f"--project={HERE}", HERE / "julia_peer.jl"]))
-        else:
-            print("julia is not installed: its packages are left out", flush=True)
-        problems, rows = kept(PROBLEMS, wanted), kept(ROWS, wanted)
+        commands = [("hamiltonian", [built("ours")]), *([] if alone else peers())]
+        problems, rows = kept(PROBLEMS, wanted, alone), kept(ROWS, wanted, alone)
         for name, command in commands:
             for problem in wanted or [""]:
                 print(name, problem, flush=True)

@@ -6,12 +6,12 @@
 
 mod problems;
 
+use cpu_time::ThreadTime;
 use hamiltonian::prelude::*;
 use hamiltonian::{Scheme, Vector};
 use problems::*;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
-use std::time::Instant;
 
 /// Bodies of the cluster.
 const BODIES: usize = 1000;
@@ -21,6 +21,8 @@ const RING: usize = 1024;
 const CHAIN: usize = 31;
 /// Pendulums of the ensemble.
 const PENDULUMS: usize = 1000;
+/// The time to which they swing.
+const SWING: f64 = 100.0;
 /// Runs of which the median is taken.
 const RUNS: usize = 9;
 /// A time that clocks resolve well; shorter runs are repeated within a measurement.
@@ -28,25 +30,17 @@ const SECONDS: f64 = 0.02;
 /// Seconds after which three measurements are enough.
 const PATIENCE: f64 = 0.3;
 
-/// CPU seconds of this thread; elsewhere than on Linux wall-clock seconds.
-fn clock(began: Instant) -> f64 {
-    let of_thread = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = of_thread.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| began.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
-}
-
 /// The median CPU time of a run: of nine measurements, or of at least three where they take longer together
 /// than [`PATIENCE`].
 fn time(mut run: impl FnMut()) -> f64 {
-    let began = Instant::now();
     let mut times = Vec::new();
     while times.len() < RUNS && (times.len() < 3 || times.iter().sum::<f64>() < PATIENCE) {
-        let begin = clock(began);
+        let began = ThreadTime::now();
         let mut count = 0.0;
         let seconds = loop {
             run();
             count += 1.0;
-            let seconds = clock(began) - begin;
+            let seconds = began.elapsed().as_secs_f64();
             if seconds >= SECONDS {
                 break seconds / count;
             }
@@ -78,37 +72,57 @@ fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
     end.iter().zip(exact).map(difference).fold(0.0, f64::max)
 }
 
+/// What a scheme is to reach, and from where.
+struct Goal<'a, V: Vector, E> {
+    problem: &'a str,
+    /// What is said after the name of a scheme.
+    note: &'a str,
+    start: &'a State<V>,
+    end: f64,
+    /// The error of an end point.
+    error: E,
+}
+
 /// The results of one scheme, unfused and fused: more and more steps, until the error is that of rounding or
 /// runs take too long. It takes `parts` settings to double the steps: more for a scheme of high order, which gains
 /// much from few more.
 fn race<S: System<f64>, M: Scheme<f64, S>>(
-    problem: &str,
+    goal: &Goal<S::Vector, impl Fn(&State<S::Vector>) -> f64>,
     system: &S,
     scheme: M,
-    (start, end, exact): (&State<S::Vector>, f64, &[DoubleDouble]),
     (first, parts): (u64, u32),
 ) {
-    let method = scheme.entry().to_string();
+    let method = format!("{}{}", scheme.entry(), goal.note);
     for fused in [false, true] {
         let mut best = f64::INFINITY;
         for setting in 0..12 * parts {
             let steps = (first as f64 * (setting as f64 / parts as f64).exp2()).round() as u64;
             let begin = || {
-                let run =
-                    Integrator::new(system, scheme.clone(), start.clone(), end / steps as f64);
+                let step = goal.end / steps as f64;
+                let run = Integrator::new(system, scheme.clone(), goal.start.clone(), step);
                 run.map(|run| if fused { run.fused() } else { run })
             };
             // A step too long to be solved is no result.
-            let Ok(mut run) = begin() else { continue };
+            let Ok(run) = begin() else { continue };
+            let mut run = run.observe(EnergyDrift::new());
             if run.advance(steps).is_err() {
                 continue;
             }
-            let error = apart(&numbers(run.state()), exact);
+            let error = (goal.error)(run.state());
+            let energy = run.observer().max_relative();
             let seconds = time(|| {
                 let mut run = begin().expect("it began before");
                 let _ = run.advance(steps);
             });
-            row(problem, &method, fused, steps, error, seconds);
+            row(
+                goal.problem,
+                &method,
+                fused,
+                steps,
+                error,
+                Some(energy),
+                seconds,
+            );
             // Rounding: twice the steps gained nothing more.
             if seconds > 1.0 || error < 1e-15 || error > best && best < 1e-9 {
                 break;
@@ -121,10 +135,19 @@ fn race<S: System<f64>, M: Scheme<f64, S>>(
 }
 
 /// Prints a result.
-fn row(problem: &str, method: &str, fused: bool, steps: u64, error: f64, seconds: f64) {
+fn row(
+    problem: &str,
+    method: &str,
+    fused: bool,
+    steps: u64,
+    error: f64,
+    energy: Option<f64>,
+    seconds: f64,
+) {
+    let energy = energy.map_or_else(String::new, |energy| format!("\"energy\":{energy:e},"));
     println!(
         "{{\"problem\":\"{problem}\",\"peer\":\"hamiltonian\",\"method\":\"{method}\",\
-         \"fused\":{fused},\"setting\":\"{steps} steps\",\"error\":{error:e},\"seconds\":{seconds:e}}}"
+         \"fused\":{fused},\"setting\":\"{steps} steps\",\"error\":{error:e},{energy}\"seconds\":{seconds:e}}}"
     );
 }
 
@@ -132,7 +155,7 @@ fn row(problem: &str, method: &str, fused: bool, steps: u64, error: f64, seconds
 macro_rules! problem {
     ($only:ident, $name:literal, $system:expr, [$($key:literal: $value:expr),*], $rows:expr, $end:expr,
      reference $steps:literal, $n:ident => $start:expr,
-     [$($scheme:expr, $first:expr, $parts:literal;)+]) => {
+     [$($scheme:expr, $first:expr, $parts:literal;)+] $(, $in_time:expr)?) => {
         if $only.as_deref().is_none_or(|only| only == $name) {
             let system = $system;
             let end: f64 = $end;
@@ -164,8 +187,10 @@ macro_rules! problem {
                 list(fine.iter().map(|x| x.hi())),
                 list(fine.iter().map(|x| x.lo())),
             );
-            let goal = (&start, end, &fine[..]);
-            $(race($name, &system, $scheme, goal, ($first, $parts));)+
+            let error = |state: &_| apart(&numbers(state), &fine);
+            let goal = Goal { problem: $name, note: "", start: &start, end, error };
+            $(race(&goal, &system, $scheme, ($first, $parts));)+
+            $(($in_time)(&start, end, &fine[..]);)?
         }
     };
 }
@@ -210,7 +235,8 @@ fn solve_all() {
         n => State::over([n(0.4), n(0.0)], [n(0.0), n(2.0)]),
         [GaussNystrom::<8>::default(), 15_000, 4; GaussNystrom::<4>::default(), 40_000, 4;
          BlanesCasasEscorihuela8, 20_000, 2; Srkn11b, 40_000, 2; Processed6::default(), 50_000, 2;
-         StormerVerlet::default(), 1_000_000, 2;]);
+         StormerVerlet::default(), 1_000_000, 2;],
+        eccentric);
     problem!(only, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
         n => State::over([n(0.12), n(0.23)], [n(0.31), n(-0.17)]),
         [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
@@ -233,8 +259,8 @@ fn solve_all() {
             PLANETS.map(|(mass, _, v)| v.map(|v| n(mass * v))),
         ),
         [GaussNystrom::<8>::default(), 400, 4; GaussNystrom::<4>::default(), 1_500, 4;
-         BlanesCasasEscorihuela8, 1_000, 2; Srkn11b, 2_000, 2; Processed6::default(), 2_000, 2;
-         StormerVerlet::default(), 20_000, 2;]);
+         BlanesCasasEscorihuela8, 300, 2; Srkn11b, 500, 2; Processed6::default(), 500, 2;
+         StormerVerlet::default(), 4_000, 2;]);
     problem!(only, "black_hole", BlackHole::default(), ["E": [0.995], "L": [4.6]], 2, 1e4, reference 4_000,
         n => State::over([n(11.0), n(FRAC_PI_2)], [n(0.0), n(2.062_449_325_976_816)]),
         [Gauss::<8>::default(), 200, 4; Gauss::<4>::default(), 500, 4; Processed6::default(), 500, 2;
@@ -246,15 +272,15 @@ fn solve_all() {
     let waves: [f64; RING] = std::array::from_fn(wave);
     problem!(only, "toda", Toda::<RING> {}, [], RING, 20.0, reference 30,
         n => State::over([n(0.0); RING], waves.map(n)),
-        [GaussNystrom::<8>::default(), 10, 4; BlanesCasasEscorihuela8, 10, 2; Srkn11b, 20, 2;
-         Processed6::default(), 20, 2; StormerVerlet::default(), 200, 2;]);
+        [GaussNystrom::<8>::default(), 10, 4; BlanesCasasEscorihuela8, 2, 2; Srkn11b, 3, 2;
+         Processed6::default(), 4, 2; StormerVerlet::default(), 25, 2;]);
     let mode: [f64; CHAIN] =
         std::array::from_fn(|i| (PI * (i + 1) as f64 / (CHAIN + 1) as f64).sin());
     problem!(only, "fput", Fput::<CHAIN>::default(), ["alpha": [0.25]], CHAIN, 1000.0, reference 2_000,
         n => State::over(mode.map(n), [n(0.0); CHAIN]),
         [GaussNystrom::<8>::default(), 300, 4; GaussNystrom::<4>::default(), 1_000, 4;
-         BlanesCasasEscorihuela8, 500, 2; Srkn11b, 1_000, 2; Processed6::default(), 1_000, 2;
-         StormerVerlet::default(), 10_000, 2;]);
+         BlanesCasasEscorihuela8, 200, 2; Srkn11b, 300, 2; Processed6::default(), 300, 2;
+         StormerVerlet::default(), 2_000, 2;]);
     let places = scattered(3 * BODIES);
     let cluster = Cluster::new(BODIES).expect("as many bodies as places");
     problem!(only, "cluster", cluster, ["m": [1e-3], "eps2": [2.5e-3]], BODIES, 0.25, reference 4,
@@ -266,9 +292,27 @@ fn solve_all() {
     ensemble(only.as_deref());
 }
 
+/// Kepler's problem in the time s, dt = r ds, of which 2π is a period. The error of t counts too.
+fn eccentric(start: &StateOf<Kepler>, end: f64, exact: &[DoubleDouble]) {
+    let system = TimeTransformed::by(Kepler {}, "radius").expect("a monitor of the definition");
+    let error = |state: &_| {
+        let declared: StateOf<Kepler> = system.declared(state);
+        apart(&numbers(&declared), exact).max((declared.t - end).abs())
+    };
+    let start = &system.start(start).expect("an orbit");
+    let goal = Goal {
+        problem: "kepler",
+        note: ", dt = r ds",
+        start,
+        end,
+        error,
+    };
+    race(&goal, &system, Gauss::<8>::default(), (10_000, 4));
+    race(&goal, &system, Gauss::<4>::default(), (30_000, 4));
+}
+
 /// Pendulums that start apart, in the lanes of packs.
 fn ensemble(only: Option<&str>) {
-    const END: f64 = 100.0;
     if only.is_some_and(|only| only != "ensemble") {
         return;
     }
@@ -280,7 +324,7 @@ fn ensemble(only: Option<&str>) {
         let solve = |k| {
             let (q, p) = start(k);
             let start = State::over([DoubleDouble::from(q)], [DoubleDouble::from(p)]);
-            let step = DoubleDouble::from(END) / DoubleDouble::from(steps as f64);
+            let step = DoubleDouble::from(SWING) / DoubleDouble::from(steps as f64);
             let run = Integrator::new(&Pendulum {}, Gauss::<16>::default(), start, step);
             let mut run = run.expect("a good start");
             let end = run.advance(steps).expect("good steps");
@@ -294,7 +338,7 @@ fn ensemble(only: Option<&str>) {
         .map(|((q, p), (a, b))| (*q - a).hi().abs().max((*p - b).hi().abs()))
         .fold(0.0, f64::max);
     println!(
-        "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{END:e},\"start\":{},\
+        "{{\"problem\":\"ensemble\",\"parameters\":{{}},\"rows\":{PENDULUMS},\"end\":{SWING:e},\"start\":{},\
          \"reference\":{},\"uncertainty\":{uncertainty:e}}}",
         list(
             (0..PENDULUMS)
@@ -308,30 +352,57 @@ fn ensemble(only: Option<&str>) {
         .map(|end| end.0)
         .chain(exact.iter().map(|end| end.1))
         .collect();
+    swings(Srkn11b, 100, &start, &exact);
+    swings(BlanesCasasEscorihuela8, 50, &start, &exact);
+    swings(GaussNystrom::<4>::default(), 50, &start, &exact);
+    swings(GaussNystrom::<8>::default(), 25, &start, &exact);
+}
+
+/// The results of one scheme for all pendulums, with more and more steps until the error is that of rounding.
+fn swings<M: Ensembles<Pendulum>>(
+    scheme: M,
+    first: u64,
+    start: impl Fn(usize) -> (f64, f64),
+    exact: &[DoubleDouble],
+) {
+    let method = scheme.entry().to_string();
     for fused in [false, true] {
-        for steps in [100, 141, 200, 283, 400, 566, 800, 1131, 1600] {
-            let run = || swing(steps, END, start, fused).expect("good starts and steps");
-            let error = apart(&run(), &exact);
-            let seconds = time(|| {
-                let _ = run();
-            });
-            row("ensemble", "Srkn11b", fused, steps, error, seconds);
+        let mut best = f64::INFINITY;
+        for setting in 0..12 {
+            let steps = (first as f64 * (f64::from(setting) / 2.0).exp2()).round() as u64;
+            let run = || swing(scheme.clone(), steps, &start, fused);
+            // A step too long to be solved is no result.
+            let Ok(end) = run() else { continue };
+            let error = apart(&end, exact);
+            row(
+                "ensemble",
+                &method,
+                fused,
+                steps,
+                error,
+                None,
+                time(|| drop(run())),
+            );
+            if error > best && best < 1e-9 {
+                break;
+            }
+            best = best.min(error);
         }
     }
 }
 
 /// All pendulums to the end, on one thread: places, then momenta.
-fn swing(
+fn swing<M: Ensembles<Pendulum>>(
+    scheme: M,
     steps: u64,
-    end: f64,
-    start: impl Fn(usize) -> (f64, f64) + Sync,
+    start: impl Fn(usize) -> (f64, f64),
     fused: bool,
 ) -> Result<Vec<f64>, Error> {
     let member = |member: Member| {
         let (q, p) = start(member.index);
         (Pendulum {}, State::new([q], [p]))
     };
-    let swarm = Ensemble::new(PENDULUMS, member, Srkn11b, end / steps as f64)?.threads(1);
+    let swarm = Ensemble::new(PENDULUMS, member, scheme, SWING / steps as f64)?.threads(1);
     let mut swarm = if fused { swarm } else { swarm.reproducible() };
     swarm.advance(steps);
     let mut ends = vec![0.0; 2 * PENDULUMS];

@@ -5,7 +5,8 @@ use hamiltonian::prelude::*;
 hamiltonian! {
     /// A planet round a fixed star.
     pub struct Kepler {}
-    H(q[2]; p[2]) = norm_squared(p)/2 - 1/norm(q)
+    H(q[2]; p[2]) = norm_squared(p)/2 - 1/norm(q);
+    monitor radius = norm(q)
 }
 
 hamiltonian! {

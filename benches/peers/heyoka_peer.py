@@ -121,5 +121,5 @@ def ensemble(problem):
         yield "Taylor, batches", f"tol {tolerance:g}", run
 
 
-main("heyoka", "heyoka", {f.__name__: f for f in (
-    kepler, henon_heiles, pendulum, coupled, black_hole, planets, toda, fput, ensemble)})
+main("heyoka", "heyoka", {"encounter": kepler, **{f.__name__: f for f in (
+    kepler, henon_heiles, pendulum, coupled, black_hole, planets, toda, fput, ensemble)}})

@@ -23,7 +23,7 @@ end
 
 function fields(problem)
     name, pars = problem["problem"], problem["parameters"]
-    if name == "kepler"
+    if name in ("kepler", "encounter")
         (dz, z, _, _) -> begin
             r3 = (z[1]^2 + z[2]^2)^1.5
             dz[1], dz[2], dz[3], dz[4] = z[3], z[4], -z[1] / r3, -z[2] / r3

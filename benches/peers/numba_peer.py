@@ -113,4 +113,4 @@ def fput(problem):
     yield from runs(problem, kick, 10_000)
 
 
-main("numba", "numba", {f.__name__: f for f in (kepler, henon_heiles, pendulum, ensemble, toda, fput)})
+main("numba", "numba", {"encounter": kepler, **{f.__name__: f for f in (kepler, henon_heiles, pendulum, ensemble, toda, fput)}})

@@ -1,4 +1,4 @@
-"""BENCHMARKS.md and its figures from the rows of all peers.
+"""BENCHMARKS.md, its figures, and the book's table of the fastest schemes, from the rows of all peers.
 
 A curve of a peer is the lower left edge of its rows: the least time for each error, over methods and settings.
 """
@@ -7,6 +7,7 @@ import math
 
 TITLES = {
     "kepler": "Kepler's problem, e = 0.6, 1000 periods",
+    "encounter": "Kepler's problem, e = 0.9, 100 periods",
     "henon_heiles": "Hénon–Heiles, to t = 10⁴",
     "pendulum": "A pendulum, to t = 10⁴",
     "coupled": "H = ½(q² + 1)(p² + 1), to t = 10⁴",
@@ -21,6 +22,8 @@ GOALS = (1e-3, 1e-6, 1e-9, 1e-11)
 # End-point errors at which the fastest peer of Taylor's method is compared in a table of its own.
 ASKED = {"kepler": 1e-9, "henon_heiles": 2e-11, "pendulum": 2e-11, "coupled": 1e-10, "planets": 2e-11}
 FIGURES = "benches/peers/figures"
+# The chapter that names the fastest scheme for an accuracy, and the marks round its table.
+CHAPTER, BEGIN, END = "book/src/schemes.md", "<!-- fastest -->", "<!-- end of fastest -->"
 COLOURS = {"hamiltonian": "#1f4e9c", "heyoka": "#c8442c", "REBOUND": "#2c8a4b", "SciPy": "#8a6d1f", "numba": "#7a3e98",
            "diffsol": "#444444", "Julia": "#c2389a"}
 WIDTH, HEIGHT, LEFT, BOTTOM, TOP, RIGHT = 640, 400, 64, 48, 36, 130
@@ -153,12 +156,9 @@ def against_taylor(found):
     return [*out, ""] if len(out) > 6 else []
 
 
-def which_one(found):
-    """The fastest scheme of this library, by the error of the end point and by that of H."""
-    out = ["## Which scheme?", "",
-           "The fastest scheme of this library, unfused, by the error of the end point and by the largest change of H "
-           "on the way, relative to H. A change of H that stays small says nothing about the phase on the orbit.", "",
-           "| problem | error of | " + " | ".join(map(number, GOALS)) + " |", "|---|---|" + "---|" * len(GOALS)]
+def which_one(found, root):
+    """The fastest scheme of this library, by the error of the end point and by that of H: for the chapter of the book."""
+    out = ["| problem | error of | " + " | ".join(map(number, GOALS)) + " |", "|---|---|" + "---|" * len(GOALS)]
     for name, title in TITLES.items():
         rows = bitwise(found.get(name, {}).get("hamiltonian", []))
         for word, key in (("the end point", "error"), ("H", "energy")):
@@ -169,7 +169,11 @@ def which_one(found):
                     for goal in GOALS]
             cells = [f"{row['method']}, {1e3 * row['seconds']:.3g} ms" if row else "–" for row in best]
             out.append(f"| {title if key == 'error' else ''} | {word} | " + " | ".join(cells) + " |")
-    return [*out, ""]
+    chapter = root / CHAPTER
+    before, mark, rest = chapter.read_text(encoding="utf-8").partition(BEGIN)
+    _, end, after = rest.partition(END)
+    assert mark and end, f"{chapter} has no place for the table"
+    chapter.write_text(before + BEGIN + "\n".join(["", *out, ""]) + END + after, encoding="utf-8")
 
 
 def write(problems, rows, machine, root):
@@ -191,7 +195,7 @@ def write(problems, rows, machine, root):
            "problems, for which diffsol, SciPy's LSODA and Julia's solvers are made; collisions and additional forces, "
            "for which REBOUND is. SciPy calls a Python function for each evaluation, as most of its users do.", ""]
     out += against_taylor(found)
-    out += which_one(found)
+    which_one(found, root)
     for name, title in TITLES.items():
         if name not in found:
             continue

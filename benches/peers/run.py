@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the comparison with other programs and writes BENCHMARKS.md.
+"""Runs the comparison with other programs and writes BENCHMARKS.md and a table of the book.
 
     python3 benches/peers/run.py            all peers, all problems
     python3 benches/peers/run.py kepler     one problem, its old rows replaced

@@ -111,5 +111,5 @@ def ensemble(problem):
     yield from solve(lambda _, z: np.concatenate([z[n:], -np.sin(z[:n])]), problem, ("DOP853",))
 
 
-main("SciPy", "scipy", {f.__name__: f for f in (
-    kepler, henon_heiles, pendulum, coupled, black_hole, planets, cluster, toda, fput, ensemble)})
+main("SciPy", "scipy", {"encounter": kepler, **{f.__name__: f for f in (
+    kepler, henon_heiles, pendulum, coupled, black_hole, planets, cluster, toda, fput, ensemble)}})

@@ -106,7 +106,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .unwrap_or(f64::NAN)
         };
         match name.as_str() {
-            "kepler" => rows(&problem, |z, d| {
+            "kepler" | "encounter" => rows(&problem, |z, d| {
                 let square = z[0] * z[0] + z[1] * z[1];
                 let cube = square * square.sqrt();
                 d.copy_from_slice(&[z[2], z[3], -z[0] / cube, -z[1] / cube]);

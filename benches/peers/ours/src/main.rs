@@ -236,7 +236,12 @@ fn solve_all() {
         [GaussNystrom::<8>::default(), 15_000, 4; GaussNystrom::<4>::default(), 40_000, 4;
          BlanesCasasEscorihuela8, 20_000, 2; Srkn11b, 40_000, 2; Processed6::default(), 50_000, 2;
          StormerVerlet::default(), 1_000_000, 2;],
-        eccentric);
+        |start: &_, end, exact: &[_]| in_s("kepler", [10_000, 30_000], start, end, exact));
+    problem!(only, "encounter", Kepler {}, [], 2, 100.0 * TAU, reference 60_000,
+        n => State::over([n(0.1), n(0.0)], [n(0.0), n(19.0).sqrt()]),
+        [GaussNystrom::<8>::default(), 10_000, 4; BlanesCasasEscorihuela8, 20_000, 2; Srkn11b, 40_000, 2;
+         StormerVerlet::default(), 1_000_000, 2;],
+        |start: &_, end, exact: &[_]| in_s("encounter", [1_500, 5_000], start, end, exact));
     problem!(only, "henon_heiles", HenonHeiles {}, [], 2, 1e4, reference 20_000,
         n => State::over([n(0.12), n(0.23)], [n(0.31), n(-0.17)]),
         [GaussNystrom::<8>::default(), 3_000, 4; GaussNystrom::<4>::default(), 10_000, 4;
@@ -293,7 +298,7 @@ fn solve_all() {
 }
 
 /// Kepler's problem in the time s, dt = r ds, of which 2π is a period. The error of t counts too.
-fn eccentric(start: &StateOf<Kepler>, end: f64, exact: &[DoubleDouble]) {
+fn in_s(problem: &str, first: [u64; 2], start: &StateOf<Kepler>, end: f64, exact: &[DoubleDouble]) {
     let system = TimeTransformed::by(Kepler {}, "radius").expect("a monitor of the definition");
     let error = |state: &_| {
         let declared: StateOf<Kepler> = system.declared(state);
@@ -301,14 +306,14 @@ fn eccentric(start: &StateOf<Kepler>, end: f64, exact: &[DoubleDouble]) {
     };
     let start = &system.start(start).expect("an orbit");
     let goal = Goal {
-        problem: "kepler",
+        problem,
         note: ", dt = r ds",
         start,
         end,
         error,
     };
-    race(&goal, &system, Gauss::<8>::default(), (10_000, 4));
-    race(&goal, &system, Gauss::<4>::default(), (30_000, 4));
+    race(&goal, &system, Gauss::<8>::default(), (first[0], 4));
+    race(&goal, &system, Gauss::<4>::default(), (first[1], 4));
 }
 
 /// Pendulums that start apart, in the lanes of packs.

@@ -27,6 +27,15 @@ chaos_map chaos_map map.svg 40000
 basins basins basins.svg 40000
 phi4 phi4 fronts.svg 2
 mixing mixing t5.svg 10000
+nls nls peaks.svg
+rigid_body rigid_body axis.svg
+schwarzschild schwarzschild orbits.svg
+solar_system solar_system resonance.svg
+three_body three_body orbit.svg
+toda toda solitons.svg
+vortices vortices paths.svg
+wisdom_holman wisdom_holman energy.svg
+paper_long paper figure3.svg
 work_precision_34 work_precision paper34_energy.svg
 work_precision_schwarzschild work_precision schwarzschild_energy.svg
 LIST

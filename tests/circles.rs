@@ -1,7 +1,8 @@
 //! In each folder the files and subfolders use each other in no circle.
 //!
 //! An entry of a folder is a file with its own subfolder, or a subfolder with a `mod.rs`. Parent and
-//! child may name each other; a re-exported name counts as its defining file.
+//! child may name each other; a re-exported name counts as its defining file. A page, which re-exports and
+//! does nothing else, names nobody itself.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -147,10 +148,16 @@ fn definition(path: &[String], module: &Module, texts: &Texts, depth: usize) -> 
     at
 }
 
+/// Whether a module only hands names on.
+fn is_page(text: &str) -> bool {
+    let mut statements = text.split(';').map(str::trim);
+    statements.all(|statement| statement.is_empty() || statement.starts_with("pub use "))
+}
+
 /// The entries of each folder that another entry of the same folder names.
 fn uses(texts: &Texts) -> BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> {
     let mut graphs: BTreeMap<Module, BTreeMap<String, BTreeSet<String>>> = BTreeMap::new();
-    for (module, text) in texts {
+    for (module, text) in texts.iter().filter(|(_, text)| !is_page(text)) {
         for path in paths(text, module, texts) {
             let used = definition(&path, module, texts, 8);
             let common = (module.iter().zip(&used))
@@ -234,6 +241,17 @@ fn circles_are_found() {
         ("b", "use super::a::A;"),
     ]);
     assert_eq!(circles(&hidden), [": a, b"]);
+    // A page names nobody, and what it hands on counts as its defining file.
+    let page = |through: &'static str| {
+        texts(&[
+            ("", ""),
+            ("a", through),
+            ("b", "use super::a::A;"),
+            ("c", "pub use crate::a::A; pub use crate::b::B;"),
+        ])
+    };
+    assert!(circles(&page("use crate::c::A;")).is_empty());
+    assert_eq!(circles(&page("use crate::c::B;")), [": a, b"]);
     // Parent and child.
     let family = texts(&[
         ("", "use a::A;"),

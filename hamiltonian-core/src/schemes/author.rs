@@ -16,7 +16,7 @@
 //! use hamiltonian::prelude::*;
 //!
 //! assert_eq!(StormerVerlet::default().entry().order, 2);
-//! assert!(catalogue().iter().any(|entry| entry.name == "Tao"));
+//! assert!(catalogue().any(|entry| entry.name == "Tao"));
 //! ```
 
 pub use crate::derivatives::{WrongDerivative, check_derivatives};

@@ -20,6 +20,8 @@ import sys
 
 ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*(?:5enter|8enter_at)5entry")
 PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
+# Levels that every x86-64 has.
+LEAST = {"Portable", "Sse2"}
 # Rare arguments, and functions that enter the level themselves.
 COLD = re.compile(r"replace|11out_of_line5entry|(?:5enter|8enter_at)5entry")
 # Parts of steps, and their closures.
@@ -116,8 +118,13 @@ def loops(code, labels):
 
 
 def examine(text):
-    """(level, lane loops, calls in them) of every entry."""
+    """(level, lane loops, calls in them) of every entry of a level with instructions of its own.
+
+    On the least level every function has the instructions, and loops of numbers are packed too.
+    """
     for level, code, labels in functions(text):
+        if level in LEAST:
+            continue
         lane_loops, calls = 0, []
         for inside in loops(code, labels):
             if not any(PACKED.match(operation) for operation, _ in inside):

@@ -105,7 +105,7 @@ pub use table::Table;
 pub use transformed::TimeTransformed;
 pub use vector::{IntoVector, Vector, shape};
 
-/// What watches a run: observers, events on the way, and what they see.
+/// Observers watch a run; events are located on its way.
 ///
 /// An [`Observer`] is called with a [`View`] of the run after each step, or after each so many
 /// ([`every`](observers::every)). [`watch`](observers::watch) makes one of a closure, and a tuple of observers is one.
@@ -134,7 +134,7 @@ pub mod stores {
     pub use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
 }
 
-/// What a step does to neighbouring trajectories: tangent maps, Lyapunov exponents, periodic orbits.
+/// Tangent maps show how neighbouring trajectories move: exponents, multipliers, periodic orbits.
 pub mod tangents {
     pub use crate::periodic::{Closing, PeriodicOrbit};
     pub use crate::tangent::{Tangent, monodromy, multipliers, symplectic_defect};

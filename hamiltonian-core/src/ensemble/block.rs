@@ -22,8 +22,8 @@ pub(crate) struct Times<U> {
 }
 
 impl<U: Real> Times<U> {
-    /// The times `k` steps after the count began. As for [`Clock::at`](crate::schemes::author::Clock::at), it vanishes where
-    /// a system does not look at the time.
+    /// The times `k` steps after the count began. As for [`Clock::at`](crate::schemes::author::Clock::at), it
+    /// vanishes where a system does not look at the time.
     #[inline(always)]
     pub(crate) fn at(&self, k: u64) -> U {
         let made = U::constant(k as i64 as f64, 0.0) + self.ahead;

@@ -25,9 +25,9 @@ pub struct ErrorEstimate<V: Vector> {
     pub energy_error: f64,
     /// The observed order p of `error` = O(hᵖ). NaN if steps make no difference.
     ///
-    /// If it is far from the order of the [entry](crate::schemes::author::Entry), the estimates are not reliable: the step is
-    /// too long for the asymptotic error, errors are those of rounding, or the orbit is chaotic and the run
-    /// longer than its memory.
+    /// If it is far from the order of the [entry](crate::schemes::author::Entry), the estimates are not reliable:
+    /// the step is too long for the asymptotic error, errors are those of rounding, or the orbit is chaotic and
+    /// the run longer than its memory.
     pub order: f64,
 }
 

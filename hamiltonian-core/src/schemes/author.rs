@@ -2,9 +2,9 @@
 //! maps behind the schemes.
 //!
 //! A **scheme** is a type with a line of facts ([`Listed`], [`Entry`]) and
-//! [`Scheme::prepare`](crate::Scheme::prepare), which makes the [`Map`] of one step for a system and a step. A step is
-//! Φ = close ∘ body ∘ open; only `body` is repeated between two states that somebody looks at. [`OneStep`] and [`Symmetric`]
-//! admit it to compositions.
+//! [`Scheme::prepare`](crate::Scheme::prepare), which makes the [`Map`] of one step for a system and a step. A step
+//! is Φ = close ∘ body ∘ open; only `body` is repeated between two states that somebody looks at. [`OneStep`] and
+//! [`Symmetric`] admit it to compositions.
 //!
 //! A **system** by hand implements [`System`](crate::System) and, for its values at parameters, [`Dynamics`]:
 //! the gradient as a [`VectorField`] and, where it has them, kicks and drifts or exact flows as [`Piece`]s.

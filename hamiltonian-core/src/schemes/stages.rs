@@ -274,7 +274,7 @@ impl<T: Real, P: Dynamics<T>, const S: usize> Contraction<Stages<Point<P::Vector
 }
 
 impl<T: Real, P: Dynamics<T>, const S: usize> Newton<'_, '_, T, P, S> {
-    /// What [`map`](Contraction::map) does.
+    /// One iteration, for [`map`](Contraction::map).
     #[inline(always)]
     fn map_here(
         &mut self,

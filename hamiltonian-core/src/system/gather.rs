@@ -94,8 +94,8 @@ pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
 pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     /// The computation.
     type Output;
-    /// The pack that is used on a level; wrapped in [`Nf`] unless products [fuse](crate::schemes::author::Arithmetic::fused), so that
-    /// a run has the same bits on every level.
+    /// The pack that is used on a level; wrapped in [`Nf`] unless products
+    /// [fuse](crate::schemes::author::Arithmetic::fused), so that a run has the same bits on every level.
     type Pack<L: Level>: Base;
     /// The least level and the best on which packs are faster than one number after the other: for others no
     /// code is made. A better CPU runs the best of them.

@@ -150,7 +150,7 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     type Eight: Base;
     /// The level this is.
     const CPU: Cpu;
-    /// Whether its packs round a product with a sum once.
+    /// True if its packs round a product and a sum together, once.
     const FUSES: bool;
 
     /// Enters the level anew: `kernel.run::<Self>()` in a function that is compiled with this

@@ -114,8 +114,9 @@ fn slope<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     flip(high + low, n.shl::<63>() ^ sign)
 }
 
-/// [`turn`]'s sine, bit by bit, where the type does not fuse. In lanes, where sine and cosine do the same operations, their
-/// operands are told apart before and the operations done once. A cosine is the sine a quadrant on.
+/// [`turn`]'s sine, bit by bit, where the type does not fuse. In lanes, where sine and cosine do the same
+/// operations, their operands are told apart before and the operations done once. A cosine is the sine a quadrant
+/// on.
 #[inline(always)]
 fn sine_in<W: Word>(n: W::Bits, r: W, tail: W, sign: W::Bits) -> W {
     let swapped = W::odd(n);

@@ -88,13 +88,16 @@ pub fn ln_1p<W: Word>(x: W) -> W {
         return x;
     }
     let (u, cut) = two_sum(W::one(), unless(tiny, x));
-    let mut y = W::select(tiny, x, ln_of_pair(u, cut));
-    let mut plain = (-W::one()).lt(x) & x.le(W::splat(LARGE));
-    if W::LANES > 1 && !plain.all() {
-        y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 0.0), y);
-        plain = (-W::one()).lt(x);
+    let y = W::select(tiny, x, ln_of_pair(u, cut));
+    let plain = (-W::one()).lt(x) & x.le(W::splat(LARGE));
+    if plain.all() {
+        return y;
     }
-    y.or_rare(plain, x, ln_1p_of_rare)
+    if W::LANES == 1 {
+        return y.or_rare(plain, x, ln_1p_of_rare);
+    }
+    let y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 0.0), y);
+    y.or_rare((-W::one()).lt(x), x, ln_1p_of_rare)
 }
 
 #[cold]
@@ -146,11 +149,13 @@ pub fn asinh<W: Word>(x: W) -> W {
     let y = flip(ln_of_pair(u, cut + root_cut), sign_bit(x));
     let y = W::select(tiny, x, y);
     let plain = size.le(W::splat(LARGE));
-    if W::LANES > 1 && !plain.all() {
-        let far = flip(ln_of_large(size, 1.0), sign_bit(x));
-        return W::select(plain, y, far);
+    if plain.all() {
+        return y;
     }
-    y.or_rare(plain, x, asinh_of_large)
+    if W::LANES == 1 {
+        return y.or_rare(plain, x, asinh_of_large);
+    }
+    W::select(plain, y, flip(ln_of_large(size, 1.0), sign_bit(x)))
 }
 
 #[cold]
@@ -166,13 +171,16 @@ pub fn acosh<W: Word>(x: W) -> W {
     let (difference, cut) = fast_two_sum(square, -W::one());
     let (root, root_cut) = square_root((difference, cut + square_cut));
     let (u, cut) = fast_two_sum(x, root);
-    let mut y = ln_of_pair(u, cut + root_cut);
-    let mut plain = W::one().le(x) & x.le(W::splat(LARGE));
-    if W::LANES > 1 && !plain.all() {
-        y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 1.0), y);
-        plain = W::one().le(x);
+    let y = ln_of_pair(u, cut + root_cut);
+    let plain = W::one().le(x) & x.le(W::splat(LARGE));
+    if plain.all() {
+        return y;
     }
-    y.or_rare(plain, x, acosh_of_rare)
+    if W::LANES == 1 {
+        return y.or_rare(plain, x, acosh_of_rare);
+    }
+    let y = W::select(W::splat(LARGE).lt(x), ln_of_large(x, 1.0), y);
+    y.or_rare(W::one().le(x), x, acosh_of_rare)
 }
 
 #[cold]

@@ -72,10 +72,10 @@ fn apart(end: &[f64], exact: &[DoubleDouble]) -> f64 {
     end.iter().zip(exact).map(difference).fold(0.0, f64::max)
 }
 
-/// What a scheme is to reach, and from where.
+/// The end that a scheme is to reach, and its start.
 struct Goal<'a, V: Vector, E> {
     problem: &'a str,
-    /// What is said after the name of a scheme.
+    /// Words behind the name of a scheme.
     note: &'a str,
     start: &'a State<V>,
     end: f64,

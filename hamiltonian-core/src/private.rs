@@ -118,25 +118,23 @@ impl<K, V: Vector, A: IntoVector<K, Vector = V>> ArrayOf<K, V> for A {
 
 /// A system whose parameters all have defaults: `Name::new(…)` leads to a message.
 ///
-/// It is a method of a trait, so that a type may have a `new` of its own.
+/// Its implementations ask for [`ParameterWithoutDefault`], which no system has. So a type may have a `new` of its own, and
+/// one from a trait of the user's.
 #[doc(hidden)]
-pub trait EveryParameterHasADefault: Sized {
+pub trait EveryParameterHasADefault: ParameterWithoutDefault {
     /// Never called.
-    fn new() -> Self
-    where
-        Self: New,
-    {
+    fn new() -> Self {
         Self::never()
     }
 }
 
-/// The bound of [`EveryParameterHasADefault::new`], which no system meets.
+/// The bound of [`EveryParameterHasADefault`], which no system meets; rustc names it as what is missing.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no `new`: each of its parameters has a default",
     label = "there is no `new`",
     note = "write `Name {{ parameter: 2.0, ..Default::default() }}` to change some, `Name::default()` to change none"
 )]
-pub trait New: Sized {
+pub trait ParameterWithoutDefault: Sized {
     /// Never called.
     fn never() -> Self;
 }

@@ -30,12 +30,17 @@ pub fn default(context: Context) -> String {
     };
     let mut text = format!(
         "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
-         fn default() -> Self {{ {value} }}\n}}\n\
-         impl{} __h::EveryParameterHasADefault for {} {{}}\n",
-        generics.declaration_without_bounds(),
-        generics.system_type(),
+         fn default() -> Self {{ {value} }}\n}}\n"
     );
     if let Some(scalar) = generics.scalars.first() {
+        let declaration = generics.declaration_without_bounds();
+        let named = generics.system_type();
+        // The bound stands on the implementation, which is then no candidate: a trait of the user's may
+        // give the type a `new`.
+        let _ = writeln!(
+            text,
+            "impl{declaration} __h::EveryParameterHasADefault for {named} where {named}: __h::ParameterWithoutDefault {{}}"
+        );
         let parameters = definition.checked.parameters.iter().enumerate();
         let fields = parameters.map(|(number, parameter)| {
             let value = default_of(context, number, scalar);

@@ -1,4 +1,5 @@
-//! A system whose parameters all have defaults has no `new`; a type may have one of its own.
+//! A system whose parameters all have defaults has no `new`; a type may have one of its own, or from a
+//! trait.
 
 use hamiltonian::prelude::*;
 
@@ -26,7 +27,25 @@ impl Spring {
     }
 }
 
+hamiltonian! {
+    /// A rotor, which a trait makes.
+    pub struct Rotor { i = 1.0 }
+    H(phi; l) = l^2/(2*i)
+}
+
+trait Make {
+    fn new() -> Self;
+}
+
+impl Make for Rotor {
+    fn new() -> Self {
+        Rotor::default()
+    }
+}
+
 fn main() {
+    let _: Rotor = Rotor::new();
+    let _ = Pendulum::<f64>::new(1.0, 2.0);
     let _ = Pendulum::new(1.0, 2.0);
     let _ = Plain::new();
     let _ = Spring::new(2.0);

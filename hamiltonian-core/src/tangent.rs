@@ -114,16 +114,19 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// unchanged. Returns what each had grown to, orthogonal to those before: the diagonal of R in QR.
     pub fn orthonormalise(&mut self) -> Vec<T> {
         let mut matrix = self.matrix();
-        let grown = gram_schmidt(&mut matrix, |to, scale, less| self.combine(to, scale, less));
+        let mut lengths = alloc::vec![T::zero(); self.runs.len()];
+        gram_schmidt(matrix.as_mut_slice(), &mut lengths, self);
         self.show();
-        grown
+        lengths
     }
 
     /// Gives every deviation the length 1, in its own direction. Returns their lengths before.
     pub fn normalise(&mut self) -> Vec<T> {
         let matrix = self.matrix();
-        let lengths = (0..self.runs.len()).map(|j| dot(&matrix, j, j).sqrt());
-        let lengths: Vec<T> = lengths.collect();
+        let lengths = matrix.column_iter();
+        let lengths: Vec<T> = lengths
+            .map(|v| dot(v.as_slice(), v.as_slice()).sqrt())
+            .collect();
         for (j, length) in lengths.iter().enumerate() {
             self.combine(j, length.recip(), None);
         }
@@ -191,8 +194,10 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn gali(&self) -> T {
-        let grown = gram_schmidt(&mut self.directions(), |_, _, _| {});
-        grown
+        let mut matrix = self.directions();
+        let mut lengths = alloc::vec![T::zero(); self.runs.len()];
+        gram_schmidt(matrix.as_mut_slice(), &mut lengths, &mut ());
+        lengths
             .into_iter()
             .fold(T::one(), |volume, length| volume * length)
     }
@@ -220,25 +225,11 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// The deviations with length 1.
     fn directions(&self) -> DMatrix<T> {
         let mut matrix = self.matrix();
-        for j in 0..matrix.ncols() {
-            let scale = dot(&matrix, j, j).sqrt().recip();
-            matrix.column_mut(j).iter_mut().for_each(|to| *to *= scale);
+        for mut column in matrix.column_iter_mut() {
+            let scale = dot(column.as_slice(), column.as_slice()).sqrt().recip();
+            column.iter_mut().for_each(|to| *to *= scale);
         }
         matrix
-    }
-
-    /// Deviation `to` becomes `scale` times itself, less a multiple of another: in all that is carried,
-    /// whose derivative parts are linear in the deviation.
-    fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>) {
-        let other = less.map(|(from, along)| (self.runs[from].carried.clone(), along));
-        let carried = &mut self.runs[to].carried;
-        for index in 0..carried.len() {
-            let component = carried.component_mut(index);
-            component.eps *= scale;
-            if let Some((from, along)) = &other {
-                component.eps -= *along * from.component(index).eps;
-            }
-        }
     }
 
     /// Shows what is carried now. All values are made those of the first run: where a step is solved to
@@ -253,6 +244,21 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
                 run.carried.component_mut(index).re = first.carried.component(index).re;
             }
             run.show_carried();
+        }
+    }
+}
+
+/// All that is carried changes: its derivative parts are linear in the deviation.
+impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Columns<T> for Tangent<T, S, R> {
+    fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>) {
+        let (before, run) = self.runs.split_at_mut(to);
+        let carried = &mut run[0].carried;
+        for index in 0..carried.len() {
+            let component = carried.component_mut(index);
+            component.eps *= scale;
+            if let Some((from, along)) = less {
+                component.eps -= along * before[from].carried.component(index).eps;
+            }
         }
     }
 }
@@ -303,37 +309,57 @@ pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error>
     }
 }
 
+/// Deviations that change as the columns of a matrix do.
+pub(crate) trait Columns<T> {
+    /// Deviation `to` becomes `scale` times itself, less a multiple of one before it.
+    fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>);
+}
+
+/// The matrix alone.
+impl<T> Columns<T> for () {
+    fn combine(&mut self, _: usize, _: T, _: Option<(usize, T)>) {}
+}
+
 /// Makes columns orthonormal, each against those before it, twice, since once leaves what rounding
-/// did; returns their lengths before the last division. `done` is told every change of a column, which
-/// becomes a multiple of itself less one of another.
+/// did; `lengths` become theirs before the last division. The matrix stands column after column, and `with`
+/// receives every change of a column.
+#[inline(always)]
 pub(crate) fn gram_schmidt<T: Real>(
-    matrix: &mut DMatrix<T>,
-    mut done: impl FnMut(usize, T, Option<(usize, T)>),
-) -> Vec<T> {
-    let (rows, columns) = matrix.shape();
-    let mut lengths = Vec::with_capacity(columns);
-    for j in 0..columns {
-        for i in (0..j).chain(0..j) {
-            let along = dot(matrix, i, j);
-            for row in 0..rows {
-                let part = along * matrix[(row, i)];
-                matrix[(row, j)] -= part;
+    matrix: &mut [T],
+    lengths: &mut [T],
+    with: &mut impl Columns<T>,
+) {
+    let rows = matrix.len() / lengths.len().max(1);
+    for (j, grown) in lengths.iter_mut().enumerate() {
+        let (before, column) = matrix.split_at_mut(j * rows);
+        let column = &mut column[..rows];
+        for pass in 0..2 * j {
+            let i = pass % j;
+            let other = &before[i * rows..][..rows];
+            let along = dot(other, column);
+            for (to, from) in column.iter_mut().zip(other) {
+                *to -= along * *from;
             }
-            done(j, T::one(), Some((i, along)));
+            with.combine(j, T::one(), Some((i, along)));
         }
-        let length = dot(matrix, j, j).sqrt();
+        let length = dot(column, column).sqrt();
         let scale = length.recip();
-        matrix.column_mut(j).iter_mut().for_each(|to| *to *= scale);
-        done(j, scale, None);
-        lengths.push(length);
+        for to in column {
+            *to *= scale;
+        }
+        with.combine(j, scale, None);
+        *grown = length;
     }
-    lengths
 }
 
 /// The scalar product of two columns.
-fn dot<T: Real>(matrix: &DMatrix<T>, i: usize, j: usize) -> T {
-    let (a, b) = (matrix.column(i), matrix.column(j));
-    (a.iter().zip(b.iter())).fold(T::zero(), |sum, (a, b)| a.fma(*b, sum))
+#[inline(always)]
+fn dot<T: Real>(a: &[T], b: &[T]) -> T {
+    let mut sum = T::zero();
+    for (a, b) in a.iter().zip(b) {
+        sum = a.fma(*b, sum);
+    }
+    sum
 }
 
 /// The derivative of the state after `time`, made in so many steps, with respect to the start: of a closed

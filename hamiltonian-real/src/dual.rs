@@ -330,6 +330,17 @@ impl<T: Real> Real for Dual<T> {
         self.re.lane(k)
     }
     #[inline(always)]
+    fn derivative(self) -> Self {
+        Self::fixed(self.eps)
+    }
+    #[inline(always)]
+    fn with_derivative(self, derivative: Self) -> Self {
+        Self {
+            re: self.re,
+            eps: derivative.re,
+        }
+    }
+    #[inline(always)]
     fn epsilon() -> f64 {
         T::epsilon()
     }

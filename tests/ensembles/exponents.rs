@@ -60,6 +60,7 @@ fn exponents_of_members_are_those_of_single_tangents() {
         deviates(henon_heiles, StormerVerlet::default(), 3);
         deviates(pendulum, Gauss::<2>::default(), 2);
         deviates(falling, StormerVerlet::default(), 1);
+        deviates(falling, StormerVerlet::default(), 2);
     });
     let _level = one_level();
     let of = || Lyapunov::new(2, mixture, ImplicitMidpoint::default(), 0.1);

@@ -3,6 +3,7 @@
 //! Input: a scheme and a system. Output: [`Ensembles`], the bound; behind it the drive of each level.
 //! Invariant: a pairing that is no [`Scheme`] fails with the message of that trait.
 
+use super::deviations::Deviations;
 use super::drive::InPack;
 use super::seat::Host;
 use crate::error::Error;
@@ -16,7 +17,8 @@ use crate::system::gather::Gather;
 use crate::vector::Vector;
 use alloc::string::String;
 use alloc::vec::Vec;
-use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Real, W};
+use core::marker::PhantomData;
+use hamiltonian_lanes::{KernelAt, Level, Nf, OnEveryLevel, Pack, Real, W};
 
 /// A scheme that advances ensembles of the system `S`: every [`Scheme`] for `S` over `T` and packs of it.
 ///
@@ -41,6 +43,9 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Drives the members of a host to their ends.
     #[doc(hidden)]
     fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool);
+    /// Advances members with deviations to their ends.
+    #[doc(hidden)]
+    fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool);
     /// Returns whether two systems may stand in one pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
@@ -49,14 +54,15 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
 }
 
-/// The members of a host, to be driven at a level.
-pub struct Members<'a, T: Real, S: System<T>, M> {
+/// Work on members, to be done at a level.
+pub struct Members<'a, T, S, M, W> {
     scheme: &'a M,
-    host: &'a mut dyn Host<T, S>,
+    work: W,
     fuses: bool,
+    of: PhantomData<fn(T, S)>,
 }
 
-impl<L, T, S, M> KernelAt<L> for Members<'_, T, S, M>
+impl<L, T, S, M, W> KernelAt<L> for Members<'_, T, S, M, W>
 where
     L: Level,
     T: Real,
@@ -64,34 +70,64 @@ where
     M: Scheme<T, S>
         + InPack<T, S, L::Wide>
         + InPack<T, S, Nf<L::Wide>>
-        + InPack<T, S, W<L::Pack, 2>>
-        + InPack<T, S, Nf<W<L::Pack, 2>>>,
+        + InPack<T, S, W2<L>>
+        + InPack<T, S, Nf<W2<L>>>,
+    W: Work<T, S>,
 {
     type Output = ();
     #[inline(always)]
     fn run(self) {
         let Members {
             scheme,
-            host,
+            work,
             fuses,
+            ..
         } = self;
         // The widths differ in speed alone. Conditions that are constants of a type are decided before code is
         // emitted, so that the other width costs no time of the compiler. Levels that fuse nothing have one
         // arithmetic.
         if const { is_small::<T, S, M>() } {
             if fuses || const { !L::FUSES } {
-                InPack::<T, S, L::Wide>::drive::<L>(scheme, host);
+                work.at::<L, L::Wide, M>(scheme);
             } else {
-                InPack::<T, S, Nf<L::Wide>>::drive::<L>(scheme, host);
+                work.at::<L, Nf<L::Wide>, M>(scheme);
             }
         } else if fuses || const { !L::FUSES } {
-            InPack::<T, S, W<L::Pack, 2>>::drive::<L>(scheme, host);
+            work.at::<L, W2<L>, M>(scheme);
         } else {
-            InPack::<T, S, Nf<W<L::Pack, 2>>>::drive::<L>(scheme, host);
+            work.at::<L, Nf<W2<L>>, M>(scheme);
         }
     }
 }
 
+/// Two registers of a level in lock-step.
+type W2<L> = W<<L as Level>::Pack, 2>;
+
+/// Members of a host that are driven to their ends.
+pub struct Driven<'a, T: Real, S: System<T>>(&'a mut dyn Host<T, S>);
+
+/// Members with deviations that are advanced to their ends.
+pub struct Deviating<'a, 'r, T: Real, S: System<T>>(&'a mut Deviations<'r, T, S>);
+
+/// Work on members in the lanes of one pack type.
+pub trait Work<T: Real, S: System<T>> {
+    /// Does it inside the level `L` of the pack.
+    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M);
+}
+
+impl<T: Real, S: System<T>> Work<T, S> for Driven<'_, T, S> {
+    #[inline(always)]
+    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
+        scheme.drive::<L>(self.0);
+    }
+}
+
+impl<T: Real, S: System<T>> Work<T, S> for Deviating<'_, '_, T, S> {
+    #[inline(always)]
+    fn at<L: Level, P: Pack, M: InPack<T, S, P>>(self, scheme: &M) {
+        scheme.deviate::<L>(self.0);
+    }
+}
 /// Returns whether a step works on so few numbers that many registers in lock-step hide its latency. With
 /// more numbers, registers spill.
 const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
@@ -104,14 +140,28 @@ where
     T: Real,
     S: System<T, Prepared: Gather<T>>,
     M: Scheme<T, S>,
-    for<'a> Members<'a, T, S, M>: OnEveryLevel<Output = ()>,
+    for<'a> Members<'a, T, S, M, Driven<'a, T, S>>: OnEveryLevel<Output = ()>,
+    for<'a, 'r> Members<'a, T, S, M, Deviating<'a, 'r, T, S>>: OnEveryLevel<Output = ()>,
 {
     fn drive(&self, host: &mut dyn Host<T, S>, fuses: bool) {
-        let scheme = self;
+        let (scheme, work) = (self, Driven(host));
+        let of = PhantomData::<fn(T, S)>;
         Members {
             scheme,
-            host,
+            work,
             fuses,
+            of,
+        }
+        .dispatch();
+    }
+    fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool) {
+        let (scheme, work) = (self, Deviating(all));
+        let of = PhantomData::<fn(T, S)>;
+        Members {
+            scheme,
+            work,
+            fuses,
+            of,
         }
         .dispatch();
     }

@@ -4,14 +4,15 @@
 //! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
 //! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
 
-mod alone;
-mod rows;
+pub(super) mod alone;
+pub(super) mod rows;
 mod watching;
 
 use self::alone::{arrivals, explain};
 use self::rows::{Prepare, gathered, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
 use super::crew::Crew;
+use super::deviations::{self, Deviations};
 use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
 use crate::flow::Scratch;
@@ -33,12 +34,14 @@ const BLOCK: u64 = 1024;
 pub trait InPack<T: Real, S: System<T>, P: Pack>: Scheme<T, S> {
     /// Drives all members of the host to their ends, inside the level `L` of the pack.
     fn drive<L: Level>(&self, host: &mut dyn Host<T, S>);
+    /// Advances members with deviations to their ends, likewise.
+    fn deviate<L: Level>(&self, all: &mut Deviations<'_, T, S>);
 }
 
 /// The map of a scheme over the lanes of `P`.
-type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
+pub(super) type MapIn<T, S, P, M> = <M as Scheme<<T as Real>::Over<P>, S>>::Map;
 /// The value that such a map carries.
-type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
+pub(super) type CarriedIn<T, S, P, M> = <MapIn<T, S, P, M> as Map>::Carried;
 /// A truth for each lane.
 type MaskIn<T, P> = <<T as Real>::Over<P> as Real>::Mask;
 
@@ -54,6 +57,11 @@ where
         >,
     M: Scheme<T, S> + Scheme<T::Over<P>, S>,
 {
+    #[inline(always)]
+    fn deviate<L: Level>(&self, all: &mut Deviations<'_, T, S>) {
+        deviations::advance::<L, T, S, P, M>(self, all);
+    }
+
     #[inline(always)]
     fn drive<L: Level>(&self, host: &mut dyn Host<T, S>) {
         let mut crew = Crew::<T, S>::new(P::LANES as usize);
@@ -189,7 +197,8 @@ where
     fn new<L: Level>(scheme: &M, crew: &Crew<T, S>) -> Self {
         let seats = crew.seats();
         let steps = each(&seats, |seat| seat.step);
-        let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &seats, &steps));
+        let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
+        let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
         let h = gathered::<L, T, P>(&steps);
         let state = State {
             t: gathered::<L, T, P>(&each(&seats, |seat| seat.state.t)),
@@ -242,8 +251,9 @@ where
         let steps = each(&seats, |seat| seat.step);
         let others = changed.parameters || !self.uniform;
         if others || steps != self.steps {
+            let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
             (self.prepared, self.map) =
-                L::enter_at(Prepare::<T, S, P, M>::new(scheme, &seats, &steps));
+                L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
             self.steps = steps;
             let mut pairs = seats.windows(2);
             self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
@@ -357,7 +367,9 @@ where
                 continue;
             }
             let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
-            let error = explain(scheme, &seat, &point, times[lane].to_f64());
+            let alone = (&seat.prepared, &seat.state, seat.step, seat.clock);
+            let made = (seat.made, &*seat.words);
+            let error = explain(scheme, alone, made, &point, times[lane].to_f64());
             host.fail(&mut seat, error);
         }
     }

@@ -1,31 +1,26 @@
 //! Lyapunov exponents of many starts.
 //!
 //! Input: a system and a start for each index, a scheme, a step. Output: the exponents of each. Invariants:
-//! each deviation of a member is a run over dual numbers, in lanes beside others; what is done to deviations
-//! between blocks is what [`Tangent`](crate::tangents::Tangent) does, in the same order.
+//! threads and neighbours change no bit of a member.
 
 use super::Member;
 use super::bound::Ensembles;
+use super::deviations::{Deviated, Deviations};
 use super::guard::guard;
 use super::ordered::in_order;
-use super::seat::{Host, Seat};
 use super::threads;
 use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
-use crate::map::Clock;
-use crate::observe::{Follows, View};
 use crate::state::State;
 use crate::system::System;
-use crate::tangent::{check_deviations, gram_schmidt, lifted, towards};
+use crate::tangent::{check_deviations, lifted, towards};
 use crate::vector::Vector;
 use alloc::boxed::Box;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
 use core::ops::{ControlFlow, Range};
-use core::sync::atomic::{AtomicBool, Ordering};
-use hamiltonian_lanes::{Dual, Real};
-use nalgebra::DMatrix;
+use core::sync::atomic::AtomicBool;
+use hamiltonian_lanes::Dual;
 
 /// A number and its derivative.
 type D = Dual<f64>;
@@ -176,7 +171,8 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
             return Err(Error::NoSteps);
         }
         check_step(self.step)?;
-        let size = self.count.div_ceil(64).clamp(80, CHUNK);
+        // Whole packs.
+        let size = (self.count / 64).next_multiple_of(64).clamp(64, CHUNK);
         let chunk = |job: usize| {
             let first = job * size;
             self.chunk(first..self.count.min(first + size))
@@ -202,265 +198,71 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
 
     /// The exponents of some members; `None` if the flag is set.
     fn chunk(&self, indices: Range<usize>) -> Option<Vec<Result<Vec<f64>, Error>>> {
-        let mut members: Vec<Deviated<S>> = Vec::with_capacity(indices.len());
+        let mut all: Deviations<'_, D, S> = Deviations {
+            members: Vec::with_capacity(indices.len()),
+            count: self.deviations,
+            step: Dual::fixed(self.step),
+            interval: Dual::fixed(self.step * duration::<f64>(&self.scheme.entry())),
+            steps: self.steps,
+            every: self.every,
+            cancel: self.cancel,
+        };
+        // The errors of members that cannot start.
+        let mut errors = Vec::new();
         for index in indices.clone() {
-            let first = members.iter().find(|member| member.failure.is_none());
-            let made = self.begin(index, first.and_then(|first| first.prepared.as_ref()));
-            members.push(made.unwrap_or_else(|error| Deviated::failed(error)));
-        }
-        let mut made = 0;
-        while made < self.steps {
-            if self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed)) {
-                return None;
+            match self.begin(index, all.members.first()) {
+                Ok(member) => {
+                    all.members.push(member);
+                    errors.push(None);
+                }
+                Err(error) => errors.push(Some(error)),
             }
-            let target = made.saturating_add(self.every).min(self.steps);
-            let mut round = Round {
-                members: &mut members,
-                deviations: self.deviations,
-                step: self.step,
-                interval: self.step * duration::<f64>(&self.scheme.entry()),
-                made,
-                target,
-                next: 0,
-                equals: |a: &_, b: &_| Ensembles::<S, D>::equals(&self.scheme, a, b),
+        }
+        Ensembles::<S, D>::deviate(&self.scheme, &mut all, self.fuses);
+        if all.is_cancelled() {
+            return None;
+        }
+        let mut rates = all.members.into_iter().map(|member| member.rates);
+        let exponents = indices.zip(errors).map(|(index, error)| {
+            let of_member = match error {
+                Some(error) => Err(error),
+                None => rates.next().unwrap_or_else(|| Ok(Vec::new())),
             };
-            Ensembles::<S, D>::drive(&self.scheme, &mut round, self.fuses);
-            made = target;
-            for member in &mut members {
-                let Deviated { sums, failure, .. } = member;
-                if failure.is_some() {
-                    continue;
-                }
-                // `sums` is moved out while the member's deviations change.
-                let mut sums = core::mem::take(sums);
-                for (sum, grown) in sums.iter_mut().zip(member.orthonormalise()) {
-                    *sum += Real::ln(grown);
-                }
-                member.sums = sums;
-            }
-        }
-        let exponents = members.into_iter().zip(indices).map(|(member, index)| {
-            let time = member.time - member.begin;
-            match member.failure {
-                None => Ok(member.sums.into_iter().map(|sum| sum / time).collect()),
-                Some((_, error)) => Err(Error::Member {
-                    index,
-                    error: Box::new(error),
-                }),
-            }
+            of_member.map_err(|error| Error::Member {
+                index,
+                error: Box::new(error),
+            })
         });
         Some(exponents.collect())
     }
 
-    /// A member at its start, which fits the one before.
-    fn begin(
-        &self,
-        index: usize,
-        other: Option<&<S as System<D>>::Prepared>,
-    ) -> Result<Deviated<S>, Error> {
+    /// A member at its start, which fits another.
+    fn begin(&self, index: usize, other: Option<&Deviated<D, S>>) -> Result<Deviated<D, S>, Error> {
         let (system, start) = guard(|| (self.make)(Member::new(index, 0))).and_then(|made| made)?;
         let lifted = lifted::<f64, S>(&system, &start)?;
         check_deviations(self.deviations, lifted.q.len())?;
         let prepared = check_start::<D, S>(&system, &lifted)?;
-        if other.is_some_and(|other| !Ensembles::<S, D>::fits(&self.scheme, other, &prepared)) {
+        let fits = |other: &Deviated<D, S>| {
+            Ensembles::<S, D>::fits(&self.scheme, &other.prepared, &prepared)
+        };
+        if !other.is_none_or(fits) {
             let system = <S as System<f64>>::NAME;
             return Err(Error::OtherSizes { system });
         }
         let mut words = Vec::new();
-        let mut matrix = DMatrix::zeros(2 * lifted.q.len(), self.deviations);
         for deviation in 0..self.deviations {
             let start = towards(&lifted, deviation);
             self.scheme.check(&prepared, &start)?;
             let carried = self.scheme.start(&prepared, &start, Dual::fixed(self.step));
-            words.push(carried.components().collect());
-            matrix[(deviation, deviation)] = 1.0;
+            words.reserve_exact(self.deviations * carried.len());
+            words.extend(carried.components());
         }
-        let mut member = Deviated {
-            prepared: Some(prepared),
+        Ok(Deviated {
+            prepared,
             words,
-            matrix,
-            sums: vec![0.0; self.deviations],
-            begin: start.t,
-            time: start.t,
-            state: Some(lifted),
-            failure: None,
-        };
-        member.orthonormalise();
-        Ok(member)
-    }
-}
-
-/// A member with its deviations.
-struct Deviated<S: System<D>> {
-    /// None for a member that could not start; the same for `state`.
-    prepared: Option<S::Prepared>,
-    /// All that the scheme carries, deviation by deviation.
-    words: Vec<Vec<D>>,
-    /// The deviations, one a column.
-    matrix: DMatrix<f64>,
-    /// Sums of the logarithms of their growth.
-    sums: Vec<f64>,
-    /// The time at its start, and now.
-    begin: f64,
-    time: f64,
-    /// A state of its shape.
-    state: Option<State<S::Vector>>,
-    /// Its error, and the deviation that had it.
-    failure: Option<(usize, Error)>,
-}
-
-impl<S: System<D>> Deviated<S> {
-    fn failed(error: Error) -> Self {
-        Deviated {
-            prepared: None,
-            words: Vec::new(),
-            matrix: DMatrix::zeros(0, 0),
-            sums: Vec::new(),
-            begin: 0.0,
-            time: 0.0,
-            state: None,
-            failure: Some((0, error)),
-        }
-    }
-
-    /// Replaces the deviations by orthonormal ones of the same span, in all that is carried. Returns what
-    /// each had grown to.
-    fn orthonormalise(&mut self) -> Vec<f64> {
-        let words = &mut self.words;
-        let grown = gram_schmidt(&mut self.matrix, |to, scale, less| {
-            let other = less.map(|(from, along)| (words[from].clone(), along));
-            for (index, word) in words[to].iter_mut().enumerate() {
-                word.eps *= scale;
-                if let Some((from, along)) = &other {
-                    word.eps -= *along * from[index].eps;
-                }
-            }
-        });
-        if let Some((first, others)) = words.split_first_mut() {
-            for other in others {
-                for (word, first) in other.iter_mut().zip(&*first) {
-                    word.re = first.re;
-                }
-            }
-        }
-        grown
-    }
-}
-
-/// The deviations of the members on their way from one number of steps to another.
-struct Round<'r, S: System<D>, E> {
-    members: &'r mut [Deviated<S>],
-    deviations: usize,
-    step: f64,
-    /// The time of one step.
-    interval: f64,
-    made: u64,
-    target: u64,
-    /// The next deviation of all.
-    next: usize,
-    /// Whether two systems have equal parameters.
-    equals: E,
-}
-
-impl<S, E> Host<D, S> for Round<'_, S, E>
-where
-    S: System<D>,
-    E: Fn(&S::Prepared, &S::Prepared) -> bool,
-{
-    fn load(&mut self, seat: &mut Option<Seat<D, S>>) -> bool {
-        loop {
-            let key = self.next;
-            let Some(member) = self.members.get(key / self.deviations) else {
-                return false;
-            };
-            self.next += 1;
-            let (None, Some(prepared), Some(state)) =
-                (&member.failure, &member.prepared, &member.state)
-            else {
-                continue;
-            };
-            let words = &member.words[key % self.deviations];
-            let clock = Clock {
-                start: Dual::fixed(member.begin),
-                interval: Dual::fixed(self.interval),
-            };
-            match seat {
-                Some(seat) => {
-                    if !(self.equals)(&seat.prepared, prepared) {
-                        seat.prepared.clone_from(prepared);
-                        seat.other = true;
-                    }
-                    seat.words.copy_from_slice(words);
-                    (seat.key, seat.clock) = (key, clock);
-                    (seat.made, seat.stop, seat.since) = (self.made, self.target, self.made);
-                }
-                None => {
-                    *seat = Some(Seat {
-                        key,
-                        prepared: prepared.clone(),
-                        other: true,
-                        step: Dual::fixed(self.step),
-                        clock,
-                        made: self.made,
-                        stop: self.target,
-                        words: words.clone(),
-                        follows: Follows::default(),
-                        interval: u64::MAX,
-                        since: self.made,
-                        seen: self.made,
-                        state: state.clone(),
-                    });
-                }
-            }
-            return true;
-        }
-    }
-
-    fn arrive(
-        &mut self,
-        key: usize,
-        _: &mut u64,
-        _: &mut Follows<D>,
-        view: &View<'_, D, S>,
-    ) -> bool {
-        let deviation = key % self.deviations;
-        let member = &mut self.members[key / self.deviations];
-        let State { t, q, p } = view.state;
-        let mut column = member.matrix.column_mut(deviation);
-        for (to, from) in column.iter_mut().zip(q.components().chain(p.components())) {
-            *to = from.eps;
-        }
-        if deviation == 0 {
-            member.time = t.re;
-        }
-        false
-    }
-
-    fn pass(&mut self, _: usize, _: &View<'_, D, S>, _: bool) -> bool {
-        true
-    }
-
-    fn follow(&mut self, _: usize, _: &mut Follows<D>) {}
-
-    fn phase(&self) -> u64 {
-        0
-    }
-
-    fn leave(&mut self, seat: &mut Seat<D, S>) {
-        let member = &mut self.members[seat.key / self.deviations];
-        member.words[seat.key % self.deviations].copy_from_slice(&seat.words);
-    }
-
-    fn fail(&mut self, seat: &mut Seat<D, S>, error: Error) {
-        let deviation = seat.key % self.deviations;
-        let failure = &mut self.members[seat.key / self.deviations].failure;
-        if failure.as_ref().is_none_or(|(of, _)| deviation < *of) {
-            *failure = Some((deviation, error));
-        }
-    }
-
-    fn looks(&self) -> bool {
-        true
+            start: lifted,
+            rates: Ok(Vec::new()),
+        })
     }
 }
 

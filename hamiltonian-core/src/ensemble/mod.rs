@@ -10,13 +10,14 @@
 //! chooses it at each level ([`bound`]); members in memory ([`chunk`], [`swarm`],
 //! [`until`]), and members that leave a
 //! record ([`sweep`], [`sweep::running`],
-//! [`record`]) or exponents ([`lyapunov`]).
+//! [`record`]) or exponents ([`lyapunov`], [`deviations`]).
 
 mod block;
 mod bound;
 mod chunk;
 mod close;
 mod crew;
+mod deviations;
 mod drive;
 mod guard;
 pub(crate) mod hash;

@@ -235,6 +235,27 @@ pub trait Real:
     fn to_f64(self) -> f64 {
         self.lane(0)
     }
+    /// The derivative part, as a number without one; 0 for a scalar that has none.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!(Dual::new(1.5, -2.0).derivative(), Dual::fixed(-2.0));
+    /// assert_eq!(1.5.derivative(), 0.0);
+    /// ```
+    #[inline(always)]
+    fn derivative(self) -> Self {
+        Self::zero()
+    }
+    /// This value with the value of `derivative` as its derivative part; a scalar that has none stays.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    /// assert_eq!(Dual::new(1.5, -2.0).with_derivative(Dual::fixed(3.0)), Dual::new(1.5, 3.0));
+    /// ```
+    #[inline(always)]
+    fn with_derivative(self, _derivative: Self) -> Self {
+        self
+    }
     /// The spacing of this type's numbers at 1.
     fn epsilon() -> f64;
     /// Hands out the value as `f64`s that make up all its bits (words, derivative parts, lanes): how

@@ -4,16 +4,16 @@
 //! here depends on the level.
 
 use crate::ensemble::crew::Crew;
-use crate::ensemble::seat::{Host, Seat};
+use crate::ensemble::seat::Host;
 use crate::error::Error;
 use crate::failed::Failed;
 use crate::flow::Scratch;
 use crate::integrator::{Part, Recipe};
-use crate::map::{Map, Step};
+use crate::map::{Clock, Map, Step};
 use crate::observe::View;
 use crate::scheme::Scheme;
 use crate::state::State;
-use crate::system::{System, clock};
+use crate::system::{self, System};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
@@ -113,29 +113,37 @@ impl<T: Real> Passing<'_, T> {
     }
 }
 
-/// Why a member's next step is not finite: the step is made again alone, over its own scalar. `point` is
-/// the state after it, `reached` its time.
+/// A member over its own scalar: its system, a state of its shape, its step, its time.
+pub(in crate::ensemble) type Alone<'a, T, S> = (
+    &'a <S as System<T>>::Prepared,
+    &'a State<<S as System<T>>::Vector>,
+    T,
+    Clock<T>,
+);
+
+/// Why a member's step after `made` others is not finite: the step is made again alone, over its own scalar,
+/// from what is carried. `point` is the state after it, `reached` its time.
 #[inline(never)]
-pub(super) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
+pub(in crate::ensemble) fn explain<T: Real, S: System<T>, M: Scheme<T, S>>(
     scheme: &M,
-    seat: &Seat<T, S>,
+    (prepared, state, step, clock): Alone<'_, T, S>,
+    (made, words): (u64, &[T]),
     point: &[f64],
     reached: f64,
 ) -> Error {
-    let mut carried = scheme.start(&seat.prepared, &seat.state, seat.step);
-    for (c, word) in seat.words.iter().enumerate() {
+    let mut carried = scheme.start(prepared, state, step);
+    for (c, word) in words.iter().enumerate() {
         *carried.component_mut(c) = *word;
     }
-    let map = scheme.prepare(&seat.prepared, Step::of(seat.step));
+    let map = scheme.prepare(prepared, Step::of(step));
     let mut work = Scratch::like(&carried);
-    let (begin, end) = (seat.clock.at(seat.made), seat.clock.at(seat.made + 1));
-    let first = seat.made == 0;
-    let cause = map.explain(begin, end, first, &mut carried, &mut work);
+    let (begin, end) = (clock.at(made), clock.at(made + 1));
+    let cause = map.explain(begin, end, made == 0, &mut carried, &mut work);
     let (q, p) = point.split_at(point.len() / 2);
     let failed = Failed {
-        step: seat.made + 1,
+        step: made + 1,
         lane: None,
-        clock: clock::<T, S>(),
+        clock: system::clock::<T, S>(),
         begin: begin.to_f64(),
         end: reached,
         q: q.into(),

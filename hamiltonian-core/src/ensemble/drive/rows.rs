@@ -3,19 +3,17 @@
 //! Input: numbers of members, or those of lanes. Output: the other. Invariant: this code is as long as a pack is
 //! wide, so that each function of it occurs once in a pack type, and is called.
 
-use crate::ensemble::seat::Seat;
 use crate::map::Step;
 use crate::scheme::Scheme;
 use crate::system::System;
 use crate::system::gather::{Gather, VectorOver};
 use crate::vector::Vector;
-use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 
 /// A number of each member in its lane.
 #[inline(always)]
-pub(super) fn gathered<L: Level, T: Real, P: Pack>(numbers: &[T]) -> T::Over<P> {
+pub(in crate::ensemble) fn gathered<L: Level, T: Real, P: Pack>(numbers: &[T]) -> T::Over<P> {
     let pack = PhantomData::<P>;
     L::enter_at(Gathered { numbers, pack })
 }
@@ -35,7 +33,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for Gathered<'_, T, P> {
 
 /// The number of each lane.
 #[inline(always)]
-pub(super) fn scatter<L: Level, T: Real, P: Pack>(from: &T::Over<P>, into: &mut [T]) {
+pub(in crate::ensemble) fn scatter<L: Level, T: Real, P: Pack>(from: &T::Over<P>, into: &mut [T]) {
     L::enter_at(Scatter::<T, P> { from, into });
 }
 
@@ -54,7 +52,7 @@ impl<L: Level, T: Real, P: Pack> KernelAt<L> for Scatter<'_, T, P> {
 
 /// The lanes of a carried value from rows, one a component.
 #[inline(always)]
-pub(super) fn load<L, T, P, V>(rows: &[T], to: &mut V)
+pub(in crate::ensemble) fn load<L, T, P, V>(rows: &[T], to: &mut V)
 where
     L: Level,
     T: Real,
@@ -71,7 +69,7 @@ where
 
 /// The lanes of a carried value into rows.
 #[inline(always)]
-pub(super) fn store<L, T, P, V>(from: &V, rows: &mut [T])
+pub(in crate::ensemble) fn store<L, T, P, V>(from: &V, rows: &mut [T])
 where
     L: Level,
     T: Real,
@@ -87,19 +85,23 @@ where
 }
 
 /// The systems of the lanes as one, and the map for the steps of the lanes.
-pub(super) struct Prepare<'a, T: Real, S: System<T>, P, M> {
+pub(in crate::ensemble) struct Prepare<'a, T: Real, S: System<T>, P, M> {
     scheme: &'a M,
-    seats: &'a [&'a Seat<T, S>],
+    systems: &'a [&'a S::Prepared],
     steps: &'a [T],
     pack: PhantomData<P>,
 }
 
 impl<'a, T: Real, S: System<T>, P, M> Prepare<'a, T, S, P, M> {
-    pub(super) fn new(scheme: &'a M, seats: &'a [&'a Seat<T, S>], steps: &'a [T]) -> Self {
+    pub(in crate::ensemble) fn new(
+        scheme: &'a M,
+        systems: &'a [&'a S::Prepared],
+        steps: &'a [T],
+    ) -> Self {
         let pack = PhantomData;
         Prepare {
             scheme,
-            seats,
+            systems,
             steps,
             pack,
         }
@@ -123,8 +125,7 @@ where
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let systems: Vec<_> = self.seats.iter().map(|seat| &seat.prepared).collect();
-        let prepared = <S as System<T>>::Prepared::gather::<P>(&systems);
+        let prepared = <S as System<T>>::Prepared::gather::<P>(self.systems);
         let step = Step::of(T::gather::<P>(self.steps));
         let map = self.scheme.prepare(&prepared, step);
         (prepared, map)

@@ -1,0 +1,458 @@
+//! Members with deviations, in the lanes of one pack type.
+//!
+//! Input: a scheme and members at their starts, with some deviations each. Output: the sums of the logarithms
+//! of what deviations grow by, or the failure of a member. Invariants: every deviation is a run over dual
+//! numbers; a lane does what [`Tangent`](crate::tangents::Tangent) does, in the same order, so its bits depend on
+//! its member and on the arithmetic of the pack alone.
+
+use super::drive::alone::explain;
+use super::drive::rows::{Prepare, gathered, load, scatter, store};
+use super::drive::{CarriedIn, InPack, MapIn};
+use crate::error::Error;
+use crate::flow::Scratch;
+use crate::map::{Clock, Map};
+use crate::scheme::Scheme;
+use crate::state::{Carried, Point, State};
+use crate::system::System;
+use crate::system::gather::{Gather, VectorOver};
+use crate::tangent::{Columns, gram_schmidt};
+use crate::vector::Vector;
+use alloc::vec;
+use alloc::vec::Vec;
+use core::sync::atomic::{AtomicBool, Ordering};
+use hamiltonian_lanes::{KernelAt, Level, Mask, Pack, Real};
+
+/// Steps between two checks that everything is finite, as in a single run.
+const BLOCK: u64 = 1024;
+
+/// A member with its deviations.
+pub(crate) struct Deviated<T: Real, S: System<T>> {
+    pub(crate) prepared: S::Prepared,
+    /// All that the scheme carries, deviation after deviation.
+    pub(crate) words: Vec<T>,
+    /// The state at its start.
+    pub(crate) start: State<S::Vector>,
+    /// The mean rates of growth, or its error.
+    pub(crate) rates: Result<Vec<f64>, Error>,
+}
+
+/// Members on their way to their mean rates of growth.
+pub struct Deviations<'r, T: Real, S: System<T>> {
+    pub(crate) members: Vec<Deviated<T, S>>,
+    /// The number of deviations of each.
+    pub(crate) count: usize,
+    pub(crate) step: T,
+    /// The time of one step.
+    pub(crate) interval: T,
+    pub(crate) steps: u64,
+    /// The steps after which deviations are made orthonormal.
+    pub(crate) every: u64,
+    /// The flag that stops the work.
+    pub(crate) cancel: Option<&'r AtomicBool>,
+}
+
+impl<T: Real, S: System<T>> Deviations<'_, T, S> {
+    pub(crate) fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(|flag| flag.load(Ordering::Relaxed))
+    }
+}
+
+/// Members in lanes.
+struct Lanes<T, S, P, M>
+where
+    T: Real,
+    P: Pack,
+    S: System<T> + System<T::Over<P>>,
+    M: Scheme<T::Over<P>, S>,
+{
+    map: MapIn<T, S, P, M>,
+    work: <MapIn<T, S, P, M> as Map>::Work,
+    clock: Clock<T::Over<P>>,
+    /// The members whose system stands in the map: the first stands for all that are equal to it.
+    of: Vec<usize>,
+    /// The member of each lane; none for one that is lost, or that repeats another.
+    seats: Vec<Option<usize>>,
+    /// The first deviation of each lane that is not finite.
+    lost: Vec<Option<usize>>,
+    /// What is carried for each deviation, and the same before the last steps, and closed.
+    carried: Vec<CarriedIn<T, S, P, M>>,
+    before: Vec<CarriedIn<T, S, P, M>>,
+    shown: Vec<CarriedIn<T, S, P, M>>,
+    /// The lanes in which a deviation is finite.
+    finite: Vec<<T::Over<P> as Real>::Mask>,
+    /// The deviations, one a column.
+    matrix: Vec<T::Over<P>>,
+    lengths: Vec<T::Over<P>>,
+    /// Sums of the logarithms of their growth.
+    sums: Vec<T::Over<P>>,
+    /// Numbers of the lanes, component by component.
+    rows: Vec<T>,
+}
+
+/// Advances all members to their ends, inside the level `L` of the pack.
+#[inline(always)]
+pub(super) fn advance<L, T, S, P, M>(scheme: &M, all: &mut Deviations<'_, T, S>)
+where
+    L: Level,
+    T: Real,
+    P: Pack,
+    S: System<T, Prepared: Gather<T>>
+        + System<
+            T::Over<P>,
+            Vector = VectorOver<<S as System<T>>::Vector, P>,
+            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
+        >,
+    M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
+{
+    let mut lanes = None;
+    let mut suspects = Vec::new();
+    // Members that are not finite after some steps are made again together, step by step.
+    for is_careful in [false, true] {
+        let queue: Vec<usize> = match is_careful {
+            false => (0..all.members.len()).collect(),
+            true => core::mem::take(&mut suspects),
+        };
+        for crew in queue.chunks(P::LANES as usize) {
+            Lanes::<T, S, P, M>::board::<L>(&mut lanes, scheme, all, crew);
+            if let Some(lanes) = &mut lanes {
+                lanes.run::<L>(scheme, all, is_careful, &mut suspects);
+            }
+        }
+    }
+}
+
+impl<T, S, P, M> Lanes<T, S, P, M>
+where
+    T: Real,
+    P: Pack,
+    S: System<T, Prepared: Gather<T>>
+        + System<
+            T::Over<P>,
+            Vector = VectorOver<<S as System<T>>::Vector, P>,
+            Prepared = <<S as System<T>>::Prepared as Gather<T>>::Over<T::Over<P>>,
+        >,
+    M: InPack<T, S, P> + Scheme<T::Over<P>, S>,
+{
+    /// Puts members at their starts into lanes; the last of them fills the lanes that are left.
+    #[inline(always)]
+    fn board<L: Level>(
+        lanes: &mut Option<Self>,
+        scheme: &M,
+        all: &Deviations<'_, T, S>,
+        crew: &[usize],
+    ) {
+        let members = &all.members;
+        let equals = |a: usize, b: usize| members[a].prepared.equals(&members[b].prepared);
+        let is_uniform = crew.iter().all(|other| equals(crew[0], *other));
+        let of = if is_uniform { &crew[..1] } else { crew };
+        let is_prepared =
+            |lanes: &Self| is_uniform && lanes.of.len() == 1 && equals(lanes.of[0], of[0]);
+        if !lanes.as_ref().is_some_and(is_prepared) {
+            let systems: Vec<_> = of.iter().map(|at| &members[*at].prepared).collect();
+            let steps = [all.step];
+            let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
+            match lanes {
+                Some(lanes) => lanes.map = map,
+                None => {
+                    let start = &members[crew[0]].start;
+                    let start = State {
+                        t: gathered::<L, T, P>(&[start.t]),
+                        q: start.q.zeros_over(),
+                        p: start.p.zeros_over(),
+                    };
+                    let h = gathered::<L, T, P>(&steps);
+                    let carried = Scheme::<T::Over<P>, S>::start(scheme, &prepared, &start, h);
+                    let zero = <T::Over<P> as Real>::zero();
+                    let (n, size) = (all.count, carried.point().len());
+                    *lanes = Some(Lanes {
+                        map,
+                        work: Scratch::like(&carried),
+                        clock: Clock {
+                            start: zero,
+                            interval: gathered::<L, T, P>(&[all.interval]),
+                        },
+                        of: Vec::new(),
+                        seats: Vec::new(),
+                        lost: Vec::new(),
+                        rows: vec![T::zero(); carried.len() * P::LANES as usize],
+                        before: vec![carried.clone(); n],
+                        shown: vec![carried.clone(); n],
+                        carried: vec![carried; n],
+                        finite: vec![Mask::splat(true); n],
+                        matrix: vec![zero; n * size],
+                        lengths: vec![zero; n],
+                        sums: vec![zero; n],
+                    });
+                }
+            }
+        }
+        let Some(lanes) = lanes else { return };
+        lanes.of = of.into();
+        lanes.seats = crew.iter().map(|at| Some(*at)).collect();
+        lanes.seats.resize(P::LANES as usize, None);
+        lanes.lost = vec![None; P::LANES as usize];
+        let starts: Vec<T> = crew.iter().map(|at| members[*at].start.t).collect();
+        lanes.clock.start = gathered::<L, T, P>(&starts);
+        let last = crew[crew.len() - 1];
+        for (d, carried) in lanes.carried.iter_mut().enumerate() {
+            let mut row = lanes.rows.iter_mut();
+            let width = members[last].words.len() / all.count;
+            for c in d * width..(d + 1) * width {
+                for (seat, number) in lanes.seats.iter().zip(&mut row) {
+                    *number = members[seat.unwrap_or(last)].words[c];
+                }
+            }
+            load::<L, T, P, _>(&lanes.rows, carried);
+        }
+        for sum in &mut lanes.sums {
+            *sum = <T::Over<P> as Real>::zero();
+        }
+    }
+
+    /// Advances the members in the lanes to their ends. Those that are not finite become suspects, or, if they
+    /// are made again with care, have failed.
+    #[inline(always)]
+    fn run<L: Level>(
+        &mut self,
+        scheme: &M,
+        all: &mut Deviations<'_, T, S>,
+        is_careful: bool,
+        suspects: &mut Vec<usize>,
+    ) {
+        let most = if is_careful { 1 } else { BLOCK };
+        // At first no step: deviations are made orthonormal at the start too.
+        let (mut made, mut turn) = (0, 0);
+        loop {
+            if all.is_cancelled() {
+                return;
+            }
+            let n = most.min(turn - made);
+            if is_careful {
+                self.before.clone_from(&self.carried);
+            }
+            let (is_finite, reached) = L::enter_at(Round {
+                map: &self.map,
+                clock: self.clock,
+                made,
+                n,
+                turns: made + n == turn,
+                carried: &mut self.carried,
+                shown: &mut self.shown,
+                work: &mut self.work,
+                finite: &mut self.finite,
+                matrix: &mut self.matrix,
+                lengths: &mut self.lengths,
+                sums: &mut self.sums,
+            });
+            if !is_finite {
+                self.note::<L>(scheme, all, (made, is_careful), &reached);
+            }
+            made += n;
+            if made < turn {
+                continue;
+            }
+            if !is_finite && !self.part_with::<L>(is_careful, suspects) {
+                return;
+            }
+            if made == all.steps {
+                return self.arrive::<L>(all, &reached);
+            }
+            turn = made.saturating_add(all.every).min(all.steps);
+        }
+    }
+
+    /// Notes the lanes that are not finite after some steps; of a single step, the cause too. As in a single
+    /// run, the first deviation counts that is not finite when they are made orthonormal next.
+    #[cold]
+    #[inline(never)]
+    fn note<L: Level>(
+        &mut self,
+        scheme: &M,
+        all: &mut Deviations<'_, T, S>,
+        (made, is_careful): (u64, bool),
+        reached: &T::Over<P>,
+    ) {
+        let lanes = P::LANES as usize;
+        let mut times = vec![T::zero(); lanes];
+        scatter::<L, T, P>(reached, &mut times);
+        for (d, finite) in self.finite.iter().enumerate() {
+            for lane in 0..lanes {
+                let Some(at) = self.seats[lane].filter(|_| !finite.lane(lane as u32)) else {
+                    continue;
+                };
+                if self.lost[lane].is_some_and(|first| first <= d) {
+                    continue;
+                }
+                self.lost[lane] = Some(d);
+                if !is_careful {
+                    continue;
+                }
+                let member = &mut all.members[at];
+                store::<L, T, P, _>(&self.before[d], &mut self.rows);
+                let words: Vec<T> = self.rows.chunks_exact(lanes).map(|row| row[lane]).collect();
+                let Point { q, p } = self.shown[d].point();
+                let point = q.components().chain(p.components());
+                let point: Vec<f64> = point.map(|number| number.lane(lane as u32)).collect();
+                let clock = Clock {
+                    start: member.start.t,
+                    interval: all.interval,
+                };
+                let seat = (&member.prepared, &member.start, all.step, clock);
+                let error = explain(scheme, seat, (made, &words), &point, times[lane].to_f64());
+                member.rates = Err(error);
+            }
+        }
+    }
+
+    /// Takes lost members out of the lanes, and puts another in their place, so that nothing harmful is
+    /// computed there. Returns whether any is left.
+    #[cold]
+    #[inline(never)]
+    fn part_with<L: Level>(&mut self, is_careful: bool, suspects: &mut Vec<usize>) -> bool {
+        let lanes = P::LANES as usize;
+        for (seat, lost) in self.seats.iter_mut().zip(&self.lost) {
+            let gone = seat.take_if(|_| lost.is_some());
+            suspects.extend(gone.filter(|_| !is_careful));
+        }
+        let Some(stand_in) = self.seats.iter().position(Option::is_some) else {
+            return false;
+        };
+        for carried in &mut self.carried {
+            store::<L, T, P, _>(carried, &mut self.rows);
+            for row in self.rows.chunks_exact_mut(lanes) {
+                for lane in 0..lanes {
+                    if self.seats[lane].is_none() {
+                        row[lane] = row[stand_in];
+                    }
+                }
+            }
+            load::<L, T, P, _>(&self.rows, carried);
+        }
+        true
+    }
+
+    /// Gives the members their mean rates.
+    #[inline(always)]
+    fn arrive<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
+        let lanes = P::LANES as usize;
+        let mut times = vec![T::zero(); lanes];
+        scatter::<L, T, P>(reached, &mut times);
+        let mut numbers = vec![T::zero(); lanes];
+        for sum in &self.sums {
+            scatter::<L, T, P>(sum, &mut numbers);
+            for (lane, seat) in self.seats.iter().enumerate() {
+                let Some(member) = seat.map(|at| &mut all.members[at]) else {
+                    continue;
+                };
+                let time = times[lane].to_f64() - member.start.t.to_f64();
+                if let Ok(rates) = &mut member.rates {
+                    rates.push(numbers[lane].to_f64() / time);
+                }
+            }
+        }
+    }
+}
+
+/// Some steps of all deviations in lanes, compiled at a level, out of line.
+struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
+    map: &'a R,
+    clock: Clock<U>,
+    made: u64,
+    n: u64,
+    /// Whether deviations are made orthonormal after them.
+    turns: bool,
+    carried: &'a mut [R::Carried],
+    shown: &'a mut [R::Carried],
+    work: &'a mut R::Work,
+    finite: &'a mut [U::Mask],
+    matrix: &'a mut [U],
+    lengths: &'a mut [U],
+    sums: &'a mut [U],
+}
+
+impl<L, R, U> KernelAt<L> for Round<'_, R, U>
+where
+    L: Level,
+    R: Map<Carried: Carried<Scalar = U>>,
+    U: Real,
+{
+    /// Whether everything is finite; the time of the first deviation.
+    type Output = (bool, U);
+
+    #[inline(always)]
+    fn run(self) -> (bool, U) {
+        let end = self.made + self.n;
+        let clock = self.clock.at(end);
+        let size = self.matrix.len() / self.carried.len();
+        let mut is_finite = true;
+        for (d, carried) in self.carried.iter_mut().enumerate() {
+            let shown = &mut self.shown[d];
+            self.map
+                .run(self.clock, self.made, self.n, carried, self.work);
+            shown.copy_from(carried);
+            if end > 0 {
+                self.map.close(clock, shown, self.work);
+            }
+            let finite = shown.finite() & carried.finite() & shown.time(clock).finite();
+            self.finite[d] = finite;
+            is_finite &= finite.all();
+            let mut column = self.matrix[d * size..][..size].iter_mut();
+            let Point { q, p } = shown.point();
+            for vector in [q, p] {
+                for k in 0..<R::Carried as Carried>::Vector::PARTS {
+                    for (from, to) in vector.part(k).iter().zip(&mut column) {
+                        *to = from.derivative();
+                    }
+                }
+            }
+        }
+        if self.turns {
+            let mut carried = InLanes(self.carried);
+            gram_schmidt(self.matrix, self.lengths, &mut carried);
+            carried.align();
+            if end > 0 {
+                for (sum, length) in self.sums.iter_mut().zip(self.lengths) {
+                    *sum = (*sum + length.ln()).with_derivative(U::zero());
+                }
+            }
+        }
+        (is_finite, self.shown[0].time(clock))
+    }
+}
+
+/// All that is carried for the deviations of lanes; derivative parts are linear in the deviation.
+struct InLanes<'a, C>(&'a mut [C]);
+
+impl<C: Vector> InLanes<'_, C> {
+    /// Makes all values those of the first deviation, see
+    /// [`Tangent::orthonormalise`](crate::tangents::Tangent::orthonormalise).
+    #[inline(always)]
+    fn align(&mut self) {
+        let Some((first, others)) = self.0.split_first_mut() else {
+            return;
+        };
+        for other in others {
+            for k in 0..C::PARTS {
+                for (word, first) in other.part_mut(k).iter_mut().zip(first.part(k)) {
+                    *word = first.with_derivative(word.derivative());
+                }
+            }
+        }
+    }
+}
+
+impl<C: Vector> Columns<C::Scalar> for InLanes<'_, C> {
+    #[inline(always)]
+    fn combine(&mut self, to: usize, scale: C::Scalar, less: Option<(usize, C::Scalar)>) {
+        let (before, carried) = self.0.split_at_mut(to);
+        for k in 0..C::PARTS {
+            for (i, word) in carried[0].part_mut(k).iter_mut().enumerate() {
+                let mut derivative = word.derivative() * scale;
+                if let Some((from, along)) = less {
+                    derivative -= along * before[from].part(k)[i].derivative();
+                }
+                *word = word.with_derivative(derivative);
+            }
+        }
+    }
+}

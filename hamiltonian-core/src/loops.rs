@@ -137,31 +137,29 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         if T::WIDENS && self.length >= STRIDE {
             self.in_lanes::<B, W>();
         } else {
-            self.one_by_one::<B, W>();
+            let length = self.length;
+            self.one_by_one::<B, W>(0, length, None);
         }
     }
 
-    /// The iterations through lanes; until their partial sums begin with the first, one by one.
+    /// The iterations through lanes; those before the first partial sum one by one.
     #[inline(never)]
     fn in_lanes<B: Body<G, R, W>, const W: usize>(mut self) {
-        let late = self.first % STRIDE;
-        if !B::SUMS.is_empty() && late != 0 {
-            let count = self.length.min(STRIDE - late);
-            let mut starts = self.starts;
-            starts.iter_mut().for_each(|start| *start += count);
-            let reads = self.reads.map(|read| &read[count..]);
-            Stretch {
-                length: count,
-                columns: self.columns.each_mut().map(|column| &mut **column),
-                sums: &mut *self.sums,
-                ..self
-            }
-            .one_by_one::<B, W>();
-            self.length -= count;
-            self.first += count;
-            self.number += count;
-            self.reads = reads;
-            self.starts = starts;
+        let before = match B::SUMS.is_empty() {
+            true => 0,
+            false => (STRIDE - self.first % STRIDE) % STRIDE,
+        };
+        if self.length < before + STRIDE {
+            let length = self.length;
+            return self.some::<B, W>(0, length, None);
+        }
+        if before > 0 {
+            self.again().some::<B, W>(0, before, None);
+            self.length -= before;
+            self.first += before;
+            self.number += before;
+            self.reads = self.reads.map(|read| &read[before..]);
+            self.starts.iter_mut().for_each(|start| *start += before);
         }
         dispatch(InLanes::<_, B, G, R, C, S, A, W>(
             self,
@@ -169,10 +167,37 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
         ));
     }
 
+    /// The same stretch, for a part of its iterations.
     #[inline(always)]
-    fn one_by_one<B: Body<G, R, W>, const W: usize>(self) {
+    fn again(&mut self) -> Stretch<'_, T, G, R, C, S, A> {
+        Stretch {
+            columns: self.columns.each_mut().map(|column| &mut **column),
+            sums: &mut *self.sums,
+            ..*self
+        }
+    }
+
+    /// The iterations `at..end` one by one: the one copy of them beside those in lanes.
+    #[inline(never)]
+    fn some<B: Body<G, R, W>, const W: usize>(
+        self,
+        at: usize,
+        end: usize,
+        waiting: Option<(&mut Waiting<T, S, W>, usize)>,
+    ) {
+        self.one_by_one::<B, W>(at, end, waiting);
+    }
+
+    /// The iterations `at..end` one by one. Stores that wait put their results into those of a block, which
+    /// begins with the iteration that is named.
+    #[inline(always)]
+    fn one_by_one<B: Body<G, R, W>, const W: usize>(
+        self,
+        at: usize,
+        end: usize,
+        mut waiting: Option<(&mut Waiting<T, S, W>, usize)>,
+    ) {
         let Stretch {
-            length,
             first,
             number,
             given,
@@ -180,8 +205,9 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             columns,
             starts,
             sums,
+            ..
         } = self;
-        for k in 0..length {
+        for k in at..end {
             let mut read = [T::zero(); R];
             let mut r = 0;
             while r < R {
@@ -196,8 +222,17 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             let mut s = 0;
             while s < B::STORES.len() {
                 let store = &B::STORES[s];
-                let place = &mut columns[store.column][starts[s] + k];
-                *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                match &mut waiting {
+                    Some((waiting, block)) if store.is_shared && waiting.group[s] != NONE => {
+                        for by in store.by {
+                            waiting.results[by][CARRY + k - *block] = out[by];
+                        }
+                    }
+                    _ => {
+                        let place = &mut columns[store.column][starts[s] + k];
+                        *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                    }
+                }
                 s += 1;
             }
             let mut s = 0;
@@ -253,7 +288,7 @@ impl<
     }
 }
 
-/// At least [`STRIDE`] iterations in packs of as many; with sums, the last pack has as many as are left.
+/// At least [`STRIDE`] iterations in packs of as many, and those that fill none one by one.
 #[inline(always)]
 fn packs<
     T: Real,
@@ -270,13 +305,13 @@ fn packs<
 ) {
     let Stretch {
         length,
+        first,
         number,
         given,
         mut reads,
         mut columns,
-        starts,
+        mut starts,
         sums,
-        ..
     } = stretch;
     let mut constants = [T::Over::<P>::default(); G];
     let mut g = 0;
@@ -296,65 +331,59 @@ fn packs<
         reads[r] = &reads[r][..length];
         r += 1;
     }
+    let has_shared = const { has_shared(B::STORES) };
+    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length);
+    let does_wait = has_shared && waiting.is_any();
     let mut is_cut = [false; C];
     let mut s = 0;
     while s < B::STORES.len() {
         let store = &B::STORES[s];
-        if !store.is_shared && !is_cut[store.column] {
-            let column = core::mem::take(&mut columns[store.column]);
-            columns[store.column] = &mut column[starts[s]..starts[s] + length];
-            is_cut[store.column] = true;
+        if !store.is_shared {
+            if !is_cut[store.column] {
+                let column = core::mem::take(&mut columns[store.column]);
+                columns[store.column] = &mut column[starts[s]..starts[s] + length];
+                is_cut[store.column] = true;
+            }
+            starts[s] = 0;
         }
         s += 1;
     }
-    let has_shared = const { has_shared(B::STORES) };
-    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length);
-    let does_wait = has_shared && waiting.is_any();
     let block = if does_wait { BLOCK } else { length };
     let mut at = 0;
     while at < length {
         let end = at + block.min(length - at);
         let mut k = at;
-        // `lanes` iterations from `k` on; a direct store puts `value` in the place of the element `old`.
-        macro_rules! iterate {
-            ($lanes:expr, |$old:ident, $new:ident| $value:expr) => {{
-                let lanes = $lanes;
-                let mut read = [T::Over::<P>::default(); R];
-                let mut r = 0;
-                while r < R {
-                    read[r] = T::gather::<P>(&reads[r][k..k + lanes]);
-                    r += 1;
-                }
-                let ramp = match B::COUNTS {
-                    true => ramp::<T, P>(number + k),
-                    false => T::Over::<P>::default(),
-                };
-                let out = B::compute(constants, read, ramp);
-                let mut s = 0;
-                while s < B::STORES.len() {
-                    let store = &B::STORES[s];
-                    if store.is_shared && waiting.group[s] != NONE {
-                        let place = CARRY + k - at;
-                        let [a, b] = store.by;
-                        T::scatter::<P>(out[a], &mut waiting.results[a][place..place + STRIDE]);
-                        if a != b {
-                            T::scatter::<P>(out[b], &mut waiting.results[b][place..place + STRIDE]);
-                        }
-                    } else {
-                        let place = if store.is_shared { starts[s] + k } else { k };
-                        let places = &mut columns[store.column][place..place + lanes];
-                        let $old = T::gather::<P>(places);
-                        let by = [out[store.by[0]], out[store.by[1]]];
-                        let $new = changed(store.change, $old, by);
-                        T::scatter::<P>($value, places);
-                    }
-                    s += 1;
-                }
-                out
-            }};
-        }
         while k + STRIDE <= end {
-            let out = iterate!(STRIDE, |_old, new| new);
+            let mut read = [T::Over::<P>::default(); R];
+            let mut r = 0;
+            while r < R {
+                read[r] = T::gather::<P>(&reads[r][k..k + STRIDE]);
+                r += 1;
+            }
+            let ramp = match B::COUNTS {
+                true => ramp::<T, P>(number + k),
+                false => T::Over::<P>::default(),
+            };
+            let out = B::compute(constants, read, ramp);
+            let mut s = 0;
+            while s < B::STORES.len() {
+                let store = &B::STORES[s];
+                if store.is_shared && waiting.group[s] != NONE {
+                    let place = CARRY + k - at;
+                    let [a, b] = store.by;
+                    T::scatter::<P>(out[a], &mut waiting.results[a][place..place + STRIDE]);
+                    if a != b {
+                        T::scatter::<P>(out[b], &mut waiting.results[b][place..place + STRIDE]);
+                    }
+                } else {
+                    let place = if store.is_shared { starts[s] + k } else { k };
+                    let places = &mut columns[store.column][place..place + STRIDE];
+                    let by = [out[store.by[0]], out[store.by[1]]];
+                    let new = changed(store.change, T::gather::<P>(places), by);
+                    T::scatter::<P>(new, places);
+                }
+                s += 1;
+            }
             let mut s = 0;
             while s < B::SUMS.len() {
                 let (sum, by) = B::SUMS[s];
@@ -363,32 +392,36 @@ fn packs<
             }
             k += STRIDE;
         }
-        if k < end && B::SUMS.is_empty() {
-            // The last iterations fill a pack with some before them, whose results are known: those wait
-            // again, and elements keep what they have.
-            let again = STRIDE - (end - k);
-            k = end - STRIDE;
-            let again = T::constant(again as f64, 0.0).spread::<P>();
-            let is_known = ramp::<T, P>(0).lt(again);
-            iterate!(STRIDE, |old, new| T::Over::<P>::select(is_known, old, new));
-        } else if k < end {
-            let out = iterate!(end - k, |_old, new| new);
-            let mut s = 0;
-            while s < B::SUMS.len() {
-                let (sum, by) = B::SUMS[s];
-                totals[sum] = add_first::<T, P>(totals[sum], out[by], end - k);
-                s += 1;
+        if end == length {
+            let mut a = 0;
+            while a < A {
+                T::scatter::<P>(totals[a], &mut sums[a]);
+                a += 1;
             }
+        }
+        if k < end {
+            let rest = Stretch {
+                length,
+                first,
+                number,
+                given,
+                reads,
+                columns: columns.each_mut().map(|column| &mut **column),
+                starts,
+                sums: &mut *sums,
+            };
+            // What waits is looked at where something may: else it would not stay in registers.
+            let waiting = if has_shared {
+                Some((&mut waiting, at))
+            } else {
+                None
+            };
+            rest.some::<B, W>(k, end, waiting);
         }
         if does_wait {
             waiting.settle::<P, C>(B::STORES, &mut columns, at, end, end == length);
         }
         at = end;
-    }
-    let mut a = 0;
-    while a < A {
-        T::scatter::<P>(totals[a], &mut sums[a]);
-        a += 1;
     }
 }
 
@@ -402,18 +435,6 @@ const fn has_shared(stores: &[Store]) -> bool {
         s += 1;
     }
     false
-}
-
-/// A sum in the first lanes; the others stay.
-#[inline(always)]
-fn add_first<T: Real, P: Pack>(to: T::Over<P>, term: T::Over<P>, lanes: usize) -> T::Over<P> {
-    let (mut sums, mut terms) = ([T::zero(); STRIDE], [T::zero(); STRIDE]);
-    T::scatter::<P>(to, &mut sums);
-    T::scatter::<P>(term, &mut terms);
-    for (sum, term) in sums.iter_mut().zip(terms).take(lanes) {
-        *sum += term;
-    }
-    T::gather::<P>(&sums)
 }
 
 /// Successive numbers of iterations.

@@ -2,7 +2,7 @@
 
 use crate::common::{bits, derivatives};
 use hamiltonian::prelude::*;
-use hamiltonian::{Lattice, Scheme, observers::Recorder};
+use hamiltonian::{Lattice, Scheme, Vector, observers::Recorder};
 
 hamiltonian! {
     /// Periodic in both directions, of any size.
@@ -392,22 +392,171 @@ fn starts_of_another_shape_are_refused() {
         refused(turned),
         "axis 0 of `u` must have the extent 2, found 3"
     );
-    let mut ragged = nested(2, 3, 0);
-    ragged[1].pop();
+    let narrow = State::new(nested(2, 3, 0), nested(2, 2, 1));
     assert_eq!(
-        refused(State::new(nested(2, 3, 0), ragged)),
+        refused(narrow),
         "axis 1 of `p` must have the extent 3, found 2"
     );
+    for at in 0..2 {
+        let mut uneven = nested(2, 3, 0);
+        uneven[at].pop();
+        let error = format!("`p[{at}]` must have 3 elements, found 2");
+        assert_eq!(refused(State::new(nested(2, 3, 0), uneven)), error);
+    }
+    // Nested lists show no extents inside an empty one.
+    let none = Pendulums::new(0, 3).unwrap();
+    let start = State::new(Vec::<Vec<f64>>::new(), Vec::<Vec<f64>>::new());
+    assert_eq!(none.check_shape(&start), Ok(()));
+}
+
+#[test]
+fn starts_of_three_axes_are_lists_and_arrays() {
+    let system = Solid::new(2, 2, 3).unwrap();
+    let lists = SolidVector::new(vec![vec![vec![1.0; 3]; 2]; 2], vec![[[1.0; 3]; 2]; 2]);
+    let arrays = SolidVector::new([[[1.0; 3]; 2]; 2], vec![vec![[1.0; 3]; 2]; 2]);
+    assert_eq!(lists, arrays);
+    let start = State::new(lists.clone(), arrays);
+    assert_eq!(system.check_shape(&start), Ok(()));
+    let mut uneven = vec![vec![vec![1.0; 3]; 2]; 2];
+    uneven[1][0].pop();
+    let uneven = SolidVector::new(uneven, [[[1.0; 3]; 2]; 2]);
+    let error = system.check_shape(&State::new(lists, uneven)).unwrap_err();
+    assert_eq!(error.to_string(), "`p[1][0]` must have 3 elements, found 2");
+}
+
+#[test]
+fn parameters_with_two_axes_are_lists_of_rows() {
+    let rows = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
+    let system = Mixed::new(2, 3, rows.clone()).unwrap();
+    assert_eq!((system.w()[(0, 2)], system.w()[(1, 0)]), (3.0, 4.0));
+    let same = Mixed::new(2, 3, system.w().clone()).unwrap();
+    assert_eq!(same.w(), system.w());
+    let same = Mixed::new(2, 3, [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]).unwrap();
+    assert_eq!(same.w(), system.w());
+    let refused = |n, m, rows: Vec<Vec<f64>>| Mixed::new(n, m, rows).unwrap_err().to_string();
+    let turned = "axis 0 of `w` must have the extent 3, found 2";
+    assert_eq!(refused(3, 2, rows.clone()), turned);
+    let few = "`w` must have 9 components, found 6";
+    assert_eq!(refused(3, 3, rows.clone()), few);
+    let mut uneven = rows;
+    uneven[1].pop();
+    let row = "`w[1]` must have 3 elements, found 2";
+    assert_eq!(refused(2, 3, uneven), row);
 }
 
 #[test]
 fn sizes_beyond_memory_are_told_by_new() {
-    let error = Pendulums::new(usize::MAX, 2).unwrap_err();
+    let memory = |name| Error::Memory { name };
+    for n in [usize::MAX, 1 << 61, 1 << 60, 1 << 40] {
+        assert_eq!(Pendulums::new(n, 2).unwrap_err(), memory("u"));
+        assert_eq!(Pendulums::new(2, n).unwrap_err(), memory("u"));
+        assert_eq!(Pendulums::new(n, n).unwrap_err(), memory("u"));
+        assert_eq!(Solid::new(1, 1, n).unwrap_err(), memory("u"));
+        // The other coordinates have no axis of this extent.
+        assert_eq!(Solid::new(n, 1, 0).unwrap_err(), memory("v"));
+        assert_eq!(Pairs::new(n).unwrap_err(), memory("q"));
+        assert_eq!(Bodies::new(n).unwrap_err(), memory("q"));
+        // No array has so many elements, and none is asked for.
+        let weights = Weighed::new(1, n, vec![vec![1.0; 2]]).unwrap_err();
+        assert!(matches!(weights, Error::Shape { name: "w", expected, found: 2 } if expected == n));
+        let weights = Weighed::new(8, n | 1 << 61, vec![vec![1.0; 2]]).unwrap_err();
+        assert_eq!(weights, memory("w"));
+    }
+    assert!(Pendulums::new(usize::MAX, 0).is_ok());
     assert_eq!(
-        error.to_string(),
-        "`u` does not fit into memory: the sizes are too large"
+        Pairs::new(1 << 40).unwrap_err().to_string(),
+        "`q` does not fit into memory: the sizes are too large"
     );
-    assert!(Pendulums::new(1 << 40, 1 << 20).is_err());
+}
+
+hamiltonian! {
+    /// Indices whose check takes the longer the more sites there are.
+    pub struct Pairs { n: usize }
+    H(q[n]; p[n]) = norm_squared(p)/2
+        + sum(i in 0..n, j in i + 1..n, k in j + 3..n) { q[i + k - j]*q[j] }
+}
+
+hamiltonian! {
+    /// Rows of three.
+    pub struct Bodies { n: usize }
+    H(q[n][3]; p[n][3]) = sum(i in 0..n) { norm_squared(p[i])/2 + norm(q[i]) }
+}
+
+hamiltonian! {
+    /// An extent of parameters alone.
+    pub struct Weighed { n: usize, k: usize, w: [n][k] }
+    H(q[n]; p[n]) = norm_squared(p)/2 + sum(i in 0..n, j in 0..k) { w[i][j]*q[i]^2 }
+}
+
+hamiltonian! {
+    /// A Lagrangian: masses of sites depend on the field there, and a scalar acts on all sites.
+    pub struct Action { n: usize, m: usize, mass = 2.0 }
+    L(x, u[n][m]; y, v[n][m]) = y^2/2 + sum(i in 0..n, j in 0..m) {
+        mass*(1 + u[i][j]^2)*v[i][j]^2/2 - (u[(i + 1) % n][j] - u[i][j])^2/2 - x*u[i][j]
+    }
+}
+
+hamiltonian! {
+    /// The same, transformed by hand.
+    pub struct Transformed { n: usize, m: usize, mass = 2.0 }
+    H(x, u[n][m]; y, p[n][m]) = y^2/2 + sum(i in 0..n, j in 0..m) {
+        p[i][j]^2/(2*mass*(1 + u[i][j]^2)) + (u[(i + 1) % n][j] - u[i][j])^2/2 + x*u[i][j]
+    }
+}
+
+hamiltonian! {
+    /// Few enough elements to be coupled by their velocities.
+    pub struct Few {}
+    L(u[2][2][2]; v[2][2][2]) = sum(i in 0..2, j in 0..2, k in 0..2) {
+        v[i][j][k]^2/2 + v[i][j][k]*v[i][j][1 - k]/4
+    }
+}
+
+#[test]
+fn lagrangians_of_lattices_have_the_hamiltonians_by_hand() {
+    for (n, m) in [(1, 1), (3, 5), (2, 40)] {
+        let (u, p) = (nested(n, m, 0), nested(n, m, 1));
+        let (found, due) = (Action::new(n, m).unwrap(), Transformed::new(n, m).unwrap());
+        let vector = |x, u: &Vec<Vec<f64>>| ActionVector::new(x, u.clone());
+        let state = State::new(vector(0.5, &u), vector(0.25, &p));
+        let vector = |x, u: &Vec<Vec<f64>>| TransformedVector::new(x, u.clone());
+        let same = State::new(vector(0.5, &u), vector(0.25, &p));
+        let (found, due) = (found.gradient(&state), due.gradient(&same));
+        let found = found.q.components().chain(found.p.components());
+        let due = due.q.components().chain(due.p.components());
+        for (at, (found, due)) in found.zip(due).enumerate() {
+            assert!((found - due).abs() < 1e-14, "{at}: {found} is not {due}");
+        }
+    }
+    let action = Action::new(2, 3).unwrap();
+    let (x, v) = (nested(2, 3, 0), nested(2, 3, 1));
+    let [q, velocities] = [&x, &v].map(|u| ActionVector::new(0.5, u.clone()));
+    let start = action.state_from_velocity(0.0, q, velocities);
+    for (i, j) in places(2, 3) {
+        let due = 2.0 * (1.0 + x[i][j].powi(2)) * v[i][j];
+        assert!((start.p.u[[i, j]] - due).abs() < 1e-15);
+    }
+    // M = (1 ½; ½ 1) for each pair.
+    let p = Lattice::from_fn([2, 2, 2], |[i, j, k]| given(i + 2 * j, k, 3));
+    let pairs = places(2, 2).map(|(i, j)| (p[[i, j, 0]], p[[i, j, 1]]));
+    let due: f64 = pairs.map(|(a, b)| (a * a - a * b + b * b) / 1.5).sum();
+    let found = Few {}.energy(&State::new(Lattice::zeros([2, 2, 2]), p));
+    assert!((found - due).abs() < 1e-14, "{found} is not {due}");
+}
+
+hamiltonian! {
+    /// Two rows of parameters.
+    pub struct Rows { n: usize, w: [2][n] }
+    H(q[n]; p[n]) = sum(i in 0..n) { w[0][i]*p[i]^2/2 + w[1][i]*q[i]^2/2 }
+}
+
+#[test]
+fn parameters_may_have_as_many_rows_as_a_number_says() {
+    let system = Rows::new(3, [vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]]).unwrap();
+    let state = State::new(vec![0.0, 2.0, 0.0], vec![0.0, 0.0, 4.0]);
+    assert_eq!(system.energy(&state), 10.0 + 24.0);
+    let error = Rows::new(3, vec![vec![1.0; 3]; 3]).unwrap_err();
+    assert_eq!(error.to_string(), "`w` must have 6 components, found 9");
 }
 
 hamiltonian! {

@@ -42,9 +42,11 @@ pub mod planets;
 mod potentials;
 mod processed;
 pub mod readme;
+mod reindexed;
 pub mod sizes;
 pub mod splits;
 mod stages;
+mod switched;
 #[allow(dead_code)]
 #[path = "../hamiltonian-symbolic/tests/common/mod.rs"]
 mod symbolic;

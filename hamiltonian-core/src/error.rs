@@ -54,10 +54,20 @@ pub enum Error {
         /// The extent given.
         found: usize,
     },
-    /// Coordinates of the sizes given do not fit into memory.
+    /// A list in nested lists has another length than its extent.
+    #[error("`{name}` must have {expected} elements, found {found}")]
+    Row {
+        /// Its name with its place: `u[1]`.
+        name: String,
+        /// The extent.
+        expected: usize,
+        /// The number of elements given.
+        found: usize,
+    },
+    /// An array of the sizes given does not fit into memory.
     #[error("`{name}` does not fit into memory: the sizes are too large")]
     Memory {
-        /// The name of the coordinate.
+        /// The name of the coordinate or parameter.
         name: &'static str,
     },
     /// An index of the definition that leaves its range for the sizes given.

@@ -3,8 +3,14 @@
 //! Input: extents and elements. Output: [`Lattice`]. Invariant: elements are stored in the order of the
 //! declaration, the last index fastest, so that a loop over the last axis moves on by one.
 
+mod nested;
+
+pub use nested::MatrixOf;
+
 use crate::error::Error;
-use crate::vector::{IntoVector, Vector, shape};
+use crate::uneven::Uneven;
+use crate::vector::Vector;
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::ops::{Index, IndexMut};
 use hamiltonian_lanes::Real;
@@ -23,10 +29,15 @@ use hamiltonian_lanes::Real;
 pub struct Lattice<T, const R: usize> {
     extents: [usize; R],
     elements: Vec<T>,
+    /// Two rows of different lengths in the nested lists it was made of. Then there are no elements.
+    uneven: Option<Box<Uneven>>,
 }
 
 impl<T: Real, const R: usize> Lattice<T, R> {
     /// The array whose element at each place is `f(place)`.
+    ///
+    /// # Panics
+    /// If so many elements do not fit into memory.
     #[must_use]
     pub fn from_fn(extents: [usize; R], mut f: impl FnMut([usize; R]) -> T) -> Self {
         let mut made = Self::zeros(extents);
@@ -45,11 +56,18 @@ impl<T: Real, const R: usize> Lattice<T, R> {
     }
 
     /// The array of zeros.
+    ///
+    /// # Panics
+    /// If so many elements do not fit into memory.
     #[must_use]
     pub fn zeros(extents: [usize; R]) -> Self {
+        let Some(number) = product(&extents) else {
+            panic!("a lattice of the extents {extents:?} does not fit into memory");
+        };
         Lattice {
             extents,
-            elements: alloc::vec![T::zero(); extents.iter().product()],
+            elements: alloc::vec![T::zero(); number],
+            uneven: None,
         }
     }
 }
@@ -113,11 +131,15 @@ impl<T: Real, const R: usize> Vector for Lattice<T, R> {
         Lattice {
             extents: self.extents,
             elements: alloc::vec![U::zero(); self.elements.len()],
+            uneven: self.uneven.clone(),
         }
     }
     const PARTS: usize = 1;
     fn extents(&self, _: usize) -> &[usize] {
         &self.extents
+    }
+    fn uneven(&self, _: usize) -> Option<&Uneven> {
+        self.uneven.as_deref()
     }
     #[inline(always)]
     fn part(&self, _: usize) -> &[T] {
@@ -135,84 +157,68 @@ impl<T: Real, const R: usize> Vector for Lattice<T, R> {
         let none = Lattice {
             extents: [0; R],
             elements: Vec::new(),
+            uneven: None,
         };
         core::mem::replace(self, none)
     }
 }
 
-/// Lattices of one rank less, one after the other. Where their extents differ there are no elements, which
-/// no system of some size takes, and the extents are those of the first that differs from the one before.
-fn stacked<T, const R: usize, const S: usize>(
-    rows: impl ExactSizeIterator<Item = ([usize; R], Vec<T>)>,
-) -> Lattice<T, S> {
-    let mut extents = [0; S];
-    extents[0] = rows.len();
-    let mut elements = Vec::new();
-    let mut inner = None;
-    for (own, row) in rows {
-        let is_new = inner.replace(own).is_some_and(|before| before != own);
-        if is_new {
-            elements.clear();
-            break;
-        }
-        elements.extend(row);
-    }
-    extents[1..].copy_from_slice(&inner.unwrap_or([0; R]));
-    Lattice { extents, elements }
-}
-
-impl<T: Real> IntoVector<shape::Nested> for Vec<Vec<T>> {
-    type Vector = Lattice<T, 2>;
-    fn into_vector(self) -> Lattice<T, 2> {
-        stacked(self.into_iter().map(|row| ([row.len()], row)))
+/// The number of elements of these extents, if it is a `usize`.
+fn product(extents: &[usize]) -> Option<usize> {
+    match extents.contains(&0) {
+        true => Some(0),
+        false => extents.iter().try_fold(1usize, |n, m| n.checked_mul(*m)),
     }
 }
 
-impl<T: Real> IntoVector<shape::TwiceNested> for Vec<Vec<Vec<T>>> {
-    type Vector = Lattice<T, 3>;
-    fn into_vector(self) -> Lattice<T, 3> {
-        stacked(self.into_iter().map(|plane| {
-            let plane = plane.into_vector();
-            (plane.extents, plane.elements)
-        }))
-    }
-}
-
-/// Whether coordinates of these extents fit into memory.
+/// Checks that coordinates of these extents fit into memory.
 ///
 /// # Errors
 /// [`Error::Memory`] with the name of the coordinate.
 pub fn fits(name: &'static str, extents: &[usize]) -> Result<(), Error> {
-    let number = extents.iter().try_fold(1usize, |n, m| n.checked_mul(*m));
     let has_room = |number: usize| Vec::<f64>::new().try_reserve_exact(number).is_ok();
-    match number {
+    match product(extents) {
         Some(number) if has_room(number) => Ok(()),
         _ => Err(Error::Memory { name }),
+    }
+}
+
+/// Checks the rows and columns of an array of parameters.
+///
+/// # Errors
+/// [`Error::Shape`] if the number of elements differs, [`Error::Extent`] if an extent does, [`Error::Memory`]
+/// if no array has so many elements.
+pub fn check_extents(
+    name: &'static str,
+    expected: [usize; 2],
+    found: [usize; 2],
+) -> Result<(), Error> {
+    let Some(number) = product(&expected) else {
+        return Err(Error::Memory { name });
+    };
+    // An array that exists has a number of elements.
+    let given = found[0] * found[1];
+    if number != given {
+        return Err(Error::Shape {
+            name,
+            expected: number,
+            found: given,
+        });
+    }
+    match (0..2).find(|axis| expected[*axis] != found[*axis]) {
+        Some(axis) if number > 0 => Err(Error::Extent {
+            name,
+            axis,
+            expected: expected[axis],
+            found: found[axis],
+        }),
+        _ => Ok(()),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alloc::vec;
-
-    #[test]
-    fn nested_lists_are_lattices() {
-        let plane = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]].into_vector();
-        assert_eq!(plane.extents(), [2, 3]);
-        assert_eq!(plane.as_slice(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
-        assert_eq!(plane[[1, 0]], 4.0);
-        let space = vec![vec![vec![1.0], vec![2.0]]; 3].into_vector();
-        assert_eq!(space.extents(), [3, 2, 1]);
-        assert_eq!(space.as_slice(), [1.0, 2.0, 1.0, 2.0, 1.0, 2.0]);
-    }
-
-    #[test]
-    fn rows_of_different_lengths_have_no_elements() {
-        let ragged = vec![vec![1.0, 2.0], vec![3.0], vec![4.0, 5.0]].into_vector();
-        assert_eq!(ragged.extents(), [3, 1]);
-        assert!(ragged.as_slice().is_empty());
-    }
 
     #[test]
     fn sizes_beyond_memory_are_told() {

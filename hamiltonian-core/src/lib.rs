@@ -26,6 +26,7 @@
 extern crate alloc;
 
 mod lattice;
+mod uneven;
 mod vector;
 
 mod state;

@@ -20,7 +20,7 @@ pub use crate::error::Error;
 pub use crate::exponential::Exponential;
 pub use crate::flow::{Flow, Piece, Pieces, VectorField};
 pub use crate::function::Function;
-pub use crate::lattice::{Lattice, fits};
+pub use crate::lattice::{Lattice, MatrixOf, check_extents, fits};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};
@@ -32,6 +32,7 @@ pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
 };
+pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
 
 /// `N` values from number `start` on, as an array that a pattern takes apart: rustc checks a

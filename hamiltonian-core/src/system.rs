@@ -103,7 +103,7 @@ pub trait System<T: Real> {
     ///
     /// # Errors
     /// [`Error::Shape`] with the first coordinate or momentum of another length, [`Error::Extent`] with the
-    /// first axis of another extent.
+    /// first axis of another extent, [`Error::Row`] with a row of another length than others.
     fn check_shape(&self, state: &State<Self::Vector>) -> Result<(), Error> {
         let zeros = self.zeros();
         let coordinates = Self::GROUPS.iter().map(|g| (g.part, g.coordinate));
@@ -204,7 +204,7 @@ pub trait System<T: Real> {
 /// flows that are made of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arithmetic {
-    /// Whether stages use the lanes of the CPU's registers; the bits are the same without.
+    /// Whether stages and loops use the lanes of the CPU's registers; the bits are the same without.
     pub lanes: bool,
     /// Whether products fuse with sums in those lanes, on CPUs that can: other bits there than elsewhere.
     pub fused: bool,
@@ -430,8 +430,14 @@ fn same_shape<V: Vector>(
         found.map_or("", |(_, name)| name)
     };
     for k in 0..V::PARTS {
+        if let Some(uneven) = found.uneven(k) {
+            return Err(uneven.error(name(k), expected.extents(k)));
+        }
+        // Nested lists show no extents inside an empty one.
+        let is_empty = expected.part(k).is_empty() && found.part(k).is_empty();
         let extents = expected.extents(k).iter().zip(found.extents(k));
-        if let Some((axis, (expected, found))) = extents.enumerate().find(|(_, (a, b))| a != b) {
+        let mut others = extents.enumerate().filter(|(_, (a, b))| a != b);
+        if let (false, Some((axis, (expected, found)))) = (is_empty, others.next()) {
             return Err(Error::Extent {
                 name: name(k),
                 axis,

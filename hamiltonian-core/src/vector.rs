@@ -4,6 +4,7 @@
 //! [`IntoVector`]. Invariant: nothing here allocates except `clone` of a run-time size and
 //! `zeros_like`.
 
+use crate::uneven::Uneven;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Mask, Real};
 use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVector, VecStorage};
@@ -41,6 +42,11 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// after column.
     fn extents(&self, _k: usize) -> &[usize] {
         &[]
+    }
+    /// Two rows of different lengths in the nested lists that part `k < PARTS` was made of, if there are any.
+    /// Then the part has no elements.
+    fn uneven(&self, _k: usize) -> Option<&Uneven> {
+        None
     }
     /// The same shape, all zero.
     fn zeros_like(&self) -> Self;
@@ -326,40 +332,50 @@ impl<T: Real, const C: usize> Vector for OMatrix<T, Dyn, Const<C>> {
     }
 }
 
-impl<T: Real> Vector for OMatrix<T, Dyn, Dyn> {
-    type Scalar = T;
-    type Over<U: Real> = OMatrix<U, Dyn, Dyn>;
-    fn zeros_over<U: Real>(&self) -> OMatrix<U, Dyn, Dyn> {
-        OMatrix::from_element_generic(Dyn(self.nrows()), Dyn(self.ncols()), U::zero())
-    }
-    const PARTS: usize = 1;
-    fn columns(&self, _: usize) -> usize {
-        self.ncols()
-    }
-    #[inline(always)]
-    fn part(&self, _: usize) -> &[T] {
-        self.as_slice()
-    }
-    #[inline(always)]
-    fn part_mut(&mut self, _: usize) -> &mut [T] {
-        self.as_mut_slice()
-    }
-    fn zeros_like(&self) -> Self {
-        self.zeros_over()
-    }
-    #[inline(always)]
-    fn take(&mut self) -> Self {
-        let none = Matrix::from_data(VecStorage::new(Dyn(0), Dyn(0), Vec::new()));
-        core::mem::replace(self, none)
-    }
+// Parameters with columns set at run time, and rows that may be.
+macro_rules! wide {
+    ($rows:ty, $($given:tt)*) => {
+        impl<T: Real $($given)*> Vector for OMatrix<T, $rows, Dyn> {
+            type Scalar = T;
+            type Over<U: Real> = OMatrix<U, $rows, Dyn>;
+            fn zeros_over<U: Real>(&self) -> OMatrix<U, $rows, Dyn> {
+                let (rows, columns) = self.shape_generic();
+                OMatrix::from_element_generic(rows, columns, U::zero())
+            }
+            const PARTS: usize = 1;
+            fn columns(&self, _: usize) -> usize {
+                self.ncols()
+            }
+            #[inline(always)]
+            fn part(&self, _: usize) -> &[T] {
+                self.as_slice()
+            }
+            #[inline(always)]
+            fn part_mut(&mut self, _: usize) -> &mut [T] {
+                self.as_mut_slice()
+            }
+            fn zeros_like(&self) -> Self {
+                self.zeros_over()
+            }
+            #[inline(always)]
+            fn take(&mut self) -> Self {
+                let (rows, _) = self.shape_generic();
+                let none = VecStorage::new(rows, Dyn(0), Vec::new());
+                core::mem::replace(self, Matrix::from_data(none))
+            }
+        }
+    };
 }
+
+wide!(Dyn,);
+wide!(Const<R>, , const R: usize);
 
 /// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
 /// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
-/// by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, `Vec<Vec<Vec<T>>>` that of
-/// `u[n][m][k]`. `M` only tells these cases apart and is always inferred.
+/// by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, and three or four levels of `Vec`s and
+/// arrays that of `u[n][m][k]` or `u[n][m][k][l]`. `M` only tells these cases apart and is always inferred.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no list of real numbers",
     label = "expected a list of real numbers",
@@ -388,12 +404,9 @@ pub mod shape {
     /// `Vec<[T; C]>`
     #[derive(Debug, Clone, Copy)]
     pub struct SequenceOfRows;
-    /// `Vec<Vec<T>>`
+    /// `Vec<Vec<T>>`, and more levels of `Vec`s and arrays
     #[derive(Debug, Clone, Copy)]
-    pub struct Nested;
-    /// `Vec<Vec<Vec<T>>>`
-    #[derive(Debug, Clone, Copy)]
-    pub struct TwiceNested;
+    pub struct Nested<const LEVELS: usize>;
     /// `&[T]` and `&Vec<T>`
     #[derive(Debug, Clone, Copy)]
     pub struct Slice;

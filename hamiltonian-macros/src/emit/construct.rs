@@ -134,17 +134,30 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         let value = format!("_a{number}");
         let (local, given) = (lex(&value), argument(name));
         let ty = lex(&context.storage(shape, scalar));
-        // A matrix with columns set at run time is no vector of coordinates.
-        if *shape == Shape::Scalar || context.has_dynamic_columns(shape) {
+        if *shape == Shape::Scalar {
             arguments.extend(quote! { #given: #ty, });
             lets.extend(quote! { let #local = #given; });
         } else {
             let (kind, from) = (lex(&format!("K{number}")), lex(&format!("V{number}")));
-            let bound = quote! { #kind, #from: __h::ArrayOf<#kind, #ty>, };
+            // Rows of a matrix with columns set at run time may differ in length.
+            let (bound, made) = match context.has_dynamic_columns(shape) {
+                true => {
+                    let (scalar, rows) = (lex(scalar), lex(&context.rows_dimension(shape)));
+                    let text = name.to_string();
+                    (
+                        quote! { #kind, #from: __h::MatrixOf<#kind, #scalar, #rows>, },
+                        quote! { __h::MatrixOf::into_matrix(#given, #text)? },
+                    )
+                }
+                false => (
+                    quote! { #kind, #from: __h::ArrayOf<#kind, #ty>, },
+                    quote! { __h::ArrayOf::into_array(#given) },
+                ),
+            };
             // Errors of an argument show its declaration.
             kinds.extend(located(bound, name.span(), 0));
             arguments.extend(quote! { #given: #from, });
-            lets.extend(quote! { let #local = __h::ArrayOf::into_array(#given); });
+            lets.extend(quote! { let #local = #made; });
         }
         let whole = match shape {
             Shape::Scalar => as_slice(shape, &format!("[{value}]")),
@@ -159,10 +172,7 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
         let (rows, columns) = context.extents(shape);
         let _ = writeln!(
             checks,
-            "if {value}.nrows() != {rows} || {value}.ncols() != {columns} {{\n\
-             return __h::core::result::Result::Err(__h::Error::Shape {{ name: {:?}, \
-             expected: ({rows}) * ({columns}), found: {value}.len() }});\n}}",
-            name.to_string(),
+            "__h::check_extents(\"{name}\", [{rows}, {columns}], [{value}.nrows(), {value}.ncols()])?;",
         );
     }
     if names.is_empty() {
@@ -190,10 +200,10 @@ pub fn new(context: Context, item: &Header) -> TokenStream {
             quote! { #[doc = " `Error::Index` or `Error::Range` if an index of H leaves its array for these sizes."] }
         });
         let memory = (!room.is_empty()).then(|| {
-            quote! { #[doc = " `Error::Memory` if coordinates of these sizes do not fit into memory."] }
+            quote! { #[doc = " `Error::Memory` if arrays of these sizes do not fit into memory."] }
         });
-        // Sizes that do not fit explain arrays that do not.
-        let checks = lex(&(questions + &room + &checks + &numbers));
+        // Sizes that do not fit explain arrays that do not, and indices are in range up to sizes that do.
+        let checks = lex(&(room.clone() + &questions + &checks + &numbers));
         quote! {
             /// The system of these sizes and parameters: the sizes first, then functions, then the parameters
             /// without a default, in the order of their declaration.

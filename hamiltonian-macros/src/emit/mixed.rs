@@ -103,7 +103,7 @@ pub fn implementations(context: Context) -> String {
         fields,
     } = arguments(context);
     let (mut parts, mut parts_mut, mut columns) = (String::new(), String::new(), String::new());
-    let mut extents = String::new();
+    let (mut extents, mut uneven) = (String::new(), String::new());
     let (mut zeros, mut zeros_over, mut takes) = (String::new(), String::new(), String::new());
     for (at, group) in groups.iter().enumerate() {
         let field = &group.coordinate;
@@ -130,6 +130,7 @@ pub fn implementations(context: Context) -> String {
             let _ = writeln!(columns, "{at} => __h::Vector::columns(&self.{field}, 0),");
             if !group.axes.is_empty() {
                 let _ = writeln!(extents, "{at} => __h::Vector::extents(&self.{field}, 0),");
+                let _ = writeln!(uneven, "{at} => __h::Vector::uneven(&self.{field}, 0),");
             }
             let _ = writeln!(parts_mut, "{pattern} => self.{field}.as_mut_slice(),");
             let _ = write!(zeros, "{field}: __h::Vector::zeros_like(&self.{field}), ");
@@ -144,6 +145,9 @@ pub fn implementations(context: Context) -> String {
         extents = format!(
             "fn extents(&self, _k: __h::core::primitive::usize) -> &[__h::core::primitive::usize] {{ match _k {{ {extents} _ => &[] }} }}\n"
         );
+        uneven = format!(
+            "fn uneven(&self, _k: __h::core::primitive::usize) -> __h::core::option::Option<&__h::Uneven> {{ match _k {{ {uneven} _ => __h::core::option::Option::None }} }}\n"
+        );
     }
     format!(
         "#[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
@@ -151,7 +155,7 @@ pub fn implementations(context: Context) -> String {
          #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
          #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
          fn columns(&self, _k: __h::core::primitive::usize) -> __h::core::primitive::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
-         {extents}\
+         {extents}{uneven}\
          fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
          type Over<__U: __h::Real> = {over};\n\
          #[inline(always)]\nfn zeros_over<__U: __h::Real>(&self) -> {over} {{ {name} {{ {zeros_over} }} }}\n\

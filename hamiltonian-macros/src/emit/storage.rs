@@ -50,16 +50,29 @@ impl Context<'_> {
             Shape::Vector(_) if self.is_dynamic(shape) => format!("__h::DVector<{scalar}>"),
             Shape::Vector(rows) => format!("__h::SVector<{scalar}, {}>", text(rows)),
             Shape::Matrix(rows, columns) if self.is_dynamic(shape) => {
-                let dimension = |extent| match self.is_set_at_run_time(extent) {
-                    true => "__h::Dyn".to_owned(),
-                    false => format!("__h::Const<{}>", text(extent)),
-                };
-                let shape = format!("{scalar}, {}, {}", dimension(rows), dimension(columns));
+                let (rows, columns) = (self.dimension(rows), self.dimension(columns));
+                let shape = format!("{scalar}, {rows}, {columns}");
                 format!("__h::Matrix<{shape}, __h::VecStorage<{shape}>>")
             }
             Shape::Matrix(rows, columns) => {
                 format!("__h::SMatrix<{scalar}, {}, {}>", text(rows), text(columns))
             }
+        }
+    }
+
+    /// The type of the number of rows.
+    pub fn rows_dimension(self, shape: &Shape) -> String {
+        match shape {
+            Shape::Scalar => "__h::Const<1>".to_owned(),
+            Shape::Vector(rows) | Shape::Matrix(rows, _) => self.dimension(rows),
+        }
+    }
+
+    /// An extent as a type of nalgebra.
+    fn dimension(self, extent: &Affine) -> String {
+        match self.is_set_at_run_time(extent) {
+            true => "__h::Dyn".to_owned(),
+            false => format!("__h::Const<{}>", self.constant_extent(extent)),
         }
     }
 
@@ -101,13 +114,18 @@ impl Context<'_> {
         format!("__h::Lattice::zeros({})", self.axes(group))
     }
 
-    /// The question whether a lattice of sizes that are set at run time fits into memory.
+    /// The check that the coordinates of a group, if a size is set at run time, fit into memory.
     pub fn room(self, group: &Group) -> Option<String> {
+        let name = &group.coordinate;
+        if group.axes.is_empty() {
+            let shape = group.shape.of_parameter();
+            let (rows, columns) = self.extents(&shape);
+            return (self.is_dynamic(&shape))
+                .then(|| format!("__h::fits({name:?}, &[{rows}, {columns}])?;\n"));
+        }
         let is_open = |extent: &Affine| self.is_set_at_run_time(extent);
-        group.axes.iter().any(is_open).then(|| {
-            let name = &group.coordinate;
-            format!("__h::fits({name:?}, &{})?;\n", self.axes(group))
-        })
+        (group.axes.iter().any(is_open))
+            .then(|| format!("__h::fits({name:?}, &{})?;\n", self.axes(group)))
     }
 
     /// The extents of the axes of a lattice, as an array.

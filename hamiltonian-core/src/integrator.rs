@@ -243,10 +243,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         Ok(())
     }
 
-    /// The same run without the lanes of the CPU's registers, or with them again, as at first. Stages of
-    /// implicit schemes are computed several at a time; systems written by hand stay scalar. The bits are
-    /// the same, unless the run is [`fused`](Integrator::fused). Loops over arrays go through lanes either
-    /// way, unfused.
+    /// The same run without the lanes of the CPU's registers, or with them again, as at first. In lanes, stages
+    /// of implicit schemes and iterations of loops over arrays are computed several at a time; systems written
+    /// by hand stay scalar. The bits are the same, unless the run is [`fused`](Integrator::fused).
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]

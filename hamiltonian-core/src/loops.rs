@@ -4,10 +4,12 @@
 //! which every element moves on by one ([`Stretch`]). Output: what the iterations store and sum. Invariant:
 //! each element is added to in the order of the iterations and, within one, in the order of its stores;
 //! sums of [`LONG`] iterations or more are [`STRIDE`] partial sums and a tree, whatever the scalar. So a
-//! result does not depend on whether, or on which CPU, iterations went through lanes.
+//! result does not depend on whether, or on which CPU, iterations went through lanes, unless products
+//! [fuse](Arithmetic::fused) there.
 
 mod waiting;
 
+use crate::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
 use waiting::{NONE, Waiting};
 
@@ -119,6 +121,8 @@ pub struct Stretch<
     pub starts: [usize; S],
     /// The partial sums.
     pub sums: &'a mut [[T; STRIDE]; A],
+    /// Whether iterations go through lanes, and whether products fuse there.
+    pub arithmetic: Arithmetic,
 }
 
 /// The sum of partial sums, as a tree: ((0+4)+(2+6)) + ((1+5)+(3+7)).
@@ -134,7 +138,7 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
     /// Runs the iterations of a loop of at least [`LONG`] ones.
     #[inline(always)]
     pub fn run<B: Body<G, R, W>, const W: usize>(self, _: B) {
-        if T::WIDENS && self.length >= STRIDE {
+        if T::WIDENS && self.arithmetic.lanes && self.length >= STRIDE {
             self.in_lanes::<B, W>();
         } else {
             let length = self.length;
@@ -284,7 +288,11 @@ impl<
     type Output = ();
     #[inline(always)]
     fn run<L: Level>(self) {
-        packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(self.0);
+        if L::FUSES && self.0.arithmetic.fused {
+            packs::<T, B, L::Eight, G, R, C, S, A, W>(self.0);
+        } else {
+            packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(self.0);
+        }
     }
 }
 

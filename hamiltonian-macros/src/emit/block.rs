@@ -44,10 +44,11 @@ pub fn operand(context: Context, value: Value) -> String {
     }
 }
 
-/// Writes steps.
-pub fn write(out: &mut String, context: Context, steps: &[Step]) {
+/// Writes steps; `arithmetic` is the expression of how their loops are computed.
+pub fn write(out: &mut String, context: Context, arithmetic: &'static str, steps: &[Step]) {
     let mut writer = Writer {
         context,
+        arithmetic,
         out,
         indices: Vec::new(),
         slices: Vec::new(),
@@ -58,6 +59,8 @@ pub fn write(out: &mut String, context: Context, steps: &[Step]) {
 
 pub(super) struct Writer<'a> {
     pub(super) context: Context<'a>,
+    /// The expression of how loops are computed.
+    pub(super) arithmetic: &'static str,
     pub(super) out: &'a mut String,
     /// Wrapped indices of open loops and the text they are reached by.
     indices: Vec<(Index, String)>,

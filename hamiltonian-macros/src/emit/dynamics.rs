@@ -16,7 +16,7 @@ use super::{derived, observables, reach};
 use hamiltonian_symbolic::dag::Array;
 use hamiltonian_symbolic::model::{Model, Shape, VectorUse};
 use hamiltonian_symbolic::print;
-use hamiltonian_symbolic::program::{Function, Purpose, Value};
+use hamiltonian_symbolic::program::{Function, Purpose, Step, Value};
 use std::fmt::Write;
 
 /// Everything a definition implements that is the same in both forms, and the free functions that
@@ -284,7 +284,11 @@ impl<'a> Emission<'a> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);
         let holder = Holder::new(self.context, name.to_owned(), &scan.reads, scan.slices);
-        Some((function, holder))
+        let has_loop = (function.evaluation.iter()).any(|step| matches!(step, Step::Loop(_)));
+        match has_loop {
+            true => Some((function, holder.with_arithmetic())),
+            false => Some((function, holder)),
+        }
     }
 
     /// The body that makes the holder of a function from prepared values and the coefficient.

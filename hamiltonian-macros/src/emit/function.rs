@@ -77,7 +77,7 @@ impl Bodies<'_> {
     /// Binds values computed earlier: by an earlier stage or, where they cost nothing, again.
     pub(super) fn read(&self, out: &mut String, receiver: Receiver, reads: &[Value]) {
         for value in receiver.read(out, reads) {
-            block::write(out, self.context, &[Step::Let(value)]);
+            block::write(out, self.context, "", &[Step::Let(value)]);
         }
     }
 }

@@ -240,6 +240,14 @@ impl Receiver<'_> {
         }
     }
 
+    /// The expression of how work is computed. A system does not say how it is prepared.
+    pub fn arithmetic(self) -> &'static str {
+        match self {
+            Receiver::Holder(holder) if holder.arithmetic => "_self.arithmetic",
+            _ => "__h::core::default::Default::default()",
+        }
+    }
+
     /// Binds values computed earlier; returns those that it does not have.
     pub fn read(self, out: &mut String, reads: &[Value]) -> Vec<Value> {
         let Receiver::Holder(holder) = self else {

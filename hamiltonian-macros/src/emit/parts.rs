@@ -59,7 +59,7 @@ impl Bodies<'_> {
         self.bind(out, body.receiver, slices);
         self.read(out, body.receiver, &scan.reads);
         block::clear(out, context, body.cleared);
-        block::write(out, context, body.steps);
+        block::write(out, context, body.receiver.arithmetic(), body.steps);
     }
 
     /// Writes a body as calls of its parts, and the parts.
@@ -139,7 +139,8 @@ impl Bodies<'_> {
             block::clear(&mut text, self.context, body.cleared);
         }
         let bound = self.bind_live(&mut text, body, &scan.reads, earlier);
-        block::write(&mut text, self.context, steps);
+        let arithmetic = body.receiver.arithmetic();
+        block::write(&mut text, self.context, arithmetic, steps);
         let function = format!("__{}_{at}", body.name);
         let (mut declared, mut passed) = (String::new(), String::new());
         for (name, ty) in body.arguments {

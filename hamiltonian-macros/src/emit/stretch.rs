@@ -331,11 +331,13 @@ impl Writer<'_> {
         line!(
             self,
             "__h::Stretch {{ length: _l{d}, first: {first}, number: _i{d}, given: [{}], \
-             reads: [{}], columns: [{}], starts: [{}], sums: {sums} }}.run({});\n}} else {{",
+             reads: [{}], columns: [{}], starts: [{}], sums: {sums}, \
+             arithmetic: {} }}.run({});\n}} else {{",
             names(&stretch.given),
             reads.join(", "),
             columns.join(", "),
             starts.join(", "),
+            self.arithmetic,
             stretch.name,
         );
     }

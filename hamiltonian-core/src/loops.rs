@@ -320,6 +320,7 @@ fn packs<
         mut columns,
         mut starts,
         sums,
+        arithmetic,
     } = stretch;
     let mut constants = [T::Over::<P>::default(); G];
     let mut g = 0;
@@ -417,6 +418,7 @@ fn packs<
                 columns: columns.each_mut().map(|column| &mut **column),
                 starts,
                 sums: &mut *sums,
+                arithmetic,
             };
             // What waits is looked at where something may: else it would not stay in registers.
             let waiting = if has_shared {

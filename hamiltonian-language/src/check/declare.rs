@@ -220,9 +220,8 @@ impl Checker<'_> {
             return None;
         }
         if let [_, _, third, ..] = sizes {
-            let message = "parameters and the coordinates of a Lagrangian have at most two extents";
-            let help =
-                "write several arrays; the coordinates of `H(q; p)` may have up to four extents";
+            let message = "parameters have at most two extents";
+            let help = "write several arrays; coordinates may have up to four extents";
             self.report.error(third.span(), message, help);
             return None;
         }

@@ -301,20 +301,11 @@ impl Checker<'_> {
         let [_, columns] = variable.sizes.as_slice() else {
             return match variable.sizes.len() {
                 0 | 1 => self.array(&variable.sizes),
-                _ if lagrangian => self.array(&variable.sizes),
                 _ => self.lattice(&variable.sizes),
             };
         };
         match columns {
-            Size::Name(_) if lagrangian => {
-                let message = format!("the last extent of `{}` is not a number", variable.name);
-                let help = format!(
-                    "write a number there, `{}[n][3]`, or write H(q; p), where it may be a size",
-                    variable.name
-                );
-                self.report.error(columns.span(), message, help);
-                None
-            }
+            // A mass matrix may couple columns with each other, and short arrays in any way.
             Size::Literal(..) if lagrangian => self.array(&variable.sizes),
             Size::Literal(number, _) if *number <= WRITTEN_OUT => self.array(&variable.sizes),
             _ => self.lattice(&variable.sizes),

@@ -7,7 +7,7 @@
 //!
 //! All scalar coordinates together have one mass matrix, dense or not; array elements have one for
 //! each element k, over the columns of all arrays of that length. Arrays of literal length whose
-//! elements are coupled are unrolled, if they are short.
+//! elements are coupled are unrolled, if they are short. A lattice is an array of its elements, by number.
 
 mod elements;
 mod form;
@@ -24,6 +24,12 @@ use crate::normal_form::{Proof, is_zero};
 use crate::print::{self, Notation};
 use crate::rational::Rational;
 use form::{Form, Singular};
+
+/// The help where arrays are coupled.
+const COUPLED: &str = "arrays of literal length, with at most 16 elements in all, may be coupled in any way: `L(q[4]; v[4])`; else give H(q; p)";
+
+/// The help where coordinates have several axes.
+const LATTICE: &str = "a term of L with velocities of a lattice is a sum over all its sites, and depends on the site by elements of coordinates there alone: `sum(i in 0..n, j in 0..m) { mass*v[i][j]^2/2 }`; else give H(q; p)";
 
 /// Arrays that are unrolled have at most this many elements, scalars included.
 const LONGEST: i64 = 16;
@@ -103,9 +109,10 @@ pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusa
         Err(reason) => match transform.written_out(lagrangian) {
             Some((written, block)) => transform.solve(written, &[block]),
             None => {
+                let has_axes = transform.model.groups.iter().any(|g| !g.axes.is_empty());
                 return Err(Refusal {
                     reason,
-                    help: "arrays of literal length, with at most 16 elements in all, may be coupled in any way: `L(q[4]; v[4])`; else give H(q; p)",
+                    help: if has_axes { LATTICE } else { COUPLED },
                 });
             }
         },

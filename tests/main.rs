@@ -34,6 +34,7 @@ mod layout;
 mod limits;
 pub mod long;
 mod loops;
+mod matrices;
 mod nystrom;
 pub mod order;
 pub mod paper;

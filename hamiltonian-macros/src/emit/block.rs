@@ -203,8 +203,9 @@ impl Writer<'_> {
             Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
                 self.place(slice, Some(at.group), row)
             }
-            Array::Parameter(parameter) => self.entry(slice, parameter.0, row, column),
-            Array::Held(_) => self.place(slice, None, row),
+            Array::Parameter(_) | Array::Held(_) => {
+                self.place(slice, None, &self.context.number(array, row, column))
+            }
         }
     }
 
@@ -237,7 +238,7 @@ impl Writer<'_> {
         }
     }
 
-    /// An element of a parameter array.
+    /// An element of an array of derivatives by parameters, stored as the parameter is.
     fn entry(&self, slice: Slice, parameter: u16, row: &Index, column: Option<&Index>) -> String {
         let Some(column) = column else {
             return self.place(slice, None, row);
@@ -472,10 +473,11 @@ impl Finder<'_> {
             match step {
                 Step::Let(value) => {
                     let program = self.context.program;
-                    if let Instruction::Load(array, row, column) = program.instruction(*value)
-                        && self.element(row, column.as_ref(), inner)
-                    {
-                        self.accesses.cut(self.context.read(*array), row.clone());
+                    if let Instruction::Load(array, row, column) = program.instruction(*value) {
+                        let number = self.context.number(*array, row, column.as_ref());
+                        if self.index(&number, inner) {
+                            self.accesses.cut(self.context.read(*array), number);
+                        }
                     }
                 }
                 Step::Store(target, row, column, _) => {

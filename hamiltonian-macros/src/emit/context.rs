@@ -9,7 +9,8 @@ use super::generics::Generics;
 use super::index::Indices;
 use super::layout::{Layout, Slice, layout};
 use hamiltonian_symbolic::dag::Array;
-use hamiltonian_symbolic::model::{Group, Model};
+use hamiltonian_symbolic::index::Index;
+use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::program::{Program, Target};
 
 /// The text of the zero of the scalar type `T`.
@@ -85,6 +86,17 @@ impl<'a> Context<'a> {
     /// Whether a Rust function is a parameter; these are the first ones.
     pub fn is_parameter(self, function: u16) -> bool {
         usize::from(function) < self.generics.functions.len()
+    }
+
+    /// The number of an element where it is read; that of a matrix of parameters counts row after row.
+    pub fn number(self, array: Array, row: &Index, column: Option<&Index>) -> Index {
+        if let (Array::Parameter(parameter), Some(column)) = (array, column)
+            && let Shape::Matrix(_, columns) =
+                &self.model.parameters[usize::from(parameter.0)].shape
+        {
+            return row.clone().row_of(columns.clone(), column.clone());
+        }
+        row.clone()
     }
 
     /// The slice an array's elements are read from.

@@ -207,6 +207,12 @@ impl Generics {
         format!("_self.{field}.map(<T as __h::Lift<{scalar}>>::lift)")
     }
 
+    /// The same for a matrix, transposed: row after row.
+    pub fn lifted_rows(&self, parameter: u16) -> String {
+        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
+        format!("_self.{field}.transpose().map(<T as __h::Lift<{scalar}>>::lift)")
+    }
+
     /// The field of a parameter.
     pub fn field(&self, parameter: u16) -> &str {
         &self.fields[usize::from(parameter)]

@@ -201,14 +201,18 @@ pub fn field(array: Slice) -> String {
     array.name().trim_start_matches('_').to_owned()
 }
 
-/// The shape of an array that a holder has.
+/// The shape of an array that a holder has; a matrix is stored as its transpose.
 pub fn shape(context: Context, array: Slice) -> Shape {
     match array {
         Slice::Read(Array::Held(number)) => {
             Shape::Vector(context.program.held[usize::from(number)].rows.clone())
         }
         Slice::Read(Array::Parameter(Parameter(number))) => {
-            context.model.parameters[usize::from(number)].shape.clone()
+            match &context.model.parameters[usize::from(number)].shape {
+                // Row after row, so that a loop over columns moves on by one.
+                Shape::Matrix(rows, columns) => Shape::Matrix(columns.clone(), rows.clone()),
+                shape => shape.clone(),
+            }
         }
         _ => unreachable!("a holder has no parts of vectors"),
     }
@@ -289,7 +293,10 @@ impl Receiver<'_> {
             (Receiver::System, Slice::Read(Array::Parameter(Parameter(number)))) => writeln!(
                 out,
                 "let _b{number} = {};\nlet {name} = _b{number}.as_slice();",
-                context.generics.lifted_array(number)
+                match context.model.parameters[usize::from(number)].shape {
+                    Shape::Matrix(..) => context.generics.lifted_rows(number),
+                    _ => context.generics.lifted_array(number),
+                }
             ),
             _ => writeln!(out, "let {name} = _self.{}.as_slice();", field(array)),
         };

@@ -112,13 +112,10 @@ impl Writer<'_> {
                     made.given.push(*value);
                 }
                 Instruction::Load(array, row, column) => {
-                    let columns = column.as_ref().map_or(0, |column| column.variables());
-                    if varies(row.variables() | columns) {
-                        let cut = (self.context.read(*array), row.clone());
+                    let number = self.context.number(*array, row, column.as_ref());
+                    if varies(number.variables()) {
+                        let cut = (self.context.read(*array), number);
                         let at = found.cuts.iter().position(|known| *known == cut)?;
-                        if column.is_some() {
-                            return None;
-                        }
                         made.reads.push((*value, at));
                     } else {
                         made.given.push(*value);

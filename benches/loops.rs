@@ -1,15 +1,16 @@
 //! Loops over arrays in one run, against loops by hand in lanes and against scalar loops by hand.
 //!
 //! `cargo bench --bench loops` prints ns per unit of work and the ratios of times, which are the
-//! fastest of many short alternating rounds in one process. All three compute the same functions, unfused:
-//! `/`, `sqrt` and the elementary functions of the library. With `-- --check` nothing is timed, and it
-//! fails where the three do not reach the same end. Any other argument selects the workloads whose names
+//! fastest of many short alternating rounds in one process. All compute the same functions, unfused but for
+//! the runs in the columns `fused`: `/`, `sqrt` and the elementary functions of the library. With
+//! `-- --check` nothing is timed, and it fails where they do not reach the same end. Any other argument selects the workloads whose names
 //! contain it.
 
-use hamiltonian::prelude::*;
-use hamiltonian_lanes::{Cpu, Kernel, Level, Nf, Pack, dispatch};
-use std::hint::black_box;
-use std::time::{Duration, Instant};
+#[path = "support/rounds.rs"]
+mod harness;
+
+use hamiltonian_lanes::Pack;
+use harness::{ByHand, Workload, add, by_hand, run, start};
 
 hamiltonian::hamiltonian! {
     /// A periodic Toda lattice.
@@ -46,69 +47,6 @@ hamiltonian::hamiltonian! {
     H(u[n][m]; p[n][m]) = sum(i in 0..n, j in 0..m) {
         p[i][j]^2/2 + 1 - cos(u[i][j])
             + ((u[(i + 1) % n][j] - u[i][j])^2 + (u[i][(j + 1) % m] - u[i][j])^2)/2
-    }
-}
-
-const H: f64 = 1e-3;
-
-/// A pseudorandom number in [−½, ½).
-fn noise(k: usize) -> f64 {
-    let bits = (k as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let bits = (bits ^ (bits >> 29)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    (bits >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-}
-
-/// A force on the momenta and a drift of the coordinates, by hand: arrays of `f64`, by columns.
-trait ByHand: Copy {
-    /// p += c·f(q).
-    fn kick<P: Pack>(self, q: &[f64], p: &mut [f64], work: &mut [f64], c: f64);
-    /// q += c·∂T/∂p.
-    fn drift<P: Pack>(self, q: &mut [f64], p: &[f64], c: f64);
-}
-
-/// Störmer–Verlet steps with fused kicks.
-struct Steps<'a, S> {
-    system: S,
-    q: &'a mut [f64],
-    p: &'a mut [f64],
-    work: &'a mut [f64],
-    count: usize,
-}
-
-impl<S: ByHand> Steps<'_, S> {
-    #[inline(always)]
-    fn over<P: Pack>(self) {
-        let Steps {
-            system,
-            q,
-            p,
-            work,
-            count,
-        } = self;
-        system.kick::<P>(q, p, work, 0.5 * H);
-        for k in 1..=count {
-            system.drift::<P>(q, p, H);
-            let c = if k == count { 0.5 * H } else { H };
-            system.kick::<P>(q, p, work, c);
-        }
-    }
-}
-
-impl<S: ByHand> Kernel for Steps<'_, S> {
-    type Output = ();
-    #[inline(always)]
-    fn run<L: Level>(self) {
-        self.over::<Nf<L::Eight>>();
-    }
-}
-
-/// `into += c·by`, one after the other.
-#[inline(always)]
-fn add<P: Pack>(into: &mut [f64], by: &[f64], c: f64) {
-    let lanes = P::LANES as usize;
-    let c = P::constant(c, 0.0);
-    for (to, from) in into.chunks_mut(lanes).zip(by.chunks(lanes)) {
-        c.fma(P::load(from, 0.0), P::load(to, 0.0)).store(to);
     }
 }
 
@@ -309,66 +247,6 @@ impl ByHand for Gravitating {
     }
 }
 
-/// A workload: its units of work in a step, the number of steps of a round, and three runs of it.
-struct Workload {
-    name: &'static str,
-    units: f64,
-    steps: usize,
-    library: fn(usize) -> Vec<f64>,
-    lanes: fn(usize) -> Vec<f64>,
-    scalar: fn(usize) -> Vec<f64>,
-}
-
-fn start(n: usize, columns: usize) -> (Vec<f64>, Vec<f64>) {
-    let numbers = |from: usize| (0..n * columns).map(|k| noise(from + k)).collect();
-    (numbers(0), numbers(1 << 20))
-}
-
-fn run<S>(system: &S, start: (Vec<f64>, Vec<f64>), steps: usize) -> Vec<f64>
-where
-    S: System<f64>,
-    StormerVerlet: hamiltonian::Scheme<f64, S>,
-{
-    let mut state = State {
-        q: system.zeros(),
-        p: system.zeros(),
-        t: 0.0,
-    };
-    hamiltonian::Vector::part_mut(&mut state.q, 0).copy_from_slice(&start.0);
-    hamiltonian::Vector::part_mut(&mut state.p, 0).copy_from_slice(&start.1);
-    let mut run = Integrator::new(system, StormerVerlet::default(), state, H).unwrap();
-    run.advance(steps as u64).unwrap();
-    let end = run.state();
-    [
-        hamiltonian::Vector::part(&end.q, 0),
-        hamiltonian::Vector::part(&end.p, 0),
-    ]
-    .concat()
-}
-
-fn by_hand<S: ByHand>(
-    system: S,
-    start: (Vec<f64>, Vec<f64>),
-    mut work: Vec<f64>,
-    steps: usize,
-    lanes: bool,
-) -> Vec<f64> {
-    let (mut q, mut p) = start;
-    let all = Steps {
-        system,
-        q: &mut q,
-        p: &mut p,
-        work: &mut work,
-        count: steps,
-    };
-    if lanes {
-        dispatch(all);
-    } else {
-        all.over::<f64>();
-    }
-    [q, p].concat()
-}
-
 const SITES: usize = 1024;
 const BODIES: usize = 1000;
 /// The sites of a square lattice along an edge.
@@ -383,7 +261,7 @@ const ALL: &[Workload] = &[
         name: "Toda, 1024 sites",
         units: SITES as f64,
         steps: 400,
-        library: |steps| run(&Toda::new(SITES).unwrap(), start(SITES, 1), steps),
+        library: |steps, fused| run(&Toda::new(SITES).unwrap(), start(SITES, 1), steps, fused),
         lanes: |steps| by_hand(Exponential, start(SITES, 1), vec![0.0; SITES], steps, true),
         scalar: |steps| by_hand(Exponential, start(SITES, 1), vec![0.0; SITES], steps, false),
     },
@@ -391,7 +269,7 @@ const ALL: &[Workload] = &[
         name: "FPUT, 1024 sites",
         units: SITES as f64,
         steps: 1600,
-        library: |steps| run(&Fput::new(SITES).unwrap(), start(SITES, 1), steps),
+        library: |steps, fused| run(&Fput::new(SITES).unwrap(), start(SITES, 1), steps, fused),
         lanes: |steps| by_hand(Cubic, start(SITES, 1), vec![0.0; SITES], steps, true),
         scalar: |steps| by_hand(Cubic, start(SITES, 1), vec![0.0; SITES], steps, false),
     },
@@ -399,9 +277,9 @@ const ALL: &[Workload] = &[
         name: "gravity, 1000 bodies (pairs)",
         units: (BODIES * (BODIES - 1) / 2) as f64,
         steps: 2,
-        library: |steps| {
+        library: |steps, fused| {
             let bodies = Gravity::new(BODIES, masses()).unwrap();
-            run(&bodies, start(BODIES, 3), steps)
+            run(&bodies, start(BODIES, 3), steps, fused)
         },
         lanes: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, true),
         scalar: |steps| by_hand(Gravitating, start(BODIES, 3), masses(), steps, false),
@@ -410,7 +288,14 @@ const ALL: &[Workload] = &[
         name: "φ⁴, 256 × 256 sites",
         units: (EDGE * EDGE) as f64,
         steps: 100,
-        library: |steps| run(&Phi4::new(EDGE, EDGE).unwrap(), start(EDGE, EDGE), steps),
+        library: |steps, fused| {
+            run(
+                &Phi4::new(EDGE, EDGE).unwrap(),
+                start(EDGE, EDGE),
+                steps,
+                fused,
+            )
+        },
         lanes: |steps| {
             by_hand(
                 Field(DoubleWell),
@@ -434,11 +319,12 @@ const ALL: &[Workload] = &[
         name: "sine-Gordon, 256 × 256 sites",
         units: (EDGE * EDGE) as f64,
         steps: 100,
-        library: |steps| {
+        library: |steps, fused| {
             run(
                 &SineGordon::new(EDGE, EDGE).unwrap(),
                 start(EDGE, EDGE),
                 steps,
+                fused,
             )
         },
         lanes: |steps| by_hand(Field(Cosine), start(EDGE, EDGE), Vec::new(), steps, true),
@@ -446,64 +332,6 @@ const ALL: &[Workload] = &[
     },
 ];
 
-/// The time of a round: short, so that the fastest of many is not disturbed by other processes.
-fn time(run: fn(usize) -> Vec<f64>, steps: usize) -> Duration {
-    let start = Instant::now();
-    black_box(run(black_box(steps)));
-    start.elapsed()
-}
-
 fn main() {
-    let check = std::env::args().any(|argument| argument == "--check");
-    let part = std::env::args().skip(1).find(|a| !a.starts_with("--"));
-    let is_asked = |workload: &&Workload| {
-        let part = part.as_deref().unwrap_or_default();
-        workload.name.contains(part)
-    };
-    let all: Vec<&Workload> = ALL.iter().filter(is_asked).collect();
-    let mut failed = 0;
-    for workload in &all {
-        let ends = [workload.library, workload.lanes, workload.scalar].map(|run| run(10));
-        for end in &ends[1..] {
-            let distance = (ends[0].iter().zip(end)).map(|(a, b)| (a - b).abs());
-            let most = distance.fold(0.0, f64::max);
-            // Roundings of ten steps in other orders.
-            if most >= 1e-11 || most.is_nan() {
-                println!("FAILED {}: ends differ by {most:e}", workload.name);
-                failed += 1;
-            }
-        }
-    }
-    if check {
-        println!("{} workloads, {failed} failed", all.len());
-        std::process::exit(i32::from(failed > 0));
-    }
-    println!(
-        "{:<30} {:>8} {:>10} {:>10} {:>10} {:>12} {:>12}",
-        "workload", "level", "library ns", "lanes ns", "scalar ns", "× of lanes", "× of scalar"
-    );
-    for limit in Cpu::available().collect::<Vec<_>>().into_iter().rev() {
-        Cpu::limit_to(limit);
-        if limit == Cpu::Portable {
-            continue;
-        }
-        for workload in &all {
-            let runs = [workload.library, workload.lanes, workload.scalar];
-            let mut fastest = [Duration::MAX; 3];
-            for _ in 0..60 {
-                for (fastest, run) in fastest.iter_mut().zip(runs) {
-                    *fastest = (*fastest).min(time(run, workload.steps));
-                }
-            }
-            let work = workload.units * workload.steps as f64;
-            let [library, lanes, scalar] = fastest.map(|t| t.as_secs_f64() * 1e9 / work);
-            println!(
-                "{:<30} {:>8} {library:>10.3} {lanes:>10.3} {scalar:>10.3} {:>12.2} {:>12.2}",
-                workload.name,
-                format!("{limit:?}"),
-                lanes / library,
-                scalar / library
-            );
-        }
-    }
+    harness::main(ALL);
 }

@@ -24,8 +24,7 @@ where
 }
 
 #[test]
-fn on_separable_systems() {
-    separable(Geometry::new(Relativistic::default(), &[0.9], &[0.4], 0.2));
+fn on_a_separable_system() {
     let (q, p) = ([0.1, -0.25], [0.42, 0.1]);
     separable(Geometry::new(HenonHeiles::default(), &q, &p, 0.2));
 }
@@ -33,7 +32,6 @@ fn on_separable_systems() {
 #[test]
 fn with_time() {
     separable(Geometry::new(Pumped::default(), &[0.9], &[0.4], 0.2));
-    separable(Geometry::new(Driven::default(), &[1.0], &[0.3], 0.2));
 }
 
 #[test]

@@ -34,12 +34,6 @@ fn where_both_halves_depend_on_time() {
 }
 
 #[test]
-fn on_the_driven_oscillator() {
-    let system = Driven::default();
-    separable(Order::new(system, &[1.0], &[0.0], 2.0, 0.02));
-}
-
-#[test]
 fn on_the_papers_nonseparable_system() {
     let system = Paper34::default();
     let mut order = Order::new(system, &[-3.0], &[0.0], 1.0, 0.002);

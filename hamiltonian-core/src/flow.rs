@@ -51,6 +51,8 @@ pub trait Flow<X: Vector>: Clone + Debug {
     /// piece is a loop over terms that do not commute: the map is then the exact flows of the terms
     /// one after the other.
     const MERGES: bool = true;
+    /// Whether the map moves coordinates, and whether it moves momenta.
+    const MOVES: [bool; 2] = [true; 2];
     /// The scalar it computes in.
     type Work: Scratch<X>;
 

@@ -39,6 +39,12 @@ pub trait Map {
     /// The piece after the body, at the end of the step.
     #[inline(always)]
     fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
+    /// Whether [`close`](Map::close) changes coordinates, and whether it changes momenta: an observer of the
+    /// others alone needs no closed copy.
+    #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        [true; 2]
+    }
     /// `close` of the step before, then `open`.
     #[inline(always)]
     fn join(&self, t: ScalarOf<Self>, z: &mut Self::Carried, work: &mut Self::Work) {
@@ -207,6 +213,13 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
     #[inline(always)]
     fn close(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {
         either!(self.close(t, z; work));
+    }
+    #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        match self {
+            Either::First(map) => map.closing(),
+            Either::Second(map) => map.closing(),
+        }
     }
     #[inline(always)]
     fn join(&self, t: ScalarOf<A>, z: &mut A::Carried, work: &mut Self::Work) {

@@ -16,6 +16,7 @@ pub struct Both<A, B>(pub A, pub B);
 
 impl<X: Vector, A: Flow<X>, B: Flow<X>> Flow<X> for Both<A, B> {
     const NAME: &'static str = A::NAME;
+    const MOVES: [bool; 2] = [A::MOVES[0] || B::MOVES[0], A::MOVES[1] || B::MOVES[1]];
     type Work = (A::Work, B::Work);
     #[inline(always)]
     fn apply(&self, t: X::Scalar, x: &mut X, (first, second): &mut Self::Work) {

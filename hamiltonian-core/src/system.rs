@@ -74,6 +74,9 @@ pub trait System<T: Real> {
     const GROUPS: &'static [Group];
     /// Monitors, invariants and events in declaration order.
     const OBSERVABLES: &'static [Observable];
+    /// Whether each of them reads coordinates, and whether it reads momenta. One that is missing here may read
+    /// both.
+    const READS: &'static [[bool; 2]] = &[];
     /// The name of the time s of a system in another time, dt = g ds: there H is g·(h + p_t) with h the
     /// declared one, its last coordinate is the time t, and its last momentum is p_t = −h on the shell
     /// H = 0, on which alone orbits are those of h. Runs ask starts for it and show h as the energy.

@@ -1,6 +1,8 @@
 //! Events of members, which lanes follow, are those of single runs.
 
 use super::*;
+use hamiltonian::Scheme;
+use hamiltonian::schemes::author::{Map, Scratch, Step};
 use std::f64::consts::TAU;
 
 /// Members that librate and members that turn over.
@@ -34,9 +36,11 @@ fn sought(member: Member) -> Events<hamiltonian::private::SVector<f64, 1>> {
 #[test]
 fn events_of_members_are_those_of_single_runs() {
     at_each_level(|cpu| {
-        // Long steps: functions come near 0 and turn within two of them.
-        for step in [0.03, 0.9, -0.2] {
-            let mut swarm = Ensemble::new(COUNT, swinging, StormerVerlet::default(), step)
+        // Long steps: functions come near 0 and turn within two of them. Closing pieces move momenta, or
+        // coordinates.
+        let (kicks, drifts) = (StormerVerlet::KickDriftKick, StormerVerlet::DriftKickDrift);
+        for (scheme, step) in [(kicks, 0.03), (kicks, 0.9), (drifts, 0.7), (drifts, -0.2)] {
+            let mut swarm = Ensemble::new(COUNT, swinging, scheme, step)
                 .expect("there are members")
                 .reproducible()
                 .observe(|member| (sought(member), every(1, Monitors::new())));
@@ -46,7 +50,7 @@ fn events_of_members_are_those_of_single_runs() {
             for (index, ((events, monitors), end)) in ends.enumerate() {
                 let member = Member::new(index, 0);
                 let (system, start) = swinging(member);
-                let mut run = Integrator::new(&system, StormerVerlet::default(), start, step)
+                let mut run = Integrator::new(&system, scheme, start, step)
                     .expect("a good start")
                     .observe((sought(member), every(1, Monitors::new())));
                 run.advance(1501).expect("finite");
@@ -60,6 +64,33 @@ fn events_of_members_are_those_of_single_runs() {
             assert!(found > 1_000, "{found} events");
         }
     });
+}
+
+#[test]
+fn closing_pieces_and_observables_are_of_the_halves_they_name() {
+    let (system, start) = swinging(Member::new(3, 0));
+    assert_eq!(
+        <Pendulum as System<f64>>::READS,
+        [[false, true], [true, false]],
+    );
+    let prepared = System::<f64>::prepare(&system);
+    for (scheme, moves) in [
+        (StormerVerlet::KickDriftKick, [false, true]),
+        (StormerVerlet::DriftKickDrift, [true, false]),
+    ] {
+        let map = Scheme::<f64, Pendulum>::prepare(&scheme, &prepared, Step::of(0.1));
+        let mut carried = Scheme::<f64, Pendulum>::start(&scheme, &prepared, &start, 0.1);
+        let mut work = Scratch::like(&carried);
+        map.step(0.0, 0.1, &mut carried, &mut work);
+        let before = carried.clone();
+        map.close(0.1, &mut carried, &mut work);
+        assert_eq!(map.closing(), moves, "{scheme:?}");
+        assert_eq!(
+            [carried.q != before.q, carried.p != before.p],
+            moves,
+            "{scheme:?}"
+        );
+    }
 }
 
 #[test]

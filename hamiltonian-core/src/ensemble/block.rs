@@ -70,6 +70,8 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) watchers: &'a mut [Watcher<U>],
     /// The lanes whose observers follow signs.
     pub(crate) watched: U::Mask,
+    /// Whether any of them reads what the closing piece changes.
+    pub(crate) closes: bool,
     /// The steps to the first state that a lane sees.
     pub(crate) first: u64,
     /// The steps between two of them.
@@ -81,8 +83,8 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
 }
 
 impl<U: Real, S: System<U>> Followed<'_, U, S> {
-    /// Follows the state after step `k`, where the clock stands at `t`, with what is carried then. Returns
-    /// whether the block should end.
+    /// Follows the state after step `k`, where the clock stands at `t`, with what is carried then: `shown` is
+    /// closed, if [`closes`](Followed::closes). Returns whether the block should end.
     #[inline(always)]
     fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
@@ -91,7 +93,6 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         carried: &C,
         marks: &mut Marks<C, U::Mask>,
     ) -> bool {
-        let (t, point) = (shown.time(t), shown.point());
         let due = match (&mut self.apart, self.attach) {
             (Some(apart), None) => Some(apart.due(self.interval)),
             _ => None,
@@ -100,6 +101,8 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         if watches {
             marks.add(carried);
         }
+        let (t, point) = (shown.time(t), shown.point());
+        let mut is_any_loud = false;
         let mut loud = U::Mask::splat(false);
         // One place evaluates them all: each would have a copy of H, as long as a pack is wide.
         let drifts = self.trackers.len();
@@ -111,7 +114,11 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             };
             let value = quantity.at::<U, S>(self.prepared, t, point);
             if at >= drifts {
-                loud = loud | self.watchers[at - drifts].is_loud(value);
+                let watcher = &mut self.watchers[at - drifts];
+                if !watcher.is_past(value, self.watched) {
+                    loud = loud | watcher.is_loud(value);
+                    is_any_loud = true;
+                }
                 continue;
             }
             match self.attach {
@@ -120,7 +127,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             }
         }
         loud = loud & self.watched;
-        loud.any() && marks.mark(k, loud)
+        is_any_loud && loud.any() && marks.mark(k, loud)
     }
 }
 
@@ -147,7 +154,7 @@ where
     S: System<U>,
 {
     /// The lanes in which everything is finite, and the steps since the count of times began: fewer than `n`
-    /// were made where too many are marked.
+    /// were made where too many are marked, and `shown` is not closed then if nothing that is followed needs it.
     type Output = (U::Mask, u64);
 
     #[inline(always)]
@@ -170,34 +177,36 @@ where
         // Moved out, the carried value is a variable of this loop alone and stays in registers.
         let mut z = carried.take();
         let mut k = made;
-        let mut stop = match n {
-            0 => made,
-            _ if follows => end.min(made.saturating_add(followed.first)),
-            _ => end,
+        // The next step whose state is seen.
+        let mut due = match n > 0 && follows {
+            true => made.saturating_add(followed.first),
+            false => u64::MAX,
         };
-        let (first, interval) = (followed.first, followed.interval);
-        let is_due = |k: u64| (k - made) % interval == first % interval;
+        let mut stop = end.min(due);
         // Each piece occurs once, which keeps the code of a level small.
         loop {
             let t = times.at(k);
             let opens = if k == made { opening } else { Opening::Join };
             if k == stop {
                 shown.copy_from(&z);
-                match opens {
-                    Opening::Open => {}
-                    _ => map.close(t, shown, work),
+                if k == end || followed.closes {
+                    match opens {
+                        Opening::Open => {}
+                        _ => map.close(t, shown, work),
+                    }
+                    if let Opening::Mixed(fresh) = opens {
+                        shown.copy_where(fresh, &z);
+                    }
                 }
-                if let Opening::Mixed(fresh) = opens {
-                    shown.copy_where(fresh, &z);
-                }
-                let sees = follows && (followed.attach.is_some() || (n > 0 && is_due(k)));
+                let sees = k == due || followed.attach.is_some();
+                due = k.saturating_add(followed.interval);
+                stop = end.min(due);
                 if sees && followed.see((k, t), shown, &z, marks) {
                     end = k;
                 }
                 if k == end {
                     break;
                 }
-                stop = end.min(k.saturating_add(followed.interval));
             }
             if !matches!(opens, Opening::Join) {
                 shown.copy_from(&z);

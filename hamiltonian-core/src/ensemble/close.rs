@@ -29,11 +29,11 @@ where
     T: Real,
     P: Pack,
 {
-    /// True if the duration of a step is carried.
-    type Output = bool;
+    /// Whether the duration of a step is carried, and the lanes in which the state is finite.
+    type Output = (bool, <T::Over<P> as Real>::Mask);
 
     #[inline(always)]
-    fn run(self) -> bool {
+    fn run(self) -> Self::Output {
         let lanes = P::LANES as usize;
         let t = self.times.at(self.made);
         self.shown.copy_from(self.carried);
@@ -52,6 +52,7 @@ where
         for (number, row) in last.into_iter().flatten().zip(rows) {
             T::scatter::<P>(number, row);
         }
-        duration.is_some()
+        let finite = self.shown.finite() & self.carried.finite() & self.shown.time(t).finite();
+        (duration.is_some(), finite)
     }
 }

@@ -11,6 +11,7 @@ mod watching;
 use self::alone::{arrivals, explain};
 use self::rows::{Prepare, gathered, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
+use super::close::Close;
 use super::crew::Crew;
 use super::deviations::{self, Deviations};
 use super::marks::{Marks, Three};
@@ -86,11 +87,13 @@ where
                 lanes.marks.steps.clear();
             }
             let schedule = crew.schedule();
+            let closes = lanes.closes();
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
                 trackers: &mut lanes.trackers,
                 watchers: &mut lanes.watchers,
                 watched: lanes.watched,
+                closes,
                 first: schedule.first,
                 interval: schedule.interval,
                 apart: schedule.apart.map(|[left, interval]| Apart {
@@ -99,7 +102,7 @@ where
                 }),
                 attach,
             };
-            let (finite, end) = L::enter_at(Block {
+            let (mut finite, end) = L::enter_at(Block {
                 map: &lanes.map,
                 times: lanes.times,
                 made: lanes.made,
@@ -111,6 +114,16 @@ where
                 followed,
                 marks: &mut lanes.marks,
             });
+            if !closes && end < lanes.made + n {
+                (_, finite) = L::enter_at(Close::<'_, _, T, P> {
+                    map: &lanes.map,
+                    times: lanes.times,
+                    made: end,
+                    carried: &lanes.carried,
+                    shown: &mut lanes.shown,
+                    rows: &mut lanes.passing_rows,
+                });
+            }
             let n = end - lanes.made;
             if n > 0 {
                 lanes.opening = Opening::Join;
@@ -274,6 +287,18 @@ where
             (false, _) => Opening::Join,
             _ => Opening::Mixed(made.equals(<T::Over<P> as Real>::zero())),
         };
+    }
+
+    /// Whether anything that is followed reads what the closing piece of a step changes.
+    #[inline(always)]
+    fn closes(&self) -> bool {
+        let closing = self.map.closing();
+        let trackers = self.trackers.iter().map(|tracker| tracker.quantity);
+        let watchers = self.watchers.iter().map(|watcher| watcher.quantity);
+        trackers.chain(watchers).any(|quantity| {
+            let reads = quantity.reads::<T, S>();
+            (0..2).any(|half| closing[half] && reads[half])
+        })
     }
 
     /// Puts the drifts of the members into lanes.

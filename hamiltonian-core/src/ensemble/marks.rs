@@ -45,7 +45,7 @@ impl<C: Vector, M> Marks<C, M> {
     /// Adds what is carried after a step.
     #[inline(always)]
     pub(crate) fn add(&mut self, carried: &C) {
-        self.turn = (self.turn + 1) % 3;
+        self.turn = if self.turn == 2 { 0 } else { self.turn + 1 };
         self.ring[self.turn].copy_from(carried);
     }
 

@@ -16,6 +16,18 @@ pub enum Quantity {
 }
 
 impl Quantity {
+    /// Whether it reads coordinates, and whether it reads momenta.
+    pub(crate) fn reads<T: Real, S: System<T>>(self) -> [bool; 2] {
+        let Quantity::Observable(index) = self else {
+            return [true; 2];
+        };
+        // The time may be carried beside either.
+        let declared = S::OBSERVABLES.get(index);
+        let is_timed = declared.is_none_or(|observable| observable.depends_on_time);
+        let reads = S::READS.get(index).filter(|_| !is_timed);
+        reads.copied().unwrap_or([true; 2])
+    }
+
     #[inline(always)]
     pub(crate) fn at<T: Real, S: System<T>>(
         self,

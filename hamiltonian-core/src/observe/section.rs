@@ -37,8 +37,11 @@ impl<T: Real> Section<T> {
 pub(crate) struct Watcher<U> {
     pub(crate) quantity: Quantity,
     pub(crate) period: Option<U>,
-    pub(crate) value: U,
-    pub(crate) change: U,
+    /// The value after the last step, and the one before, counted back from it if there is a period.
+    value: U,
+    before: U,
+    /// Whether all lanes that are watched were far from 0 after the last step.
+    is_far: bool,
 }
 
 /// `x` to the nearest multiple of 1 below 2⁵¹: sums of this size have no digits after the point.
@@ -49,6 +52,47 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> Watcher<U> {
+    /// From the value after the last step and its change in that step.
+    #[inline(always)]
+    pub(crate) fn new(quantity: Quantity, period: Option<U>, value: U, change: U) -> Self {
+        Watcher {
+            quantity,
+            period,
+            value,
+            before: value - change,
+            is_far: false,
+        }
+    }
+
+    /// The value after the last step, and its change in that step.
+    #[inline(always)]
+    pub(crate) fn last(&self) -> [U; 2] {
+        [self.value, self.value - self.before]
+    }
+
+    /// Goes on to the value after the next step, if nothing can have happened in the lanes that are watched:
+    /// a short form of [`is_loud`](Watcher::is_loud) for the usual step. Returns whether it does.
+    #[inline(always)]
+    pub(crate) fn is_past(&mut self, value: U, watched: U::Mask) -> bool {
+        if self.period.is_some() {
+            return false;
+        }
+        // The ratio of the last value to this one is above a small number and below 1.476: the sign is the same,
+        // and the function falls by less than half of what is left of it, so the next step is not near 0 either
+        // in the sense of `is_loud`.
+        let least = U::constant(1.0 / 262_144.0, 0.0);
+        let above = least.fma(-value, self.value);
+        let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * self.value);
+        let is_far = U::zero().lt(above * below);
+        let is_far = !(!is_far & watched).any();
+        let was_far = core::mem::replace(&mut self.is_far, is_far);
+        if is_far && was_far {
+            self.before = self.value;
+            self.value = value;
+        }
+        is_far && was_far
+    }
+
     /// Goes on to the values after the next step. Returns the lanes in which something can have happened.
     ///
     /// An observer evaluates the function once more without fused products. A lane whose value is so small
@@ -56,21 +100,18 @@ impl<U: Real> Watcher<U> {
     /// next.
     #[inline(always)]
     pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
+        let [from, changed] = self.last();
         let (value, counted) = match self.period {
             None => (value, value),
             Some(period) => {
                 let value = value - nearest(value / period) * period;
-                let change = value - self.value;
-                (
-                    value,
-                    self.value + (change - nearest(change / period) * period),
-                )
+                let change = value - from;
+                (value, from + (change - nearest(change / period) * period))
             }
         };
-        let (from, changed) = (self.value, self.change);
         let change = counted - from;
         self.value = value;
-        self.change = change;
+        self.before = value - change;
         // from·counted is above a small part of the square of the change.
         let least = U::constant(1.0 / 1_048_576.0, 0.0);
         let product = change.fma(from, from * from);

@@ -261,6 +261,11 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
     }
 
     #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        self.stages[S - 1].map.closing()
+    }
+
+    #[inline(always)]
     fn join(&self, t: ScalarOf<M>, z: &mut M::Carried, work: &mut M::Work) {
         self.join_stage(0, t, z, work);
     }

@@ -236,7 +236,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
 
     /// The flow with which the step ends.
     #[inline(always)]
-    fn closing(&self) -> Option<&Link<O>> {
+    fn last(&self) -> Option<&Link<O>> {
         match self.stages.as_ref().last() {
             Some(stage) if self.closes => Some(&stage.outer),
             _ => None,
@@ -269,9 +269,14 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W
 
     #[inline(always)]
     fn close(&self, t: X::Scalar, z: &mut X, work: &mut Self::Work) {
-        if let Some(closing) = self.closing() {
+        if let Some(closing) = self.last() {
             closing.apply(t, z, &mut work.0);
         }
+    }
+
+    #[inline(always)]
+    fn closing(&self) -> [bool; 2] {
+        if self.closes { O::MOVES } else { [false; 2] }
     }
 
     #[inline(always)]
@@ -303,7 +308,7 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W
                 blamed = stage.outer.blame(t + stage.outer_at, z, &mut work.0);
             }
         }
-        let at_the_end = || self.closing()?.blame(end, z, &mut work.0);
+        let at_the_end = || self.last()?.blame(end, z, &mut work.0);
         match blamed.or_else(at_the_end) {
             Some(piece) => Cause::Piece(piece),
             None => Cause::Overflow,

@@ -90,7 +90,8 @@ impl<'a> Emission<'a> {
              type Vector = {};\ntype Prepared = {};\n\
              const NAME: &'static __h::core::primitive::str = {:?};\n\
              const GROUPS: &'static [__h::Group] = &[{}];\n\
-             const OBSERVABLES: &'static [__h::Observable] = &[{}];{}\n\
+             const OBSERVABLES: &'static [__h::Observable] = &[{}];\n\
+             const READS: &'static [[__h::core::primitive::bool; 2]] = &[{}];{}\n\
              const FORMULA: &'static __h::core::primitive::str = {:?};\n{}",
             generics.declaration_with_scalar(),
             generics.system_type(),
@@ -99,6 +100,7 @@ impl<'a> Emission<'a> {
             context.model.name,
             groups(context.model, context.layout),
             observables::entries(context.model),
+            observables::reads(context.model),
             context.model.evolution.as_ref().map_or(String::new(), |time| format!(
                 "\nconst FICTITIOUS_TIME: __h::core::option::Option<&'static __h::core::primitive::str> = \
                  __h::core::option::Option::Some({time:?});"

@@ -34,6 +34,17 @@ pub fn entries(model: &Model) -> String {
     out
 }
 
+/// The entries of `System::READS`.
+pub fn reads(model: &Model) -> String {
+    let mut out = String::new();
+    for node in (model.observables.iter()).flat_map(|observable| &observable.components) {
+        let dependence = model.dag.dependence(*node);
+        let halves = [Dependence::Q, Dependence::P].map(|half| dependence.on(half));
+        let _ = write!(out, "{halves:?}, ");
+    }
+    out
+}
+
 /// The body of `Dynamics::observable`.
 pub fn dispatch(model: &Model) -> String {
     let mut out = "match _index {\n".to_owned();

@@ -141,6 +141,13 @@ impl Emission<'_> {
         if !merges {
             line!(self, "const MERGES: __h::core::primitive::bool = false;");
         }
+        if let Some(side) = self.one_way(function) {
+            let moves = [side == Side::P, side == Side::Q];
+            line!(
+                self,
+                "const MOVES: [__h::core::primitive::bool; 2] = {moves:?};"
+            );
+        }
         self.motion("apply", &holder, function, Access::InPlace);
         if !merges {
             self.motion("apply_reversed", &holder, function, Access::Reversed);

@@ -51,12 +51,12 @@ where
                 own.map_or(T::zero(), number)
             };
             let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
-            self.watchers.push(Watcher {
-                quantity: function.quantity,
-                period: function.period.map(|period| gathered::<L, T, P>(&[period])),
-                value: gathered::<L, T, P>(&in_lanes(|section| section.value)),
-                change: gathered::<L, T, P>(&in_lanes(|section| section.change)),
-            });
+            self.watchers.push(Watcher::new(
+                function.quantity,
+                function.period.map(|period| gathered::<L, T, P>(&[period])),
+                gathered::<L, T, P>(&in_lanes(|section| section.value)),
+                gathered::<L, T, P>(&in_lanes(|section| section.change)),
+            ));
         }
     }
 
@@ -69,8 +69,9 @@ where
     ) {
         let [mut values, mut changes] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
         for (function, watcher) in self.functions.iter().zip(watchers) {
-            scatter::<L, T, P>(&watcher.value, &mut values);
-            scatter::<L, T, P>(&watcher.change, &mut changes);
+            let [value, change] = watcher.last();
+            scatter::<L, T, P>(&value, &mut values);
+            scatter::<L, T, P>(&change, &mut changes);
             crew.for_each_watched(|lane, seat| {
                 let mut own = seat.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
@@ -125,7 +126,7 @@ where
     ) {
         let ahead = step - self.made;
         for (back, carried) in [2, 1, 0].into_iter().zip(&self.three) {
-            let carries_duration = L::enter_at(Close::<'_, _, T, P> {
+            let (carries_duration, _) = L::enter_at(Close::<'_, _, T, P> {
                 map: &self.map,
                 times: self.times,
                 made: step.wrapping_sub(back),

@@ -7,7 +7,7 @@
 mod harness;
 
 use hamiltonian_lanes::{Pack, Real};
-use harness::{ByHand, Workload, add, by_hand, noise, run, start};
+use harness::{ByHand, Timed, Workload, add, by_hand, noise, run, start};
 
 hamiltonian::hamiltonian! {
     /// Neighbours two sites away.
@@ -356,10 +356,12 @@ impl ByHand for Square {
 }
 
 const SITES: usize = 1024;
+/// The sites whose pairs have a stiffness.
+const FEW: usize = 300;
 /// The sites of lattices along an edge.
 const EDGE: usize = 64;
 
-fn chain<F: Force<N>, const N: usize>(force: F, steps: usize, lanes: bool) -> Vec<f64> {
+fn chain<F: Force<N>, const N: usize>(force: F, steps: usize, lanes: bool) -> Timed {
     by_hand(Chain(force), start(SITES, 1), Vec::new(), steps, lanes)
 }
 
@@ -385,8 +387,8 @@ fn weights(n: usize, rows: usize) -> Vec<Vec<f64>> {
 }
 
 fn stiffness() -> Vec<Vec<f64>> {
-    let small = |row: Vec<f64>| row.into_iter().map(|x| x / SITES as f64).collect();
-    weights(SITES, SITES).into_iter().map(small).collect()
+    let small = |row: Vec<f64>| row.into_iter().map(|x| x / FEW as f64).collect();
+    weights(FEW, FEW).into_iter().map(small).collect()
 }
 
 /// The elements column by column.
@@ -435,34 +437,18 @@ const ALL: &[Workload] = &[
     },
     Workload {
         name: "matrix of parameters",
-        units: (SITES * SITES) as f64,
-        steps: 20,
+        units: (FEW * FEW) as f64,
+        steps: 100,
         library: |steps, fused| {
             run(
-                &Stiff::new(SITES, stiffness()).unwrap(),
-                start(SITES, 1),
+                &Stiff::new(FEW, stiffness()).unwrap(),
+                start(FEW, 1),
                 steps,
                 fused,
             )
         },
-        lanes: |steps| {
-            by_hand(
-                Matrix,
-                start(SITES, 1),
-                by_columns(stiffness()),
-                steps,
-                true,
-            )
-        },
-        scalar: |steps| {
-            by_hand(
-                Matrix,
-                start(SITES, 1),
-                by_columns(stiffness()),
-                steps,
-                false,
-            )
-        },
+        lanes: |steps| by_hand(Matrix, start(FEW, 1), by_columns(stiffness()), steps, true),
+        scalar: |steps| by_hand(Matrix, start(FEW, 1), by_columns(stiffness()), steps, false),
     },
     Workload {
         name: "three axes",

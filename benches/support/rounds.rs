@@ -70,6 +70,9 @@ pub fn add<P: Pack>(into: &mut [f64], by: &[f64], c: f64) {
     }
 }
 
+/// The end of a run, and the time of its steps without that of its start.
+pub type Timed = (Vec<f64>, Duration);
+
 /// A workload: its units of work in a step, the number of steps of a round, and the runs of it.
 pub struct Workload {
     /// Its name.
@@ -79,11 +82,11 @@ pub struct Workload {
     /// The steps of a round.
     pub steps: usize,
     /// The run by the library, with fused products or not.
-    pub library: fn(usize, bool) -> Vec<f64>,
+    pub library: fn(usize, bool) -> Timed,
     /// The run by hand in lanes.
-    pub lanes: fn(usize) -> Vec<f64>,
+    pub lanes: fn(usize) -> Timed,
     /// The run by hand without.
-    pub scalar: fn(usize) -> Vec<f64>,
+    pub scalar: fn(usize) -> Timed,
 }
 
 /// Numbers for coordinates and momenta.
@@ -93,7 +96,7 @@ pub fn start(n: usize, columns: usize) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// The end of a run by the library.
-pub fn run<S>(system: &S, start: (Vec<f64>, Vec<f64>), steps: usize, fused: bool) -> Vec<f64>
+pub fn run<S>(system: &S, start: (Vec<f64>, Vec<f64>), steps: usize, fused: bool) -> Timed
 where
     S: System<f64>,
     StormerVerlet: hamiltonian::Scheme<f64, S>,
@@ -109,13 +112,12 @@ where
     if fused {
         run = run.fused();
     }
-    run.advance(steps as u64).unwrap();
+    let began = Instant::now();
+    run.advance(black_box(steps as u64)).unwrap();
+    let time = began.elapsed();
     let end = run.state();
-    [
-        hamiltonian::Vector::part(&end.q, 0),
-        hamiltonian::Vector::part(&end.p, 0),
-    ]
-    .concat()
+    let [q, p] = [&end.q, &end.p].map(|vector| hamiltonian::Vector::part(vector, 0));
+    ([q, p].concat(), time)
 }
 
 /// The end of a run by hand.
@@ -125,28 +127,23 @@ pub fn by_hand<S: ByHand>(
     mut work: Vec<f64>,
     steps: usize,
     lanes: bool,
-) -> Vec<f64> {
+) -> Timed {
     let (mut q, mut p) = start;
     let all = Steps {
         system,
         q: &mut q,
         p: &mut p,
         work: &mut work,
-        count: steps,
+        count: black_box(steps),
     };
+    let began = Instant::now();
     if lanes {
         dispatch(all);
     } else {
         all.over::<f64>();
     }
-    [q, p].concat()
-}
-
-/// The time of a round: short, so that the fastest of many is not disturbed by other processes.
-fn time(run: &dyn Fn(usize) -> Vec<f64>, steps: usize) -> Duration {
-    let start = Instant::now();
-    black_box(run(black_box(steps)));
-    start.elapsed()
+    let time = began.elapsed();
+    ([q, p].concat(), time)
 }
 
 /// Compares and times workloads.
@@ -160,8 +157,8 @@ pub fn main(all: &[Workload]) {
     let all: Vec<&Workload> = all.iter().filter(is_asked).collect();
     let mut failed = 0;
     for workload in &all {
-        let [lanes, scalar] = [workload.lanes, workload.scalar].map(|run| run(10));
-        let [library, fused] = [false, true].map(|fused| (workload.library)(10, fused));
+        let [lanes, scalar] = [workload.lanes, workload.scalar].map(|run| run(10).0);
+        let [library, fused] = [false, true].map(|fused| (workload.library)(10, fused).0);
         let ends = [library, lanes, scalar, fused];
         for end in &ends[1..] {
             let distance = (ends[0].iter().zip(end)).map(|(a, b)| (a - b).abs());
@@ -195,7 +192,7 @@ pub fn main(all: &[Workload]) {
             continue;
         }
         for workload in &all {
-            let runs: [&dyn Fn(usize) -> Vec<f64>; 4] = [
+            let runs: [&dyn Fn(usize) -> Timed; 4] = [
                 &|steps| (workload.library)(steps, false),
                 &workload.lanes,
                 &workload.scalar,
@@ -204,7 +201,8 @@ pub fn main(all: &[Workload]) {
             let mut fastest = [Duration::MAX; 4];
             for _ in 0..60 {
                 for (fastest, run) in fastest.iter_mut().zip(runs) {
-                    *fastest = (*fastest).min(time(run, workload.steps));
+                    // Rounds are short, so that the fastest of many is not disturbed by other processes.
+                    *fastest = (*fastest).min(run(workload.steps).1);
                 }
             }
             let work = workload.units * workload.steps as f64;

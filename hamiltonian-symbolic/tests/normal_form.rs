@@ -31,6 +31,12 @@ fn identities_are_proven() {
         "cos(x/2)^2 - (1 + cos(x))/2",
         "sin(x) - 2*sin(x/2)*cos(x/2)",
         "sin(x/2)*cos(x/3) - (sin(5*x/6) + sin(x/6))/2",
+        // Arguments that are met before the smallest of the angles.
+        "1/(2 + sin(x)) - 1/(2 + 2*sin(x/2)*cos(x/2))",
+        "1/(2 + sin(6*x)) - 1/(2 + 2*sin(3*x)*cos(3*x))",
+        "exp(1/(2 + cos(4*x))) - exp(1/(1 + 2*cos(2*x)^2))",
+        "ln(2 + sin(3*x)) - ln(2 + sin(2*x)*cos(x) + cos(2*x)*sin(x))",
+        "1/(2 + exp(x)) - 1/(2 + exp(x/3)*exp(2*x/3))",
         "sin(x + pi/2 - pi/2) - sin(x)",
         "tan(x) - sin(x)/cos(x)",
         "1 + tan(x)^2 - 1/cos(x)^2",

@@ -4,7 +4,7 @@
 //! here is an identity wherever the original is defined.
 
 use super::atoms::{Algebra, Base, Key};
-use super::functions::lcm;
+use super::functions::{gcd, lcm};
 use super::polynomial::{Atom, Monomial, Poly, Undecided};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -67,39 +67,54 @@ impl Algebra {
             return Ok((cos, sin, n));
         }
         let known = self.angles.get(monomial).copied();
-        let base = match known {
-            Some(base) if base.denominator % d == 0 => base,
-            _ => {
-                let denominator = known.map_or(d, |base| lcm(base.denominator, d));
-                if denominator > LARGEST_MULTIPLE {
-                    return Err(Undecided);
-                }
-                let angle = Poly::term(Rational::new(1, denominator), monomial.clone());
-                let first = self.function(Key::Cos(angle.clone()), None);
-                let second = self.sine(angle, first);
-                let base = Base {
-                    denominator,
-                    first,
-                    second,
-                };
-                self.angles.insert(monomial.clone(), base);
-                if let Some(old) = known {
-                    let (cos, sin) = self.multiple(
-                        &Poly::atom(first, 1),
-                        &Poly::atom(second, 1),
-                        denominator / old.denominator,
-                    )?;
-                    self.redefine(old.first, cos);
-                    self.redefine(old.second, sin);
-                }
-                base
+        // The multiple of a base that n/d is.
+        let times = |base: &Base| {
+            let (n, unit) = (n * base.denominator, d * base.numerator);
+            (n % unit == 0).then(|| n / unit)
+        };
+        if let Some(base) = known
+            && let Some(multiple) = times(&base)
+        {
+            return Ok((
+                Poly::atom(base.first, 1),
+                Poly::atom(base.second, 1),
+                multiple,
+            ));
+        }
+        // The greatest common divisor with the base so far.
+        let (numerator, denominator) = match known {
+            None => (n.abs(), d),
+            Some(base) => {
+                let denominator = lcm(base.denominator, d);
+                let [a, b] = [(n.abs(), d), (base.numerator, base.denominator)]
+                    .map(|(n, d)| n * (denominator / d));
+                let both = gcd(a, b);
+                let common = gcd(both, denominator);
+                (both / common, denominator / common)
             }
         };
-        Ok((
-            Poly::atom(base.first, 1),
-            Poly::atom(base.second, 1),
-            n * (base.denominator / d),
-        ))
+        if denominator > LARGEST_MULTIPLE {
+            return Err(Undecided);
+        }
+        let angle = Poly::term(Rational::new(numerator, denominator), monomial.clone());
+        let first = self.function(Key::Cos(angle.clone()), None);
+        let second = self.sine(angle, first);
+        let base = Base {
+            numerator,
+            denominator,
+            first,
+            second,
+        };
+        self.angles.insert(monomial.clone(), base);
+        let (cos, sin) = (Poly::atom(first, 1), Poly::atom(second, 1));
+        if let Some(old) = known {
+            let times = old.numerator * denominator / (old.denominator * numerator);
+            let (old_cos, old_sin) = self.multiple(&cos, &sin, times)?;
+            self.redefine(old.first, old_cos);
+            self.redefine(old.second, old_sin);
+        }
+        let multiple = times(&base).ok_or(Undecided)?;
+        Ok((cos, sin, multiple))
     }
 
     /// Cosine and sine of an angle that is itself an inverse function.

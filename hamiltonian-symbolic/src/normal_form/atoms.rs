@@ -90,7 +90,9 @@ pub(crate) struct Entry {
 /// The base that angles or exponents with one monomial are multiples of.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Base {
-    /// The base is the monomial over this.
+    /// The base is the monomial times this.
+    pub(super) numerator: i64,
+    /// And over this.
     pub(super) denominator: i64,
     /// Its cosine, or its exponential.
     pub(super) first: Atom,
@@ -108,7 +110,8 @@ pub(crate) struct Algebra {
     pub(super) converted: Map<Node, Rc<Poly>>,
     /// Arguments of functions so far, with whether they have divisors.
     pub(super) arguments: Vec<(Poly, bool)>,
-    pub(super) any_redefined: bool,
+    /// How often an atom was redefined.
+    pub(super) redefined: usize,
     /// Whether a condition stands before a fraction, which may then have no value where it is 0.
     pub(super) any_guarded: bool,
     /// Whether something is read that need not have a value for the statement to have one, or, in
@@ -130,7 +133,7 @@ impl Algebra {
             exponents: Map::default(),
             converted: Map::default(),
             arguments: Vec::new(),
-            any_redefined: false,
+            redefined: 0,
             any_guarded: false,
             has_conditions: false,
             scope,
@@ -145,7 +148,7 @@ impl Algebra {
 
     pub(super) fn redefine(&mut self, atom: Atom, as_what: Poly) {
         self.entries[atom as usize].redefined = Some(Rc::new(as_what));
-        self.any_redefined = true;
+        self.redefined += 1;
     }
 
     /// The atom of a leaf.

@@ -18,13 +18,22 @@ impl Algebra {
             Kind::Call(Op::Sign, _) => self.scope == Scope::Everywhere,
             _ => false,
         });
-        for node in dag.reachable(&[root]) {
-            if !self.converted.contains_key(&node) {
-                let poly = self.convert_one(dag, node)?;
-                self.converted.insert(node, Rc::new(poly));
+        let nodes = dag.reachable(&[root]);
+        loop {
+            let before = self.redefined;
+            for &node in &nodes {
+                if !self.converted.contains_key(&node) {
+                    let poly = self.convert_one(dag, node)?;
+                    self.converted.insert(node, Rc::new(poly));
+                }
             }
+            if self.redefined == before {
+                return Ok(self.converted[&root].as_ref().clone());
+            }
+            // Arguments of functions were made of angles that are now multiples of smaller ones: the order
+            // in which angles are met must not decide.
+            self.converted.clear();
         }
-        Ok(self.converted[&root].as_ref().clone())
     }
 
     fn of(&self, node: Node) -> Rc<Poly> {

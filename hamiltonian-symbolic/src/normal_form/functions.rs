@@ -188,6 +188,7 @@ impl Algebra {
                             let relation = self.power_relation(&monomial, denominator)?;
                             let first = self.function(Key::Exp(base), relation);
                             let base = Base {
+                                numerator: 1,
                                 denominator,
                                 first,
                                 second: first,
@@ -508,9 +509,14 @@ fn factored(value: &Rational) -> Option<Vec<(i64, i32)>> {
 }
 
 pub(super) fn lcm(a: i64, b: i64) -> i64 {
+    (a / gcd(a, b)).saturating_mul(b)
+}
+
+/// The greatest common divisor of positive numbers.
+pub(super) fn gcd(a: i64, b: i64) -> i64 {
     let (mut x, mut y) = (a, b);
     while y != 0 {
         (x, y) = (y, x % y);
     }
-    (a / x).saturating_mul(b)
+    x
 }

@@ -240,7 +240,7 @@ impl Algebra {
 
     /// The polynomial with redefined atoms replaced.
     pub(super) fn resolved(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
-        if !self.any_redefined {
+        if self.redefined == 0 {
             return Ok(poly.clone());
         }
         let mut poly = poly.clone();

@@ -1,12 +1,12 @@
 //! Expressions of numbers alone.
 //!
-//! Input: nodes without variables. Output: the value of a function where it is known exactly, the
-//! nearest `f64`, and whether there is one. Invariant: an exact value is exact in every scalar.
+//! Input: nodes without variables. Output: the value of a function where it is known exactly, a number with
+//! a bound of its error, and whether `f64` has one. Invariant: an exact value is exact in every scalar.
 
+use crate::ball::Ball;
 use crate::dag::{Dag, Kind, Map, Node, Stage};
 use crate::op::Op;
 use crate::rational::Rational;
-use core::f64::consts::PI;
 
 impl Dag {
     /// The rational multiple of π that a node is.
@@ -59,44 +59,27 @@ impl Dag {
         }
     }
 
-    /// The nearest `f64` to an expression of numbers alone; infinite past its range, `None` at a
-    /// pole.
+    /// The value of an expression of numbers alone, with a bound of its error; infinite past the range of `f64`,
+    /// `None` at a pole, or so near to one that rounding hides it.
     #[must_use]
-    pub fn number(&self, root: Node) -> Option<f64> {
-        if let Kind::Constant(value) = self.kind(root) {
-            return Some(value.to_f64());
-        }
+    pub fn number(&self, root: Node) -> Option<Ball> {
         if self.stage(root) != Stage::Constant || self.variables(root) != 0 {
             return None;
         }
-        let mut values: Map<Node, f64> = Map::default();
+        let mut values: Map<Node, Ball> = Map::default();
         for node in self.reachable(&[root]) {
-            let value = match self.kind(node) {
-                Kind::Constant(value) => value.to_f64(),
-                Kind::Pi => PI,
-                Kind::Sum(c, terms) => terms
-                    .iter()
-                    .fold(c.to_f64(), |sum, (k, n)| sum + k.to_f64() * values[n]),
-                Kind::Product(k, factors) => factors
-                    .iter()
-                    .fold(k.to_f64(), |product, (f, n)| product * values[f].powi(*n)),
-                Kind::Call(op, arguments) => {
-                    let arguments: Vec<f64> = arguments.iter().map(|n| values[n]).collect();
-                    op.eval(&arguments)
-                }
-                _ => return None,
-            };
-            let overflows = |op: Op, x: f64| match op {
+            let value = Ball::of(self, node, &|child| values[&child])?;
+            let overflows = |op: Op, x: Ball| match op {
                 Op::Exp | Op::ExpM1 | Op::Sinh | Op::Cosh => true,
-                Op::Pow => x != 0.0,
+                Op::Pow => x.is_nonzero(),
                 _ => false,
             };
             let is_pole = match self.kind(node) {
-                Kind::Product(_, factors) => {
-                    factors.iter().any(|(f, n)| *n < 0 && values[f] == 0.0)
-                }
+                Kind::Product(_, factors) => factors
+                    .iter()
+                    .any(|(f, n)| *n < 0 && !values[f].is_nonzero() && values[f].value.is_finite()),
                 Kind::Call(op, arguments) => {
-                    value.is_infinite() && !overflows(*op, values[&arguments[0]])
+                    value.value.is_infinite() && !overflows(*op, values[&arguments[0]])
                 }
                 _ => false,
             };
@@ -116,7 +99,10 @@ impl Dag {
             Kind::Constant(k) | Kind::Product(k, _) => k.leaves_f64(),
             _ => false,
         };
-        coefficient || self.number(node).is_some_and(f64::is_infinite)
+        coefficient
+            || self
+                .number(node)
+                .is_some_and(|number| number.value.is_infinite())
     }
 }
 

@@ -39,6 +39,7 @@
 #![forbid(unsafe_code)]
 
 pub mod balance;
+mod ball;
 pub mod bracket;
 mod closed;
 pub mod count;
@@ -72,6 +73,7 @@ pub mod structure;
 pub mod transform;
 mod validate;
 
+pub use ball::Ball;
 pub use dag::op;
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.

@@ -402,6 +402,12 @@ impl Model {
     pub fn h(&self) -> Node {
         self.hamiltonian.expect("a model of dynamics has an H")
     }
+    /// The components of all invariants.
+    pub(crate) fn invariants(&self) -> Vec<Node> {
+        let all = self.observables.iter();
+        let all = all.filter(|one| one.kind == ObservableKind::Invariant);
+        all.flat_map(|one| one.components.clone()).collect()
+    }
     /// H and the components of observables.
     #[must_use]
     pub fn functions(&self) -> Vec<Node> {

@@ -7,6 +7,7 @@
 
 use crate::common::{cases, parse, system};
 use crate::random_text::Random;
+use hamiltonian_symbolic::Ball;
 use hamiltonian_symbolic::bracket::{Verdict, is_invariant};
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::loops::{Sample, sample};
@@ -94,6 +95,7 @@ fn values(model: &mut Model, node: Node, parameters: [f64; 2], at: &[f64]) -> Ve
     let parts = model.dag.reachable(&[node]);
     let value = |at: &f64| {
         let given = [(q, *at), (p, 0.5), (a, parameters[0]), (b, parameters[1])];
+        let given = given.map(|(node, value)| (node, Ball::exact(value)));
         let (values, _) = sample(model, &parts, &[], Sample::default(), &given).unwrap();
         let value = values[parts.len() - 1];
         let is_defined = values.iter().all(|part| !part.value.is_nan());

@@ -1,5 +1,6 @@
 //! The engine, on mathematics written as text.
 
+mod balls;
 mod bracket;
 mod common;
 mod derivatives;

@@ -27,6 +27,25 @@ fn rows_take_their_patterns_and_flow() {
 }
 
 pub const CASES: &[Case] = &[
+    // Scaled coordinates.
+    Case {
+        signature: "x, y; px, py",
+        parameters: "k",
+        h: "k*(2*x*py - y*px/2)/sqrt(4*x^2 + y^2)",
+        rows: "rotation",
+    },
+    Case {
+        signature: "l; L",
+        parameters: "C",
+        h: "sqrt(C^2 - L^2/4)*cos(2*l)",
+        rows: "spin component",
+    },
+    Case {
+        signature: "f, th, ps; pf, pt, pp",
+        parameters: "A",
+        h: "((pf/2 - 3*pp*cos(3*th/2))*sin(ps/3)/sin(3*th/2) + 2*pt*cos(ps/3)/3)^2/(2*A)",
+        rows: "body axis",
+    },
     Case {
         signature: "f, th, ps; pf, pt, pp",
         parameters: "A",

@@ -2,8 +2,9 @@
 //!
 //! Input: a function and its arguments as nodes. Output: why the value is no real number, where the
 //! arguments are known numbers. Invariant: exact for rational arguments; others, such as `pi/2`,
-//! must lie outside by more than rounding can explain.
+//! must lie outside by more than their bounded errors.
 
+use hamiltonian_symbolic::Ball;
 use hamiltonian_symbolic::dag::{Dag, Kind, Node};
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::rational::Rational;
@@ -74,7 +75,8 @@ fn compared(dag: &Dag, node: Node, bound: i64) -> Option<Ordering> {
             (_, false) => Ordering::Greater,
         });
     }
-    let difference = dag.number(node)? - bound as f64;
-    let is_certain = difference.abs() > 1e-9 && difference.is_finite();
-    is_certain.then(|| difference.total_cmp(&0.0))
+    let difference = dag.number(node)? - Ball::exact(bound as f64);
+    difference
+        .is_nonzero()
+        .then(|| difference.value.total_cmp(&0.0))
 }

@@ -4,7 +4,7 @@
 //! of docs and of rustc on them. Invariant: pieces that are kept are proven to add up to H,
 //! each with an exact flow; V and T of a separable H need no search.
 
-use super::Part;
+use super::{LARGE, Part};
 use crate::emit::Reason;
 use hamiltonian_language::checked::{self, Checked, Kind, Variable};
 use hamiltonian_language::report::Report;
@@ -58,7 +58,10 @@ pub fn decide(
             return Found::split(Vec::new());
         }
         if large {
-            return refused(model, "it is too long to be searched for exact flows");
+            let why = format!(
+                "H has more than {LARGE} subexpressions, too many to be searched for exact flows"
+            );
+            return refused(model, &why);
         }
         alone.unwrap_or_else(|| split::find(model).map_err(|refusal| (0, refusal)))
     } else {
@@ -71,12 +74,19 @@ pub fn decide(
         && let Some((name, _)) = declared.get(*at)
     {
         if is_written_so {
-            report.error(
-                name.span(),
-                format!(
-                    "no exact flow is known for the piece `{name}`: the flow of its term `{}` is of no known closed form",
+            let why = match refusal.limit {
+                Some(limit) => format!(
+                    "the search ended at its limit of {limit}, at its term `{}`",
                     refusal.text
                 ),
+                None => format!(
+                    "the flow of its term `{}` is of no known closed form",
+                    refusal.text
+                ),
+            };
+            report.error(
+                name.span(),
+                format!("no exact flow is known for the piece `{name}`: {why}"),
                 "split it further, or leave the term to a piece with which it is of such a form: \
                  V(q), T(p), quadratic forms, c*q^a*p^b, f(q)*p with f quadratic, exponential, trigonometric or hyperbolic, \
                  f(q)*p^2 with f = a + b*q + c*q^2, a/q^2 + b + c*q^2 or a*q^2 + b*q^3 + c*q^4, functions of an angular \
@@ -105,9 +115,11 @@ pub fn decide(
             Found::split(facts)
         }
         Err((_, refusal)) => {
-            let why = match refusal.is_limit {
-                true => "the search ended at its limits, before it met an exact flow for the term",
-                false => "no exact flow is known for the term",
+            let why = match refusal.limit {
+                Some(limit) => format!(
+                    "the search ended at its limit of {limit}, before it met an exact flow for the term"
+                ),
+                None => "no exact flow is known for the term".to_owned(),
             };
             refused(model, &format!("{why} `{}`", refusal.text))
         }

@@ -6,6 +6,7 @@
 //! leading coefficient that is 0 nowhere where H has a value, for no parameters: on a part of the
 //! shell where it is 0, the residual may be anything.
 
+use crate::ball::Ball;
 use crate::dag::{Array, Column, Dag, Kind, Node, Side};
 use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
@@ -173,22 +174,31 @@ fn solved(
         }
         for &variable in variables {
             let at =
-                |roots: &[Node], value: f64| sample(model, roots, &[], how, &[(variable, value)]);
-            let off_shell = |p| at(&[shell], p).map_or(f64::NAN, |(values, _)| values[0].value);
-            let Some(root) = solve(off_shell) else {
+                |roots: &[Node], value: Ball| sample(model, roots, &[], how, &[(variable, value)]);
+            let shell_at = |p: f64| {
+                let found = at(&[shell], Ball::exact(p));
+                found.map_or(Ball::exact(f64::NAN), |(values, _)| values[0])
+            };
+            let Some(root) = solve(|p| shell_at(p).value) else {
                 continue;
             };
-            let (values, point) = at(&all, root)?;
-            // H changes its sign at jumps and poles too, which are no points of the shell.
-            let is_met = values[0].value.abs() < 1e-8;
-            if !(is_met && values.iter().all(|value| value.value.is_finite())) {
+            // Between these ends H has a value everywhere, and no jump or pole: it is one of a shell at a
+            // point between them.
+            let off = 1e-9 * (1.0 + root.abs());
+            let near = Ball {
+                value: root,
+                error: off,
+            };
+            let (values, point) = at(&all, near)?;
+            let [below, above] = [root - off, root + off].map(shell_at);
+            let is_met = below.is_nonzero()
+                && above.is_nonzero()
+                && (below.value < 0.0) != (above.value < 0.0);
+            if !(is_met && values.iter().all(|value| value.is_defined())) {
                 continue;
             }
-            // The change of the residual over the distance the root may be off.
-            let off = 1e-9 * (1.0 + root.abs());
-            let (above, below) = (at(&[residual], root + off)?, at(&[residual], root - off)?);
-            let change = (above.0[0].value - below.0[0].value).abs();
-            if values[1].is_nonzero() && values[1].value.abs() > 16.0 * (change + values[1].error) {
+            // The residual is not 0 anywhere between them.
+            if values[1].is_nonzero() {
                 return Some((point, values[1].value));
             }
             *found += 1;

@@ -11,6 +11,6 @@ pub mod unroll;
 mod walk;
 
 pub use guard::guarded;
-pub use numeric::{Point, Sample, Sampled, Signs, sample};
-pub(crate) use numeric::{Values, next_random, product, sum};
+pub use numeric::{Point, Sample, Signs, sample};
+pub(crate) use numeric::{Values, next_random};
 pub use unroll::{unroll, unroll_nodes, unrolled};

@@ -1,33 +1,15 @@
 //! Numbers at sample points, each with a bound of its rounding error.
 //!
-//! Input: a model, nodes, sizes, a seed. Output: [`Sampled`] values and the point they were taken
+//! Input: a model, nodes, sizes, a seed. Output: [`Ball`] values and the point they were taken
 //! at. Invariant: the same seed gives the same point on every machine; |value| beyond its error
-//! means that the expression is not identically zero.
+//! means that the expression is not identically zero, and so do its bounds, which hold on every machine.
 
 use super::walk::{Meaning, Place, walk};
-use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Part, Relation, Side};
+use crate::ball::Ball;
+use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Side};
 use crate::index::Affine;
 use crate::model::Model;
-use crate::op::Op;
-use crate::rational::Rational;
 use std::hash::{Hash, Hasher};
-
-/// A number and a bound of its error.
-#[derive(Clone, Copy, PartialEq, Debug)]
-pub struct Sampled {
-    /// The value; NaN outside the expression's domain or on the edge of a condition.
-    pub value: f64,
-    /// The bound of its distance from the exact value.
-    pub error: f64,
-}
-
-impl Sampled {
-    /// Whether the exact value is certainly not 0.
-    #[must_use]
-    pub fn is_nonzero(self) -> bool {
-        self.value.is_finite() && self.value.abs() > 16.0 * self.error
-    }
-}
 
 /// The choice of a sample point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -73,8 +55,8 @@ pub fn sample(
     roots: &[Node],
     sizes: &[i64],
     how: Sample,
-    given: &[(Node, f64)],
-) -> Option<(Vec<Sampled>, Point)> {
+    given: &[(Node, Ball)],
+) -> Option<(Vec<Ball>, Point)> {
     let mut elements = Map::default();
     let mut time = None;
     for (node, value) in given {
@@ -101,7 +83,7 @@ pub fn sample(
 #[derive(Debug)]
 pub(crate) struct Values {
     how: Sample,
-    known: Vec<Option<Sampled>>,
+    known: Vec<Option<Ball>>,
 }
 
 impl Values {
@@ -109,8 +91,21 @@ impl Values {
         let known = Vec::new();
         Values { how, known }
     }
+    /// The same where some leaves have given values.
+    pub(crate) fn with(
+        dag: &Dag,
+        how: Sample,
+        given: impl Iterator<Item = (Node, Ball)>,
+    ) -> Values {
+        let mut values = Values::new(how);
+        values.known.resize(dag.len(), None);
+        for (leaf, value) in given {
+            values.known[leaf.0 as usize] = Some(value);
+        }
+        values
+    }
     /// The value of a node.
-    pub(crate) fn at(&mut self, model: &Model, node: Node) -> Sampled {
+    pub(crate) fn at(&mut self, model: &Model, node: Node) -> Ball {
         let dag = &model.dag;
         let place = |node: Node| node.0 as usize;
         self.known.resize(dag.len(), None);
@@ -127,11 +122,11 @@ impl Values {
         let sizes = vec![3; model.sizes.len()];
         let (outside, mut numbers) = (Place::new(&sizes), Numbers::new(model, self.how));
         for node in unknown {
-            let child = |child: Node| self.known[place(child)].unwrap_or(exact(f64::NAN));
+            let child = |child: Node| self.known[place(child)].unwrap_or(Ball::exact(f64::NAN));
             let value = numbers.value(dag, node, &outside, &child);
             self.known[place(node)] = Some(value);
         }
-        self.known[place(node)].unwrap_or(exact(f64::NAN))
+        self.known[place(node)].unwrap_or(Ball::exact(f64::NAN))
     }
 }
 
@@ -150,8 +145,8 @@ const LONGEST: usize = 1 << 20;
 struct Numbers<'a> {
     model: &'a Model,
     how: Sample,
-    given: Map<(Array, i64, i64), f64>,
-    time: Option<f64>,
+    given: Map<(Array, i64, i64), Ball>,
+    time: Option<Ball>,
     read: Map<(Array, i64, i64), ()>,
     point: Point,
     visits: usize,
@@ -193,24 +188,25 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    fn element(&mut self, array: Array, row: i64, column: i64, place: &Place) -> f64 {
+    fn element(&mut self, array: Array, row: i64, column: i64, place: &Place) -> Ball {
         let key = (array, row, column);
-        let value = match (self.given.get(&key), array) {
-            (Some(value), _) => *value,
-            (None, Array::Phase(Column { side: Side::Q, .. })) => {
+        let leaf = || match array {
+            Array::Phase(Column { side: Side::Q, .. }) => {
                 self.leaf(&key, self.how.q, self.how.signed)
             }
-            (None, Array::Phase(Column { side: Side::P, .. })) => {
+            Array::Phase(Column { side: Side::P, .. }) => {
                 self.leaf(&key, self.how.p, self.how.signed)
             }
-            (None, Array::Direction(_) | Array::Velocity(_) | Array::Held(_)) => {
+            Array::Direction(_) | Array::Velocity(_) | Array::Held(_) => {
                 self.leaf(&key, 0, self.how.signed)
             }
-            (None, Array::Parameter(parameter)) => {
+            Array::Parameter(parameter) => {
                 let value = self.leaf(&key, 0, self.how.signs.of(parameter));
                 self.given_parameter(value)
             }
         };
+        let given = self.given.get(&key).copied();
+        let value = given.unwrap_or_else(|| Ball::exact(leaf()));
         if self.read.insert(key, ()).is_none() {
             let column = match array {
                 Array::Phase(at) | Array::Direction(at) | Array::Velocity(at) => {
@@ -220,244 +216,70 @@ impl<'a> Numbers<'a> {
             };
             let (name, extent) = (self.model.array_name(array), |e: &Affine| place.affine(e));
             let name = self.model.element(&name, array, [row, column], extent);
-            self.point.push((name, value));
+            self.point.push((name, value.value));
         }
         value
     }
 
-    fn named(&mut self, name: &str, value: f64) -> f64 {
+    fn named(&mut self, name: &str, value: Ball) -> Ball {
         if !self.point.iter().any(|(n, _)| n == name) {
-            self.point.push((name.to_owned(), value));
+            self.point.push((name.to_owned(), value.value));
         }
         value
-    }
-}
-
-const UNIT: f64 = f64::EPSILON / 2.0;
-
-fn exact(value: f64) -> Sampled {
-    Sampled { value, error: 0.0 }
-}
-
-fn number(value: &Rational) -> Sampled {
-    let (hi, lo) = value.to_words();
-    Sampled {
-        value: hi,
-        error: lo.abs() * (1.0 + f64::EPSILON),
-    }
-}
-
-/// Sums and products of multiples of 1/64, as whole numbers are, have no error up to this size.
-const SHORT: f64 = 1e12;
-
-/// Whether this is such a number.
-fn is_short(a: Sampled) -> bool {
-    a.error == 0.0 && (64.0 * a.value).fract() == 0.0
-}
-
-/// a + b + …
-pub(crate) fn sum(parts: impl Iterator<Item = Sampled>) -> Sampled {
-    let (mut value, mut error, mut size, mut count) = (0.0, 0.0, 0.0, 0.0);
-    let mut short = true;
-    for part in parts {
-        value += part.value;
-        error += part.error;
-        size += part.value.abs();
-        count += 1.0;
-        short &= is_short(part);
-    }
-    if short && size < SHORT {
-        return exact(value);
-    }
-    Sampled {
-        value,
-        error: error + count * UNIT * size,
-    }
-}
-
-/// a·b
-pub(crate) fn product(a: Sampled, b: Sampled) -> Sampled {
-    let value = a.value * b.value;
-    if is_short(a) && is_short(b) && value.abs() < SHORT {
-        return exact(value);
-    }
-    Sampled {
-        value,
-        error: a.value.abs() * b.error
-            + b.value.abs() * a.error
-            + a.error * b.error
-            + UNIT * value.abs(),
-    }
-}
-
-/// A function of one number: its error is how much the argument's error moves it.
-fn through(x: Sampled, f: impl Fn(f64) -> f64) -> Sampled {
-    let value = f(x.value);
-    let by = x.error.max(UNIT * x.value.abs());
-    let moved = (f(x.value + by) - value)
-        .abs()
-        .max((f(x.value - by) - value).abs());
-    Sampled {
-        value,
-        error: if x.error == 0.0 { 0.0 } else { 2.0 * moved } + 8.0 * UNIT * value.abs(),
-    }
-}
-
-fn power(x: Sampled, n: i32) -> Sampled {
-    let value = x.value.powi(n);
-    let relative = f64::from(n.unsigned_abs()) * (x.error / x.value.abs() + UNIT);
-    if x.value == 0.0 && x.error == 0.0 {
-        return exact(value);
-    }
-    Sampled {
-        value,
-        error: 2.0 * relative * value.abs(),
     }
 }
 
 impl Meaning for Numbers<'_> {
-    type Value = Sampled;
+    type Value = Ball;
 
     fn value(
         &mut self,
         dag: &Dag,
         node: Node,
         place: &Place,
-        child: &dyn Fn(Node) -> Sampled,
-    ) -> Sampled {
+        child: &dyn Fn(Node) -> Ball,
+    ) -> Ball {
         self.visits += 1;
-        let truth = |flag: bool| exact(f64::from(u8::from(flag)));
+        if let Some(value) = Ball::of(dag, node, child) {
+            return value;
+        }
         match dag.kind(node) {
-            Kind::Constant(value) => number(value),
-            Kind::Pi => Sampled {
-                value: std::f64::consts::PI,
-                error: crate::PI_LOW,
-            },
             Kind::Scalar(parameter) => {
                 let declared = self.model.parameters.get(usize::from(parameter.0));
                 // A parameter that stands for a node of the engine has no value.
                 let Some(name) = declared.map(|declared| declared.name.clone()) else {
-                    return exact(f64::NAN);
+                    return Ball::exact(f64::NAN);
                 };
                 let size = self.leaf(&(1u8, parameter), 0, false);
                 let is_negative = self.how.signs.of(*parameter);
                 let value = self.given_parameter(if is_negative { -size } else { size });
-                exact(self.named(&name, value))
+                self.named(&name, Ball::exact(value))
             }
             Kind::Time => {
                 let name = self.model.time_name().to_owned();
                 let value = self.time.unwrap_or_else(|| {
                     let is_signed = self.how.signs != Signs::default();
-                    self.leaf(&2u8, 0, is_signed)
+                    Ball::exact(self.leaf(&2u8, 0, is_signed))
                 });
-                exact(self.named(&name, value))
+                self.named(&name, value)
             }
-            Kind::Coefficient => exact(self.leaf(&3u8, 0, false)),
-            Kind::Variable(domain) => exact(place.variable(*domain) as f64),
-            Kind::Extent(size) => exact(place.size(*size) as f64),
-            Kind::Count(domain) => exact(place.count(dag, *domain) as f64),
+            Kind::Coefficient => Ball::exact(self.leaf(&3u8, 0, false)),
+            Kind::Variable(domain) => Ball::exact(place.variable(*domain) as f64),
+            Kind::Extent(size) => Ball::exact(place.size(*size) as f64),
+            Kind::Count(domain) => Ball::exact(place.count(dag, *domain) as f64),
             Kind::Element(array, row, column) => {
                 let (row, column) = (
                     place.index(row),
                     column.as_ref().map_or(0, |c| place.index(c)),
                 );
-                exact(self.element(*array, row, column, place))
+                self.element(*array, row, column, place)
             }
-            Kind::Sum(c, terms) => {
-                let parts = terms.iter().map(|(k, n)| {
-                    if k.is_one() {
-                        child(*n)
-                    } else {
-                        product(number(k), child(*n))
-                    }
-                });
-                sum(std::iter::once(number(c))
-                    .filter(|c| c.value != 0.0)
-                    .chain(parts))
-            }
-            Kind::Product(k, factors) => factors.iter().fold(number(k), |value, &(n, exponent)| {
-                let factor = if exponent == 1 {
-                    child(n)
-                } else {
-                    power(child(n), exponent)
-                };
-                product(value, factor)
-            }),
-            Kind::Call(op, x) => match x.as_slice() {
-                [x] => through(child(*x), |x| op.eval(&[x])),
-                [x, y] => {
-                    let (x, y) = (child(*x), child(*y));
-                    if matches!(op, Op::Min | Op::Max) {
-                        // Emitted code keeps a NaN of either.
-                        if x.value.is_nan() || y.value.is_nan() {
-                            return exact(f64::NAN);
-                        }
-                        let first = (*op == Op::Min) == (x.value <= y.value);
-                        return if first { x } else { y };
-                    }
-                    let (a, b) = (
-                        through(x, |x| op.eval(&[x, y.value])),
-                        through(y, |y| op.eval(&[x.value, y])),
-                    );
-                    Sampled {
-                        value: a.value,
-                        error: a.error + b.error,
-                    }
-                }
-                more => unreachable!("{op:?} of {} arguments", more.len()),
-            },
-            Kind::External(function, part, arguments) => {
-                // Any smooth function will do: sin(w·x + 1), with its own derivatives.
-                let weight = |i: usize| 0.625 + 0.25 * i as f64 + 0.375 * f64::from(*function);
-                let angle = sum(std::iter::once(exact(1.0)).chain(
-                    arguments
-                        .iter()
-                        .enumerate()
-                        .map(|(i, x)| product(exact(weight(i)), child(*x))),
-                ));
-                let scaled =
-                    |factor: f64, f: fn(f64) -> f64| product(exact(factor), through(angle, f));
-                match part {
-                    Part::Value => scaled(1.0, f64::sin),
-                    Part::First(i) => scaled(weight(usize::from(*i)), f64::cos),
-                    Part::Second(i, j) => {
-                        scaled(-weight(usize::from(*i)) * weight(usize::from(*j)), f64::sin)
-                    }
-                    // Its arguments are not known: points do not refute what has it.
-                    Part::Higher { .. } => exact(f64::NAN),
-                }
-            }
-            Kind::Compare(relation, a, b) => {
-                let (a, b) = (child(*a), child(*b));
-                let distance = (a.value - b.value).abs();
-                let error = a.error + b.error;
-                // `q[i] <= q[j]` has no difference at i = j: both are rounded alike.
-                let is_same = distance == 0.0 && a.error == b.error;
-                if !(distance > error || is_same) {
-                    return exact(f64::NAN);
-                }
-                truth(match relation {
-                    Relation::Less => a.value < b.value,
-                    Relation::LessEqual => a.value <= b.value,
-                    Relation::Equal => a.value == b.value,
-                })
-            }
-            Kind::Not(a) => exact(1.0 - child(*a).value),
-            Kind::And(a, b) => exact(child(*a).value * child(*b).value),
-            Kind::Or(a, b) => {
-                let (a, b) = (child(*a).value, child(*b).value);
-                exact(a + b - a * b)
-            }
-            Kind::Select(c, yes, no) => match child(*c).value {
-                c if c.is_nan() => exact(f64::NAN),
-                c => child(if c == 1.0 { *yes } else { *no }),
-            },
-            Kind::Reduce(..) => unreachable!("the walk runs loops itself"),
+            _ => unreachable!("the walk runs loops itself"),
         }
     }
 
-    fn total(&mut self, parts: Vec<Sampled>) -> Sampled {
-        sum(parts.into_iter())
+    fn total(&mut self, parts: Vec<Ball>) -> Ball {
+        Ball::sum(parts.into_iter())
     }
 
     fn is_done(&self) -> bool {

@@ -24,6 +24,7 @@ pub(crate) use atoms::{Algebra, Key, Scope};
 pub(crate) use polynomial::{Atom, Budget, Monomial, Poly, Undecided, terms_of_power};
 
 use crate::dag::{Dag, Dependence, Kind, Node};
+use crate::index::LOOPS;
 use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
@@ -98,8 +99,10 @@ pub(crate) enum Answer {
     Zero,
     /// No rule makes it zero.
     Other,
-    /// A limit stopped the rules.
+    /// A limit of the expansion stopped the rules.
     Limit,
+    /// There are more loops than can be told apart.
+    Loops,
 }
 
 impl Answer {
@@ -113,6 +116,7 @@ impl Answer {
                 "multiplied out, it has more than {} terms or takes more than {} products",
                 BUDGET.terms, BUDGET.products
             ),
+            Answer::Loops => format!("it has more than {LOOPS} loops"),
         }
     }
 }
@@ -163,7 +167,7 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
     };
     match decide() {
         Err(Undecided) => Answer::Limit,
-        Ok(_) if dag.has_too_many_loops() => Answer::Limit,
+        Ok(_) if dag.has_too_many_loops() => Answer::Loops,
         Ok(true) => Answer::Zero,
         Ok(false) => Answer::Other,
     }
@@ -230,7 +234,7 @@ pub(crate) fn witness(
             return None;
         }
         let (around, _) = sample(model, &[&[node], others].concat(), sizes, how, &[])?;
-        let is_defined = around.iter().all(|other| other.value.is_finite());
+        let is_defined = around.iter().all(|other| other.is_defined());
         point.splice(0..0, named(model, sizes));
         is_defined.then_some((point, values[0].value))
     };

@@ -6,7 +6,7 @@
 use super::solve::rows::is_quadratic;
 use super::solve::units::{Unit, Units};
 use super::solve::{exponential, flow};
-use super::space::{Set, Space};
+use super::space::{Set, Space, TERMS};
 use crate::dag::{Map, Node};
 use crate::flow::Flow;
 
@@ -85,7 +85,8 @@ const COORDINATES: Set = 0x5555_5555_5555_5555;
 
 /// The candidates, fewest pieces first, or a term without a flow.
 pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Block>>, Node> {
-    if units.units.len() > 32 {
+    if units.units.len() > TERMS {
+        space.has_more_terms = true;
         return Err(units.units[0].source);
     }
     let mut search = Search {

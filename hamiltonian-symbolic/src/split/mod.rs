@@ -7,6 +7,7 @@
 mod breaks;
 mod cover;
 mod growth;
+mod join;
 mod labels;
 mod rank;
 mod solve;
@@ -15,11 +16,11 @@ mod sweep;
 mod tape;
 
 pub use solve::rows::{ROWS, Row};
-pub use space::NODES;
+pub use space::{Limit, NODES};
 
 use crate::dag::{Dag, Kind, Node};
 use crate::flow::{ExactFlow, Flow, Piece};
-use crate::model::{Model, ObservableKind};
+use crate::model::Model;
 use crate::print;
 use crate::rational::Rational;
 use crate::transform::check_split;
@@ -54,18 +55,14 @@ pub struct Refusal {
     pub node: Node,
     /// The same as text.
     pub text: String,
-    /// Whether the search ended at its limits, so that nothing is said of the term.
-    pub is_limit: bool,
+    /// The limit at which the search ended, so that nothing is said of the term.
+    pub limit: Option<Limit>,
 }
 
 impl Refusal {
-    fn of(model: &Model, node: Node, is_limit: bool) -> Refusal {
+    fn of(model: &Model, node: Node, limit: Option<Limit>) -> Refusal {
         let text = print::text(model, node);
-        Refusal {
-            node,
-            text,
-            is_limit,
-        }
+        Refusal { node, text, limit }
     }
 }
 
@@ -74,12 +71,35 @@ pub const MOST: usize = 8;
 
 /// The exact flow of one expression; its nodes are in the model's arena.
 pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
+    flow_of(model, h).ok()
+}
+
+/// The same, or the limit at which the search ended.
+fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     let Some(mut space) = Space::new(model, &[h]) else {
-        return looped(model, h);
+        return looped(model, h).ok_or(None);
     };
     let found = any_flow(&mut space, h);
+    let mut limit = space.limit();
     model.dag = space.model.dag;
-    found.map(ExactFlow::from)
+    if let Some(flow) = found {
+        return Ok(flow.into());
+    }
+    // What is apart has a budget of its own.
+    let groups = join::groups(model, h);
+    if groups.len() > 1 {
+        let flows = groups.iter().map(|group| {
+            let mut space = Space::new(model, &[*group])?;
+            let found = any_flow(&mut space, *group);
+            limit = space.limit();
+            model.dag = space.model.dag;
+            found
+        });
+        let flows: Option<Vec<Flow>> = flows.collect();
+        let flow = flows.and_then(|flows| join::flows(&mut model.dag, &flows));
+        return flow.map(ExactFlow::from).ok_or(limit);
+    }
+    Err(limit)
 }
 
 /// The flow of an expression with loops.
@@ -103,22 +123,63 @@ fn any_flow(space: &mut Space, h: Node) -> Option<Flow> {
     closed.or_else(|| solve::exponential(space, h))
 }
 
-/// The best splitting of the model's H that the rows give.
+/// Parts of H with their flows, outermost first, and the reasons of the choice.
+struct Parts {
+    flows: Vec<(Node, Flow)>,
+    choice: Option<Reasons>,
+}
+
+/// The best splitting of the model's H that the rows give. Groups of terms that have no degree of freedom
+/// in common are split apart.
 ///
 /// # Errors
 /// [`Refusal`] with the term that no row takes.
 pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
     let h = model.h();
-    let (found, is_limit) = match Space::new(model, &[h]) {
-        Some(mut space) => {
-            let found = search(&mut space, h);
-            let is_limit = space.is_spent();
-            model.dag = space.model.dag;
-            (found, is_limit)
+    let groups = join::groups(model, h);
+    let whole = Space::new(model, &[h]);
+    let has_loops = join::has_loops(&model.dag, h);
+    let parts = match whole {
+        None if has_loops || groups.len() < 2 => {
+            return over_loops(model, h).map_err(|node| Refusal::of(model, node, None));
         }
-        None => (over_loops(model, h), false),
+        Some(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
+        whole => {
+            let together = whole.and_then(|mut space| {
+                let flow = any_flow(&mut space, h)?;
+                model.dag = space.model.dag;
+                Some(flow)
+            });
+            match together {
+                Some(flow) => Parts {
+                    flows: vec![(h, flow)],
+                    choice: None,
+                },
+                None => {
+                    let mut found = Vec::with_capacity(groups.len());
+                    for group in groups {
+                        let Some(mut space) = Space::new(model, &[group]) else {
+                            return Err(Refusal::of(model, group, Some(Limit::Pairs)));
+                        };
+                        found.push(searched(model, &mut space, group)?);
+                    }
+                    join::parts(model, h, found)
+                }
+            }
+        }
     };
-    found.map_err(|node| Refusal::of(model, node, is_limit))
+    if parts.flows.len() > MOST {
+        return Err(Refusal::of(model, h, None));
+    }
+    let pieces = parts.flows.into_iter().map(|(node, flow)| Piece {
+        h: node,
+        name: print::text(model, node),
+        flow: flow.into(),
+    });
+    Ok(Splitting {
+        pieces: pieces.collect(),
+        choice: parts.choice,
+    })
 }
 
 /// A splitting into loops of flows.
@@ -135,17 +196,21 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
     })
 }
 
-fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
+/// The splitting of an expression in its space, whose arena becomes the model's.
+fn searched(model: &mut Model, space: &mut Space, h: Node) -> Result<Parts, Refusal> {
+    let found = search(space, h);
+    let limit = space.limit();
+    model.dag = std::mem::take(&mut space.model.dag);
+    found.map_err(|node| Refusal::of(model, node, limit))
+}
+
+fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
     let mut refused = None;
     let mut candidates = Vec::new();
     let mut constants = Vec::new();
     if let Some(flow) = any_flow(space, h) {
-        return Ok(Splitting {
-            pieces: vec![Piece {
-                h,
-                name: print::text(&space.model, h),
-                flow: flow.into(),
-            }],
+        return Ok(Parts {
+            flows: vec![(h, flow)],
             choice: None,
         });
     }
@@ -172,29 +237,23 @@ fn search(space: &mut Space, h: Node) -> Result<Splitting, Node> {
         let rest = rest(space, pieces);
         !space.is_off(rest)
     });
-    let invariants = space.model.observables.iter();
-    let invariants = invariants.filter(|o| o.kind == ObservableKind::Invariant);
-    let invariants: Vec<Node> = invariants.flat_map(|o| o.components.clone()).collect();
+    let invariants = space.model.invariants();
     let best = rank::best(space, h, candidates, &invariants);
     let (chosen, reasons) = best.ok_or(refused.unwrap_or(h))?;
     let rest = rest(space, &chosen);
     if !space.is_zero(rest) {
         return Err(h);
     }
-    let mut pieces = Vec::with_capacity(chosen.len());
+    let mut flows = Vec::with_capacity(chosen.len());
     for (at, block) in chosen.into_iter().enumerate() {
         let node = match at {
             0 => space.dag().add(&[block.node, constant]),
             _ => block.node,
         };
-        pieces.push(Piece {
-            h: node,
-            name: print::text(&space.model, node),
-            flow: block.flow.into(),
-        });
+        flows.push((node, block.flow));
     }
-    Ok(Splitting {
-        pieces,
+    Ok(Parts {
+        flows,
         choice: Some(reasons),
     })
 }
@@ -231,9 +290,12 @@ pub fn declared(
 ) -> Result<Splitting, (usize, Refusal)> {
     let mut pieces = Vec::with_capacity(parts.len());
     for (at, (name, h)) in parts.iter().enumerate() {
-        let Some(flow) = exact_flow(model, *h) else {
-            let node = blamed(model, *h);
-            return Err((at, Refusal::of(model, node, false)));
+        let flow = match flow_of(model, *h) {
+            Ok(flow) => flow,
+            Err(limit) => {
+                let node = blamed(model, *h);
+                return Err((at, Refusal::of(model, node, limit)));
+            }
         };
         pieces.push(Piece {
             h: *h,

@@ -7,7 +7,7 @@
 pub(super) mod rows;
 pub(super) mod units;
 
-use super::space::{Set, Space, bits, differ};
+use super::space::{Set, Space, bits};
 use crate::dag::{Kind, Map, Node};
 use crate::flow::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
@@ -275,10 +275,11 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
         });
         to - from
     };
-    if differ(
+    let (left, right) = (
         rise(1.0, 0.0) * rise(2.0, 1.0),
         rise(2.0, 0.0) * rise(1.0, 1.0),
-    ) {
+    );
+    if left.differs(right) {
         return None;
     }
     let held = space.section(k, others);

@@ -4,18 +4,21 @@
 //! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
 //! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
 //! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
-//! normal form), every answer is no. A question has a limit of its own ([`QUESTION`]).
+//! normal form), every answer is no. A question has a limit of its own ([`QUESTION`]), and so has each group
+//! of terms that share no degree of freedom with the others ([`super::join`]).
 
 use super::labels;
-use super::tape::{Lanes, Tape};
+use super::tape::Tape;
+use crate::ball::Ball;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::flow::{Flow, Motion};
 use crate::index::Index;
-use crate::loops::{Sample, Sampled, Values, product, sum};
+use crate::loops::{Sample, Values};
 use crate::model::Model;
 use crate::normal_form::{Effort, tidy, vanishes_within, witness};
 use crate::rational::Rational;
+use std::fmt;
 
 /// The most questions whether an expression is zero.
 const TESTS: usize = 400;
@@ -29,6 +32,40 @@ const PRODUCTS: usize = 60_000;
 
 /// The most products of terms that the normal form takes for one question.
 const QUESTION: usize = 20_000;
+
+/// The most points of which numbers are kept.
+const POINTS: usize = 64;
+
+/// The most terms of H that are combined to pieces.
+pub(super) const TERMS: usize = 32;
+
+/// A limit at which the search for exact flows ends. Each group of terms of H that has no degree of freedom
+/// in common with the others is searched by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Limit {
+    /// Of questions whether two expressions are equal.
+    Comparisons,
+    /// Of products of terms in the normal forms of all questions.
+    Products,
+    /// Of new expressions.
+    Expressions,
+    /// Of terms of H.
+    Terms,
+    /// Of degrees of freedom that terms of H join.
+    Pairs,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Limit::Comparisons => write!(f, "{TESTS} comparisons of expressions"),
+            Limit::Products => write!(f, "{PRODUCTS} products of terms"),
+            Limit::Expressions => write!(f, "{NODES} new expressions"),
+            Limit::Terms => write!(f, "{TERMS} terms"),
+            Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
+        }
+    }
+}
 
 /// The most components of a point whose quadratic forms are exponentiated as matrices.
 const COMPONENTS: usize = 16;
@@ -51,8 +88,8 @@ pub(crate) struct Space {
     zeros: Map<Node, bool>,
     /// Numbers of nodes, from which most questions are answered.
     values: [Values; 2],
-    /// Expressions that were evaluated, as tapes with their numbers.
-    tapes: Map<Node, Option<(Tape, Vec<Lanes>)>>,
+    /// Numbers of nodes at points, each of which is made once.
+    points: Map<Vec<[u64; 2]>, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(super) flows: Map<(Node, Node), Option<Flow>>,
     /// The same of one pair alone.
@@ -65,6 +102,8 @@ pub(crate) struct Space {
     products: usize,
     /// The largest size of the arena in this search.
     last: usize,
+    /// Whether H has more than [`TERMS`] terms.
+    pub(super) has_more_terms: bool,
 }
 
 impl Space {
@@ -119,17 +158,28 @@ impl Space {
                     ..Sample::default()
                 })
             }),
-            tapes: Map::default(),
+            points: Map::default(),
             flows: Map::default(),
             atoms: Map::default(),
             tests: TESTS,
             products: PRODUCTS,
+            has_more_terms: false,
         })
     }
 
     /// Whether the search has spent its budget.
     pub(crate) fn is_spent(&self) -> bool {
         self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
+    }
+    /// The limit that the search has reached.
+    pub(super) fn limit(&self) -> Option<Limit> {
+        match self {
+            _ if self.tests == 0 => Some(Limit::Comparisons),
+            _ if self.products == 0 => Some(Limit::Products),
+            _ if self.is_spent() => Some(Limit::Expressions),
+            _ if self.has_more_terms => Some(Limit::Terms),
+            _ => None,
+        }
     }
     /// The arena.
     pub(crate) fn dag(&mut self) -> &mut Dag {
@@ -245,14 +295,13 @@ impl Space {
         for (sign, [x, y]) in &terms {
             let (x, y) = (self.near(*x), self.near(*y));
             for (at, numbers) in numbers.iter_mut().enumerate() {
-                let mut term = product(x[at], y[at]);
-                term.value *= sign.to_f64();
-                numbers.push(term);
+                let term = x[at] * y[at];
+                numbers.push(if sign.is_negative() { -term } else { term });
             }
         }
         if numbers
             .into_iter()
-            .any(|terms| sum(terms.into_iter()).is_nonzero())
+            .any(|terms| Ball::sum(terms.into_iter()).is_nonzero())
         {
             return false;
         }
@@ -325,7 +374,10 @@ impl Space {
             return Some(node);
         }
         let [here, there] = [0.0, 1.0].map(|step| self.point_off(&[(set, step)]));
-        if differ(self.value_at(node, &here), self.value_at(node, &there)) {
+        if self
+            .value_at(node, &here)
+            .differs(self.value_at(node, &there))
+        {
             return None;
         }
         let section = self.section(node, set);
@@ -359,28 +411,45 @@ impl Space {
     }
 
     /// The value at a point where all is positive.
-    pub(crate) fn value(&mut self, node: Node) -> f64 {
-        self.near(node)[0].value
+    pub(crate) fn value(&mut self, node: Node) -> Ball {
+        self.near(node)[0]
     }
     /// The values at two points: all leaves positive, and of both signs.
-    fn near(&mut self, node: Node) -> [Sampled; 2] {
+    fn near(&mut self, node: Node) -> [Ball; 2] {
         let model = &self.model;
         self.values.each_mut().map(|values| values.at(model, node))
     }
     /// A point, by variables' numbers, from which others are taken by changing some.
-    pub(crate) fn point(&self) -> Vec<f64> {
-        let start = |bit: usize| 0.9 + ((bit * 5 + 3) % 7) as f64 / 16.0;
+    pub(crate) fn point(&self) -> Vec<Ball> {
+        // Multiples of 1/64 are exact, and so are steps between them.
+        let start = |bit: usize| Ball::exact(0.90625 + ((bit * 5 + 3) % 7) as f64 / 16.0);
         (0..2 * self.pairs.len()).map(start).collect()
     }
     /// The same with some variables moved by steps.
-    pub(crate) fn point_off(&self, moved: &[(Set, f64)]) -> Vec<f64> {
+    pub(crate) fn point_off(&self, moved: &[(Set, f64)]) -> Vec<Ball> {
         let mut point = self.point();
         for (set, step) in moved {
             for bit in bits(*set) {
-                point[bit] += step * ((bit * 3 + 1) % 5 + 1) as f64 / 16.0;
+                let step = step * ((bit * 3 + 1) % 5 + 1) as f64 / 16.0;
+                point[bit] = point[bit] + Ball::exact(step);
             }
         }
         point
+    }
+    /// A fraction that an expression of values may be, from the first of some points where it exists.
+    pub(crate) fn fraction(
+        &mut self,
+        of: impl Fn(&mut Space, &[Ball]) -> Ball,
+    ) -> Option<Rational> {
+        let all = (0..2 * self.pairs.len()).fold(0, |set, bit| set | 1 << bit);
+        let values = [0.0, -2.0, -4.0, 2.0].into_iter().map(|step| {
+            let point = self.point_off(&[(all, step)]);
+            of(self, &point)
+        });
+        values
+            .into_iter()
+            .find(|value| value.is_defined())?
+            .as_fraction()
     }
     /// Nodes as operations on variables; parameters and time have the values of a sample point.
     pub(super) fn tape(&mut self, roots: &[Node]) -> Option<Tape> {
@@ -396,31 +465,30 @@ impl Space {
         let given = |node| values.at(model, node).value;
         Tape::of(&model.dag, roots, |node| sets[node.0 as usize], given)
     }
-    /// The value at a point; NaN where there is none.
-    pub(crate) fn value_at(&mut self, node: Node, point: &[f64]) -> f64 {
-        if !self.tapes.contains_key(&node) {
-            let tape = self.tape(&[node]);
-            let tape = tape.map(|tape| {
-                let numbers = tape.prepared(0.5);
-                (tape, numbers)
-            });
-            self.tapes.insert(node, tape);
+    /// The value at a point; parameters and time have the values of a sample point.
+    pub(crate) fn value_at(&mut self, node: Node, point: &[Ball]) -> Ball {
+        let key = |ball: &Ball| [ball.value.to_bits(), ball.error.to_bits()];
+        let key: Vec<[u64; 2]> = point.iter().map(key).collect();
+        if self.points.len() > POINTS {
+            self.points.clear();
         }
-        let Some(Some((tape, numbers))) = self.tapes.get_mut(&node) else {
-            return f64::NAN;
-        };
-        // Functions of no number cost nothing.
-        let alone = |x: &f64| [*x, f64::NAN, f64::NAN, f64::NAN];
-        let point: Vec<Lanes> = point.iter().map(alone).collect();
-        tape.run(&point, numbers);
-        numbers[tape.results[0]][0]
+        let (model, pairs) = (&self.model, &self.pairs);
+        let values = self.points.entry(key).or_insert_with(|| {
+            let leaves = pairs.iter().flat_map(|(q, p)| [*q, *p]);
+            Values::with(
+                &model.dag,
+                Sample::default(),
+                leaves.zip(point.iter().copied()),
+            )
+        });
+        values.at(model, node)
     }
 
     /// The integer n with a = n·b, if that is proven.
     pub(crate) fn ratio(&mut self, a: Node, b: Node) -> Option<i32> {
-        let ratio = self.value(a) / self.value(b);
-        let guess = ratio.round();
-        if differ(guess, ratio) {
+        let (a_value, b_value) = (self.value(a), self.value(b));
+        let guess = (a_value.value / b_value.value).round();
+        if (Ball::exact(guess) * b_value).differs(a_value) {
             return None;
         }
         let n = (guess.abs() <= 64.0).then_some(guess as i32)?;
@@ -471,12 +539,6 @@ fn is_positive(dag: &Dag, node: Node) -> bool {
         },
         _ => false,
     }
-}
-
-/// Whether two values of size 1 or so are certainly not of the same number: their difference is far
-/// beyond rounding.
-pub(crate) fn differ(a: f64, b: f64) -> bool {
-    (a - b).abs() > 1e-7 * (1.0 + a.abs() + b.abs())
 }
 
 /// The bits of a set.

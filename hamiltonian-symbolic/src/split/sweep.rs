@@ -5,7 +5,6 @@
 //! iterations that are proven to commute are exact in any order, others are swept one way down and the
 //! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
 
-use super::solve::shear;
 use super::solve::units::{Term, terms};
 use super::space::Space;
 use super::{ExactFlow, Piece};
@@ -304,19 +303,7 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
     // does so within one iteration.
     let parts: Vec<(Node, Flow)> = match any_flow(&mut space, small_body) {
         Some(flow) => vec![(small_body, flow)],
-        None if may_part => {
-            let parts = search(&mut space, small_body).ok()?.pieces.into_iter();
-            let c = space.dag().coefficient();
-            let motion = |piece: Piece| {
-                let flow = match piece.flow {
-                    ExactFlow::Closed(motion, rows) => Flow { motion, rows },
-                    ExactFlow::Linear => shear(&mut space, piece.h, c),
-                    ExactFlow::Exponential | ExactFlow::Loop { .. } => return None,
-                };
-                Some((piece.h, flow))
-            };
-            parts.map(motion).collect::<Option<_>>()?
-        }
+        None if may_part => search(&mut space, small_body).ok()?.flows,
         None => return None,
     };
     model.dag = space.model.dag;

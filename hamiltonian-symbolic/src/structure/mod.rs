@@ -5,10 +5,12 @@
 //! is the reason, in the user's notation. Invariant: a positive answer is proven; parts of a split
 //! keep the grouping of the source wherever the source already separates term by term.
 
+mod components;
 mod expand;
 mod quadratic;
 mod separate;
 
+pub(crate) use components::components;
 pub(crate) use expand::{Collected, expand_within, times};
 pub use expand::{Term, expand};
 pub(crate) use quadratic::degrees;

@@ -7,6 +7,7 @@
 use super::Refusal;
 use super::coordinates::Transformed;
 use super::layout::Slot;
+use crate::ball::Ball;
 use crate::dag::{Node, Side};
 use crate::index::Affine;
 use crate::loops::{self, Sample, Signs, next_random};
@@ -81,7 +82,7 @@ fn check_at(
             ..Sample::default()
         };
         let mut random = seed;
-        let mut given: Vec<(Node, f64)> = Vec::new();
+        let mut given: Vec<(Node, Ball)> = Vec::new();
         // If H has no value at the first points it may have one further out or in.
         let further = seed.saturating_sub(POINTS as u64) as i32;
         let scale = 4f64.powi(if further % 2 == 0 { further } else { -further });
@@ -98,17 +99,17 @@ fn check_at(
                 _ if flip => -scale * size,
                 _ => scale * size,
             };
-            given.push((node, value));
+            given.push((node, Ball::exact(value)));
         }
         let mut all = new_roots.clone();
         all.extend(inverse.iter().map(|entry| entry.value));
         let Some((values, point)) = loops::sample(&new, &all, sizes, how, &given) else {
             continue;
         };
-        let mut old_given: Vec<(Node, f64)> = Vec::new();
+        let mut old_given: Vec<(Node, Ball)> = Vec::new();
         for (entry, value) in inverse.iter().zip(&values[new_roots.len()..]) {
             let node = old.dag.phase(entry.at, entry.row.clone());
-            old_given.push((node, value.value));
+            old_given.push((node, *value));
         }
         for (&(side, slot), (_, value)) in new_slots.iter().zip(&given) {
             if let Some((group, _)) = transformed.kept.iter().find(|(_, to)| *to == slot.group) {
@@ -122,9 +123,8 @@ fn check_at(
         };
         for (at, (a, b)) in expected.iter().zip(&values).enumerate() {
             let close = CLOSE * a.value.abs().max(b.value.abs()).max(1.0);
-            // The bounds of the rounding errors do not know that the arguments are rounded too.
-            let rounding = 1e4 * (a.error + b.error);
-            if !(a.value.is_finite() && a.error.is_finite()) {
+            let rounding = a.error + b.error;
+            if !a.is_defined() || b.error.is_infinite() && b.value.is_finite() {
                 continue;
             }
             // The first one is H.
@@ -136,9 +136,8 @@ fn check_at(
                 };
                 *count += 1;
             }
-            // A value that is none is not close.
-            let is_close = (a.value - b.value).abs() <= close + rounding;
-            if !is_close {
+            // A value that is none is not the same.
+            if !b.is_defined() || a.differs(*b) {
                 return Err(Refusal::Unverified {
                     point,
                     old: a.value,

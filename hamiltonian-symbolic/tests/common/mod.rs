@@ -3,6 +3,7 @@
 //! Input: declarations and expressions as text. Output: a [`Model`] and nodes of its arena. It
 //! panics on unknown words; the real front end is the macro's.
 
+use hamiltonian_symbolic::Ball;
 use hamiltonian_symbolic::dag::{Array, Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index, Size};
 use hamiltonian_symbolic::loops::{Sample, sample};
@@ -426,6 +427,10 @@ impl Parser<'_> {
 
 /// The value of each node where elements have the given values.
 pub fn values(model: &Model, nodes: &[Node], given: &[(Node, f64)]) -> Vec<f64> {
-    let (values, _) = sample(model, nodes, &[], Sample::default(), given).unwrap();
+    let given = given
+        .iter()
+        .map(|(node, value)| (*node, Ball::exact(*value)));
+    let given: Vec<(Node, Ball)> = given.collect();
+    let (values, _) = sample(model, nodes, &[], Sample::default(), &given).unwrap();
     values.iter().map(|v| v.value).collect()
 }

@@ -1,13 +1,17 @@
-//! What is the same system to its author has the same pieces: other names, another order of terms and of
-//! coordinates, a parameter that nothing reads, an added constant.
+//! A system that is written in another way keeps its structure and its pieces: other names, another order of
+//! terms and of coordinates, a parameter that nothing reads, an added constant, another degree of freedom.
+//! Scaled coordinates keep the structure.
 
-use super::table::FOUND;
+use super::CASES;
+use super::arrays::RINGS;
+use super::table::{FOUND, REFUSED};
 use crate::common;
 use crate::judge::field::{Field, World};
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble as D, Real};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::split::find;
+use hamiltonian_symbolic::structure::analyse;
 
 /// A system as text, and where the coordinates of the one it was made from stand.
 #[derive(Clone, Debug)]
@@ -16,9 +20,17 @@ struct System {
     momenta: Vec<String>,
     time: String,
     parameters: Vec<String>,
+    sizes: String,
     terms: Vec<String>,
     order: Vec<usize>,
 }
+
+/// What traits are made of: separable, a quadratic T, autonomous, the number of cyclic coordinates, and either
+/// the number of pieces or the term that is refused.
+type Structure = (bool, bool, bool, usize, Result<usize, String>);
+
+/// The name of a degree of freedom that has nothing to do with the others.
+const APART: [&str; 2] = ["apart", "p_apart"];
 
 impl System {
     fn read(signature: &str, parameters: &str, h: &str) -> System {
@@ -32,6 +44,8 @@ impl System {
             order: (0..coordinates.len()).collect(),
             time: parts.next().unwrap_or("").to_owned(),
             parameters: parameters.split_whitespace().map(str::to_owned).collect(),
+            // Arrays have a size of their own.
+            sizes: if signature.contains("[n]") { "n" } else { "" }.to_owned(),
             terms: terms(h),
             coordinates,
             momenta,
@@ -44,7 +58,7 @@ impl System {
             false => format!("{q}; {p}; {}", self.time),
         };
         let h = format!("0 {}", self.terms.join(" "));
-        common::system(&signature, "", &self.parameters.join(" "), &h)
+        common::system(&signature, &self.sizes, &self.parameters.join(" "), &h)
     }
 
     fn renamed(&self) -> System {
@@ -55,25 +69,11 @@ impl System {
             ("mm", &self.parameters),
         ] {
             for (at, name) in list.iter().enumerate() {
-                names.push((name.clone(), format!("{letter}{}", list.len() - at)));
+                let (name, _) = name.split_once('[').unwrap_or((name, ""));
+                names.push((name.to_owned(), format!("{letter}{}", list.len() - at)));
             }
         }
-        let other = |text: &String| {
-            let mut out = String::new();
-            let mut word = String::new();
-            for c in text.chars().chain([' ']) {
-                if c.is_alphanumeric() || c == '_' {
-                    word.push(c);
-                    continue;
-                }
-                let new = names.iter().find(|(old, _)| *old == word);
-                out.push_str(new.map_or(&word, |(_, new)| new));
-                word.clear();
-                out.push(c);
-            }
-            out.trim_end().to_owned()
-        };
-        let all = |list: &Vec<String>| list.iter().map(other).collect();
+        let all = |list: &[String]| list.iter().map(|text| replaced(text, &names)).collect();
         System {
             coordinates: all(&self.coordinates),
             momenta: all(&self.momenta),
@@ -81,6 +81,38 @@ impl System {
             terms: all(&self.terms),
             ..self.clone()
         }
+    }
+    /// In coordinates that are multiples of its own.
+    fn scaled(&self) -> System {
+        let mut names: Vec<(String, String)> = Vec::new();
+        let factors = ["2", "(3/2)", "(1/3)"].into_iter().cycle();
+        for ((q, p), k) in self.coordinates.iter().zip(&self.momenta).zip(factors) {
+            names.push((q.clone(), format!("({k}*{q})")));
+            names.push((p.clone(), format!("({p}/{k})")));
+        }
+        let terms = self.terms.iter().map(|text| replaced(text, &names));
+        System {
+            terms: terms.collect(),
+            ..self.clone()
+        }
+    }
+    /// With an oscillator beside it.
+    fn with_another(&self) -> System {
+        let mut other = self.clone();
+        other.coordinates.insert(0, APART[0].to_owned());
+        other.momenta.insert(0, APART[1].to_owned());
+        other.order.insert(0, self.order.len());
+        other.terms.insert(0, format!("+ {}^2/2", APART[0]));
+        other.terms.push(format!("+ {}^2/2", APART[1]));
+        other
+    }
+    fn reversed(&self) -> System {
+        let mut other = self.clone();
+        other.terms.reverse();
+        other.coordinates.reverse();
+        other.momenta.reverse();
+        other.order.reverse();
+        other
     }
     fn with_terms(&self, random: &mut Random) -> System {
         let mut other = self.clone();
@@ -110,6 +142,27 @@ impl System {
         other.terms.insert(0, "+ 2.5".to_owned());
         other
     }
+    fn with_parameter_added(&self) -> System {
+        let mut other = self.with_parameter();
+        other.terms.push("+ unused".to_owned());
+        other
+    }
+
+    fn structure(&self) -> Structure {
+        let mut model = self.model();
+        let found = analyse(&mut model);
+        let split = find(&mut model);
+        (
+            found.separable.is_ok(),
+            found.quadratic_kinetic.is_ok(),
+            found.autonomous.is_ok(),
+            found.cyclic.len(),
+            split.map(|split| split.pieces.len()).map_err(|refusal| {
+                assert!(refusal.limit.is_none(), "{:?}: {self:?}", refusal.limit);
+                refusal.text
+            }),
+        )
+    }
 
     /// The values of the pieces at points of the system it was made from, less those at the first of them,
     /// in order of size.
@@ -130,6 +183,12 @@ impl System {
         let n = self.order.len();
         let point = |k: usize| -> Vec<D> {
             let value = |old: usize| {
+                // What stands apart rests.
+                let k = if old / 2 + 1 == n && self.coordinates.contains(&APART[0].to_owned()) {
+                    0
+                } else {
+                    k
+                };
                 let place = (old * 7 + k * 5) % 11;
                 let momentum = f64::from(u8::from(old % 2 == 1));
                 D::from(0.9 - 0.6 * momentum + place as f64 / 32.0)
@@ -146,6 +205,8 @@ impl System {
             let values: Vec<f64> = (0..4).map(|k| field.at(&point(k)).0.to_f64()).collect();
             all.push(values.iter().map(|value| value - values[0]).collect());
         }
+        // A piece of what stands apart is constant.
+        all.retain(|values: &Vec<f64>| values.iter().any(|value| *value != 0.0));
         all.sort_by(|a: &Vec<f64>, b| a[1].total_cmp(&b[1]));
         Ok(all)
     }
@@ -157,8 +218,8 @@ fn terms(h: &str) -> Vec<String> {
     let mut now = String::from("+ ");
     for c in h.chars() {
         match c {
-            '(' => depth += 1,
-            ')' => depth -= 1,
+            '(' | '[' | '{' => depth += 1,
+            ')' | ']' | '}' => depth -= 1,
             '+' | '-' if depth == 0 && now.trim_end().len() > 1 => {
                 terms.push(now.trim_end().to_owned());
                 now.clear();
@@ -170,6 +231,23 @@ fn terms(h: &str) -> Vec<String> {
     }
     terms.push(now);
     terms
+}
+
+/// Text with other words.
+fn replaced(text: &str, names: &[(String, String)]) -> String {
+    let mut out = String::new();
+    let mut word = String::new();
+    for c in text.chars().chain([' ']) {
+        if c.is_alphanumeric() || c == '_' {
+            word.push(c);
+            continue;
+        }
+        let new = names.iter().find(|(old, _)| *old == word);
+        out.push_str(new.map_or(&word, |(_, new)| new));
+        word.clear();
+        out.push(c);
+    }
+    out.trim_end().to_owned()
 }
 
 fn shuffle<T>(list: &mut [T], random: &mut Random) {
@@ -192,35 +270,125 @@ const MORE: &[(&str, &str, &str)] = &[
     ),
 ];
 
+/// Definitions of the examples and the book.
+const EXAMPLES: &[(&str, &str, &str)] = &[
+    ("theta; p", "m l g", "p^2/(2*m*l^2) - m*g*l*cos(theta)"),
+    ("q; p", "m l g", "p^2/(2*m*l^2) - m*g*l*cos(q) + p/l"),
+    ("theta; p; t", "f", "p^2/2 - cos(theta) - f*theta*cos(t)"),
+    ("theta; p; t", "a", "p^2/2 - (1 + a*cos(1.7*t))*cos(theta)"),
+    (
+        "x, y; p_x, p_y",
+        "",
+        "(p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3",
+    ),
+    (
+        "x, y, z; p_x, p_y, p_z",
+        "B E",
+        "((p_x + B*y/2)^2 + (p_y - B*x/2)^2 + p_z^2)/2 - E*x",
+    ),
+    (
+        "x, y, z; p_x, p_y, p_z",
+        "B k",
+        "((p_x + B*y/2)^2 + (p_y - B*x/2)^2 + p_z^2)/2 + k*(2*z^2 - x^2 - y^2)/2",
+    ),
+    (
+        "x, y, z; p_x, p_y, p_z",
+        "mu",
+        "((p_x + mu*y/sqrt(x^2 + y^2 + z^2)^3)^2 + (p_y - mu*x/sqrt(x^2 + y^2 + z^2)^3)^2 + p_z^2)/2",
+    ),
+    (
+        "a, b; p_a, p_b",
+        "m1 m2 l1 l2 g",
+        "(m2*l2^2*p_a^2 + (m1 + m2)*l1^2*p_b^2 - 2*m2*l1*l2*p_a*p_b*cos(a - b))/(2*m2*l1^2*l2^2*(m1 + m2*sin(a - b)^2)) - (m1 + m2)*g*l1*cos(a) - m2*g*l2*cos(b)",
+    ),
+    (
+        "x, y; p_x, p_y",
+        "omega v core b",
+        "(p_x^2 + p_y^2)/2 - omega*(x*p_y - y*p_x) + v^2/2*ln(core^2 + x^2 + (y/b)^2)",
+    ),
+    (
+        "x, y; p_x, p_y",
+        "mu",
+        "(p_x^2 + p_y^2)/2 + y*p_x - x*p_y - (1 - mu)/hypot(x + mu, y) - mu/hypot(x - (1 - mu), y)",
+    ),
+    (
+        "phi, theta, psi; p_phi, p_theta, p_psi",
+        "",
+        "((p_phi - p_psi*cos(theta))*sin(psi)/sin(theta) + p_theta*cos(psi))^2/4 + ((p_phi - p_psi*cos(theta))*cos(psi)/sin(theta) - p_theta*sin(psi))^2/4 + p_psi^2/2 - sin(theta)*sin(psi)",
+    ),
+    (
+        "x, y; p_x, p_y",
+        "k",
+        "(p_x^2 + p_y^2)/2 - k/sqrt(x^2 + y^2)",
+    ),
+    (
+        "x, y; p_x, p_y",
+        "D a",
+        "(p_x^2 + p_y^2)/2 + D*(1 - exp(-a*x))^2 + x*y",
+    ),
+    ("S; P", "", "S*P*(1 - S) - P^2"),
+];
+
+/// All systems of one component each.
+fn systems() -> Vec<System> {
+    let found = FOUND
+        .iter()
+        .map(|one| (one.signature, one.parameters, one.h));
+    let cases = CASES
+        .iter()
+        .map(|one| (one.signature, one.parameters, one.h));
+    let refused = REFUSED
+        .iter()
+        .map(|one| (one.signature, one.parameters, one.h));
+    let all = found
+        .chain(MORE.iter().copied())
+        .chain(EXAMPLES.iter().copied());
+    all.chain(cases)
+        .chain(refused)
+        .map(|(signature, parameters, h)| System::read(signature, parameters, h))
+        .collect()
+}
+
+/// The ways in which one system is written, each with its name; scaled coordinates have other pieces.
+fn others(system: &System, random: &mut Random) -> Vec<(&'static str, System)> {
+    let mut all = vec![
+        ("names", system.renamed()),
+        ("terms", system.with_terms(random)),
+        ("coordinates", system.with_coordinates(random)),
+        ("both reversed", system.reversed()),
+        ("parameter", system.with_parameter()),
+        ("constant", system.with_constant()),
+        ("parameter added", system.with_parameter_added()),
+        ("another", system.with_another()),
+        (
+            "all",
+            system
+                .renamed()
+                .with_terms(random)
+                .with_coordinates(random)
+                .with_parameter()
+                .with_constant()
+                .with_another(),
+        ),
+    ];
+    for _ in 0..common::cases(0, 20) {
+        all.push(("terms", system.with_terms(random)));
+        all.push(("coordinates", system.with_coordinates(random)));
+        all.push(("another", system.with_another().with_coordinates(random)));
+    }
+    all
+}
+
 #[test]
 fn the_same_systems_have_the_same_pieces() {
     let mut random = Random(19);
-    let (mut others, mut count) = (Vec::new(), 0);
-    let table = FOUND
-        .iter()
-        .map(|found| (found.signature, found.parameters, found.h));
-    for (signature, parameters, h) in table.chain(MORE.iter().copied()) {
-        let system = System::read(signature, parameters, h);
-        let pieces = system.pieces().expect("it is split");
-        let together = system
-            .renamed()
-            .with_terms(&mut random)
-            .with_coordinates(&mut random);
-        let mut perturbed = vec![
-            ("names", system.renamed()),
-            ("terms", system.with_terms(&mut random)),
-            ("coordinates", system.with_coordinates(&mut random)),
-            ("parameter", system.with_parameter()),
-            ("constant", system.with_constant()),
-            ("all", together.with_parameter().with_constant()),
-        ];
-        for _ in 0..common::cases(0, 20) {
-            perturbed.push(("terms", system.with_terms(&mut random)));
-            perturbed.push(("coordinates", system.with_coordinates(&mut random)));
-        }
-        for (what, other) in perturbed {
+    let (mut faults, mut count) = (Vec::new(), 0);
+    let systems = systems();
+    for system in &systems {
+        let pieces = system.pieces();
+        for (what, other) in others(system, &mut random) {
             count += 1;
-            let is_same = |own: &Vec<Vec<f64>>| {
+            let is_same = |own: &Vec<Vec<f64>>, pieces: &Vec<Vec<f64>>| {
                 own.len() == pieces.len()
                     && own
                         .iter()
@@ -228,18 +396,85 @@ fn the_same_systems_have_the_same_pieces() {
                         .zip(pieces.iter().flatten())
                         .all(|(a, b)| (a - b).abs() <= 1e-9 * (1.0 + a.abs() + b.abs()))
             };
-            match other.pieces() {
-                Ok(own) if is_same(&own) => {}
-                Ok(_) => others.push(format!("{what}: other pieces: {other:?}")),
-                Err(term) => others.push(format!("{what}: refused for {term}: {other:?}")),
+            match (other.pieces(), &pieces) {
+                (Ok(own), Ok(pieces)) if is_same(&own, pieces) => {}
+                (Err(_), Err(_)) => {}
+                (Ok(_), _) => faults.push(format!("{what}: other pieces: {other:?}")),
+                (Err(term), _) => faults.push(format!("{what}: refused for {term}: {other:?}")),
+            }
+        }
+    }
+    println!("{count} ways to write {} systems", systems.len());
+    assert!(systems.len() >= 50);
+    assert!(
+        faults.is_empty(),
+        "{} of {count}: {faults:#?}",
+        faults.len()
+    );
+}
+
+#[test]
+fn the_same_systems_have_the_same_structure() {
+    let mut random = Random(20);
+    let (mut faults, mut count) = (Vec::new(), 0);
+    let rings = RINGS
+        .iter()
+        .map(|ring| System::read(ring.signature, ring.parameters, ring.h));
+    for system in systems().into_iter().chain(rings) {
+        let own = system.structure();
+        let mut all = others(&system, &mut random);
+        // Elements of arrays are scaled by the tests of transformations.
+        if system.sizes.is_empty() {
+            all.push(("scaled", system.scaled()));
+        }
+        for (what, other) in all {
+            count += 1;
+            let new = other.structure();
+            let traits = |of: &Structure| (of.0, of.1, of.2, of.3, of.4.is_ok());
+            if traits(&own) != traits(&new) {
+                faults.push(format!("{what}: {own:?} became {new:?}: {other:?}"));
             }
         }
     }
     println!("{count} systems");
-    assert!(count >= 50);
     assert!(
-        others.is_empty(),
-        "{} of {count}: {others:#?}",
-        others.len()
+        faults.is_empty(),
+        "{} of {count}: {faults:#?}",
+        faults.len()
     );
+}
+
+/// A term that no row takes, and whose normal form is large.
+const HARD: &str = "sqrt((x^2 + u^2 + 1)*(y^2 + v^2 + 2) + (x + y + u + v)^6/(1 + (x*u - y*v)^4))";
+
+#[test]
+fn a_term_apart_spends_no_budget() {
+    let alone = common::system("q; p", "", "", "0.5*(q^2 + 1)*(p^2 + 1)");
+    let pieces = find(&mut alone.clone()).expect("it is split").pieces;
+    // Oscillators of other frequencies, far more than the pairs and the terms of one search.
+    let (mut q, mut p, mut h) = ("q".to_owned(), "p".to_owned(), String::new());
+    for at in 0..40 {
+        q += &format!(", x{at}");
+        p += &format!(", y{at}");
+        h += &format!(" + y{at}^2/2 + {}*x{at}^2 + x{at}^4", at + 1);
+    }
+    let h = format!("0.5*(q^2 + 1)*(p^2 + 1){h}");
+    let mut together = common::system(&format!("{q}; {p}"), "", "", &h);
+    let found = find(&mut together).expect("it is split as it is alone");
+    assert_eq!(found.pieces.len(), pieces.len());
+    // What is refused is the term apart, whichever comes first.
+    for (signature, h) in [
+        (
+            "q, x, y; p, u, v",
+            format!("0.5*(q^2 + 1)*(p^2 + 1) + {HARD}"),
+        ),
+        (
+            "x, y, q; u, v, p",
+            format!("{HARD} + 0.5*(q^2 + 1)*(p^2 + 1)"),
+        ),
+    ] {
+        let refusal =
+            find(&mut common::system(signature, "", "", &h)).expect_err("one has no flow");
+        assert!(refusal.text.contains("x*u"), "{refusal:?}");
+    }
 }

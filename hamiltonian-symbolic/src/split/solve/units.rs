@@ -268,10 +268,12 @@ fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
         let point = space.point_off(&[(set, step)]);
         let mut sum = 0.0;
         for part in parts {
-            sum += space.value_at(*part, &point).abs();
+            sum += space.value_at(*part, &point).value.abs();
         }
-        let loss = sum / space.value_at(whole, &point).abs();
-        losses.extend(loss.is_finite().then_some(loss));
+        let whole = space.value_at(whole, &point);
+        let loss = sum / whole.value.abs();
+        // A whole that rounding hides says nothing.
+        losses.extend((whole.is_nonzero() && loss.is_finite()).then_some(loss));
     }
     losses.sort_by(f64::total_cmp);
     losses.get(losses.len() / 2).copied().unwrap_or(1.0)

@@ -2,22 +2,23 @@
 //! M₁ = ((p_φ − p_ψ cosθ)sinψ + p_θ sinθ cosψ)/sinθ, M₂ = ((p_φ − p_ψ cosθ)cosψ − p_θ sinθ sinψ)/sinθ.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: h = κ·M² with κ constant is proven; φ may be
-//! missing in h, as p_φ = const; the variables of θ and ψ may be scaled. The flow turns the other two components and the vertical γ about
+//! missing in h, as p_φ = const; the variables may be scaled. The flow turns the other two components and the vertical γ about
 //! the axis; angles are followed from where they are, without branch cuts.
 
 use super::circle::SWEPT;
-use crate::dag::{Kind, Node};
+use crate::ball::Ball;
+use crate::dag::Node;
 use crate::flow::Motion;
 use crate::formula::Names;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::split::space::{Space, differ};
-use std::f64::consts::FRAC_PI_2;
+use crate::split::space::Space;
 
-/// The sine and cosine of ψ, and of ψ − π/2: M₂ is −M₁ a quarter of a turn back.
-const SIDES: [(f64, &str); 2] = [
-    (0.0, "sps = sin(ps); cps = cos(ps)"),
-    (-FRAC_PI_2, "sps = 0 - cos(ps); cps = sin(ps)"),
+/// The sine and cosine of ψ, and of ψ − π/2: M₂ is −M₁ a quarter of a turn back. Before them, the quarters of a
+/// turn to the ψ whose sine is 1.
+const SIDES: [(i64, &str); 2] = [
+    (1, "sps = sin(ps); cps = cos(ps)"),
+    (2, "sps = 0 - cos(ps); cps = sin(ps)"),
 ];
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
@@ -32,11 +33,14 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
             continue;
         }
         for (theta, psi) in [(*a, *b), (*b, *a)] {
-            for scale in scales(space, h, theta) {
-                for turn in scales(space, h, psi) {
+            for scale in super::rates(space, h, space.pairs[theta].0) {
+                for turn in super::rates(space, h, space.pairs[psi].0) {
+                    let angles = [(theta, &scale), (psi, &turn)];
+                    let Some(own) = scale_of_third(space, h, third, angles) else {
+                        continue;
+                    };
                     for side in SIDES {
-                        let angles = [(theta, &scale), (psi, &turn)];
-                        if let Some(motion) = about(space, h, s, third, angles, side) {
+                        if let Some(motion) = about(space, h, s, (third, &own), angles, side) {
                             return Some(motion);
                         }
                     }
@@ -47,60 +51,62 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     None
 }
 
-/// The numbers k for which h has a sine or cosine of k·x + …, with the coordinate x of a pair.
-fn scales(space: &mut Space, h: Node, pair: usize) -> Vec<Rational> {
-    let (x, _) = space.pairs[pair];
-    let mut found = Vec::new();
-    for node in space.dag().reachable(&[h]) {
-        let Kind::Call(Op::Sin | Op::Cos, arguments) = space.dag().kind(node).clone() else {
-            continue;
-        };
-        let rate = space.d(arguments[0], x);
-        if let Some(rate) = space.dag().as_constant(rate).cloned()
-            && !rate.is_zero()
-            && !found.contains(&rate)
-        {
-            found.push(rate);
-        }
-    }
-    found
+/// A guess of the number k for which φ is scaled: in κ·M², ∂²h/∂p_φ² is −k/cosθ of ∂²h/∂p_φ∂p_ψ.
+fn scale_of_third(
+    space: &mut Space,
+    h: Node,
+    phi: usize,
+    [(theta, scale), (psi, turn)]: [(usize, &Rational); 2],
+) -> Option<Rational> {
+    let [(_, pf), (x, _), (_, pp)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
+    let slope = space.d(h, pf);
+    let (own, mixed) = (space.d(slope, pf), space.d(slope, pp));
+    let angle = space.dag().scale(scale, x);
+    let cosine = space.dag().call(Op::Cos, &[angle]);
+    let over = turn.recip()?.neg();
+    let k = space
+        .dag()
+        .product(&over, &[(own, 1), (cosine, 1), (mixed, -1)]);
+    space.fraction(|space, point| space.value_at(k, point))
 }
 
 fn about(
     space: &mut Space,
     h: Node,
     s: Node,
-    phi: usize,
+    (phi, own): (usize, &Rational),
     [(theta, scale), (psi, turn)]: [(usize, &Rational); 2],
-    (quarter, sides): (f64, &str),
+    (quarters, sides): (i64, &str),
 ) -> Option<Motion> {
-    let (over_scale, over_turn) = (scale.recip()?, turn.recip()?);
+    let (over_scale, over_turn, over_own) = (scale.recip()?, turn.recip()?, own.recip()?);
     let factors = |pair: usize| match pair {
-        pair if pair == theta => (scale.to_f64(), over_scale.to_f64()),
-        pair if pair == psi => (turn.to_f64(), over_turn.to_f64()),
-        _ => (1.0, 1.0),
+        pair if pair == theta => (scale, &over_scale),
+        pair if pair == psi => (turn, &over_turn),
+        _ => (&over_own, own),
     };
     // Numbers say first that h/M² is no constant.
     let set = space.set(h);
+    let right = |n: i64| Ball::from(&Rational::new(n - 1, 2)) * Ball::pi();
     let [here, there] = [0.0, 1.0].map(|step| {
         let point = space.point_off(&[(set, step)]);
         let at = |pair: usize, side: usize| {
             let (of_angle, of_momentum) = factors(pair);
-            point[2 * pair + side] * if side == 0 { of_angle } else { of_momentum }
+            point[2 * pair + side] * Ball::from(if side == 0 { of_angle } else { of_momentum })
         };
-        let (st, ct) = at(theta, 0).sin_cos();
-        let (sp, cp) = (at(psi, 0) + quarter).sin_cos();
-        let flat = (at(phi, 1) - at(psi, 1) * ct) / st;
-        let m = flat * sp + at(theta, 1) * cp;
-        space.value_at(h, &point) / (m * m)
+        let of = |op: Op, angle: Ball| Ball::call(op, &[angle]);
+        let (th, ps) = (at(theta, 0), at(psi, 0) - right(quarters));
+        let flat = (at(phi, 1) - at(psi, 1) * of(Op::Cos, th)) * of(Op::Sin, th).powi(-1);
+        let m = flat * of(Op::Sin, ps) + at(theta, 1) * of(Op::Cos, ps);
+        (space.value_at(h, &point), m.powi(2))
     });
-    if differ(here, there) {
+    if (here.0 * there.1).differs(there.0 * here.1) {
         return None;
     }
-    let [(f, pf), (x, px), (z, pz)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
+    let [(f, first), (x, px), (z, pz)] = [phi, theta, psi].map(|pair| space.pairs[pair]);
     let dag = space.dag();
     let (th, pt) = (dag.scale(scale, x), dag.scale(&over_scale, px));
     let (ps, pp) = (dag.scale(turn, z), dag.scale(&over_turn, pz));
+    let pf = dag.scale(own, first);
     let mut names = Names::of(&[("th", th), ("ps", ps), ("pf", pf), ("pt", pt), ("pp", pp)]);
     names.read(space.dag(), sides)?;
     names.read(
@@ -111,13 +117,28 @@ fn about(
     )?;
     let m = names.get("M1")?;
     let square = space.dag().powi(m, 2);
-    let ratio = space.dag().div(h, square);
-    let k = space.section(ratio, set);
+    // κ is h where M₁ = p_φ = 1.
+    let dag = space.dag();
+    let pi = dag.pi();
+    let half = |over: &Rational| over.mul(&Rational::new(1, 2));
+    let there = [
+        (x, dag.product(&half(&over_scale), &[(pi, 1)])),
+        (
+            z,
+            dag.product(
+                &half(&over_turn).mul(&Rational::integer(quarters)),
+                &[(pi, 1)],
+            ),
+        ),
+        (first, dag.constant(over_own)),
+        (px, dag.integer(0)),
+        (pz, dag.integer(0)),
+    ];
+    let k = space.at(h, &there);
     let form = space.dag().mul(&[k, square]);
-    if !space.same(h, form) {
+    if space.set(k) != 0 || !space.same(h, form) {
         return None;
     }
-    let k = space.free(ratio, set)?;
     let w = space
         .dag()
         .product(&Rational::integer(2), &[(k, 1), (m, 1), (s, 1)]);
@@ -151,6 +172,7 @@ fn about(
         motion.set(leaf, image);
     }
     let turned = names.get("f1")?;
+    let turned = space.dag().scale(own, turned);
     motion.add(space.dag(), f, turned);
     Some(motion)
 }

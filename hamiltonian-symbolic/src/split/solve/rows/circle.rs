@@ -4,8 +4,10 @@
 //! of its own; its conjugates move by the angle of the turn seen from the pole.
 
 use super::flight::central;
+use crate::ball::Ball;
 use crate::dag::Node;
 use crate::flow::Motion;
+use crate::op::Op;
 use crate::split::solve::flow;
 use crate::split::space::Space;
 
@@ -21,7 +23,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let [pair] = active.as_slice() else {
         return None;
     };
-    let mut names = central(space, *pair, h, "sin(x)", f64::sin)?;
+    let mut names = central(space, *pair, h, "sin(x)", |x| Ball::call(Op::Sin, &[x]))?;
     names.set("s", s);
     let (theta, p) = space.pairs[*pair];
     let (lambda, root) = (names.get("l")?, names.get("root")?);

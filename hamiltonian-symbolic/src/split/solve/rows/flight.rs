@@ -2,6 +2,7 @@
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: Λ is free of r and p and has a flow of its own.
 
+use crate::ball::Ball;
 use crate::dag::Node;
 use crate::flow::Motion;
 use crate::formula::Names;
@@ -9,7 +10,7 @@ use crate::rational::Rational;
 use crate::split::growth::{arctangent, near_zero};
 use crate::split::solve::flow;
 use crate::split::solve::units::distributed;
-use crate::split::space::{Space, differ};
+use crate::split::space::Space;
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
@@ -102,7 +103,7 @@ pub(super) fn central(
     pair: usize,
     h: Node,
     f: &str,
-    value: fn(f64) -> f64,
+    value: fn(Ball) -> Ball,
 ) -> Option<Names> {
     if is_not_central(space, h, pair, value) {
         return None;
@@ -137,16 +138,16 @@ pub(super) fn central(
 }
 
 /// Whether numbers say that h is not a·(p² + Λ/f²).
-fn is_not_central(space: &mut Space, h: Node, pair: usize, f: fn(f64) -> f64) -> bool {
-    let mut at = |x: f64, p: f64| {
+fn is_not_central(space: &mut Space, h: Node, pair: usize, f: fn(Ball) -> Ball) -> bool {
+    let mut at = |x: Ball, p: f64| {
         let mut point = space.point();
-        (point[2 * pair], point[2 * pair + 1]) = (x, p);
+        (point[2 * pair], point[2 * pair + 1]) = (x, Ball::exact(p));
         space.value_at(h, &point)
     };
-    let (x, y) = (0.8, 1.3);
+    let [x, y] = [0.8, 1.3].map(Ball::exact);
     let (here, there) = (at(x, 0.0), at(y, 0.0));
     let (kinetic, far) = (at(x, 1.0) - here, at(y, 1.0) - there);
-    differ(kinetic, far)
-        || differ(4.0 * kinetic, at(x, 2.0) - here)
-        || differ(here * f(x).powi(2), there * f(y).powi(2))
+    kinetic.differs(far)
+        || (Ball::exact(4.0) * kinetic).differs(at(x, 2.0) - here)
+        || (here * f(x).powi(2)).differs(there * f(y).powi(2))
 }

@@ -5,11 +5,12 @@
 //! to far out on a hyperbola, f·q and g·p cancel as they do in the numbers themselves: each unit of the
 //! anomaly past ten costs half a digit, and shorter steps do not.
 
+use crate::ball::Ball;
 use crate::dag::Node;
 use crate::flow::Motion;
 use crate::formula::Names;
 use crate::rational::Rational;
-use crate::split::space::{Space, differ};
+use crate::split::space::Space;
 
 /// |q×p|/|q||p| of an orbit that is a line through the centre to the rounding of a double.
 const STRAIGHT: (i64, i64) = (1, 1 << 50);
@@ -113,7 +114,7 @@ fn is_not_of_distance(space: &mut Space, h: Node, own: u64) -> bool {
             .map(|bit| bit / 2)
             .enumerate()
         {
-            (point[2 * pair], point[2 * pair + 1]) = (q[k], p[k]);
+            (point[2 * pair], point[2 * pair + 1]) = (Ball::exact(q[k]), Ball::exact(p[k]));
         }
         space.value_at(h, &point)
     };
@@ -121,8 +122,8 @@ fn is_not_of_distance(space: &mut Space, h: Node, own: u64) -> bool {
     let near = at([0.75, 1.0, 0.0], still);
     let (turned, twice) = (at([1.0, 0.75, 0.0], still), at([1.5, 2.0, 0.0], still));
     let moving = at([0.75, 1.0, 0.0], [1.0, 0.0, 0.0]) - near;
-    differ(near, turned)
-        || differ(near, 2.0 * twice)
-        || differ(moving, at([0.75, 1.0, 0.0], [0.0, 1.0, 0.0]) - near)
-        || differ(4.0 * moving, at([1.0, 0.75, 0.0], [2.0, 0.0, 0.0]) - near)
+    near.differs(turned)
+        || near.differs(Ball::exact(2.0) * twice)
+        || moving.differs(at([0.75, 1.0, 0.0], [0.0, 1.0, 0.0]) - near)
+        || (Ball::exact(4.0) * moving).differs(at([1.0, 0.75, 0.0], [2.0, 0.0, 0.0]) - near)
 }

@@ -132,7 +132,7 @@ fn beside_zero(space: &mut Space, names: &mut Names, far: Node) -> Option<Node> 
 fn at_zero(space: &mut Space, node: Node, x: Node) -> Option<Node> {
     let zero = space.dag().integer(0);
     let there = space.at(node, &[(x, zero)]);
-    space.value(there).is_finite().then_some(there)
+    space.value(there).is_defined().then_some(there)
 }
 
 /// κ with φ‴ = κφ′, and its sign, or that of what is not 0 of it.

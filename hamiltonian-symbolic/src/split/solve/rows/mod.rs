@@ -224,3 +224,23 @@ fn root(space: &mut Space, square: Node) -> Node {
         _ => root,
     }
 }
+
+/// The numbers k for which h has a sine or cosine of k·x + ….
+fn rates(space: &mut Space, h: Node, x: Node) -> Vec<Rational> {
+    use crate::dag::Kind;
+    use crate::op::Op;
+    let mut found = Vec::new();
+    for node in space.dag().reachable(&[h]) {
+        let Kind::Call(Op::Sin | Op::Cos, arguments) = space.dag().kind(node).clone() else {
+            continue;
+        };
+        let rate = space.d(arguments[0], x);
+        if let Some(rate) = space.dag().as_constant(rate).cloned()
+            && !rate.is_zero()
+            && !found.contains(&rate)
+        {
+            found.push(rate);
+        }
+    }
+    found
+}

@@ -3,11 +3,12 @@
 //! Input: h and s. Output: [`Motion`]. Invariant: M² = λ, M³ = λM or M⁴ = λM² is proven, so that
 //! e^{sM} = 1 + sM + c₂M² + c₃M³ is closed for every sign of λ.
 
+use crate::ball::Ball;
 use crate::dag::{Dependence, Node};
 use crate::flow::Motion;
 use crate::rational::Rational;
 use crate::split::growth::Growth;
-use crate::split::space::{Set, Space, differ};
+use crate::split::space::{Set, Space};
 
 /// The most pairs of one form.
 const PAIRS: usize = 4;
@@ -69,7 +70,8 @@ fn is_steeper(space: &mut Space, h: Node) -> bool {
         let point = space.point_off(&[(set, step)]);
         space.value_at(h, &point)
     });
-    differ(d + 3.0 * b, a + 3.0 * c)
+    let three = Ball::exact(3.0);
+    (d + three * b).differs(a + three * c)
 }
 
 /// A and g, if h is the form they make with a constant.
@@ -136,7 +138,7 @@ fn multiple(space: &mut Space, a: &Matrix, b: &Matrix) -> Option<Node> {
     let places = (0..n).flat_map(|i| (0..n).map(move |j| (i, j)));
     let sizes = places
         .clone()
-        .map(|(i, j)| (space.value(b[i][j]).abs(), (i, j)));
+        .map(|(i, j)| (space.value(b[i][j]).value.abs(), (i, j)));
     let (_, (i, j)) = sizes
         .filter(|(size, _)| *size > 0.0)
         .max_by(|(x, _), (y, _)| x.total_cmp(y))?;

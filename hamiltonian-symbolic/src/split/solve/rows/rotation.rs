@@ -1,29 +1,51 @@
-//! G(L, ρ², c) with L = x·p_y − y·p_x: a kick along the radius, then a turn by s·∂G/∂L.
+//! G(L, ρ², c) with L = x·p_y − y·p_x: a kick along the radius, then a turn by s·∂G/∂L. x may be scaled.
 //!
 //! Input: h and s. Output: [`Motion`]. Invariant: {h, L} = 0 and x·h_{p_x} + y·h_{p_y} = 0 are
 //! proven, so that the momenta stand in h through L alone; no orbit crosses a jump or a kink of h.
 
+use crate::ball::Ball;
 use crate::dag::Node;
 use crate::flow::Motion;
 use crate::formula::Names;
-use crate::split::space::{Space, bits, differ};
+use crate::rational::Rational;
+use crate::split::space::{Space, bits};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
     let [a, b] = active.as_slice() else {
         return None;
     };
-    if is_not_turned(space, h, [*a, *b]) {
-        return None;
+    let mut scale = Rational::ONE;
+    if is_not_turned(space, h, [*a, *b], &scale) {
+        scale = scale_of(space, h, [*a, *b])?;
+        if is_not_turned(space, h, [*a, *b], &scale) {
+            return None;
+        }
     }
+    let over = scale.recip()?;
     let ((x, px), (y, py)) = (space.pairs[*a], space.pairs[*b]);
-    let mut names = Names::of(&[("x", x), ("y", y), ("px", px), ("py", py), ("s", s)]);
+    let dag = space.dag();
+    let (scaled, p_scaled) = (dag.scale(&scale, x), dag.scale(&over, px));
+    let mut names = Names::of(&[
+        ("x", scaled),
+        ("y", y),
+        ("px", p_scaled),
+        ("py", py),
+        ("s", s),
+    ]);
     let l = names.one(space.dag(), "x*py - y*px")?;
     if !space.brackets_vanish(h, l) {
         return None;
     }
-    for (name, leaf) in [("hx", x), ("hy", y), ("hpx", px), ("hpy", py)] {
+    let one = Rational::ONE;
+    for (name, leaf, k) in [
+        ("hx", x, &over),
+        ("hy", y, &one),
+        ("hpx", px, &scale),
+        ("hpy", py, &one),
+    ] {
         let slope = space.d(h, leaf);
+        let slope = space.dag().scale(k, slope);
         names.set(name, slope);
     }
     let radial = names.one(space.dag(), "x*hpx + y*hpy")?;
@@ -40,8 +62,15 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
          px1 = c*kx - d*ky; py1 = d*kx + c*ky",
     )?;
     let mut motion = Motion::default();
-    for (leaf, name) in [(x, "x1"), (y, "y1"), (px, "px1"), (py, "py1")] {
-        motion.set(leaf, names.get(name)?);
+    for (leaf, name, k) in [
+        (x, "x1", &over),
+        (y, "y1", &one),
+        (px, "px1", &scale),
+        (py, "py1", &one),
+    ] {
+        let image = names.get(name)?;
+        let image = space.dag().scale(k, image);
+        motion.set(leaf, image);
     }
     let own = 3 << (2 * a) | 3 << (2 * b);
     let rest = space.set(h) & !own;
@@ -55,19 +84,43 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
 }
 
 /// Whether numbers say that h changes where the point is turned and kicked along its radius.
-fn is_not_turned(space: &mut Space, h: Node, pairs: [usize; 2]) -> bool {
-    let here = space.point();
+fn is_not_turned(space: &mut Space, h: Node, pairs: [usize; 2], scale: &Rational) -> bool {
+    let mut here = space.point();
+    // The point in the scaled variables, and back.
+    let scaled = |point: &[Ball], up: Ball| {
+        let mut point = point.to_vec();
+        let (x, px) = (2 * pairs[0], 2 * pairs[0] + 1);
+        point[x] = point[x] * up;
+        point[px] = point[px] * up.powi(-1);
+        point
+    };
+    let scale = Ball::from(scale);
+    let start = scaled(&here, scale.powi(-1));
     let mut there = here.clone();
-    let (c, s) = (0.8, 0.6);
+    let [c, s] = [4, 3].map(|n| Ball::from(&Rational::new(n, 5)));
     for side in 0..2 {
         let [x, y] = pairs.map(|pair| 2 * pair + side);
         there[x] = c * here[x] - s * here[y];
         there[y] = s * here[x] + c * here[y];
     }
     for pair in pairs {
-        there[2 * pair + 1] += 0.25 * there[2 * pair];
+        there[2 * pair + 1] = there[2 * pair + 1] + Ball::exact(0.25) * there[2 * pair];
     }
-    differ(space.value_at(h, &here), space.value_at(h, &there))
+    here = start;
+    let there = scaled(&there, scale.powi(-1));
+    space.value_at(h, &here).differs(space.value_at(h, &there))
+}
+
+/// A guess of the number k for which h is a function of L = k·x·p_y − y·p_x/k: {h, L} = 0 gives its square.
+fn scale_of(space: &mut Space, h: Node, pairs: [usize; 2]) -> Option<Rational> {
+    let [(x, px), (y, py)] = pairs.map(|pair| space.pairs[pair]);
+    let slopes = [x, px, y, py].map(|leaf| space.d(h, leaf));
+    let square = space.fraction(|space, point| {
+        let [hx, hpx, hy, hpy] = slopes.map(|slope| space.value_at(slope, point));
+        let [x, px, y, py] = [x, px, y, py].map(|leaf| space.value_at(leaf, point));
+        (y * hx - px * hpy) * (x * hy - py * hpx).powi(-1)
+    });
+    square?.sqrt()
 }
 
 /// ∂G/∂L

@@ -6,6 +6,7 @@
 //! of y that may be 0 where K stands in h by itself.
 
 use super::Axes;
+use crate::ball::Ball;
 use crate::dag::Node;
 use crate::flow::Motion;
 use crate::rational::Rational;
@@ -29,16 +30,14 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
 fn is_no_polynomial(space: &mut Space, slope: Node, axes: Axes) -> bool {
     let bit = space.set(axes.x).trailing_zeros() as usize;
     let mut point = space.point();
-    let (mut sum, mut size, mut weight) = (0.0, 0.0_f64, 1.0);
+    let (mut sum, mut weight) = (Ball::exact(0.0), 1.0);
     for k in 0..=DEGREE {
-        point[bit] = 0.375 + f64::from(k) / 4.0;
-        let value = weight * space.value_at(slope, &point);
-        sum += value;
-        size += value.abs();
+        point[bit] = Ball::exact(0.375 + f64::from(k) / 4.0);
+        sum = sum + Ball::exact(weight) * space.value_at(slope, &point);
+        // Binomial coefficients are exact.
         weight *= -f64::from(DEGREE - k) / f64::from(k + 1);
     }
-    // Rounding is some 10⁻¹⁶ of the size.
-    sum.abs() > 1e-12 * size && size.is_finite()
+    sum.is_nonzero()
 }
 
 /// β·y + B(x; c) with a β of parameters, which may be 0: y loses ∫B′(x + βt)dt, term by term.

@@ -6,12 +6,13 @@
 
 use super::Axes;
 use super::circle::SWEPT;
+use crate::ball::Ball;
 use crate::dag::{Kind, Node};
 use crate::flow::Motion;
 use crate::formula::Names;
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::split::space::{Space, bits, differ};
+use crate::split::space::{Space, bits};
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
@@ -97,23 +98,55 @@ fn stays_smooth(space: &mut Space, k: Node) -> bool {
 }
 
 fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) -> Option<Motion> {
-    let y = axes.y(space);
-    let l = axes.x;
+    let one = Rational::ONE;
     // K_ll = −K changes its sign in half a turn.
-    let (mut here, bit) = (space.point(), space.set(l).trailing_zeros() as usize);
+    let (mut here, bit) = (space.point(), space.set(axes.x).trailing_zeros() as usize);
     let before = space.value_at(k, &here);
-    here[bit] += std::f64::consts::PI;
-    if differ(before, -space.value_at(k, &here)) {
-        return None;
+    here[bit] = here[bit] + Ball::pi();
+    if !before.differs(-space.value_at(k, &here))
+        && let Some(motion) = scaled(space, axes, k, s, is_squared, &one)
+    {
+        return Some(motion);
     }
-    let own = space.set(l) | space.set(y);
-    let n = space.d(k, l);
-    let nl = space.d(n, l);
+    // K_ll = −λ²K, with a λ that stands in K.
+    let rates = super::rates(space, k, axes.x);
+    let mut scales = rates
+        .iter()
+        .map(Rational::abs)
+        .filter(|rate| !rate.is_one());
+    scales.find_map(|scale| scaled(space, axes, k, s, is_squared, &scale))
+}
+
+/// The same where the angle is scaled by a number.
+fn scaled(
+    space: &mut Space,
+    axes: Axes,
+    k: Node,
+    s: Node,
+    is_squared: bool,
+    scale: &Rational,
+) -> Option<Motion> {
+    let over = scale.recip()?;
+    // In l·λ and L/λ the rule is that of λ = 1.
+    let y = axes.y(space);
+    let own = space.set(axes.x) | space.set(y);
+    let (l, y) = (
+        space.dag().scale(scale, axes.x),
+        space.dag().scale(&over, y),
+    );
+    let n = space.d(k, axes.x);
+    let n = space.dag().scale(&over, n);
+    let nl = space.d(n, axes.x);
+    let nl = space.dag().scale(&over, nl);
     let minus = space.dag().neg(k);
     if !space.same(nl, minus) || !stays_smooth(space, k) {
         return None;
     }
     let (kl, nl_of) = (axes.dy(space, k), axes.dy(space, n));
+    let (kl, nl_of) = (
+        space.dag().scale(scale, kl),
+        space.dag().scale(scale, nl_of),
+    );
     let mut names = Names::of(&[
         ("K", k),
         ("N", n),
@@ -126,7 +159,8 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
     let rate = names.one(space.dag(), "(0 - K*KL - NL*N)/L")?;
     let set = space.set(k);
     let rate = space.free(rate, set)?;
-    if space.sign(rate) == Some(0) || space.sign(rate) == Some(-1) || space.value(rate) <= 0.0 {
+    let value = space.value(rate);
+    if matches!(space.sign(rate), Some(0 | -1)) || value.value <= value.error {
         return None;
     }
     let c = super::root(space, rate);
@@ -141,8 +175,10 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
          l1 = l + atan2(K*(N - N1), K^2 + N*N1)",
     )?;
     let mut motion = Motion::default();
-    motion.set(l, names.get("l1")?);
+    let l1 = names.get("l1")?;
+    motion.set(axes.x, space.dag().scale(&over, l1));
     let y1 = names.get("L1")?;
+    let y1 = space.dag().scale(scale, y1);
     let y1 = axes.signed(space, y1);
     motion.set(axes.leaf, y1);
     if rest != 0 {

@@ -39,6 +39,13 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// A driven oscillator with a function of its own.
+    pub struct Driven { a = 0.1, omega = 1.0 }
+    let U(r) = r^2/2 + r^4/4;
+    H(q; p; t) = p^2/2 + U(q) - a*q*cos(omega*t)
+}
+
+hamiltonian! {
     /// The Hénon–Heiles system.
     pub struct HenonHeiles {}
     H(x, y; p_x, p_y) = (p_x^2 + p_y^2)/2 + (x^2 + y^2)/2 + x^2*y - y^3/3

@@ -3,8 +3,8 @@
 //! Input: a scheme and a system. Output: [`Ensembles`], the bound; behind it the drive of each level.
 //! Invariant: a pairing that is no [`Scheme`] fails with the message of that trait.
 
-use super::deviations::Deviations;
 use super::drive::InPack;
+use super::drive::deviations::Deviations;
 use super::seat::Host;
 use crate::error::Error;
 use crate::integrator::Recipe;

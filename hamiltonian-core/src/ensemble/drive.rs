@@ -4,16 +4,17 @@
 //! member's bits depend on its seat and on the arithmetic of the pack alone; lanes change hands at the ends
 //! of blocks only; a member that fails costs the others nothing, since it is made again apart from them.
 
-pub(super) mod alone;
-pub(super) mod rows;
+mod alone;
+pub(super) mod deviations;
+mod rows;
 mod watching;
 
 use self::alone::{arrivals, explain};
+use self::deviations::Deviations;
 use self::rows::{Prepare, gathered, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
 use super::close::Close;
 use super::crew::Crew;
-use super::deviations::{self, Deviations};
 use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
 use crate::flow::Scratch;

@@ -5,7 +5,7 @@
 
 use super::Member;
 use super::bound::Ensembles;
-use super::deviations::{Deviated, Deviations};
+use super::drive::deviations::{Deviated, Deviations};
 use super::guard::guard;
 use super::ordered::in_order;
 use super::threads;

@@ -17,7 +17,6 @@ mod bound;
 mod chunk;
 mod close;
 mod crew;
-mod deviations;
 mod drive;
 mod guard;
 pub(crate) mod hash;

@@ -5,9 +5,9 @@
 //! numbers; a lane does what [`Tangent`](crate::tangents::Tangent) does, in the same order, so its bits depend on
 //! its member and on the arithmetic of the pack alone.
 
-use super::drive::alone::explain;
-use super::drive::rows::{Prepare, gathered, load, scatter, store};
-use super::drive::{CarriedIn, InPack, MapIn};
+use super::alone::explain;
+use super::rows::{Prepare, gathered, load, scatter, store};
+use super::{CarriedIn, InPack, MapIn};
 use crate::error::Error;
 use crate::flow::Scratch;
 use crate::map::{Clock, Map};

@@ -42,10 +42,20 @@ fn has_bad_number(tree: &Tree) -> bool {
     let is_number =
         |node: Node| model.dag.stage(node) == Stage::Constant && model.dag.variables(node) == 0;
     let is_bad = |node: Node| match model.dag.kind(node) {
-        Kind::Product(_, factors) => {
-            (factors.iter()).any(|(factor, n)| *n < 0 && model.dag.number(*factor) == Some(0.0))
+        Kind::Product(_, factors) => (factors.iter()).any(|(factor, n)| {
+            *n < 0
+                && model
+                    .dag
+                    .number(*factor)
+                    .is_some_and(|number| number.value == 0.0)
+        }),
+        _ => {
+            is_number(node)
+                && model
+                    .dag
+                    .number(node)
+                    .is_none_or(|number| number.value.is_nan())
         }
-        _ => is_number(node) && model.dag.number(node).is_none_or(f64::is_nan),
     };
     model.dag.reachable(&roots).into_iter().any(is_bad)
 }

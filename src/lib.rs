@@ -2,8 +2,8 @@
 //! structure-preserving dynamics.
 //!
 //! Input: a Hamiltonian in the language of [`hamiltonian!`], a start, a scheme, a step. Output: a
-//! run. Invariant: this crate has no code of its own; it joins the macro and the library under one
-//! name, whatever that name is where it is imported.
+//! run. Invariant: this crate has no code of its own. It joins the macro and the library under one name, also
+//! in a program that renames the dependency.
 //!
 //! ```
 //! use hamiltonian::prelude::*;
@@ -27,7 +27,9 @@
 //! # Ok::<(), Error>(())
 //! ```
 //!
-//! [`language`] is the reference of the macro, and [`gallery`] shows what the examples draw.
+//! [`prelude`] has the names that most programs need. [`language`] is the reference of the macro.
+//! [`schemes`] lists the schemes, [`observers`] what can be recorded of a run. [`gallery`] shows the pictures of the
+//! examples.
 #![cfg_attr(not(feature = "std"), no_std)]
 #![forbid(unsafe_code)]
 
@@ -78,8 +80,9 @@ pub mod prelude {
 /// assert_eq!(driven.power(&State::new([0.0], [1.0])), -0.2);
 /// ```
 ///
-/// Input is statements separated by `;`. `H = …` is short for `H(q; p) = …`; numbers are exact
-/// reals until code is emitted, `^` is power. Signs: dq/dt = ∂H/∂p, dp/dt = −∂H/∂q.
+/// The input is a list of statements, separated by `;`. `H = …` is short for `H(q; p) = …`. Numbers are exact until
+/// code is emitted, and `^` is power. The equations of motion are dq/dt = ∂H/∂p and dp/dt = −∂H/∂q.
+/// [`language`](crate::language) describes every statement.
 #[macro_export]
 macro_rules! hamiltonian {
     ($($definition:tt)*) => {
@@ -95,7 +98,7 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
     ($($value:tt)*) => { $($value)* };
 }
 
-/// The language, construct by construct: a chapter of the book.
+/// The language of [`hamiltonian!`](crate::hamiltonian), construct by construct: a chapter of the book.
 #[doc = include_str!("../book/src/language.md")]
 pub mod language {}
 
@@ -103,7 +106,8 @@ pub mod language {}
 #[cfg(doc)]
 macro_rules! gallery {
     ($($name:ident $caption:literal)*) => {
-        /// What the examples draw: `cargo run --release --example NAME` makes the pictures of an example anew.
+        /// The pictures of the examples. In a clone of the repository, `cargo run --release --example NAME` makes those
+        /// of one example.
         $(
             #[doc = ""]
             #[doc = concat!("# ", stringify!($name), "\n\n", $caption, "\n\n<div style=\"overflow-x:auto\">")]

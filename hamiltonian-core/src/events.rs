@@ -1,9 +1,9 @@
-//! Events: where functions of the state are 0, located by the run.
+//! Events: roots of functions of the state, located by the run.
 //!
 //! Input: the states of a run, step by step, and [`Event`]s: declared ones by name, others as closures.
-//! Output: [`Located`] states in the order of the run, and its end where an event asks for that.
-//! Invariants: no bit of the run changes; an event is where the function changes its sign, so a run that
-//! starts on it has none there, and touching 0 is none.
+//! Output: [`Located`] states in the order of the run, and the end of the run if an event is ending.
+//! Invariants: no bit of the run changes; an event is a change of sign of the function, so neither a start on a
+//! root nor a function that touches 0 is an event.
 
 mod event;
 
@@ -25,9 +25,9 @@ use hamiltonian_lanes::{Mask, Real};
 /// A state at which an event happened.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Located<V: Vector> {
-    /// The number of the event, in the order they were given in.
+    /// The index of the event in the list given to [`Events::new`].
     pub event: usize,
-    /// Whether its function grows there, in the direction of the run.
+    /// Whether the function increases there, in the direction of the run.
     pub rising: bool,
     /// The state: the function is 0 to rounding.
     pub state: State<V>,
@@ -35,25 +35,25 @@ pub struct Located<V: Vector> {
 
 /// Locates events of a run: an [`Observer`].
 ///
-/// If a function has different signs after two steps, its root is found by parts of a step of a copy,
-/// by the scheme itself and so of its own order: the state at the event is, to rounding, the one that
-/// [`advance_until`](crate::Integrator::advance_until) returns for its time, and the function is 0 there
-/// to rounding. (A scheme that carries a second point starts it anew in a part of a step; the state is
-/// then moved on to meet the run at the end of the step.)
-/// The run itself is not changed. Two roots within a step are found where the values of three steps
-/// tell that there can be two (the function has fallen towards 0 by more than half its value, and falls by
-/// less than half as much in the step); further ones are missed: take shorter steps. A change of sign at a
-/// pole or a jump is no event.
-/// Several events in one step come in the order of time.
+/// If a function has different signs before and after a step, `Events` locates its root by shorter steps of the same
+/// scheme on a copy, so the error of the state has the order of the scheme. To rounding, the function is 0 there, and
+/// the state is the one that [`advance_until`](crate::Integrator::advance_until) returns for the time of the event.
+/// (A scheme that carries a second point starts this point anew in a shorter step. The state is then shifted so that
+/// it meets the run at the end of the step.) The run itself does not change.
 ///
-/// An event that is [ending](Event::ending) ends the run, and the run's state is then the one at the
-/// event; after [`go_on`](crate::Integrator::go_on) it goes on from the step it has made.
+/// Two roots within one step are found if the values after three steps show that there can be two: the function has
+/// fallen towards 0 by more than half its value, and falls by less than half as much in the step. Further roots are
+/// missed; shorter steps find them. A change of sign at a pole or a jump is no event. Several events in one step come
+/// in the order of time.
+///
+/// An event that is [ending](Event::ending) ends the run, and the state of the run is then the one at the
+/// event. After [`go_on`](crate::Integrator::go_on) the run continues from the end of its last step.
 ///
 /// A Poincaré section is an event that is rising or falling. Hénon's trick (M. Hénon, Physica D 5 (1982)
-/// 412, doi:10.1016/0167-2789(82)90034-3), which makes the function the independent variable
-/// for one step, would not help: parts of a step are of the same order, and exact in the function.
+/// 412, doi:10.1016/0167-2789(82)90034-3) makes the function the independent variable for one step. It is not
+/// needed here: shorter steps have the same order, and the function is 0 to rounding.
 ///
-/// Over [`Dual`](crate::Dual)s derivative parts are those at the fixed time of the event.
+/// Over [`Dual`](crate::Dual)s, derivative parts are those at the fixed time of the event.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -74,9 +74,10 @@ pub struct Located<V: Vector> {
 /// ```
 ///
 /// # Errors
-/// The run returns [`Error::Event`] for a name that the system does not declare, for a period that is
-/// not positive, over packs of lanes, each of which has events of its own, and inside
-/// [`every`](crate::observers::every), since every step must be seen; and the errors of parts of a step.
+/// The run returns [`Error::Event`] for a name that the system does not declare and for a period that is not
+/// positive. It does so over packs of lanes, since each lane has events of its own, and inside
+/// [`every`](crate::observers::every), since `Events` needs the state after every step. It also returns the errors of
+/// the shorter steps.
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
@@ -134,18 +135,18 @@ impl<V: Vector> Events<V> {
         }
     }
 
-    /// All that happened, in the order of the run.
+    /// All located events, in the order of the run.
     pub fn located(&self) -> &[Located<V>] {
         &self.located
     }
 
-    /// The states at the events of that name, in the order of the run; none where no event has it.
+    /// The states at the events of that name, in the order of the run; none if no event has this name.
     pub fn states(&self, name: &str) -> impl Iterator<Item = &State<V>> {
         let of_name = move |located: &&Located<V>| self.events[located.event].name == name;
         (self.located.iter().filter(of_name)).map(|located| &located.state)
     }
 
-    /// The number of times events of that name happened.
+    /// The number of located events of that name.
     pub fn count(&self, name: &str) -> u64 {
         let events = self.events.iter().zip(&self.tracks);
         let of_name = events.filter(|(event, _)| event.name == name);

@@ -1,9 +1,9 @@
 //! The schemes and runs of `hamiltonian`.
 //!
-//! Input: a [`System`], which the `hamiltonian!` macro implements (this crate knows nothing of
-//! it), a [`State`] and a [`Scheme`]. Output: an [`Integrator`] and the results its observers make of
-//! the run. Invariants: nothing allocates or dispatches inside a step; the bits of a trajectory
-//! depend on the system, the scheme, the start and the step, and on nothing else.
+//! Input: a [`System`], which the `hamiltonian!` macro implements (this crate does not depend on the macro), a
+//! [`State`] and a [`Scheme`]. Output: an [`Integrator`], and the results that observers compute from the run.
+//! Invariants: nothing allocates or dispatches inside a step; the bits of a trajectory depend only on the
+//! system, the scheme, the start and the step.
 //!
 //! ```
 #![doc = include_str!("doc/oscillator.md")]
@@ -106,10 +106,11 @@ pub use table::Table;
 pub use transformed::TimeTransformed;
 pub use vector::{IntoVector, Vector, shape};
 
-/// Observers watch a run; events are located on its way.
+/// Observers receive the states of a run; events are located between steps.
 ///
-/// An [`Observer`] is called with a [`View`] of the run after each step, or after each so many
-/// ([`every`](observers::every)). [`watch`](observers::watch) makes one of a closure, and a tuple of observers is one.
+/// An [`Observer`] receives a [`View`] of the run after each step, or after each n-th step
+/// ([`every`](observers::every)). [`watch`](observers::watch) makes an observer from a closure. A tuple of observers is
+/// an observer.
 pub mod observers {
     pub use crate::checkpoint::Memory;
     pub use crate::events::{Event, Events, Located};
@@ -122,20 +123,20 @@ pub mod observers {
     pub use crate::times::{AtTimes, at_times};
 }
 
-/// The parts of [`Error`]: what is wrong with a saved run, a table, a store, a shard or given points.
+/// The parts of [`Error`]: errors of saved runs, tables, stores, shards and the knots of splines.
 pub mod errors {
     #[cfg(feature = "std")]
     pub use crate::error::StoreError;
     pub use crate::error::{CheckpointError, KnotError, ShardError, TableError};
 }
 
-/// Zarr stores of sweeps, chunk by chunk.
+/// Zarr stores of sweeps, written chunk by chunk.
 #[cfg(feature = "std")]
 pub mod stores {
     pub use crate::store::{Attribute, ChunkData, Completeness, Layout, Rows, Store};
 }
 
-/// Tangent maps show how neighbouring trajectories move: exponents, multipliers, periodic orbits.
+/// Derivatives of the numerical map: Lyapunov exponents, Floquet multipliers, periodic orbits.
 pub mod tangents {
     pub use crate::periodic::{Closing, PeriodicOrbit};
     pub use crate::tangent::{Tangent, monodromy, multipliers, symplectic_defect};
@@ -146,8 +147,8 @@ pub type StateOf<S, T = f64> = State<<S as System<T>>::Vector>;
 
 /// The names that a program needs to run systems.
 ///
-/// Its traits are there without their names too: a type of yours may be called `System`, and
-/// `energy` is still a method of it.
+/// It imports the methods of its traits also if a name is taken: in a program with a type `System` of its own,
+/// `energy` is still a method of every definition.
 pub mod prelude {
     pub use crate::{Observer as _, System as _};
 

@@ -1,8 +1,8 @@
-//! Watching a run.
+//! Observers of a run.
 //!
 //! Input: states of a run, as [`View`]s. Output: the results of an [`Observer`]:
-//! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::observers::Recorder), a closure. Invariant: watching
-//! changes no bit of the run.
+//! [`EnergyDrift`], [`Monitors`], [`Recorder`](crate::observers::Recorder), a closure. Invariant: observers
+//! change no bit of the run.
 
 mod deviation;
 mod drift;
@@ -28,13 +28,13 @@ use crate::vector::Vector;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 
-/// A state of a run as observers see it.
+/// A state of a run, as an observer receives it.
 pub struct View<'a, T: Real, S: System<T>> {
     /// The number of steps made.
     pub step: u64,
     /// Time, coordinates and momenta, all at the same time; finite.
     pub state: &'a State<S::Vector>,
-    /// The system with its parameters worked in.
+    /// The prepared system, with all that depends on its parameters alone computed.
     pub prepared: &'a S::Prepared,
     /// The way to states at other times.
     pub(crate) between: &'a dyn Between<S::Vector>,
@@ -55,12 +55,12 @@ pub(crate) trait Between<V: Vector> {
 }
 
 impl<T: Real, S: System<T>> View<'_, T, S> {
-    /// H here, as it was declared: in another time, `dt = g*ds`, without g and the momentum of time.
+    /// The declared H at this state: in another time, `dt = g*ds`, without g and the momentum of time.
     pub fn energy(&self) -> T {
         declared_energy::<T, S>(self.prepared, self.state)
     }
 
-    /// The state at a time within one step of this one, by a part of a step of the same scheme.
+    /// The state at a time at most one step away, by a shorter step of the same scheme.
     ///
     /// # Errors
     /// [`Error::Far`] for another time, those of a step.
@@ -68,35 +68,34 @@ impl<T: Real, S: System<T>> View<'_, T, S> {
         self.between.state_at(t)
     }
 
-    /// Observable `index` of [`System::OBSERVABLES`] here.
+    /// Observable `index` of [`System::OBSERVABLES`] at this state.
     pub fn observable(&self, index: usize) -> T {
         self.prepared
             .observable(index, self.state.t, &self.state.q, &self.state.p)
     }
 
-    /// The observable of that name here; `None` where there is none.
+    /// The observable of that name at this state; `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
         S::observable_index(name).map(|index| self.observable(index))
     }
 }
 
-/// A watcher of a run, which may end it.
+/// Receives the states of a run, and may end it.
 ///
-/// It is shown the state at which it is attached, and from then on every state whose step number,
-/// counted from the start of the run, is a multiple of its interval. Which states it is shown
-/// depends on nothing else: not on how the run is cut into calls. A tuple of observers is an
-/// observer, and so is `&mut O`; a closure is attached by
-/// [`Integrator::watch`](crate::Integrator::watch).
+/// An observer receives the state at which it is attached. From then on it receives every state whose step number,
+/// counted from the start of the run, is a multiple of its interval. This does not depend on the calls of `advance`
+/// that make the steps. A tuple of observers is an observer, and so is `&mut O`.
+/// [`Integrator::watch`](crate::Integrator::watch) attaches a closure.
 pub trait Observer<T: Real, S: System<T>> {
     /// Steps between observations, at least 1.
     fn interval(&self) -> u64 {
         1
     }
-    /// Shows it the state at which it is attached; `Break` ends the run.
+    /// Receives the state at which the observer is attached; `Break` ends the run.
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
         self.observe(view)
     }
-    /// Shows it a state whose step number is a multiple of its interval; `Break` ends the run.
+    /// Receives a state whose step number is a multiple of the interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
     /// Visits what it follows, if that is the drift of functions of the state, seen after every so many
     /// steps, and the changes of their signs, and nothing else: ensembles then follow it in lanes.
@@ -110,23 +109,24 @@ pub trait Observer<T: Real, S: System<T>> {
     fn pass(&mut self, _view: &View<'_, T, S>, _quiet: bool) -> ControlFlow<()> {
         ControlFlow::Continue(())
     }
-    /// Writes what it remembers. An observer that remembers nothing writes its name alone.
+    /// Writes the data of the observer to a saved run. An observer without data writes its name alone.
     fn save(&self, to: &mut Memory) {
         to.begin("");
     }
-    /// Reads what it wrote, instead of being attached to the run whose present state it is shown.
+    /// Reads what [`save`](Observer::save) wrote. For a resumed run this replaces [`attach`](Observer::attach); the
+    /// view is the present state of the run.
     ///
     /// # Errors
-    /// [`CheckpointError::Other`](crate::errors::CheckpointError::Other) where another observer wrote it,
+    /// [`CheckpointError::Other`](crate::errors::CheckpointError::Other) if another observer wrote it,
     /// [`CheckpointError::Damaged`](crate::errors::CheckpointError::Damaged).
     fn restore(&mut self, _view: &View<'_, T, S>, from: &mut Memory) -> Result<(), Error> {
         from.expect("")
     }
-    /// The end it made of the run, after a `Break`: at a state between two steps, which the run then shows
-    /// as its own, or (none) at the state it was shown.
+    /// The state at which the observer ended the run, after a `Break`: a state between two steps, which becomes the
+    /// state of the run, or `None` for the state that it received last.
     ///
     /// # Errors
-    /// The error that kept it from observing on; the run returns it.
+    /// The error because of which the observer cannot continue; the run returns it.
     fn end(&self) -> Result<Option<&State<S::Vector>>, Error> {
         Ok(None)
     }
@@ -143,9 +143,9 @@ pub trait Unobserved {}
 
 impl Unobserved for () {}
 
-/// The value a watching closure returns: nothing, or whether the run goes on.
+/// The value that a closure given to [`watch`] returns: nothing, or whether the run continues.
 pub trait Verdict {
-    /// Whether the run goes on.
+    /// `Continue` or `Break`.
     fn control(self) -> ControlFlow<()>;
 }
 
@@ -169,8 +169,10 @@ fn both(a: ControlFlow<()>, b: ControlFlow<()>) -> ControlFlow<()> {
     }
 }
 
-/// A closure as an observer, where one is needed: in a tuple that is passed on, say. What it reads of
-/// a state Rust does not infer here; [`Integrator::watch`](crate::Integrator::watch) knows it.
+/// Makes an observer from a closure, for example for a tuple of observers.
+///
+/// The closure needs the type of its argument, `&View<'_, f64, MySystem>`, which Rust does not infer here. In
+/// [`Integrator::watch`](crate::Integrator::watch) it does.
 ///
 /// ```
 /// use hamiltonian::View;
@@ -189,7 +191,7 @@ pub fn watch<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R>(
     Watch(closure)
 }
 
-/// The observer [`watch`] makes.
+/// The observer that [`watch`] makes.
 #[derive(Debug, Clone)]
 pub struct Watch<F>(F);
 
@@ -201,7 +203,8 @@ impl<T: Real, S: System<T>, R: Verdict, F: FnMut(&View<'_, T, S>) -> R> Observer
     }
 }
 
-/// Every `steps` steps (0 counts as 1), `observer`.
+/// Makes an observer that passes on the state at which it is attached and each state whose step number is a multiple of
+/// `steps` (0 counts as 1).
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -221,11 +224,11 @@ pub fn every<O>(steps: u64, observer: O) -> Every<O> {
     }
 }
 
-/// The observer [`every`] makes.
+/// The observer that [`every`] makes.
 #[derive(Debug, Clone)]
 pub struct Every<O> {
     steps: u64,
-    /// The observer that is shown every so many steps.
+    /// The observer inside.
     pub inner: O,
 }
 

@@ -1,7 +1,7 @@
 //! Periodic orbits, by Newton's method with the tangent of the numerical map.
 //!
-//! Input: a system, a scheme, a guess and the condition that singles out one orbit of a family. Output:
-//! [`PeriodicOrbit`]. Invariant: an orbit that comes back closes to within rounding times the growth of
+//! Input: a system, a scheme, a guess and the condition that selects one orbit of a family. Output:
+//! [`PeriodicOrbit`]. Invariant: an orbit that is returned closes to within rounding times the growth of
 //! deviations; anything else is an error.
 
 mod least_squares;
@@ -19,13 +19,13 @@ use hamiltonian_lanes::{Dual, Real};
 use least_squares::{largest, solve};
 use nalgebra::{Complex, DMatrix};
 
-/// The condition that singles out one periodic orbit.
+/// The condition that selects one periodic orbit.
 ///
-/// The orbits of a system whose H depends on time periodically are isolated. Those of an autonomous system form
-/// families, one orbit for each energy, and each point of an orbit is a start.
+/// Periodic orbits of a system whose H depends on time periodically are isolated. Those of an autonomous system form
+/// families, one orbit for each energy, and each point of an orbit may be its start.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Closing<'a> {
-    /// The orbit closes after a time at which the forces repeat: H depends on time with this period.
+    /// An orbit of a system whose H depends on time with this period. It closes after this time.
     Driven {
         /// The period, or a multiple of it.
         period: f64,
@@ -46,11 +46,11 @@ pub enum Closing<'a> {
     },
 }
 
-/// A periodic orbit of a scheme's map, with the derivative of its return.
+/// A periodic orbit of the numerical map, with the derivative of the map over one period.
 ///
-/// Newton's method changes the start until the orbit closes; the derivative is the tangent of the numerical
-/// map, so it converges quadratically, to an orbit that is periodic for the scheme. A correction that makes the
-/// gap larger is halved.
+/// Newton's method corrects the start until the orbit closes. The derivative is that of the numerical map, so the
+/// method converges quadratically, to an orbit that is periodic for the scheme. A correction that makes the gap larger
+/// is halved.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -82,8 +82,8 @@ const MOST: u32 = 40;
 const HALVINGS: u32 = 12;
 
 impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
-    /// Finds the orbit near `guess` that closes after one period of `steps` steps of `scheme`. Coordinates
-    /// themselves return: an angle that grows by a turn does not close.
+    /// Finds the orbit near `guess` that closes after one period of `steps` steps of `scheme`. All coordinates must
+    /// return to their values: an angle that grows by 2π does not.
     ///
     /// # Errors
     /// [`Error::NoPeriodicOrbit`] if the method does not converge, for example because the guess is far, or because

@@ -1,8 +1,8 @@
-//! Schemes: table entries that, given a prepared system and a step, become one-step maps.
+//! Schemes: types that make one-step maps for a prepared system and a step.
 //!
-//! Input: a prepared system. Output: [`Scheme::prepare`] → [`Map`], [`Scheme::start`] → what it
-//! carries. Invariant: what a scheme asks of a system is the bound of its implementation, so a wrong
-//! pairing is a compile error.
+//! Input: a prepared system. Output: [`Scheme::prepare`] returns a [`Map`], [`Scheme::start`] the value that it
+//! carries. Invariant: the requirements of a scheme are the bounds of its implementation, so a wrong pairing is a
+//! compile error.
 
 use crate::error::Error;
 use crate::map::{Map, Step};
@@ -24,11 +24,11 @@ pub enum Form {
     TwoPoint,
     /// dq∧dp of the state up to O(h^(2p+2)) a step for order p: the scheme is pseudo-symplectic.
     Nearly,
-    /// None: the scheme is no geometric one.
+    /// None.
     Nothing,
 }
 
-/// The structure a scheme asks of a system.
+/// The structure that a scheme requires of a system.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Needs {
     /// Nothing: any H(q, p, t), with forces.
@@ -55,15 +55,15 @@ pub enum Needs {
 pub struct Entry {
     /// The type's name.
     pub name: &'static str,
-    /// The choice made in it, in words; empty where there is none.
+    /// The variant, in words; empty if there is none.
     pub variant: &'static str,
-    /// The numbers of its equations in the paper; empty where it is not there.
+    /// The numbers of its equations in the paper; empty if it is not in the paper.
     pub equations: &'static str,
     /// The error of a trajectory is O(Δt^order).
     pub order: u32,
     /// The time one step advances, in units of the step size Δt.
     pub duration: u32,
-    /// The structure it asks of a system.
+    /// The structure that it requires of a system.
     pub needs: Needs,
     /// The form it preserves.
     pub preserves: Form,
@@ -81,17 +81,17 @@ impl core::fmt::Display for Entry {
     }
 }
 
-/// A scheme with a line in the catalogue. Its `Debug` text holds all its choices: a saved run is
-/// recognised by it.
+/// A scheme with an entry in the catalogue. Its `Debug` text contains all its settings; a saved run resumes only with a
+/// scheme of the same text.
 pub trait Listed: Clone + Debug + Send + Sync + 'static {
-    /// That line.
+    /// The entry.
     fn entry(&self) -> Entry;
 }
 
 /// A scheme for the system `S` over the scalar `T`.
 ///
-/// The bound of its implementation says what a scheme needs of a system, so a wrong pairing is a
-/// compile error where the run is made.
+/// The bounds of the implementation state what the scheme requires of a system, so a wrong pairing is a
+/// compile error in the call that makes the run.
 pub trait Scheme<T: Real, S: System<T>>: Listed {
     /// The scheme with the system's flows and all coefficients folded in.
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;

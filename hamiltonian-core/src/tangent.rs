@@ -1,4 +1,4 @@
-//! Motion of orbits near one: the tangent of the numerical map, and quantities read off it.
+//! The derivative of the numerical map along an orbit, and quantities computed from it.
 //!
 //! Input: a system, a scheme, a start and a step. Output: [`Tangent`], the run with deviations from it;
 //! Lyapunov exponents, alignment indices, [`monodromy`] matrices. Invariants: deviations are exact
@@ -20,11 +20,11 @@ use nalgebra::DMatrix;
 /// A run with deviations from its orbit: solutions of the linearised map along it.
 ///
 /// A deviation is a derivative of the state with respect to its start in some direction. Each belongs to
-/// a run over dual numbers, so it is the exact tangent of the map of whichever scheme, also of an
-/// implicit one; a symplectic scheme has a symplectic tangent. Each costs about three runs.
+/// a run over dual numbers, so it is the exact derivative of the numerical map, also of an implicit scheme. The
+/// derivative of a symplectic scheme is a symplectic matrix. Each deviation costs about as much as three runs.
 ///
 /// Deviations are the columns of [`matrix`](Tangent::matrix); its rows are the coordinates, then the
-/// momenta, as they are stored. In the beginning they are the first unit vectors.
+/// momenta, as they are stored. At the start, the deviations are the first unit vectors.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -44,8 +44,8 @@ pub struct Tangent<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> {
 }
 
 impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
-    /// A run of `scheme` on `system` from `start` with the step size `step`, and so many deviations from
-    /// it: as many as there are coordinates and momenta for the whole tangent map.
+    /// Creates a run of `scheme` on `system` from `start` with the step size `step`, with `deviations` deviations.
+    /// The whole derivative of the map needs as many as there are coordinates and momenta.
     ///
     /// # Errors
     /// Those of [`Integrator::new`]; [`Error::Deviations`] for no deviation, or more than there are
@@ -74,8 +74,8 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// Makes `n` steps.
     ///
     /// # Errors
-    /// Those of [`Integrator::advance`]. A deviation that has grown past the largest number is
-    /// [`Error::NotFinite`]; [`orthonormalise`](Tangent::orthonormalise) more often.
+    /// Those of [`Integrator::advance`]. A deviation that overflows is [`Error::NotFinite`]: call
+    /// [`orthonormalise`](Tangent::orthonormalise) more often.
     pub fn advance(&mut self, n: u64) -> Result<(), Error> {
         self.runs
             .iter_mut()
@@ -110,8 +110,8 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         matrix
     }
 
-    /// Replaces the deviations by orthonormal ones of the same span, column by column; the orbit goes on
-    /// unchanged. Returns what each had grown to, orthogonal to those before: the diagonal of R in QR.
+    /// Replaces the deviations by orthonormal ones of the same span, column by column. The orbit does not change.
+    /// Returns the length of the part of each that is orthogonal to those before: the diagonal of R in QR.
     pub fn orthonormalise(&mut self) -> Vec<T> {
         let mut matrix = self.matrix();
         let mut lengths = alloc::vec![T::zero(); self.runs.len()];
@@ -120,7 +120,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         lengths
     }
 
-    /// Gives every deviation the length 1, in its own direction. Returns their lengths before.
+    /// Scales every deviation to the length 1. Returns the lengths before.
     pub fn normalise(&mut self) -> Vec<T> {
         let matrix = self.matrix();
         let lengths = matrix.column_iter();
@@ -134,16 +134,19 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         lengths
     }
 
-    /// The Lyapunov exponents over the next `steps`: as many as there are deviations. These are made
-    /// orthonormal every so many steps: so often that they neither overflow nor
-    /// fall into one direction, every time unit or so.
+    /// Makes `steps` steps and returns the Lyapunov exponents over them, one for each deviation.
     ///
-    /// They are mean rates of growth of the finite stretch, in the order of the deviations: the sum of the first
-    /// k is the rate of the volume of the first k deviations, whose number changes none of them. Of longer and
-    /// longer stretches they tend to the exponents, greatest first; rates as near to each other as the stretch is
-    /// short, such as those of a regular orbit, may come in another order. (V. I. Oseledets, Trans. Moscow Math. Soc. 19 (1968) 197; G. Benettin, L. Galgani,
+    /// The deviations are made orthonormal after each `every` steps. This must be so often that they neither
+    /// overflow nor align, for example once in each unit of time.
+    ///
+    /// The results are mean rates of growth over these steps, in the order of the deviations. The sum of the first
+    /// k is the rate of growth of the volume of the first k deviations; further deviations change none of them. With
+    /// the number of steps they tend to the exponents, the greatest first. Rates that differ by less than the error
+    /// of the mean, such as those of a regular orbit, may come in another order.
+    ///
+    /// Source: V. I. Oseledets, Trans. Moscow Math. Soc. 19 (1968) 197; G. Benettin, L. Galgani,
     /// A. Giorgilli, J.-M. Strelcyn, Meccanica 15 (1980) 9, doi:10.1007/BF02128236; I. Shimada,
-    /// T. Nagashima, Prog. Theor. Phys. 61 (1979) 1605, doi:10.1143/PTP.61.1605.)
+    /// T. Nagashima, Prog. Theor. Phys. 61 (1979) 1605, doi:10.1143/PTP.61.1605.
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -177,9 +180,9 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     }
 
     /// GALI of all k deviations: the volume of the parallelepiped of their directions, between 0 and 1.
-    /// On a chaotic orbit it falls like exp(−Σ(λ₁ − λᵢ)t), on a regular one it stays, for k up to
-    /// the number of degrees of freedom. Keep deviations from overflowing by
-    /// [`normalise`](Tangent::normalise), never by [`orthonormalise`](Tangent::orthonormalise).
+    /// On a chaotic orbit it falls like exp(−Σ(λ₁ − λᵢ)t). On a regular orbit it stays away from 0, for k up to
+    /// the number of degrees of freedom. [`normalise`](Tangent::normalise) prevents an overflow of the deviations;
+    /// [`orthonormalise`](Tangent::orthonormalise) would make GALI 1.
     ///
     /// Source: C. Skokos, T. Bountis, C. Antonopoulos, Physica D 231 (2007) 30, eq. 6,
     /// doi:10.1016/j.physd.2007.04.004.
@@ -362,8 +365,10 @@ fn dot<T: Real>(a: &[T], b: &[T]) -> T {
     sum
 }
 
-/// The derivative of the state after `time`, made in so many steps, with respect to the start: of a closed
-/// orbit of that period its monodromy matrix. Rows and columns are the coordinates, then the momenta.
+/// The derivative of the state after `time` with respect to the start, computed in `steps` steps.
+///
+/// For a closed orbit with the period `time` it is the monodromy matrix. Rows and columns are the coordinates, then the
+/// momenta.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -419,10 +424,11 @@ pub fn symplectic_defect<T: Real>(matrix: &DMatrix<T>) -> f64 {
     worst
 }
 
-/// The Floquet multipliers of a closed orbit, the eigenvalues of its [`monodromy`] matrix: in a Hamiltonian
-/// system with each μ there are 1/μ and its conjugates. One pair is 1, of deviations along the orbit and
-/// across the energy; it is double, so it comes out to half the digits. The orbit is stable if all
-/// have modulus 1.
+/// The Floquet multipliers of a closed orbit, the eigenvalues of its [`monodromy`] matrix.
+///
+/// In a Hamiltonian system, 1/μ and the conjugates of both are multipliers if μ is. In an autonomous system, one pair is
+/// 1: that of the deviations along the orbit and across the energy. It is a double eigenvalue and has only half of the
+/// digits. An orbit with a multiplier of modulus above 1 is unstable.
 ///
 /// ```
 /// use hamiltonian::tangents::multipliers;

@@ -13,7 +13,7 @@ use hamiltonian_lanes::Real;
 
 /// A function of the state whose roots a run locates, see [`Events`](crate::observers::Events).
 ///
-/// Both directions count and the run goes on, unless it is told otherwise:
+/// By default both directions count and the run continues. Methods change this:
 ///
 /// ```
 /// use hamiltonian::nalgebra::SVector;
@@ -37,7 +37,7 @@ pub struct Event<V: Vector> {
 type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
 
 impl<V: Vector> Event<V> {
-    /// The event that the system declares under that name, or a monitor or an invariant of it.
+    /// The roots of the event, monitor or invariant that the system declares under that name.
     pub fn named(name: &str) -> Self {
         Event {
             name: name.to_owned(),
@@ -71,8 +71,8 @@ impl<V: Vector> Event<V> {
         Event { slope: -1, ..self }
     }
 
-    /// The function is a multiple of `period`, which is positive: for angles, that grow or jump by
-    /// 2π. In a step it changes by less than half a period.
+    /// Selects points at which the function is a multiple of `period`, which is positive: for angles, which grow or
+    /// jump by 2π. In each step the function must change by less than half a period.
     #[must_use]
     pub fn modulo(self, period: V::Scalar) -> Self {
         Event {
@@ -81,13 +81,13 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// Ends the run where it happens for the first time.
+    /// Ends the run at the first event.
     #[must_use]
     pub fn ending(self) -> Self {
         self.ending_after(1)
     }
 
-    /// Ends the run where it has happened `count` times.
+    /// Ends the run at event number `count`, counted from 1.
     #[must_use]
     pub fn ending_after(self, count: u64) -> Self {
         Event {

@@ -1,8 +1,8 @@
-//! Functions with data of their own, as parameters of systems.
+//! Functions with data, as parameters of systems.
 //!
 //! Input: numbers, for example the values of a potential at knots. Output: [`Function`], which the macro
-//! differentiates by dual numbers, and two implementations, [`Spline`] and [`Grid`]. Invariant: a value
-//! depends on the data and the point alone, in each lane of a pack on the point of that lane.
+//! differentiates over dual numbers, and two implementations, [`Spline`] and [`Grid`]. Invariant: a value
+//! depends only on the data and the point; in a pack, the value of a lane depends only on the point of this lane.
 
 mod grid;
 mod line;
@@ -53,8 +53,8 @@ pub trait Function<const N: usize>: Clone + Debug + Send + Sync + 'static {
     /// The value at a point; NaN outside the domain.
     fn value<T: Real>(&self, at: [T; N]) -> T;
 
-    /// A number that differs, with near certainty, if the function differs: see [`fingerprint`]. A saved run
-    /// goes on only with functions of the same fingerprints, and members of an ensemble have the same.
+    /// A number that almost certainly differs between different functions: see [`fingerprint`]. A saved run
+    /// resumes only with functions of the same fingerprints. All members of an ensemble have the same fingerprints.
     fn fingerprint(&self) -> u64;
 }
 

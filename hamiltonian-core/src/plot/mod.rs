@@ -1,7 +1,7 @@
 //! Pictures of results, as SVG (feature `plot`).
 //!
-//! Input: a [`Table`], or points. Output: a [`Figure`] and its file. Invariants: no fonts are needed; a
-//! figure with more than [`DENSE`] dots has them as one embedded PNG, so that files stay small.
+//! Input: a [`Table`], or points. Output: a [`Figure`] and its file. Invariants: no fonts are needed; more
+//! than [`DENSE`] dots of a figure become one embedded PNG, so that files stay small.
 //!
 //! ```
 //! use hamiltonian::plot::Figure;
@@ -25,13 +25,13 @@ use crate::error::Error;
 use crate::table::Table;
 use std::ops::Range;
 
-/// A figure with more dots than this has them as an embedded raster.
+/// The most dots of a figure that are drawn one by one; more become one embedded PNG.
 pub const DENSE: usize = 500;
 
-/// A named curve. Curves of one name have one colour and one line in the legend.
+/// A named curve. Curves with the same name share a colour and a line of the legend.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Curve {
-    /// The name in the legend; an empty one is not in it.
+    /// The name in the legend; a curve with an empty name is not in the legend.
     pub name: String,
     /// The points (x, y). A y that is not finite interrupts the curve.
     pub points: Vec<(f64, f64)>,
@@ -138,7 +138,7 @@ impl Figure {
         })
     }
 
-    /// Draws a section: a dot for each point (x, y), for example of a [`Events`](crate::observers::Events) observer
+    /// Draws a section: a dot for each point (x, y), for example of an [`Events`](crate::observers::Events) observer
     /// or of a sweep.
     ///
     /// ```
@@ -163,8 +163,8 @@ impl Figure {
         }
     }
 
-    /// Draws |H/H₀ − 1| against time on a logarithmic axis, H₀ the first value of the column `H`; the
-    /// difference |H − H₀| if that is 0.
+    /// Draws |H/H₀ − 1| against time on a logarithmic axis, with the first value H₀ of the column `H`. If H₀ is 0, it
+    /// draws |H − H₀|.
     ///
     /// # Errors
     /// [`TableError::Unknown`](crate::errors::TableError::Unknown) if the table has no column `H`:

@@ -1,15 +1,15 @@
-//! The page of authors: what a scheme is made of, what a system written by hand implements, and the
-//! maps behind the schemes.
+//! For authors of schemes and of systems written by hand: the traits to implement, and the maps behind the
+//! schemes.
 //!
-//! A **scheme** is a type with a line of facts ([`Listed`], [`Entry`]) and
+//! A **scheme** is a type with a [`Listed`] entry ([`Entry`]) and
 //! [`Scheme::prepare`](crate::Scheme::prepare), which makes the [`Map`] of one step for a system and a step. A step
-//! is Φ = close ∘ body ∘ open; only `body` is repeated between two states that somebody looks at. [`OneStep`] and
-//! [`Symmetric`] admit it to compositions.
+//! is Φ = close ∘ body ∘ open. Between two observed states only `body` is repeated. Compositions require [`OneStep`]
+//! or [`Symmetric`].
 //!
-//! A **system** by hand implements [`System`](crate::System) and, for its values at parameters, [`Dynamics`]:
-//! the gradient as a [`VectorField`] and, where it has them, kicks and drifts or exact flows as [`Piece`]s.
-//! [`check_derivatives`] compares them with differences. [`Gather`] lets members of an ensemble have
-//! parameters of their own.
+//! A **system** written by hand implements [`System`](crate::System) and, for its prepared values, [`Dynamics`]:
+//! the gradient as a [`VectorField`] and, if it has them, kicks and drifts or exact flows as [`Piece`]s.
+//! [`check_derivatives`] compares given derivatives of a function with exact ones. With [`Gather`], members of an
+//! ensemble may have different parameters.
 //!
 //! ```
 //! use hamiltonian::schemes::author::{Listed, catalogue};

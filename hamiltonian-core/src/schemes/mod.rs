@@ -1,10 +1,10 @@
 //! The schemes, each with its equation, order, coefficients and source, and the list of them.
 //!
-//! | scheme | equations | order | asks for | preserves | work a step |
+//! | scheme | equations | order | requires | preserves | work in a step |
 //! |---|---|---|---|---|---|
 //! | [`StormerVerlet`] | (27) | 2 | `Separable` | dq∧dp | 1 kick, 1 drift |
 //! | [`SymplecticEuler`] | | 1 | `Separable` | dq∧dp | 1 kick, 1 drift |
-//! | [`Strang`] | | 2 | `Split` | dq∧dp | 1 stage: each piece twice, neighbours in one |
+//! | [`Strang`] | | 2 | `Split` | dq∧dp | 1 stage: each piece twice; adjacent flows of one piece merge |
 //! | [`Ruth3`] | | 3 | `Split` | dq∧dp | 3 stages |
 //! | [`Yoshida4`], [`Suzuki4`], [`BlanesMoan4`] | | 4 | `Split` | dq∧dp | 3, 5, 6 stages |
 //! | [`Yoshida6`], [`KahanLi6`], [`BlanesMoan6`] | | 6 | `Split` | dq∧dp | 7, 9, 10 stages |
@@ -14,35 +14,38 @@
 //! | [`BlanesCasasEscorihuela8`] | | 8 | `Nystrom` | dq∧dp | 19 kicks |
 //! | [`Saba2`] … [`Saba4`] | | (4, 2) … (8, 2) | `Split`, small second piece | dq∧dp | 2 … 4 stages |
 //! | [`Aba104`], [`Aba864`], [`Aba1064`] | | as named | `Split`, small second piece | dq∧dp | 7, 7, 8 stages |
-//! | [`Processed4`], [`Processed6`], [`BlanesCasasMurua8`] | | 4, 6, 8 | `Split` | dq∧dp | 5, 8, 13 stages; a processor of 12, 24, 20 where the state is seen |
-//! | [`WisdomHolman3`] … [`WisdomHolman17`] | | (4, 2) … (18, 2) | `Split`, small second piece | dq∧dp | 1 stage; a processor of 2 … 16 where the state is seen |
-//! | [`Compensated`] | | its table's | `Separable` | dq∧dp | its table's, and low words |
+//! | [`Processed4`], [`Processed6`], [`BlanesCasasMurua8`] | | 4, 6, 8 | `Split` | dq∧dp | 5, 8, 13 stages; a processor of 12, 24, 20 stages for each observed state |
+//! | [`WisdomHolman3`] … [`WisdomHolman17`] | | (4, 2) … (18, 2) | `Split`, small second piece | dq∧dp | 1 stage; a processor of 2 … 16 stages for each observed state |
+//! | [`Compensated`] | | that of its scheme | `Separable`, no forces | dq∧dp | that of its scheme, and low words |
 //! | [`Pihajoki`] | (29), (30) | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 2 gradients |
-//! | [`Mixed`] | | its table's | no forces | nothing | its table's on the copies |
+//! | [`Mixed`] | | that of its scheme | no forces | nothing | that of its scheme on the copies |
 //! | [`Tao`] | | 2 | no forces | dq∧dp + dq̃∧dp̃ of the copies | 3 gradients |
-//! | [`MidpointProjected`] | | its table's | no forces | dq∧dp to O(h^(2p+2)) | 2 gradients a stage |
-//! | [`Semiexplicit`] | | its table's | no forces | dq∧dp | 2 gradients a stage and iteration |
+//! | [`MidpointProjected`] | | p, that of its scheme | no forces | dq∧dp to O(h^(2p+2)) | 2 gradients a stage |
+//! | [`Semiexplicit`] | | that of its scheme | no forces | dq∧dp | 2 gradients a stage and iteration |
 //! | [`TwoStepMidpoint`] | (25) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 1 gradient |
 //! | [`ConsecutiveSubTrajectories`] | (26) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients, **time advances by 2Δt** |
 //! | [`IntersectingSubTrajectories`] | (33) | 2 | no forces | dq_a∧dp_b + dq_b∧dp_a | 2 gradients |
 //! | [`ImplicitMidpoint`] | | 2 | | dq∧dp | 1 gradient an iteration |
 //! | [`Gauss`] | | 2S | | dq∧dp | S gradients an iteration |
 //! | [`GaussNystrom`] | | 2S | quadratic T, no forces | dq∧dp | S forces an iteration |
-//! | [`Variational`] | (35) | min(2·degree, quadrature's) | | dq∧dp | a gradient a point and iteration |
+//! | [`Variational`] | (35) | 2·degree or that of the quadrature, whichever is less | | dq∧dp | a gradient a point and iteration |
 //! | [`MomentumVariational`] | | 2S − 2 | | dq∧dp | S gradients an iteration |
-//! | [`TransformedVerlet`] | | 2 | [`TimeTransformed`](crate::TimeTransformed) quadratic T | dq∧dp with dt∧dp_t | 1 ∂V/∂q |
+//! | [`TransformedVerlet`] | | 2 | [`TimeTransformed`](crate::TimeTransformed), quadratic T, no forces | dq∧dp + dt∧dp_t | 1 ∂V/∂q |
 //! | [`DiscreteGradient`] | | 2 | no forces | H | 1 gradient and H an iteration |
 //! | [`RungeKutta4`] | | 4 | | nothing | 4 gradients |
 //!
-//! [`Composition`] makes schemes of higher order of any symmetric one, `KahanLi6.of(…)`; [`Paced`] gives
-//! one-step schemes variable steps that are reversible.
+//! [`Composition`] makes schemes of higher order from any symmetric one, for example `KahanLi6.of(…)`. [`Paced`] gives
+//! one-step schemes reversible steps of varying length.
 //!
-//! "Asks for" is a trait bound: a scheme on a system without the structure does not compile.
-//! Equation numbers are those of "Developing an explicit Hamiltonian variational integrator".
+//! What a scheme requires is a trait bound: a scheme on a system without the structure does not compile. A scheme with
+//! nothing there takes any H with any force. Schemes that require `Split`, except [`Strang`], also require
+//! [`Exact`](crate::Exact): a force that is not affine in the momenta has no exact flow. Equation numbers are those
+//! of "Developing an explicit Hamiltonian variational integrator".
 //!
-//! A new scheme is a type with its [`Listed`](crate::schemes::author::Listed) entry and its
-//! [`Scheme`](crate::Scheme) implementation — for a splitting, a table in [`tables`] and a line in
-//! `tabulated.rs` — and one line in `catalogue.rs`; the tests then measure its order and the form it preserves.
+//! A new scheme is a type with a [`Listed`](crate::schemes::author::Listed) entry and a
+//! [`Scheme`](crate::Scheme) implementation. In this crate, it also has a line in `catalogue.rs`; the tests then
+//! measure its order and the form that it preserves. A splitting of this crate is a table in [`tables`] and a line in
+//! `tabulated.rs`.
 
 /// A scheme that is its own adjoint: `symmetric!(Strang)`, `symmetric!(Gauss<S>, const S: usize)`.
 macro_rules! symmetric {

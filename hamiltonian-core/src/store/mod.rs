@@ -1,13 +1,13 @@
 //! Results of a sweep on disk, as Zarr v3.
 //!
 //! Input: chunks of members. Output: a directory that zarr-python and xarray open. Invariants: a chunk
-//! is there with all its columns or not at all; a chunk that is there is never written again; the bytes
-//! of a complete store depend on its layout and its chunks alone.
+//! is present with all its columns or not at all; a chunk that is present is never written again; the bytes
+//! of a complete store depend only on its layout and its chunks.
 //!
 //! # Order
-//! A chunk is several files, one for each array. Each appears by a rename, and that of `status` is the
-//! last: a chunk counts as present if its status is there. A process that is killed leaves files of
-//! chunks that do not count; whoever writes such a chunk again writes the same bytes.
+//! A chunk is several files, one for each array. Each appears by a rename, the file of `status` last: a chunk is
+//! present if its `status` is. A process that is killed leaves files of chunks that are not present. The process that
+//! writes such a chunk again writes the same bytes.
 
 mod files;
 mod json;
@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 
 /// A directory of results, chunk by chunk.
 ///
-/// Processes write chunks of one store without coordination, each its own; threads share a store.
+/// Several processes may write to one store without coordination, each its own chunks. Threads share a `Store`.
 ///
 /// ```
 /// use hamiltonian::stores::{ChunkData, Layout, Store};
@@ -293,8 +293,7 @@ impl Store {
         }
     }
 
-    /// Finds the chunks that are missing. If there are none, files that killed processes left are
-    /// removed.
+    /// Finds the chunks that are missing. If there are none, it removes files that killed processes left.
     ///
     /// # Errors
     /// [`StoreError::File`].

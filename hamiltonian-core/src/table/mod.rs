@@ -16,9 +16,9 @@ use hamiltonian_lanes::Real;
 
 /// Rows of `f64` under named columns.
 ///
-/// A [`Recorder`](crate::observers::Recorder) is read as the table of its run, and a sweep collects one. A table
-/// with an index has whole numbers in its first column, for example the member that a row belongs to
-/// where members have several rows.
+/// A [`Recorder`](crate::observers::Recorder) dereferences to the table of its run, and a sweep collects a table. A
+/// table with an index has whole numbers in its first column. For example, if members have several rows, the index is
+/// the member of each row.
 ///
 /// ```
 /// use hamiltonian::Table;
@@ -80,7 +80,7 @@ impl Table {
         })
     }
 
-    /// Reserves memory for so many further rows.
+    /// Reserves memory for `rows` more rows.
     pub fn reserve(&mut self, rows: usize) {
         self.values.reserve(rows.saturating_mul(self.columns.len()));
     }
@@ -128,7 +128,7 @@ impl Table {
         &self.columns
     }
 
-    /// Whether the first column is an index, that is, of whole numbers.
+    /// Whether the first column is an index, with whole numbers.
     pub fn has_index(&self) -> bool {
         self.indexed
     }

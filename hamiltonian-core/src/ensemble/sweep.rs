@@ -40,7 +40,8 @@ pub(crate) enum Aim<'a> {
     Each(Each<'a>),
 }
 
-/// Members that are made from their index, run to their end and recorded: 10⁹ of them need no memory.
+/// Members that are made from their index, run to their end and recorded. Their states are not kept, so memory does
+/// not limit their number.
 ///
 /// A sweep is described first: the end, an observer, the record. [`collect`](Sweep::collect),
 /// [`fold`](Sweep::fold) and [`try_fold`](Sweep::try_fold) run it, on all cores.

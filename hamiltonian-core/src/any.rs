@@ -13,7 +13,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 use hamiltonian_lanes::Real;
 
-/// A run whose type is forgotten: for tables of different systems and schemes.
+/// A run of any system with any scheme, for collections of runs of different types.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -45,7 +45,7 @@ pub trait AnyRun {
     fn has_ended(&self) -> bool;
     /// The present time.
     fn time(&self) -> f64;
-    /// H at the present state, as it was declared.
+    /// The declared H at the present state.
     fn energy(&self) -> f64;
     /// The names of the coordinates, then of the momenta, in declaration order.
     fn names(&self) -> Vec<String>;
@@ -53,7 +53,7 @@ pub trait AnyRun {
     fn values(&self) -> Vec<f64>;
     /// The names of the observables.
     fn observables(&self) -> &'static [Observable];
-    /// The value of the observable of that name; `None` where there is none.
+    /// The value of the observable of that name; `None` if there is none.
     fn observable(&self, name: &str) -> Option<f64>;
 }
 

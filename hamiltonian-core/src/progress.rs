@@ -1,7 +1,7 @@
 //! A progress bar (feature `progress`).
 //!
-//! Input: the number of steps a run is to make. Output: [`Progress`], an observer that moves a bar.
-//! Invariant: it is shown states as every observer is, and changes no bit of the run.
+//! Input: the number of steps of a run. Output: [`Progress`], an observer that moves a bar.
+//! Invariant: like every observer, it changes no bit of the run.
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -11,11 +11,10 @@ use core::ops::ControlFlow;
 use hamiltonian_lanes::Real;
 use indicatif::ProgressBar;
 
-/// A progress bar over so many steps from where it is attached, moved about a thousand times.
+/// A progress bar over a number of steps, counted from the step at which it is attached. It moves about a thousand times.
 ///
-/// It is finished less than a thousandth before the last of them. The bar of a run that ends before is
-/// left as it stands; that of a saved run goes on where it stood. Its target and style are those of
-/// the [`ProgressBar`] it is made of, [`Progress::with_bar`].
+/// The bar is full less than a thousandth before the last step. If the run ends earlier, the bar stays as it is. The bar
+/// of a resumed run continues. [`Progress::with_bar`] takes a [`ProgressBar`] with a target and a style of your own.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -37,12 +36,12 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// A bar over `steps` steps, on the standard error where that is a terminal.
+    /// Creates a bar over `steps` steps, on the standard error if that is a terminal.
     pub fn new(steps: u64) -> Self {
         Self::with_bar(steps, ProgressBar::new(steps))
     }
 
-    /// The same with a bar of one's own.
+    /// Creates an observer that moves a bar of your own.
     pub fn with_bar(steps: u64, bar: ProgressBar) -> Self {
         bar.set_length(steps);
         Progress {

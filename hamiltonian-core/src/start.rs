@@ -2,7 +2,7 @@
 //!
 //! Input: a system, a state as the guess, the unknown. Output: the state with one
 //! momentum (and one coordinate) replaced. Invariant: a root is bracketed before it is refined, so
-//! a state that comes back lies on the surface to rounding; everything else of it is as it was.
+//! a returned state lies on the surface to rounding; all its other components are those of the guess.
 //!
 //! ```
 //! use hamiltonian::start::{Branch, momentum_from_energy};
@@ -11,7 +11,7 @@
 //! let guess = State::new([0.6], [0.0]);
 //! let start = momentum_from_energy(&Oscillator {}, &guess, 0, 0.5, Branch::Forward)?;
 //! assert_eq!(start.p[0], 0.8);
-//! // Beyond the turning point there is none.
+//! // Beyond the turning point there is no such momentum.
 //! let beyond = State::new([1.5], [0.0]);
 //! assert!(momentum_from_energy(&Oscillator {}, &beyond, 0, 0.5, Branch::Forward).is_err());
 //! # Ok::<(), Error>(())
@@ -39,13 +39,13 @@ pub enum Branch {
     Backward,
 }
 
-/// A surface of section: where an event is 0 and H = E. Components are flat indices of the
-/// [`Vector`] ([`Vector::component`]).
+/// A surface of section, on which an event is 0 and H = E. Coordinates and momenta are given as flat indices
+/// ([`Vector::component`]).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Section {
-    /// The event (or any observable) that is to be 0: its index in [`System::OBSERVABLES`].
+    /// The index in [`System::OBSERVABLES`] of the event, or another observable, that is 0.
     pub event: usize,
-    /// The coordinate that is solved for from it.
+    /// The coordinate that is solved for from the event.
     pub coordinate: usize,
     /// The momentum that is solved for from H = E.
     pub momentum: usize,

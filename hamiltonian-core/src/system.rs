@@ -15,7 +15,7 @@ use crate::vector::Vector;
 use gather::{InLanes, Kept};
 use hamiltonian_lanes::{Dual, Real};
 
-/// One group of coordinates as it was declared: `q`, `x[N]`, `q[n][3]`.
+/// One declared coordinate, a number or an array: `q`, `x[N]`, `q[n][3]`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Group {
     /// The coordinate's name.
@@ -43,7 +43,7 @@ pub enum ObservableKind {
     Event,
 }
 
-/// A named scalar function of (t, q, p); vector-valued ones are one entry a component.
+/// A named scalar function of (t, q, p). A function with vector values has one entry for each component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Observable {
     /// The declared name, with the component in brackets for vectors: `angular_momentum[2]`.
@@ -63,9 +63,9 @@ pub struct Observable {
     note = "in generic code bound it by what is used: `S: System<f64>` for energies and gradients, and what the scheme requires, such as `S: Separable<f64>` or `S: Split<f64>`, for a run"
 )]
 pub trait System<T: Real> {
-    /// Coordinates, and momenta, which have the same shape.
+    /// The type of the coordinates, and of the momenta, which have the same shape.
     type Vector: Vector<Scalar = T>;
-    /// The system with all parameter-only work done.
+    /// The prepared system, with all that depends on parameters alone computed.
     type Prepared: Dynamics<T, Vector = Self::Vector>;
 
     /// The name of the system (of the type for item form, `H` for expression form).
@@ -100,9 +100,8 @@ pub trait System<T: Real> {
     /// The zero vector of this system's shape.
     fn zeros(&self) -> Self::Vector;
 
-    /// Whether a state has as many components as the system: with sizes set at run time, a state
-    /// of another length is a value of the same type, on which evaluation panics. Runs and starts
-    /// ask this once.
+    /// Checks that a state has the shape of the system. With sizes set at run time, a state of another length has the
+    /// same type, and evaluation on it panics. Runs and starts make this check once.
     ///
     /// # Errors
     /// [`Error::Shape`] with the first coordinate or momentum of another length, [`Error::Extent`] with the
@@ -135,7 +134,7 @@ pub trait System<T: Real> {
         gradient
     }
 
-    /// The force f on the momenta at a state, dp/dt = −∂H/∂q + f; zero where none acts.
+    /// The force f on the momenta at a state, dp/dt = −∂H/∂q + f; zero if there is none.
     fn force_at(&self, state: &State<Self::Vector>) -> Self::Vector {
         let mut force = self.zeros();
         let prepared = self.prepare();
@@ -143,15 +142,15 @@ pub trait System<T: Real> {
         force
     }
 
-    /// The number of an observable, a monitor, an invariant or an event, in
-    /// [`OBSERVABLES`](System::OBSERVABLES): `height`, or `angular_momentum[2]` for a component.
+    /// The index of an observable (a monitor, an invariant or an event) in
+    /// [`OBSERVABLES`](System::OBSERVABLES), from its name: `height`, or `angular_momentum[2]` for a component.
     fn observable_index(name: &str) -> Option<usize> {
         Self::OBSERVABLES
             .iter()
             .position(|known| known.name == name)
     }
 
-    /// The observable of that name at a state; `None` where there is none.
+    /// The observable of that name at a state; `None` if there is none.
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -166,8 +165,8 @@ pub trait System<T: Real> {
         Some(prepared.observable(index, state.t, &state.q, &state.p))
     }
 
-    /// The derivatives by all coordinates and momenta of the observable of that name at a state;
-    /// `None` where there is none. It is evaluated over dual numbers, once for each of them.
+    /// The derivatives of the observable of that name by all coordinates and momenta at a state; `None` if there is
+    /// none. The observable is evaluated over dual numbers, once for each coordinate and momentum.
     fn observable_gradient(
         &self,
         name: &str,
@@ -349,17 +348,17 @@ pub(crate) fn declared_energy_at<T: Real, S: System<T>>(
     energy / velocities.component(last) - p.component(last)
 }
 
-/// H as a sum of pieces with exact flows, as splittings and their compositions need it.
+/// H is a sum of pieces with exact flows. Splittings require it.
 ///
-/// It is implemented for every [`Separable`] system, with kick and drift as its pieces, and for those
-/// whose author declared pieces, `split { A = …; B = …; }`, or for which the macro found them. A force is
-/// part of the kick; beside other pieces it is the innermost, `force`.
+/// Every [`Separable`] system implements it, with kick and drift as its pieces. So does every definition with declared
+/// pieces, `split { A = …; B = …; }`, or for which the macro finds pieces. A force is part of the kick. Beside other
+/// pieces, the force is a piece of its own, the innermost, `force`.
 pub trait Split<T: Real>: System<T> {
     /// The pieces, the outermost first.
     type Pieces: Pieces<T, Self::Prepared, Point = Point<Self::Vector>>;
     /// The pieces.
     const PIECES: Self::Pieces;
-    /// The pieces in the author's notation, in the same order.
+    /// The pieces as text, in the same order.
     const NAMES: &'static [&'static str];
 }
 
@@ -375,12 +374,12 @@ pub trait Separable<T: Real>: System<T> {
     const DRIFT: Self::Drift;
 }
 
-/// H = A(q, p) + V(q, t), A at most quadratic in p and with an exact flow, as tables of Nyström type
-/// ask for, since {V, {V, {V, A}}} = 0 there.
+/// H = A(q, p) + V(q, t), with A at most quadratic in p and with an exact flow. Nyström schemes require it: then
+/// {V, {V, {V, A}}} = 0.
 ///
-/// The macro implements it where the two are the pieces of [`Split`], in either order, and where H is
-/// [`Separable`] with such a T: T + V, a uniform magnetic field or a rotating frame beside a potential.
-/// A force that does not depend on p is part of the kick.
+/// The macro implements it if the two are the pieces of [`Split`], in either order, and if H is [`Separable`] with such
+/// a T. Examples are T + V, and a potential with a uniform magnetic field or in a rotating frame. If H is separable, a
+/// force that does not depend on p is part of the kick.
 pub trait Nystrom<T: Real>: System<T> {
     /// V: its flow is `p −= c·∂V/∂q(q, t)`.
     type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
@@ -392,7 +391,7 @@ pub trait Nystrom<T: Real>: System<T> {
     const QUADRATIC: Self::Quadratic;
 }
 
-/// No force acts besides −∂H/∂q. Schemes that would not integrate one ask for it.
+/// No force acts besides −∂H/∂q. Schemes that cannot integrate a force require it.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be without forces",
     label = "this scheme integrates H alone",
@@ -400,8 +399,9 @@ pub trait Nystrom<T: Real>: System<T> {
 )]
 pub trait Unforced {}
 
-/// The flows of all pieces are exact, as compositions of order above 2 need them. A force that is not
-/// affine in p is integrated by a symmetric sub-step of order 2 instead.
+/// The flows of all pieces are exact. Splittings with a table of coefficients require it. A force that is not
+/// affine in p has no exact flow: [`Strang`](crate::schemes::Strang) and its like integrate it by a symmetric sub-step
+/// of order 2.
 #[diagnostic::on_unimplemented(
     message = "the pieces of `{Self}` are not known to have exact flows",
     label = "this scheme has an order above 2 with exact flows alone",

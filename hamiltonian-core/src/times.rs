@@ -1,6 +1,6 @@
-//! Watching a run at given times, whatever its step.
+//! States of a run at given times, independent of its step.
 //!
-//! Input: times, and an observer. Output: the observer is shown the states at those times. Invariant: no
+//! Input: times, and an observer. Output: the observer receives the states at those times. Invariant: no
 //! bit of the run changes; the states are those of [`state_at`](crate::Integrator::state_at).
 
 use crate::checkpoint::Memory;
@@ -12,12 +12,12 @@ use crate::vector::Vector;
 use core::ops::ControlFlow;
 use hamiltonian_lanes::{Mask, Real};
 
-/// At each of `times`, which go in the direction of the run, `observer`: it is shown the states there, by
-/// parts of a step of a copy, whatever the step is.
+/// Makes an observer that passes on the states at the given times.
 ///
-/// Times may go on without end. Those after the last step of the run are not shown; one that lies behind
-/// the state at which the observer is attached is an error. What watches is shown a step's number as well:
-/// that of the step that leads to the time or past it.
+/// The times must be in the order of the run. A state between two steps is computed on a copy of the run, by a shorter
+/// step. The iterator of times may be infinite: times after the last step of the run are not used. A time before the
+/// state at which the observer is attached is an error. The `step` of the view is the number of the step that leads to
+/// the time or past it.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -48,7 +48,7 @@ pub fn at_times<V: Vector, I: IntoIterator<Item = V::Scalar>, O>(
     }
 }
 
-/// The observer [`at_times`] makes.
+/// The observer that [`at_times`] makes.
 #[derive(Debug, Clone)]
 pub struct AtTimes<V: Vector, I, O> {
     times: I,
@@ -59,7 +59,7 @@ pub struct AtTimes<V: Vector, I, O> {
     before: Option<State<V>>,
     end: Option<State<V>>,
     failure: Option<Error>,
-    /// The observer that is shown the states at the times.
+    /// The observer inside.
     pub inner: O,
 }
 

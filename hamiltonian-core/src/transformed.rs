@@ -25,24 +25,22 @@ pub type WithTime<V> = Pair<V, SVector<<V as Vector>::Scalar, 1>>;
 /// K(q, t, p, p_t) = g(q, p)·(H(q, p) + p_t)
 /// ```
 ///
-/// on the shell K = 0, where p_t = −H. The time t is the last coordinate; `state.t` is s. Even steps of s
-/// are steps of g in t: g is to be small where steps are to be short.
+/// on the shell K = 0, where p_t = −H. The time t is the last coordinate, and `state.t` is s. A step h of s is a step of
+/// about h·g in t, so g must be small where steps of t must be short.
 ///
-/// `energy` and `gradient` of this system are those of K: on the shell its energy is 0 to the error of the
-/// scheme. The energy that a run, a [`Recorder`](crate::observers::Recorder) and an
-/// [`EnergyDrift`](crate::observers::EnergyDrift) show is K/g − p_t = H; of a state it is
+/// `energy` and `gradient` of this system are those of K: on the shell its energy is 0, up to the error of the
+/// scheme. A run, a [`Recorder`](crate::observers::Recorder) and an
+/// [`EnergyDrift`](crate::observers::EnergyDrift) show the energy K/g − p_t = H. For a state, it is
 /// `system.system.energy(&system.declared(&state))`.
 ///
 /// g is a monitor that the system declares ([`by`](TimeTransformed::by)), or the H of another system of
-/// the same shape ([`new`](TimeTransformed::new)), which brings the derivatives. A definition whose H
-/// depends on no momentum is refused, so a g(q) is a monitor, or a [`System`] written by hand. In a
-/// `hamiltonian!` definition `dt = g*ds` says the same for one g, and H and g may depend on t there; so may a
-/// force act, with which a system is refused here.
+/// the same shape ([`new`](TimeTransformed::new)). A definition whose H depends on no momentum is an error, so a
+/// g(q) must be a monitor, or a [`System`] written by hand. In a `hamiltonian!` definition, `dt = g*ds` makes the same
+/// change of time. There, H and g may depend on t, and a force may act. Here, neither is possible.
 ///
-/// A step that is symplectic for K is so in (q, t, p, p_t):
-/// [`TransformedVerlet`](crate::schemes::TransformedVerlet) for H = ½pᵀM⁻¹p + V(q) and g(q), with its
-/// compositions; for any H and g every scheme that asks for no structure, such as
-/// [`Gauss`](crate::schemes::Gauss).
+/// A scheme that is symplectic for K is symplectic in (q, t, p, p_t). For H = ½pᵀM⁻¹p + V(q) and g(q), use
+/// [`TransformedVerlet`](crate::schemes::TransformedVerlet) and its compositions. For any H and g, use a scheme for any
+/// system, such as [`Gauss`](crate::schemes::Gauss).
 /// [`Paced`](crate::schemes::Paced) is the explicit alternative: reversible, and not symplectic.
 ///
 /// Source: E. Hairer, Appl. Numer. Math. 25 (1997) 219, doi:10.1016/S0168-9274(97)00061-5; S. Reich, SIAM

@@ -31,7 +31,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::Real;
 
-/// A run: a system, a scheme, a start and a step under way.
+/// A run: a system, a scheme, a step and the present state.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -48,11 +48,10 @@ use hamiltonian_lanes::Real;
 /// ```
 ///
 /// # Blocks
-/// Whether everything is finite is checked once every 1024 steps, at the end of each call and
-/// before each observation; a check every step would cost a third of a simple system's run. When
-/// it is not, the block is made again step by step to find the first bad step, which the error
-/// reports; the run then stands at the state before that step. No observer sees a state that is
-/// not finite.
+/// A run checks that its state is finite once every 1024 steps, at the end of each call and before each observation. A
+/// check in every step would cost a third of a simple system's run. If the state is not finite, the run repeats the
+/// block step by step and finds the first bad step, which the error reports. The state of the run is then the one before
+/// that step. No observer receives a state that is not finite.
 ///
 /// # Type
 /// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme itself as
@@ -116,15 +115,14 @@ impl<T: Real, S: System<T>, R: Map<Carried: Carried<Vector = S::Vector, Scalar =
 pub type Run<S, M, O = (), T = f64> = Integrator<T, S, <M as Scheme<T, S>>::Map, O>;
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
-    /// A run of `scheme` on `system` from `start` with the step size `step`, which is negative to
-    /// integrate backwards. Units are the caller's.
+    /// Creates a run of `scheme` on `system` from `start` with the step size `step`. A negative step integrates
+    /// backwards.
     ///
     /// # Errors
-    /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] when `start` has not
-    /// the system's shape; [`Error::Start`] when it is not finite; [`Error::Values`] when H or a
-    /// derivative of it is not finite there; [`Error::Shell`] when the system is one in another time
-    /// and the start is off the shell H = 0 by more than a thousandth of the energies in it; those of
-    /// [`Scheme::check`].
+    /// [`Error::Step`] for a zero, NaN or infinite step; [`Error::Shape`] if `start` does not have
+    /// the system's shape; [`Error::Start`] if it is not finite; [`Error::Values`] if H or a
+    /// derivative of it is not finite there; [`Error::Shell`] for a system in another time if the start is off the shell
+    /// H = 0 by more than a thousandth of the energies in it; those of [`Scheme::check`].
     pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,

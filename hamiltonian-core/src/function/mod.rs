@@ -15,8 +15,7 @@ use crate::ensemble::hash::Hash;
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
-/// A function of `N` numbers that carries data: the type of a parameter `V: fn(r)` of
-/// [`hamiltonian!`](https://docs.rs/hamiltonian/latest/hamiltonian/macro.hamiltonian.html).
+/// A function of `N` numbers that carries data: the type of a parameter `V: fn(r)` of `hamiltonian!`.
 ///
 /// [`value`](Function::value) is generic over the scalar. Its derivatives are those of its value over dual
 /// numbers, so they are exact. Numbers read from a table go through [`Real::look_up`], which

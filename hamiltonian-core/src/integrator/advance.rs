@@ -26,12 +26,11 @@ fn next_multiple(steps: u64, interval: u64) -> u64 {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// Makes `n` steps and returns the state after them; fewer where an observer ends the run.
+    /// Makes `n` steps and returns the state after them. If an observer ends the run, there are fewer steps.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::Solve`]. The run then stands at the last good state and
-    /// can be asked for it. For a run that was saved, [`Error::Checkpoint`] if its observers are not
-    /// those that were saved.
+    /// [`Error::NotFinite`], [`Error::Solve`]. Then [`state`](Integrator::state) is the last finite state. For a
+    /// resumed run, [`Error::Checkpoint`] if its observers are not those that were saved.
     pub fn advance(&mut self, n: u64) -> Result<&State<S::Vector>, Error> {
         if let Some(error) = &self.refused {
             return Err(error.clone());
@@ -156,8 +155,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The states after `every`, 2·`every`, … further steps (0 counts as 1), until an observer ends
-    /// the run; without one, without end. The first error is the last item.
+    /// The states after `every`, 2·`every`, … further steps (0 counts as 1). The iterator ends when an observer ends
+    /// the run; otherwise it is infinite. The first error is the last item.
     pub fn states(&mut self, every: u64) -> States<'_, T, S, R, O> {
         States {
             run: self,

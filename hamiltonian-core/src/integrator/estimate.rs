@@ -14,7 +14,7 @@ use crate::vector::Vector;
 use alloc::sync::Arc;
 use hamiltonian_lanes::Real;
 
-/// What halving the step says of the error of a run; see [`Integrator::estimate_error`].
+/// The error of a run, estimated by halving the step; see [`Integrator::estimate_error`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ErrorEstimate<V: Vector> {
     /// The state at the end of the planned run, with its own step.
@@ -42,9 +42,9 @@ fn extrapolated(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Estimates the error of the next `n` steps: makes them on a copy, then 2n steps of half the size and 4n
-    /// of a quarter, all from the present state. That takes seven times as long as the steps themselves; the
-    /// run stays where it is.
+    /// Estimates the error of the next `n` steps. It makes them on a copy, then 2n steps of half the size and 4n
+    /// of a quarter, all from the present state. This takes seven times as long as the steps themselves. The run does
+    /// not change.
     ///
     /// With the end points z(h), z(h/2), z(h/4) and the differences a = |z(h) − z(h/2)| and
     /// b = |z(h/2) − z(h/4)| in the maximum norm, the observed order is log₂(a/b) and the error of z(h)

@@ -39,21 +39,21 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.clock.interval
     }
 
-    /// H at the present state, as it was declared: in another time, `dt = g*ds`, without g and the
+    /// The declared H at the present state: in another time, `dt = g*ds`, without g and the
     /// momentum of time.
     pub fn energy(&self) -> T {
         declared_energy::<T, S>(&self.prepared, &self.state)
     }
 
     /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`
-    /// where there is none.
+    /// if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
         let index = S::observable_index(name)?;
         let State { t, q, p } = &self.state;
         Some(self.prepared.observable(index, *t, q, p))
     }
 
-    /// The system with its parameters worked in.
+    /// The prepared system.
     pub fn prepared(&self) -> &S::Prepared {
         &self.prepared
     }
@@ -73,7 +73,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         &self.observer
     }
 
-    /// Ends the run: the observer.
+    /// Ends the run and returns the observer.
     pub fn into_observer(self) -> O {
         self.observer
     }

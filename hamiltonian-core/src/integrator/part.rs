@@ -217,8 +217,8 @@ impl<T: Real> Clock<T> {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The state at a time within one step of the present one, before or after it, by a part of a
-    /// step of a copy: of the scheme's own order, and without a changed bit in the run.
+    /// The state at a time at most one step before or after the present one, by a shorter step of a copy. Its error
+    /// has the order of the scheme, and the run does not change.
     ///
     /// ```
     #[doc = include_str!("../doc/oscillator.md")]
@@ -232,22 +232,22 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Far`] for a time further away; [`Error::NotFinite`] and [`Error::Solve`], in which
-    /// the step is number 1 of a part of its own.
+    /// [`Error::Far`] for a time further away; [`Error::NotFinite`] and [`Error::Solve`], in which the step has the
+    /// number 1.
     pub fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         self.part().state_at(t)
     }
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// Makes whole steps as long as they do not pass `t`, and returns the state at `t`, any time
-    /// ahead: the last part of a step is made on a copy. Observers see whole steps alone: an event in
-    /// that part is found by the step that makes it whole.
+    /// Makes all whole steps up to `t`, and returns the state at `t`, which may be any later time. The rest of the time is
+    /// one shorter step on a copy. Observers receive the states after whole steps only. An event in the shorter step is
+    /// located by the next whole step.
     ///
-    /// A run whose steps vary in time passes `t` by a part of a step: how long the next one is, is known
-    /// when it is made.
+    /// If the length of steps varies in time, the run itself makes the step that passes `t`, since the length of a step
+    /// is known only after it.
     ///
-    /// If an observer ends the run before, the state at which it did is returned; see
+    /// If an observer ends the run before `t`, the state at which it did is returned; see
     /// [`has_ended`](Integrator::has_ended).
     ///
     /// # Errors
@@ -296,10 +296,9 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
 
     /// Makes the whole number of steps that leads to the time `t`.
     ///
-    /// The step size is never changed, and a state at another time is never passed off as one at
-    /// `t`: if no whole number of steps leads there, to within the rounding of `t`, the step and
-    /// the start, that is an error and no step is made. [`advance_until`](Integrator::advance_until)
-    /// goes to any time.
+    /// The step size does not change. If no whole number of steps leads to `t`, up to the rounding of `t`, of the step
+    /// and of the start, this is an error and no step is made. [`advance_until`](Integrator::advance_until) takes any
+    /// time.
     ///
     /// # Errors
     /// [`Error::OffGrid`] with the reachable times on both sides, [`Error::Behind`],
@@ -329,7 +328,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
             .whole_steps(self.steps - self.began, t, clock::<T, S>())
     }
 
-    /// The states at the given times, in the order of the run, independent of the step; until an
+    /// The states at the given times, which are in the order of the run, independent of the step. The iterator ends if an
     /// observer ends the run. The first error is the last item.
     ///
     /// ```

@@ -2,7 +2,8 @@
 //!
 //! An entry of a folder is a file with its own subfolder, or a subfolder with a `mod.rs`. Parent and
 //! child may name each other; a re-exported name counts as its defining file. A page, which re-exports and
-//! does nothing else, names nobody itself.
+//! does nothing else, names nobody itself. The engine's folders are layers, of which each reads only those
+//! below it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -17,6 +18,9 @@ const CRATES: [&str; 6] = [
     "hamiltonian-language",
     "hamiltonian-macros",
 ];
+
+/// The layers of the engine, the lowest first.
+const LAYERS: [&str; 4] = ["algebra", "proofs", "flows", "programs"];
 
 /// The path of a module, from the root of its crate.
 type Module = Vec<String>;
@@ -119,7 +123,7 @@ fn definition(path: &[String], module: &Module, texts: &Texts, depth: usize) -> 
             _ => {}
         }
     }
-    for name in names {
+    while let Some(name) = names.next() {
         let mut child = at.clone();
         child.push(name.clone());
         if texts.contains_key(&child) {
@@ -139,7 +143,9 @@ fn definition(path: &[String], module: &Module, texts: &Texts, depth: usize) -> 
                 let mut child = at.clone();
                 child.push(path[0].clone());
                 if known || texts.contains_key(&child) {
-                    return definition(path, &at, texts, depth - 1);
+                    let rest = names.cloned();
+                    let path: Vec<String> = path.iter().cloned().chain(rest).collect();
+                    return definition(&path, &at, texts, depth - 1);
                 }
             }
         }
@@ -201,30 +207,81 @@ fn circles(texts: &Texts) -> Vec<String> {
     found.collect()
 }
 
+/// Modules that are in no layer, and uses of a layer by one below it.
+fn against_layers(texts: &Texts) -> Vec<String> {
+    let level = |name: &String| LAYERS.iter().position(|layer| layer == name);
+    let outside = texts.keys().filter_map(|module| module.first());
+    let outside = outside.filter(|name| level(name).is_none()).cloned();
+    let graph = uses(texts).remove(&vec![]).unwrap_or_default();
+    let uses = (graph.iter()).flat_map(|(from, used)| used.iter().map(move |to| (from, to)));
+    let upward = uses.filter(|(from, to)| level(from) < level(to));
+    let upward = upward.map(|(from, to)| format!("{from} uses {to}"));
+    outside.chain(upward).collect()
+}
+
+/// The modules of a crate of the workspace.
+fn texts_of(name: &str) -> Texts {
+    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
+    let mut texts = Texts::new();
+    read(&root.join(name).join("src"), &vec![], &mut texts);
+    assert!(texts.len() > 5, "{name}: nothing was read");
+    texts
+}
+
+/// Modules written down: a path and its text.
+fn texts(modules: &[(&str, &str)]) -> Texts {
+    let named = |path: &str| -> Module {
+        let names = path.split('/').filter(|name| !name.is_empty());
+        names.map(String::from).collect()
+    };
+    let texts = modules
+        .iter()
+        .map(|(path, text)| (named(path), text.to_string()));
+    texts.collect()
+}
+
 #[test]
 fn no_folder_names_itself_in_a_circle() {
-    let root = PathBuf::from(env!("CARGO_MANIFEST_DIR"));
     for name in CRATES {
-        let mut texts = Texts::new();
-        read(&root.join(name).join("src"), &vec![], &mut texts);
-        assert!(texts.len() > 5, "{name}: nothing was read");
-        let found = circles(&texts);
+        let found = circles(&texts_of(name));
         assert!(found.is_empty(), "{name}: {found:#?}");
     }
 }
 
 #[test]
-fn circles_are_found() {
-    let texts = |modules: &[(&str, &str)]| -> Texts {
-        let named = |path: &str| -> Module {
-            let names = path.split('/').filter(|name| !name.is_empty());
-            names.map(String::from).collect()
-        };
-        let texts = modules
-            .iter()
-            .map(|(path, text)| (named(path), text.to_string()));
-        texts.collect()
+fn layers_of_the_engine_read_those_below_them() {
+    let engine = texts_of("hamiltonian-symbolic");
+    let found = against_layers(&engine);
+    assert!(found.is_empty(), "{found:#?}");
+    // Each layer but the lowest is seen to read another one.
+    let graph = uses(&engine).remove(&vec![]).expect("layers use layers");
+    let readers: BTreeSet<&str> = graph.keys().map(String::as_str).collect();
+    assert_eq!(readers, LAYERS[1..].iter().copied().collect());
+}
+
+#[test]
+fn a_use_of_a_layer_above_is_found() {
+    let root = "mod algebra; mod flows; pub use algebra::dag; pub use flows::split;";
+    let with = |dag, other| {
+        against_layers(&texts(&[
+            ("", root),
+            ("algebra", "pub mod dag;"),
+            ("algebra/dag", dag),
+            ("flows", "pub mod split;"),
+            ("flows/split", "use crate::dag::Dag;"),
+            (other, ""),
+        ]))
     };
+    assert!(with("", "programs").is_empty());
+    assert_eq!(
+        with("use crate::split::find;", "programs"),
+        ["algebra uses flows"]
+    );
+    assert_eq!(with("", "printing"), ["printing"]);
+}
+
+#[test]
+fn circles_are_found() {
     let one_way = texts(&[("", ""), ("a", "use crate::b::B;"), ("b", "pub struct B;")]);
     assert!(circles(&one_way).is_empty());
     let direct = texts(&[

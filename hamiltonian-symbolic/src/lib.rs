@@ -38,43 +38,17 @@
 //! ```
 #![forbid(unsafe_code)]
 
-pub mod balance;
-mod ball;
-pub mod bracket;
-mod closed;
-pub mod count;
-pub mod dag;
-pub mod diff;
-pub mod factor;
-pub mod facts;
-pub mod flow;
-pub mod forces;
-mod formula;
-pub mod hold;
-pub mod index;
-pub mod legendre;
-mod listing;
-pub mod loops;
-pub mod model;
-pub mod normal_form;
-mod order;
-pub mod pipeline;
-pub mod print;
-pub mod program;
-pub mod rational;
-mod reindex;
-pub mod rewrite;
-pub mod schedule;
-pub mod share;
-pub mod simplify;
-pub mod split;
-mod stencil;
-pub mod structure;
-pub mod transform;
-mod validate;
+mod algebra;
+mod flows;
+mod programs;
+mod proofs;
 
-pub use ball::Ball;
-pub use dag::op;
+pub use algebra::ball::Ball;
+pub use algebra::dag::op;
+pub use algebra::{dag, diff, index, loops, model, normal_form, print, rational};
+pub use flows::split;
+pub use programs::{count, forces, hold, pipeline, program, schedule};
+pub use proofs::{bracket, facts, legendre, structure, transform};
 
 /// The second word of π: `π = f64::consts::PI + PI_LOW` to 106 bits.
 pub const PI_LOW: f64 = 1.224_646_799_147_353_2e-16;

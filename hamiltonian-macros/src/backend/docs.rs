@@ -4,10 +4,10 @@
 //! constants. Invariant: none of it is read by the program.
 
 use crate::emit::Text;
-use hamiltonian_symbolic::count::Operations;
+use hamiltonian_symbolic::count::{self, Count, Operations};
 use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::model::{Model, Shape};
-use hamiltonian_symbolic::print::{self, Count, Notation};
+use hamiltonian_symbolic::print::{self, Notation};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure::Structure;
 
@@ -105,7 +105,7 @@ pub fn operations(model: &Model, program: &Program) -> Vec<String> {
         let Some(function) = program.function(purpose) else {
             continue;
         };
-        let counts = print::operations(model, program, function);
+        let counts = count::operations(model, program, function);
         rows.extend(counts.iter().map(|count| row(method, count)));
     }
     rows

@@ -9,8 +9,7 @@ use crate::emit::Reason;
 use hamiltonian_language::checked::{self, Checked, Kind, Variable};
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
-use hamiltonian_symbolic::flow::Piece;
-use hamiltonian_symbolic::model::Model;
+use hamiltonian_symbolic::model::{Model, Piece};
 use hamiltonian_symbolic::split::{self, MOST, Refusal, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 

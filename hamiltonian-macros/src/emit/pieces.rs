@@ -13,7 +13,7 @@ use super::layout::Slice;
 use super::markers;
 use super::scan::scan;
 use hamiltonian_symbolic::dag::Side;
-use hamiltonian_symbolic::flow::ExactFlow;
+use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
 

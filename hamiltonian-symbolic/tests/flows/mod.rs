@@ -5,7 +5,7 @@ use crate::eval::{Point, run};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
-use hamiltonian_symbolic::flow::ExactFlow;
+use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::schedule::{Request, prepared, schedule};

@@ -1,0 +1,547 @@
+//! The arena of expressions: hash-consed, children before parents.
+//!
+//! Input: constructor calls (the rules they apply are in `simplify`). Output: [`Node`] handles.
+//! Invariant: structurally equal expressions are the same node, sums and products up to the order
+//! of their operands; the order first written is kept for evaluation; a child's number is below
+//! its parents', so a forward pass over numbers is bottom-up and nothing here recurses.
+
+mod array;
+pub(crate) mod bounds;
+pub mod op;
+mod table;
+mod work;
+
+pub use array::{Array, Column, Side};
+pub(crate) use table::Numbers;
+pub use table::{Map, Mixer};
+pub(crate) use work::work;
+
+use crate::index::{Affine, Domain, Index, LOOPS, Size};
+use crate::rational::Rational;
+use op::Op;
+
+/// An expression.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Node(pub u32);
+
+/// A parameter of the system: its number in the model.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub struct Parameter(pub u16);
+
+/// A comparison.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Relation {
+    /// a < b
+    Less,
+    /// a ≤ b
+    LessEqual,
+    /// a = b
+    Equal,
+}
+
+/// The value of an external function, or a derivative.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Part {
+    /// The function itself.
+    Value,
+    /// ∂/∂(argument i).
+    First(u16),
+    /// ∂²/∂(argument i)∂(argument j), i ≤ j.
+    Second(u16, u16),
+    /// A derivative of third or higher order, which proofs may meet and programs refuse.
+    Higher {
+        /// The order.
+        order: u16,
+        /// The sum of one number for each of the arguments: the same for each order of differentiation.
+        arguments: u64,
+    },
+}
+
+impl Part {
+    /// The derivative by argument i.
+    pub fn by(self, i: u16) -> Part {
+        let higher = |order: u16, arguments: u64| Part::Higher {
+            order,
+            arguments: arguments.wrapping_add(Part::mixed(i)),
+        };
+        match self {
+            Part::Value => Part::First(i),
+            Part::First(j) => Part::Second(i.min(j), i.max(j)),
+            Part::Second(j, k) => higher(3, Part::mixed(j).wrapping_add(Part::mixed(k))),
+            Part::Higher { order, arguments } => higher(order.saturating_add(1), arguments),
+        }
+    }
+
+    /// A number of an argument whose sums tell multisets of arguments apart (the finalizer of SplitMix64).
+    fn mixed(argument: u16) -> u64 {
+        let mut x = (u64::from(argument) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    }
+}
+
+/// The kind of a node.
+#[derive(Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Kind {
+    /// An exact number.
+    Constant(Rational),
+    /// π.
+    Pi,
+    /// A scalar parameter.
+    Scalar(Parameter),
+    /// Time.
+    Time,
+    /// The coefficient of an accumulating kick, drift or flow.
+    Coefficient,
+    /// A loop variable as a real.
+    Variable(Domain),
+    /// A size as a real.
+    Extent(Size),
+    /// An array element: row, and column for a rank-2 parameter.
+    Element(Array, Index, Option<Box<Index>>),
+    /// `constant + Σ k·node`
+    Sum(Rational, Vec<(Rational, Node)>),
+    /// `k·Π node^n`, n a non-zero integer.
+    Product(Rational, Vec<(Node, i32)>),
+    /// An elementary function.
+    Call(Op, Vec<Node>),
+    /// A function written in Rust, by its number in the model, or a derivative of it.
+    External(u16, Part, Vec<Node>),
+    /// Σ of the body over a loop.
+    Reduce(Domain, Node),
+    /// The number of times a loop runs, as a real.
+    Count(Domain),
+    /// A comparison (a condition, not a number).
+    Compare(Relation, Node, Node),
+    /// Not (a condition).
+    Not(Node),
+    /// And (conditions).
+    And(Node, Node),
+    /// Or (conditions).
+    Or(Node, Node),
+    /// The second where the first (a condition) holds, the third elsewhere.
+    Select(Node, Node, Node),
+}
+
+impl Kind {
+    /// Calls `visit` with each child.
+    fn for_children(&self, mut visit: impl FnMut(Node)) {
+        match self {
+            Kind::Sum(_, terms) => terms.iter().for_each(|(_, n)| visit(*n)),
+            Kind::Product(_, factors) => factors.iter().for_each(|(n, _)| visit(*n)),
+            Kind::Call(_, arguments) | Kind::External(_, _, arguments) => {
+                arguments.iter().for_each(|n| visit(*n))
+            }
+            Kind::Reduce(_, body) => visit(*body),
+            Kind::Not(a) => visit(*a),
+            Kind::Compare(_, a, b) | Kind::And(a, b) | Kind::Or(a, b) => {
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Select(c, a, b) => {
+                visit(*c);
+                visit(*a);
+                visit(*b);
+            }
+            Kind::Constant(_)
+            | Kind::Pi
+            | Kind::Scalar(_)
+            | Kind::Time
+            | Kind::Coefficient
+            | Kind::Variable(_)
+            | Kind::Extent(_)
+            | Kind::Element(..)
+            | Kind::Count(_) => {}
+        }
+    }
+}
+
+/// Nodes that are seen but not visited: a bit for each.
+pub(crate) struct Ahead(Vec<u64>);
+
+impl Ahead {
+    /// The node is visited too.
+    pub(crate) fn add(&mut self, node: Node) {
+        self.0[node.0 as usize / 64] |= 1 << (node.0 % 64);
+    }
+    /// All of them are.
+    pub(crate) fn extend<'a>(&mut self, nodes: impl Iterator<Item = &'a Node>) {
+        nodes.for_each(|node| self.add(*node));
+    }
+}
+
+/// The dependences of a node.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Dependence(pub u8);
+
+impl Dependence {
+    /// On coordinates.
+    pub const Q: Dependence = Dependence(1);
+    /// On momenta.
+    pub const P: Dependence = Dependence(2);
+    /// On time.
+    pub const TIME: Dependence = Dependence(4);
+    /// On parameters or named sizes.
+    pub const PARAMETER: Dependence = Dependence(8);
+    /// On the step coefficient.
+    pub const COEFFICIENT: Dependence = Dependence(16);
+    /// On the direction of a Hessian product.
+    pub const DIRECTION: Dependence = Dependence(32);
+    /// On velocities that stand for themselves.
+    pub const VELOCITY: Dependence = Dependence(64);
+    /// On what moves along a trajectory.
+    pub const MOVING: Dependence = Dependence(1 | 2 | 4);
+
+    /// Whether it shares anything with `other`.
+    #[must_use]
+    pub fn on(self, other: Dependence) -> bool {
+        self.0 & other.0 != 0
+    }
+    /// When it can be computed.
+    #[must_use]
+    pub fn stage(self) -> Stage {
+        if self.0 & 0b110_0111 != 0 {
+            Stage::Evaluation
+        } else if self.0 & 16 != 0 {
+            Stage::Coefficient
+        } else if self.0 & 8 != 0 {
+            Stage::Parameters
+        } else {
+            Stage::Constant
+        }
+    }
+}
+
+/// When a value can be computed: the binding times of the emitted code.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
+pub enum Stage {
+    /// At compile time.
+    Constant,
+    /// Once per run, from parameters (`prepare`).
+    Parameters,
+    /// Once per step size, from parameters and the step coefficient.
+    Coefficient,
+    /// At every evaluation.
+    Evaluation,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Facts {
+    dependence: Dependence,
+    variables: u64,
+    nonnegative: bool,
+    height: u32,
+    /// A part of a long product, which no product it stands in takes apart.
+    sealed: bool,
+}
+
+/// A loop: its range, in the context of its parent.
+#[derive(Clone, PartialEq, Eq, Hash, Debug)]
+pub struct Range {
+    /// The enclosing loop.
+    pub parent: Option<Domain>,
+    /// The first value.
+    pub start: Affine,
+    /// One past the last value.
+    pub end: Affine,
+}
+
+/// The arena.
+#[derive(Default, Debug, Clone)]
+pub struct Dag {
+    kinds: Vec<Kind>,
+    facts: Vec<Facts>,
+    known: Map<Kind, Node>,
+    ranges: Vec<Range>,
+    known_ranges: Map<Range, Domain>,
+    /// Whether a loop was asked for that there is no number for.
+    has_too_many_loops: bool,
+}
+
+impl Dag {
+    /// An empty arena.
+    #[must_use]
+    pub fn new() -> Dag {
+        Dag::default()
+    }
+    /// The number of nodes.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.kinds.len()
+    }
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.kinds.is_empty()
+    }
+    /// The kind of a node.
+    #[must_use]
+    pub fn kind(&self, node: Node) -> &Kind {
+        &self.kinds[node.0 as usize]
+    }
+    /// The dependences of a node.
+    #[must_use]
+    pub fn dependence(&self, node: Node) -> Dependence {
+        self.facts[node.0 as usize].dependence
+    }
+    /// When a node can be computed.
+    #[must_use]
+    pub fn stage(&self, node: Node) -> Stage {
+        self.dependence(node).stage()
+    }
+    /// The column and the row of an element of phase space.
+    #[must_use]
+    pub fn phase_place(&self, node: Node) -> Option<(Column, &Index)> {
+        match self.kind(node) {
+            Kind::Element(Array::Phase(column), row, _) => Some((*column, row)),
+            _ => None,
+        }
+    }
+    /// The loop variables a node depends on, as a bit set of domain numbers.
+    #[must_use]
+    pub fn variables(&self, node: Node) -> u64 {
+        self.facts[node.0 as usize].variables
+    }
+    /// Whether the value is provably ≥ 0 (or NaN).
+    #[must_use]
+    pub fn is_nonnegative(&self, node: Node) -> bool {
+        self.facts[node.0 as usize].nonnegative
+    }
+    /// The longest way down to a leaf, in operations. A low node can be computed early.
+    #[must_use]
+    pub fn height(&self, node: Node) -> u32 {
+        self.facts[node.0 as usize].height
+    }
+    /// Whether a node is a product of two that no product takes apart (see `programs::balance`).
+    pub(crate) fn is_sealed(&self, node: Node) -> bool {
+        self.facts[node.0 as usize].sealed
+    }
+    /// Keeps a product from being taken apart.
+    pub(crate) fn close(&mut self, node: Node) {
+        self.facts[node.0 as usize].sealed = true;
+    }
+    /// The innermost loop a node must be computed in.
+    #[must_use]
+    pub fn home(&self, node: Node) -> Option<Domain> {
+        self.deepest(self.variables(node))
+    }
+    /// The deepest of a set of loops, which lie on one path.
+    #[must_use]
+    pub fn deepest(&self, set: u64) -> Option<Domain> {
+        let mut best: Option<(usize, Domain)> = None;
+        let mut rest = set;
+        while rest != 0 {
+            let domain = Domain(rest.trailing_zeros());
+            rest &= rest - 1;
+            let depth = self.depth(Some(domain));
+            if best.is_none_or(|(d, _)| depth > d) {
+                best = Some((depth, domain));
+            }
+        }
+        best.map(|(_, domain)| domain)
+    }
+    /// The number of loops from the outermost to `domain`.
+    #[must_use]
+    pub fn depth(&self, domain: Option<Domain>) -> usize {
+        let mut depth = 0;
+        let mut at = domain;
+        while let Some(d) = at {
+            depth += 1;
+            at = self.range(d).parent;
+        }
+        depth
+    }
+    /// The loops from the outermost to `domain`.
+    #[must_use]
+    pub fn path(&self, domain: Option<Domain>) -> Vec<Domain> {
+        let mut path = Vec::new();
+        let mut at = domain;
+        while let Some(d) = at {
+            path.push(d);
+            at = self.range(d).parent;
+        }
+        path.reverse();
+        path
+    }
+    /// A loop's range.
+    #[must_use]
+    pub fn range(&self, domain: Domain) -> &Range {
+        &self.ranges[domain.0 as usize]
+    }
+    /// The number of loops.
+    #[must_use]
+    pub fn loop_count(&self) -> usize {
+        self.ranges.len()
+    }
+    /// Whether more than [`LOOPS`] loops were asked for. What was made since may be wrong: who
+    /// makes loops asks before the result is used.
+    #[must_use]
+    pub fn has_too_many_loops(&self) -> bool {
+        self.has_too_many_loops
+    }
+    /// The loop over `start..end` inside `parent`; some other one where there are [`LOOPS`]
+    /// already, which [`Dag::has_too_many_loops`] tells.
+    pub fn domain(&mut self, parent: Option<Domain>, start: Affine, end: Affine) -> Domain {
+        let range = Range { parent, start, end };
+        if let Some(&domain) = self.known_ranges.get(&range) {
+            return domain;
+        }
+        if self.ranges.len() == LOOPS {
+            self.has_too_many_loops = true;
+            return Domain(LOOPS as u32 - 1);
+        }
+        let domain = Domain(self.ranges.len() as u32);
+        self.ranges.push(range.clone());
+        self.known_ranges.insert(range, domain);
+        domain
+    }
+
+    /// Calls `visit` with each child of a node.
+    pub fn for_children(&self, node: Node, visit: impl FnMut(Node)) {
+        self.kind(node).for_children(visit);
+    }
+
+    /// All nodes the roots need, children before parents.
+    #[must_use]
+    pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
+        self.reached(roots, |node, ahead| {
+            self.for_children(node, |child| ahead.add(child));
+        })
+    }
+    /// Whether the roots need a node of a kind.
+    pub(crate) fn has(&self, roots: &[Node], is_asked: impl Fn(&Kind) -> bool) -> bool {
+        let nodes = self.reachable(roots);
+        nodes.iter().any(|node| is_asked(self.kind(*node)))
+    }
+    /// Whether there are sums over loops below the roots.
+    pub(crate) fn has_loops(&self, roots: &[Node]) -> bool {
+        self.has(roots, |kind| matches!(kind, Kind::Reduce(..)))
+    }
+    /// All nodes that are reached from the roots by going from a node to those that `next` adds, some
+    /// of its children: children before parents.
+    pub(crate) fn reached(
+        &self,
+        roots: &[Node],
+        mut next: impl FnMut(Node, &mut Ahead),
+    ) -> Vec<Node> {
+        let Some(top) = roots.iter().max() else {
+            return Vec::new();
+        };
+        // Parents have larger numbers.
+        let mut ahead = Ahead(vec![0; top.0 as usize / 64 + 1]);
+        let mut order = Vec::new();
+        roots.iter().for_each(|root| ahead.add(*root));
+        for word in (0..ahead.0.len()).rev() {
+            while ahead.0[word] != 0 {
+                let bit = 63 - ahead.0[word].leading_zeros();
+                ahead.0[word] ^= 1 << bit;
+                let node = Node(word as u32 * 64 + bit);
+                order.push(node);
+                next(node, &mut ahead);
+            }
+        }
+        order.reverse();
+        order
+    }
+
+    /// The node of a kind, new or known. Operands of sums and products are compared without
+    /// regard to order; the constructors in `simplify` are the way to call this.
+    pub(crate) fn intern(&mut self, kind: Kind) -> Node {
+        let key = match &kind {
+            Kind::Sum(c, terms) => {
+                let mut sorted = terms.clone();
+                sorted.sort_unstable_by_key(|(_, n)| *n);
+                Kind::Sum(c.clone(), sorted)
+            }
+            Kind::Product(c, factors) => {
+                let mut sorted = factors.clone();
+                sorted.sort_unstable_by_key(|(n, _)| *n);
+                Kind::Product(c.clone(), sorted)
+            }
+            _ => kind.clone(),
+        };
+        if let Some(&node) = self.known.get(&key) {
+            return node;
+        }
+        let node = Node(self.kinds.len() as u32);
+        let facts = self.facts_of(&kind);
+        self.kinds.push(kind);
+        self.facts.push(facts);
+        self.known.insert(key, node);
+        node
+    }
+
+    /// The node of a kind if it is already there.
+    pub(crate) fn known(&self, sorted: &Kind) -> Option<Node> {
+        self.known.get(sorted).copied()
+    }
+
+    fn facts_of(&self, kind: &Kind) -> Facts {
+        let mut dependence = Dependence::default();
+        let mut variables = 0u64;
+        let mut height = 0;
+        kind.for_children(|child| {
+            height = height.max(self.height(child) + 1);
+            dependence.0 |= self.dependence(child).0;
+            variables |= self.variables(child);
+        });
+        let is_nonnegative = |node: &Node| self.is_nonnegative(*node);
+        let nonnegative = match kind {
+            Kind::Constant(c) => !c.is_negative(),
+            Kind::Pi | Kind::Extent(_) | Kind::Count(_) => true,
+            Kind::Sum(c, terms) => {
+                let is_term = |(k, n): &(Rational, Node)| !k.is_negative() && is_nonnegative(n);
+                !c.is_negative() && terms.iter().all(is_term)
+            }
+            Kind::Product(c, factors) => {
+                let factors = factors.iter().map(|(n, k)| (is_nonnegative(n), *k));
+                !c.is_negative() && bounds::is_nonnegative_product(factors)
+            }
+            Kind::Call(op, arguments) => {
+                let range = op.row().regularity.range;
+                bounds::is_nonnegative_call(range, is_nonnegative(&arguments[0]))
+            }
+            Kind::Reduce(_, body) => is_nonnegative(body),
+            Kind::Select(_, a, b) => is_nonnegative(a) && is_nonnegative(b),
+            _ => false,
+        };
+        let own = match kind {
+            Kind::Scalar(_)
+            | Kind::Extent(_)
+            | Kind::Element(Array::Parameter(_) | Array::Held(_), ..) => Dependence::PARAMETER,
+            Kind::Element(Array::Phase(Column { side: Side::Q, .. }), ..) => Dependence::Q,
+            Kind::Element(Array::Phase(Column { side: Side::P, .. }), ..) => Dependence::P,
+            Kind::Element(Array::Direction(_), ..) => Dependence::DIRECTION,
+            Kind::Element(Array::Velocity(_), ..) => Dependence::VELOCITY,
+            Kind::Time => Dependence::TIME,
+            Kind::Coefficient => Dependence::COEFFICIENT,
+            Kind::Count(d) | Kind::Reduce(d, _) => {
+                let range = self.range(*d);
+                variables |= range.start.variables() | range.end.variables();
+                variables &= !(1u64 << d.0);
+                if range.start.has_sizes() || range.end.has_sizes() {
+                    Dependence::PARAMETER
+                } else {
+                    Dependence::default()
+                }
+            }
+            _ => Dependence::default(),
+        };
+        dependence.0 |= own.0;
+        match kind {
+            Kind::Variable(d) => variables |= 1 << d.0,
+            Kind::Element(_, row, column) => {
+                variables |= row.variables() | column.as_ref().map_or(0, |c| c.variables());
+            }
+            _ => {}
+        }
+        Facts {
+            dependence,
+            variables,
+            nonnegative,
+            height,
+            sealed: false,
+        }
+    }
+}

@@ -1,0 +1,19 @@
+//! Algebra: expressions, models of them, derivatives, the normal form, and printing.
+//!
+//! Input: expressions by constructors. Output: expressions, numbers and text. Invariant: numbers are exact
+//! rationals, and an expression is built by the constructors of [`simplify`] alone.
+
+pub(crate) mod ball;
+mod closed;
+pub mod dag;
+pub mod diff;
+pub(crate) mod formula;
+pub mod index;
+pub mod loops;
+pub mod model;
+pub mod normal_form;
+pub mod print;
+pub mod rational;
+mod reindex;
+mod rewrite;
+pub(crate) mod simplify;

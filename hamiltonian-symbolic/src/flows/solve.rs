@@ -1,0 +1,396 @@
+//! The exact flow of an expression, or none: the rows, functions of an expression that has one,
+//! several pairs, and sums of commuting parts.
+//!
+//! Input: h and the time s it acts for. Output: [`Flow`]. Invariant: each step is proven: the
+//! expression that a row takes has its pattern, parts of a sum commute, and s is constant along the flow.
+
+pub(crate) mod growth;
+pub(crate) mod rows;
+pub(crate) mod units;
+
+use crate::dag::{Kind, Map, Node};
+use crate::flows::space::{Set, Space, bits};
+use crate::model::{EXPONENTIAL, Flow, Motion};
+use crate::rational::Rational;
+use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
+
+/// The flow of h for the time s; `None` where no row takes it.
+pub(crate) fn flow(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    if space.active(h).is_empty() {
+        return Some(shear(space, h, s));
+    }
+    if let Some(known) = space.flows.get(&(h, s)) {
+        return known.clone();
+    }
+    if space.is_spent() {
+        return None;
+    }
+    let found = whole(space, h, s)
+        .or_else(|| function(space, h, s))
+        .or_else(|| bare(space, h, s))
+        .or_else(|| separated(space, h, s))
+        .or_else(|| commuting(space, h, s));
+    // Expressions made after the limits may hold anything.
+    let found = found.filter(|_| !space.is_spent());
+    space.flows.insert((h, s), found.clone());
+    found
+}
+
+/// The rates of a quadratic form, whose matrix is exponentiated when a run is prepared: of a whole
+/// piece only, over a point of few components.
+pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
+    if !space.has_exponentials || !is_constant_form(space, h) {
+        return None;
+    }
+    let c = space.dag().coefficient();
+    let rates = shear(space, h, c);
+    Some(rates.noted(&[EXPONENTIAL]))
+}
+
+/// No conjugate pair meets: everything moves at a constant rate.
+pub(crate) fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
+    let mut motion = Motion::default();
+    for bit in bits(space.set(h)) {
+        let variable = space.variable(bit);
+        let slope = space.d(h, variable);
+        let value = space.dag().mul(&[s, slope]);
+        space.push(&mut motion, bit, value);
+    }
+    Flow {
+        motion,
+        rows: Vec::new(),
+    }
+}
+
+/// The rows that take all of h.
+fn whole(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    ROWS.iter().find_map(|row| match row.solve {
+        Solve::Whole(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
+        Solve::Bare(_) | Solve::Pair(_) | Solve::Exponential => None,
+    })
+}
+
+/// The rows that take all of h where it is no function of something smaller.
+fn bare(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    ROWS.iter().find_map(|row| match row.solve {
+        Solve::Bare(solve) => solve(space, h, s).map(|motion| Flow::of(motion, row.name)),
+        Solve::Whole(_) | Solve::Pair(_) | Solve::Exponential => None,
+    })
+}
+
+/// h = G(u, c) of one expression u in which all pairs meet: u's flow for the time s·∂G/∂u.
+fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    let active = space.active(h);
+    let set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let u = waist(space, h, set)?;
+    let rate = space.by_node(h, u);
+    let time = space.dag().mul(&[s, rate]);
+    let inner = whole(space, u, time)
+        .or_else(|| bare(space, u, time))
+        .or_else(|| separated(space, u, time))
+        .or_else(|| commuting(space, u, time))?;
+    // The factor beside u is a constant of the motion only where u's flow leaves it alone.
+    let beside = beside(space, h, u);
+    if space.moved(&inner.motion) & beside != 0 {
+        return None;
+    }
+    let mut motion = Motion::default();
+    for bit in bits(beside) {
+        let variable = space.variable(bit);
+        let all = space.d(h, variable);
+        let through = space.d(u, variable);
+        let through = space.dag().mul(&[rate, through]);
+        let own = match space.dag().is_zero(through) {
+            true => all,
+            false => partial(space, h, u, variable),
+        };
+        let value = space.dag().mul(&[s, own]);
+        space.push(&mut motion, bit, value);
+    }
+    let rows = inner.rows.clone();
+    // A kick beside must not change the variables of u.
+    if space.moved(&motion) & space.set(u) != 0 {
+        return None;
+    }
+    let motion = inner.motion.then(space.dag(), &motion);
+    Some(Flow { motion, rows })
+}
+
+/// ∂h/∂v with u held.
+fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
+    let place = space.dag().parameter(crate::dag::Parameter(u16::MAX - 1));
+    let over = space
+        .dag()
+        .substitute(h, |_, node| (node == u).then_some(place));
+    let slope = space.d(over, variable);
+    space
+        .dag()
+        .substitute(slope, |_, node| (node == place).then_some(u))
+}
+
+/// The variables of h outside u.
+fn beside(space: &mut Space, h: Node, u: Node) -> Set {
+    let mut set = 0;
+    let mut seen: Map<Node, ()> = Map::default();
+    let mut left = vec![h];
+    while let Some(node) = left.pop() {
+        let own = space.set(node);
+        if node == u || own & !set == 0 || seen.insert(node, ()).is_some() {
+            continue;
+        }
+        let dag = space.dag();
+        let before = left.len();
+        dag.for_children(node, |child| left.push(child));
+        if left.len() == before {
+            set |= own;
+        }
+    }
+    set
+}
+
+/// The deepest node other than h through which alone h depends on some variables.
+fn waist(space: &mut Space, h: Node, set: Set) -> Option<Node> {
+    let nodes = space.model.dag.reachable(&[h]);
+    for node in nodes {
+        let is_condition = matches!(
+            space.model.dag.kind(node),
+            Kind::Compare(..) | Kind::Not(_) | Kind::And(..) | Kind::Or(..)
+        );
+        if node == h || is_condition || space.set(node) & set != set {
+            continue;
+        }
+        let over = beside(space, h, node);
+        if over & set == 0 {
+            return Some(node);
+        }
+    }
+    None
+}
+
+/// h = G(K₁, …, K_m, c) with a K of each pair that meets: each moves for its own time s·∂G/∂K.
+fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    let active = space.active(h);
+    let own: Set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let mut flow = Flow::default();
+    for pair in active {
+        let found = atom(space, h, pair, s)?;
+        flow.motion.moves.extend(found.motion.moves);
+        flow.motion.domain.extend(found.motion.domain);
+        flow = flow.noted(&found.rows);
+    }
+    for bit in bits(space.set(h) & !own) {
+        let variable = space.variable(bit);
+        let slope = space.d(h, variable);
+        let value = space.dag().mul(&[s, slope]);
+        space.push(&mut flow.motion, bit, value);
+    }
+    Some(flow)
+}
+
+/// The motion of one pair under h, all other variables held.
+fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
+    let own: Set = 3 << (2 * pair);
+    let u = waist(space, h, own).unwrap_or(h);
+    let outer = space.by_node(h, u);
+    let (k, rate) = kernel(space, u, own)?;
+    let time = space.dag().mul(&[s, outer, rate]);
+    if let Some(known) = space.atoms.get(&(k, time)) {
+        return known.clone();
+    }
+    let found = row_of(space, k, space.pairs[pair], time);
+    space.atoms.insert((k, time), found.clone());
+    found
+}
+
+/// The first row that takes K of one pair.
+fn row_of(space: &mut Space, k: Node, (q, p): (Node, Node), time: Node) -> Option<Flow> {
+    for row in ROWS {
+        match row.solve {
+            Solve::Pair(solve) => {
+                for axes in Axes::both(q, p) {
+                    if let Some(moved) = solve(space, axes, k, time) {
+                        return Some(Flow::of(of_pair(space, axes, &moved), row.name));
+                    }
+                }
+            }
+            Solve::Exponential => {}
+            Solve::Whole(solve) | Solve::Bare(solve) => {
+                if let Some(motion) = solve(space, k, time) {
+                    return Some(Flow::of(motion, row.name));
+                }
+            }
+        }
+    }
+    None
+}
+
+fn of_pair(space: &mut Space, axes: Axes, moved: &Moved) -> Motion {
+    let mut motion = Motion::default();
+    motion.set(axes.x, moved.x);
+    let y = axes.signed(space, moved.y);
+    motion.set(axes.leaf(), y);
+    for &positive in &moved.domain {
+        motion.asks(space.dag(), positive);
+    }
+    motion
+}
+
+/// u = rate·K + rest with K of one pair alone, rate and rest free of it.
+fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
+    if space.set(u) & !own == 0 {
+        return Some((u, space.dag().integer(1)));
+    }
+    let (k, rate) = match space.model.dag.kind(u).clone() {
+        Kind::Product(c, factors) => {
+            let (mut inside, mut outside) = (Vec::new(), Vec::new());
+            for factor in factors {
+                let list = match space.set(factor.0) & own != 0 {
+                    true => &mut inside,
+                    false => &mut outside,
+                };
+                list.push(factor);
+            }
+            let dag = space.dag();
+            (
+                dag.product(&Rational::ONE, &inside),
+                dag.product(&c, &outside),
+            )
+        }
+        // A constant, and terms that rest, move nothing of the pair.
+        Kind::Sum(_, mut terms) => {
+            terms.retain(|(_, term)| space.set(*term) & own != 0);
+            let k = space.dag().linear(&Rational::ZERO, &terms);
+            (k, space.dag().integer(1))
+        }
+        _ => (u, space.dag().integer(1)),
+    };
+    if space.set(k) & !own == 0 {
+        return Some((k, rate));
+    }
+    // Other variables inside: held at numbers, if u is a multiple of the result.
+    let others = space.set(k) & !own;
+    let mut rise = |x: f64, y: f64| {
+        let [from, to] = [0.0, x].map(|x| {
+            let point = space.point_off(&[(own, x), (others, y)]);
+            space.value_at(k, &point)
+        });
+        to - from
+    };
+    let (left, right) = (
+        rise(1.0, 0.0) * rise(2.0, 1.0),
+        rise(2.0, 0.0) * rise(1.0, 1.0),
+    );
+    if left.differs(right) {
+        return None;
+    }
+    let held = space.section(k, others);
+    let bit = bits(own).find(|bit| space.set(held) >> bit & 1 == 1)?;
+    let variable = space.variable(bit);
+    let (a, b) = (space.d(k, variable), space.d(held, variable));
+    let ratio = space.dag().div(a, b);
+    let inner = space.section(ratio, own);
+    let multiple = space.dag().mul(&[inner, held]);
+    let rest = space.dag().sub(k, multiple);
+    let section = space.section(rest, own);
+    if !space.same(rest, section) {
+        return None;
+    }
+    Some((held, space.dag().mul(&[rate, inner])))
+}
+
+/// A sum of parts that have flows and commute: one flow after the other.
+fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
+    /// The most parts.
+    const PARTS: usize = 9;
+    /// The most terms.
+    const TERMS: usize = 36;
+    let mut terms = terms(space, h);
+    // Parts grow term by term: their order must not be that in which H is written.
+    terms.sort_by_key(|term| pairs(space.set(*term)));
+    if !(2..=TERMS).contains(&terms.len()) {
+        return None;
+    }
+    let parts = apart(space, &terms).or_else(|| by_pairs(space, &terms))?;
+    if parts.len() > PARTS {
+        return None;
+    }
+    let mut all = Flow::default();
+    for part in parts {
+        let next = flow(space, part, s)?;
+        all = all.noted(&next.rows);
+        all.motion = all.motion.then(space.dag(), &next.motion);
+    }
+    Some(all)
+}
+
+/// The number of pairs of which a set has a variable.
+fn pairs(set: Set) -> u32 {
+    ((set | set >> 1) & 0x5555_5555_5555_5555).count_ones()
+}
+
+/// The terms of a sum, and of sums in it; numbers are left out.
+fn terms(space: &mut Space, h: Node) -> Vec<Node> {
+    let mut found = Vec::new();
+    let mut left = vec![(Rational::ONE, h)];
+    while let Some((k, node)) = left.pop() {
+        match space.model.dag.kind(node).clone() {
+            Kind::Sum(_, terms) => {
+                let scaled = terms.into_iter().map(|(c, node)| (c.mul(&k), node));
+                left.extend(scaled.rev());
+            }
+            Kind::Product(c, factors) if matches!(factors.as_slice(), [(_, 1)]) => {
+                left.push((c.mul(&k), factors[0].0));
+            }
+            _ if space.set(node) == 0 => {}
+            _ => found.push(space.dag().scale(&k, node)),
+        }
+    }
+    found
+}
+
+/// Parts that commute: terms that do not belong together.
+fn apart(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
+    let mut parts: Vec<Node> = Vec::new();
+    for &term in terms {
+        let mut joined = Vec::new();
+        let mut others = Vec::new();
+        for part in parts {
+            match space.commute(part, term) {
+                true => others.push(part),
+                false => joined.push(part),
+            }
+        }
+        joined.push(term);
+        others.push(space.dag().add(&joined));
+        parts = others;
+    }
+    if parts.len() < 2 {
+        return None;
+    }
+    for (at, &a) in parts.iter().enumerate() {
+        for &b in &parts[at + 1..] {
+            if !space.commute(a, b) {
+                return None;
+            }
+        }
+    }
+    Some(parts)
+}
+
+/// Two parts that commute: terms in one pair each, and terms that join pairs.
+fn by_pairs(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
+    let (mut single, mut joining) = (Vec::new(), Vec::new());
+    for &term in terms {
+        match pairs(space.set(term)) {
+            0 | 1 => single.push(term),
+            _ => joining.push(term),
+        }
+    }
+    if single.is_empty() || joining.is_empty() {
+        return None;
+    }
+    let (single, joining) = (space.dag().add(&single), space.dag().add(&joining));
+    space
+        .commute(single, joining)
+        .then(|| vec![single, joining])
+}

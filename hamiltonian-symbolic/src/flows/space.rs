@@ -1,0 +1,565 @@
+//! Phase space as the search sees it: pairs, derivatives, and the questions whether an expression
+//! is zero and which variables it is free of.
+//!
+//! Input: a model whose H has no loops. Output: [`Space`]. Invariant: answers are proven: an
+//! expression is zero where the normal form says so, refuted first by numbers, which are cheaper;
+//! where the search has spent its budget ([`TESTS`] questions, [`NODES`] nodes, [`PRODUCTS`] of the
+//! normal form), every answer is no. A question has a limit of its own ([`QUESTION`]), and so has each group
+//! of terms that share no degree of freedom with the others (`split::join`).
+
+mod breaks;
+mod labels;
+pub(crate) mod tape;
+
+use crate::algebra::ball::Ball;
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::diff;
+use crate::index::Index;
+use crate::loops::{Sample, Values};
+use crate::model::{Flow, Model, Motion};
+use crate::normal_form::{Effort, tidy, vanishes_within, witness};
+use crate::rational::Rational;
+use std::fmt;
+use tape::Tape;
+
+/// The most questions whether an expression is zero.
+const TESTS: usize = 400;
+
+/// The most nodes that a search adds to the arena; those of the systems in the tests stay below
+/// 1500.
+pub const NODES: usize = 6_000;
+
+/// The most products of terms that the normal form takes for all questions together.
+const PRODUCTS: usize = 60_000;
+
+/// The most products of terms that the normal form takes for one question.
+const QUESTION: usize = 20_000;
+
+/// The most points of which numbers are kept.
+const POINTS: usize = 64;
+
+/// The most terms of H that are combined to pieces.
+pub(crate) const TERMS: usize = 32;
+
+/// A limit at which the search for exact flows ends. Each group of terms of H that has no degree of freedom
+/// in common with the others is searched by itself.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Limit {
+    /// Of questions whether two expressions are equal.
+    Comparisons,
+    /// Of products of terms in the normal forms of all questions.
+    Products,
+    /// Of new expressions.
+    Expressions,
+    /// Of terms of H.
+    Terms,
+    /// Of degrees of freedom that terms of H join.
+    Pairs,
+}
+
+impl fmt::Display for Limit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Limit::Comparisons => write!(f, "{TESTS} comparisons of expressions"),
+            Limit::Products => write!(f, "{PRODUCTS} products of terms"),
+            Limit::Expressions => write!(f, "{NODES} new expressions"),
+            Limit::Terms => write!(f, "{TERMS} terms"),
+            Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
+        }
+    }
+}
+
+/// The most components of a point whose quadratic forms are exponentiated as matrices.
+const COMPONENTS: usize = 16;
+
+/// The most pairs, so that a set of variables is a word.
+const PAIRS: usize = 32;
+
+/// A set of variables: bit 2i is coordinate i, bit 2i + 1 its momentum.
+pub(crate) type Set = u64;
+
+/// Phase space with the known facts of expressions over it.
+pub(crate) struct Space {
+    /// The model, to whose arena the search adds.
+    pub(crate) model: Model,
+    /// Coordinates with their momenta, in the order of their labels.
+    pub(crate) pairs: Vec<(Node, Node)>,
+    /// Of every node so far, the variables it is written with.
+    sets: Vec<Set>,
+    derivatives: Map<Node, Map<Node, Node>>,
+    zeros: Map<Node, bool>,
+    /// Numbers of nodes, from which most questions are answered.
+    values: [Values; 2],
+    /// Numbers of nodes at points, each of which is made once.
+    points: Map<Vec<[u64; 2]>, Values>,
+    /// The flows that were sought, by the Hamiltonian and the time it acts for.
+    pub(crate) flows: Map<(Node, Node), Option<Flow>>,
+    /// The same of one pair alone.
+    pub(crate) atoms: Map<(Node, Node), Option<Flow>>,
+    /// Whether a piece may be a matrix exponential: the point has few components, all of them given.
+    pub(crate) has_exponentials: bool,
+    /// The number of questions that are left.
+    tests: usize,
+    /// The number of products that are left to the normal form.
+    products: usize,
+    /// The largest size of the arena in this search.
+    last: usize,
+    /// Whether H has more than [`TERMS`] terms.
+    pub(crate) has_more_terms: bool,
+}
+
+impl Space {
+    /// The space of the pairs that stand in some expressions; `None` where elements are not
+    /// given by number, or there are too many.
+    pub(crate) fn new(model: &Model, roots: &[Node]) -> Option<Space> {
+        let mut model = model.clone();
+        let mut places: Vec<(u16, u16, i64)> = Vec::new();
+        for node in model.dag.reachable(roots) {
+            match model.dag.kind(node) {
+                Kind::Element(Array::Phase(Column { group, column, .. }), row, None) => {
+                    let row = row.as_constant()?;
+                    places.push((*group, *column, row));
+                }
+                Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => return None,
+                _ => {}
+            }
+        }
+        places.sort_unstable_by_key(|(group, column, row)| (*group, *row, *column));
+        places.dedup();
+        if places.len() > PAIRS {
+            return None;
+        }
+        let mut pairs = Vec::with_capacity(places.len());
+        for (group, column, row) in places {
+            let mut leaf = |side| {
+                let array = Array::Phase(Column {
+                    side,
+                    group,
+                    column,
+                });
+                let row = Index::constant(row);
+                model.dag.element(array, row, None)
+            };
+            pairs.push((leaf(Side::Q), leaf(Side::P)));
+        }
+        labels::sort(&model.dag, roots, &mut pairs);
+        let last = model.dag.len() + NODES;
+        let components = model.components();
+        Some(Space {
+            has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
+            last,
+            model,
+            pairs,
+            sets: Vec::new(),
+            derivatives: Map::default(),
+            zeros: Map::default(),
+            values: [false, true].map(|signed| {
+                Values::new(Sample {
+                    seed: u64::from(signed),
+                    signed,
+                    ..Sample::default()
+                })
+            }),
+            points: Map::default(),
+            flows: Map::default(),
+            atoms: Map::default(),
+            tests: TESTS,
+            products: PRODUCTS,
+            has_more_terms: false,
+        })
+    }
+
+    /// Whether the search has spent its budget.
+    pub(crate) fn is_spent(&self) -> bool {
+        self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
+    }
+    /// The limit that the search has reached.
+    pub(crate) fn limit(&self) -> Option<Limit> {
+        match self {
+            _ if self.tests == 0 => Some(Limit::Comparisons),
+            _ if self.products == 0 => Some(Limit::Products),
+            _ if self.is_spent() => Some(Limit::Expressions),
+            _ if self.has_more_terms => Some(Limit::Terms),
+            _ => None,
+        }
+    }
+    /// The arena.
+    pub(crate) fn dag(&mut self) -> &mut Dag {
+        &mut self.model.dag
+    }
+    /// The variable of a bit.
+    pub(crate) fn variable(&self, bit: usize) -> Node {
+        let (q, p) = self.pairs[bit / 2];
+        if bit.is_multiple_of(2) { q } else { p }
+    }
+
+    /// The variables an expression is written with.
+    pub(crate) fn set(&mut self, root: Node) -> Set {
+        // Children have smaller numbers, so that each node is asked once.
+        for number in self.sets.len()..=root.0 as usize {
+            let node = Node(number as u32);
+            let mut set = 0;
+            if let Kind::Element(Array::Phase(_), ..) = self.model.dag.kind(node) {
+                let at = |(q, p): &(Node, Node)| *q == node || *p == node;
+                if let Some(pair) = self.pairs.iter().position(at) {
+                    set |= 1 << (2 * pair + usize::from(self.pairs[pair].1 == node));
+                }
+            }
+            let sets = &self.sets;
+            let dag = &self.model.dag;
+            dag.for_children(node, |child| set |= sets[child.0 as usize]);
+            self.sets.push(set);
+        }
+        self.sets[root.0 as usize]
+    }
+    /// The pairs both of whose variables stand in an expression.
+    pub(crate) fn active(&mut self, root: Node) -> Vec<usize> {
+        let set = self.set(root);
+        (0..self.pairs.len())
+            .filter(|pair| set >> (2 * pair) & 3 == 3)
+            .collect()
+    }
+
+    /// The variables that a motion moves.
+    pub(crate) fn moved(&mut self, motion: &Motion) -> Set {
+        motion.moves.iter().fold(0, |set, m| set | self.set(m.leaf))
+    }
+
+    /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
+    /// search has spent its budget, some other expression: nothing is proven or found any more.
+    pub(crate) fn d(&mut self, h: Node, variable: Node) -> Node {
+        if self.is_spent() {
+            return self.model.dag.parameter(Parameter(u16::MAX));
+        }
+        if self.set(h) & self.set(variable) == 0 {
+            return self.model.dag.integer(0);
+        }
+        if let Kind::Sum(_, terms) = self.model.dag.kind(h)
+            && terms.len() > 1
+        {
+            let mut slopes = terms.clone();
+            for (_, term) in &mut slopes {
+                *term = self.d(*term, variable);
+            }
+            return self.model.dag.linear(&Rational::ZERO, &slopes);
+        }
+        if !self.derivatives.contains_key(&h) {
+            let both = Dependence(Dependence::Q.0 | Dependence::P.0);
+            let gradient = diff::gradient(&mut self.model.dag, h, both);
+            self.derivatives.insert(h, gradient.into_iter().collect());
+        }
+        let known = self.derivatives[&h].get(&variable).copied();
+        known.unwrap_or_else(|| self.model.dag.integer(0))
+    }
+
+    /// ∂h/∂u of a node u that stands in h, all else held.
+    pub(crate) fn by_node(&mut self, h: Node, u: Node) -> Node {
+        let dag = &mut self.model.dag;
+        if h == u {
+            return dag.integer(1);
+        }
+        let place = dag.parameter(Parameter(u16::MAX));
+        let over = dag.substitute(h, |_, node| (node == u).then_some(place));
+        let slope = diff::gradient(dag, over, Dependence::PARAMETER)
+            .into_iter()
+            .find(|(leaf, _)| *leaf == place);
+        let slope = slope.map_or_else(|| dag.integer(0), |(_, slope)| slope);
+        dag.substitute(slope, |_, node| (node == place).then_some(u))
+    }
+
+    /// The terms of {a, b}: a sign, and the two derivatives that it stands before.
+    fn bracket(&mut self, a: Node, b: Node) -> Vec<(Rational, [Node; 2])> {
+        let (in_a, in_b) = (self.set(a), self.set(b));
+        let mut terms = Vec::new();
+        for pair in 0..self.pairs.len() {
+            let (q, p) = self.pairs[pair];
+            let has = |set: Set, side: usize| set >> (2 * pair + side) & 1 == 1;
+            if has(in_a, 0) && has(in_b, 1) {
+                terms.push((Rational::ONE, [self.d(a, q), self.d(b, p)]));
+            }
+            if has(in_a, 1) && has(in_b, 0) {
+                terms.push((Rational::MINUS_ONE, [self.d(a, p), self.d(b, q)]));
+            }
+        }
+        terms
+    }
+    /// Whether the flows of a and b are proven to commute: {a, b} = 0, and neither crosses a set where
+    /// the other is not smooth.
+    pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
+        self.bracket(a, b).is_empty()
+            || self.brackets_vanish(a, b) && self.stays_smooth(a, b) && self.stays_smooth(b, a)
+    }
+    /// Whether {a, b} = 0 is proven wherever both have derivatives.
+    pub(crate) fn brackets_vanish(&mut self, a: Node, b: Node) -> bool {
+        let terms = self.bracket(a, b);
+        // Numbers of the derivatives first, which are made once for all brackets.
+        let mut numbers = [Vec::new(), Vec::new()];
+        for (sign, [x, y]) in &terms {
+            let (x, y) = (self.near(*x), self.near(*y));
+            for (at, numbers) in numbers.iter_mut().enumerate() {
+                let term = x[at] * y[at];
+                numbers.push(if sign.is_negative() { -term } else { term });
+            }
+        }
+        if numbers
+            .into_iter()
+            .any(|terms| Ball::sum(terms.into_iter()).is_nonzero())
+        {
+            return false;
+        }
+        let products = terms.into_iter();
+        let products = products.map(|(sign, factors)| (sign, self.model.dag.mul(&factors)));
+        let products: Vec<(Rational, Node)> = products.collect();
+        let bracket = self.model.dag.linear(&Rational::ZERO, &products);
+        self.is_zero(bracket)
+    }
+
+    /// Whether numbers say that an expression is not 0.
+    pub(crate) fn is_off(&mut self, node: Node) -> bool {
+        self.near(node).iter().any(|near| near.is_nonzero())
+    }
+    /// Whether an expression is proven to be 0 wherever it has a value.
+    pub(crate) fn is_zero(&mut self, node: Node) -> bool {
+        if self.model.dag.is_zero(node) {
+            return true;
+        }
+        if let Some(&known) = self.zeros.get(&node) {
+            return known;
+        }
+        // Numbers of every node are at hand: most expressions that are not 0 end here.
+        if self.is_off(node) {
+            return false;
+        }
+        self.tests = self.tests.saturating_sub(1);
+        let own = self.products.min(QUESTION);
+        let mut left = own;
+        let answer = !self.is_spent()
+            && witness(&self.model, node, Effort::Glance, &[]).is_none()
+            && vanishes_within(&mut self.model.dag, node, &mut left);
+        self.products -= own - left;
+        self.zeros.insert(node, answer);
+        answer
+    }
+    /// Whether two expressions are proven to be the same.
+    pub(crate) fn same(&mut self, a: Node, b: Node) -> bool {
+        let difference = self.model.dag.sub(a, b);
+        self.is_zero(difference)
+    }
+
+    /// Whether two expressions are proven to differ by one that is free of every variable.
+    pub(crate) fn constant_apart(&mut self, a: Node, b: Node) -> bool {
+        let difference = self.model.dag.sub(a, b);
+        let set = self.set(difference);
+        self.free(difference, set).is_some()
+    }
+
+    /// An expression with numbers in place of some variables.
+    pub(crate) fn section(&mut self, node: Node, set: Set) -> Node {
+        let set = self.set(node) & set;
+        if set == 0 {
+            return node;
+        }
+        let values: Map<Node, Rational> = bits(set)
+            .map(|bit| (self.variable(bit), place_of(bit)))
+            .collect();
+        let sets = &self.sets;
+        self.model.dag.substitute(node, |dag, node| {
+            if let Some(value) = values.get(&node) {
+                return Some(dag.constant(value.clone()));
+            }
+            (sets[node.0 as usize] & set == 0).then_some(node)
+        })
+    }
+    /// The expression written without some variables, if it is proven not to depend on them.
+    pub(crate) fn free(&mut self, node: Node, set: Set) -> Option<Node> {
+        if self.set(node) & set == 0 {
+            return Some(node);
+        }
+        let [here, there] = [0.0, 1.0].map(|step| self.point_off(&[(set, step)]));
+        if self
+            .value_at(node, &here)
+            .differs(self.value_at(node, &there))
+        {
+            return None;
+        }
+        let section = self.section(node, set);
+        if !self.same(node, section) {
+            return None;
+        }
+        // The normal form knows that sin² + cos² = 1, which numbers in their place hide.
+        match tidy(&mut self.model.dag, node) {
+            Some(tidy) if self.set(tidy) & set == 0 => Some(tidy),
+            _ => Some(section),
+        }
+    }
+    /// An expression with others in place of variables.
+    pub(crate) fn at(&mut self, node: Node, new: &[(Node, Node)]) -> Node {
+        self.model.dag.substitute(node, |_, node| {
+            let found = new.iter().find(|(leaf, _)| *leaf == node);
+            found.map(|(_, image)| *image)
+        })
+    }
+
+    /// Adds to a motion that the conjugate of an inert variable feels `value` = ∂h/∂v·time.
+    pub(crate) fn push(&mut self, motion: &mut Motion, bit: usize, value: Node) {
+        let conjugate = self.variable(bit ^ 1);
+        let dag = &mut self.model.dag;
+        let value = if bit.is_multiple_of(2) {
+            dag.neg(value)
+        } else {
+            value
+        };
+        motion.add(dag, conjugate, value);
+    }
+
+    /// The value at a point where all is positive.
+    pub(crate) fn value(&mut self, node: Node) -> Ball {
+        self.near(node)[0]
+    }
+    /// The values at two points: all leaves positive, and of both signs.
+    fn near(&mut self, node: Node) -> [Ball; 2] {
+        let model = &self.model;
+        self.values.each_mut().map(|values| values.at(model, node))
+    }
+    /// A point, by variables' numbers, from which others are taken by changing some.
+    pub(crate) fn point(&self) -> Vec<Ball> {
+        // Multiples of 1/64 are exact, and so are steps between them.
+        let start = |bit: usize| Ball::exact(0.90625 + ((bit * 5 + 3) % 7) as f64 / 16.0);
+        (0..2 * self.pairs.len()).map(start).collect()
+    }
+    /// The same with some variables moved by steps.
+    pub(crate) fn point_off(&self, moved: &[(Set, f64)]) -> Vec<Ball> {
+        let mut point = self.point();
+        for (set, step) in moved {
+            for bit in bits(*set) {
+                let step = step * ((bit * 3 + 1) % 5 + 1) as f64 / 16.0;
+                point[bit] = point[bit] + Ball::exact(step);
+            }
+        }
+        point
+    }
+    /// A fraction that an expression of values may be, from the first of some points where it exists.
+    pub(crate) fn fraction(
+        &mut self,
+        of: impl Fn(&mut Space, &[Ball]) -> Ball,
+    ) -> Option<Rational> {
+        let all = (0..2 * self.pairs.len()).fold(0, |set, bit| set | 1 << bit);
+        let values = [0.0, -2.0, -4.0, 2.0].into_iter().map(|step| {
+            let point = self.point_off(&[(all, step)]);
+            of(self, &point)
+        });
+        values
+            .into_iter()
+            .find(|value| value.is_defined())?
+            .as_fraction()
+    }
+    /// Nodes as operations on variables; parameters and time have the values of a sample point.
+    pub(crate) fn tape(&mut self, roots: &[Node]) -> Option<Tape> {
+        for root in roots {
+            self.set(*root);
+        }
+        let Space {
+            model,
+            sets,
+            values: [values, _],
+            ..
+        } = self;
+        let given = |node| values.at(model, node).value;
+        Tape::of(&model.dag, roots, |node| sets[node.0 as usize], given)
+    }
+    /// The value at a point; parameters and time have the values of a sample point.
+    pub(crate) fn value_at(&mut self, node: Node, point: &[Ball]) -> Ball {
+        let key = |ball: &Ball| [ball.value.to_bits(), ball.error.to_bits()];
+        let key: Vec<[u64; 2]> = point.iter().map(key).collect();
+        if self.points.len() > POINTS {
+            self.points.clear();
+        }
+        let (model, pairs) = (&self.model, &self.pairs);
+        let values = self.points.entry(key).or_insert_with(|| {
+            let leaves = pairs.iter().flat_map(|(q, p)| [*q, *p]);
+            Values::with(
+                &model.dag,
+                Sample::default(),
+                leaves.zip(point.iter().copied()),
+            )
+        });
+        values.at(model, node)
+    }
+
+    /// The integer n with a = n·b, if that is proven.
+    pub(crate) fn ratio(&mut self, a: Node, b: Node) -> Option<i32> {
+        let (a_value, b_value) = (self.value(a), self.value(b));
+        let guess = (a_value.value / b_value.value).round();
+        if (Ball::exact(guess) * b_value).differs(a_value) {
+            return None;
+        }
+        let n = (guess.abs() <= 64.0).then_some(guess as i32)?;
+        let multiple = self.model.dag.scale(&Rational::integer(i64::from(n)), b);
+        self.same(a, multiple).then_some(n)
+    }
+
+    /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
+    /// or the point decide.
+    pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
+        // Most are numbers, and seen at once.
+        if let Some(value) = self.model.dag.as_constant(node) {
+            return Some(match value {
+                value if value.is_zero() => 0,
+                value if value.is_negative() => -1,
+                _ => 1,
+            });
+        }
+        if is_positive(&self.model.dag, node) {
+            return Some(1);
+        }
+        let negative = self.model.dag.neg(node);
+        if is_positive(&self.model.dag, negative) {
+            return Some(-1);
+        }
+        self.is_zero(node).then_some(0)
+    }
+}
+
+/// Whether a value is > 0 at every point where there is one: a sum of terms ≥ 0 with a positive
+/// number, exponentials, and products of these.
+fn is_positive(dag: &Dag, node: Node) -> bool {
+    match dag.kind(node) {
+        Kind::Constant(value) => !value.is_negative() && !value.is_zero(),
+        Kind::Pi => true,
+        Kind::Sum(c, terms) => {
+            let positive = |(k, n): &(Rational, Node)| !k.is_negative() && is_positive(dag, *n);
+            dag.is_nonnegative(node)
+                && ((!c.is_negative() && !c.is_zero()) || terms.iter().any(positive))
+        }
+        Kind::Product(k, factors) => {
+            !k.is_negative() && factors.iter().all(|(n, _)| is_positive(dag, *n))
+        }
+        Kind::Call(op, arguments) => match op {
+            crate::op::Op::Exp | crate::op::Op::Cosh => true,
+            crate::op::Op::Sqrt => is_positive(dag, arguments[0]),
+            _ => false,
+        },
+        _ => false,
+    }
+}
+
+/// The bits of a set.
+pub(crate) fn bits(set: Set) -> impl Iterator<Item = usize> {
+    let mut left = set;
+    std::iter::from_fn(move || {
+        let bit = left.trailing_zeros() as usize;
+        (left != 0).then(|| {
+            left &= left - 1;
+            bit
+        })
+    })
+}
+
+/// The number that stands for a variable in sections: coordinates and momenta differ.
+fn place_of(bit: usize) -> Rational {
+    let pair = bit as i64 / 2;
+    match bit % 2 {
+        0 => Rational::new(3 + pair, 3),
+        _ => Rational::new(1 + pair % 3, 2),
+    }
+}

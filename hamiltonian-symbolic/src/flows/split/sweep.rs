@@ -1,0 +1,396 @@
+//! Splittings of sums over arrays: a piece is a loop of exact flows of its terms.
+//!
+//! Input: H with loops. Output: its pieces, or the term without a flow. Invariant: a loop's body is
+//! solved once, as a system of the few elements it names, which are proven to be different ones;
+//! iterations that are proven to commute are exact in any order, others are swept one way down and the
+//! other way up. Terms in which no column meets its conjugate move everything at a constant rate.
+
+use super::{ExactFlow, Piece};
+use super::{any_flow, search};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::flows::solve::units::{Term, terms};
+use crate::flows::space::Space;
+use crate::index::{Affine, Domain, Index};
+use crate::model::Flow;
+use crate::model::{Group, Model, ParameterDeclaration, Shape};
+use crate::print;
+use crate::rational::Rational;
+
+/// The terms over one chain of loops that name the same elements.
+struct Site {
+    chain: Vec<Domain>,
+    rows: Vec<Index>,
+    terms: Vec<Term>,
+}
+
+/// The pieces of H, or its first term without a flow.
+pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
+    let terms = terms(&mut model.dag, h);
+    let mut easy = [Vec::new(), Vec::new()];
+    let mut sites: Vec<Site> = Vec::new();
+    let mut constants = Vec::new();
+    for term in terms {
+        let rows = rows(&model.dag, term.body);
+        let site = |s: &&mut Site| s.chain == term.chain && s.rows == rows;
+        match sites.iter_mut().find(site) {
+            Some(site) => site.terms.push(term),
+            None if rows.is_empty() => constants.push(term),
+            None => sites.push(Site {
+                chain: term.chain.clone(),
+                rows,
+                terms: vec![term],
+            }),
+        }
+    }
+    let mut pieces = Vec::new();
+    let mut linear = Vec::new();
+    for site in sites {
+        let bodies: Vec<Node> = site.terms.iter().map(|term| term.body).collect();
+        // In one site alone V and T need not be a loop of flows.
+        let is_mixed = bodies.iter().any(|body| couples(&model.dag, *body));
+        let joins = site.rows.len() > 1 && both_sides(&model.dag, &bodies);
+        if is_mixed || joins {
+            let body = model.dag.add(&bodies);
+            if let Some(found) = solved(model, &site, body, false) {
+                pieces.extend(found);
+                continue;
+            }
+        }
+        let mut hard = Vec::new();
+        for term in &site.terms {
+            match side(&model.dag, term.body) {
+                Some(side) => easy[usize::from(side == Side::P)].push(term.clone()),
+                None => hard.push(term.clone()),
+            }
+        }
+        if let Some(first) = hard.first() {
+            let (first, bodies) = (first.clone(), hard.iter().map(|term| term.body));
+            let bodies: Vec<Node> = bodies.collect();
+            let body = model.dag.add(&bodies);
+            if let Some(found) = solved(model, &site, body, true) {
+                pieces.extend(found);
+                continue;
+            }
+            let is_linear = |term: &Term| is_linear(&columns(&model.dag, term.body));
+            if !hard.iter().all(is_linear) {
+                return Err(first.source);
+            }
+            linear.extend(hard);
+        }
+    }
+    // A term of parameters alone moves nothing; it joins the piece that moves least.
+    let [mut potential, kinetic] = easy;
+    potential.extend(constants);
+    let mut parts = vec![kinetic, potential];
+    for term in linear {
+        let own = columns(&model.dag, term.body);
+        let fits = |part: &&mut Vec<Term>| {
+            let others = part
+                .iter()
+                .flat_map(|other| columns(&model.dag, other.body));
+            is_linear(&own.iter().copied().chain(others).collect::<Vec<_>>())
+        };
+        match parts.iter_mut().find(fits) {
+            Some(part) => part.push(term),
+            None => parts.push(vec![term]),
+        }
+    }
+    for (at, terms) in parts.iter().enumerate() {
+        let part = summed(&mut model.dag, terms);
+        if !model.dag.is_zero(part) {
+            let piece = Piece {
+                h: part,
+                name: print::text(model, part),
+                flow: ExactFlow::Linear,
+            };
+            pieces.insert(at.min(pieces.len()), piece);
+        }
+    }
+    Ok(pieces)
+}
+
+/// The flow of one expression with loops, as one loop of flows.
+pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
+    let terms = terms(&mut model.dag, h);
+    let first = terms.first()?.clone();
+    let rows = rows(&model.dag, first.body);
+    let mut bodies = Vec::new();
+    let mut all = rows;
+    for term in &terms {
+        if term.chain != first.chain {
+            return None;
+        }
+        bodies.push(term.body);
+        for row in self::rows(&model.dag, term.body) {
+            if !all.contains(&row) {
+                all.push(row);
+            }
+        }
+    }
+    let site = Site {
+        chain: first.chain,
+        rows: all,
+        terms: Vec::new(),
+    };
+    let body = model.dag.add(&bodies);
+    let pieces = solved(model, &site, body, false)?;
+    pieces.into_iter().next().map(|piece| piece.flow)
+}
+
+/// The elements of phase space that an expression names.
+fn elements(dag: &Dag, root: Node) -> Vec<(Node, Column, Index)> {
+    let mut found = Vec::new();
+    for node in dag.reachable(&[root]) {
+        if let Some((column, row)) = dag.phase_place(node) {
+            found.push((node, column, row.clone()));
+        }
+    }
+    found
+}
+
+/// The columns it names.
+pub(super) fn columns(dag: &Dag, root: Node) -> Vec<Column> {
+    elements(dag, root).into_iter().map(|e| e.1).collect()
+}
+
+/// Whether no column stands among these with its conjugate: then c·J∇h is constant along the flow.
+pub(super) fn is_linear(columns: &[Column]) -> bool {
+    !columns
+        .iter()
+        .any(|column| columns.contains(&column.conjugate()))
+}
+
+/// The rows it names, sorted.
+fn rows(dag: &Dag, body: Node) -> Vec<Index> {
+    let mut rows: Vec<Index> = elements(dag, body).into_iter().map(|e| e.2).collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
+}
+
+fn couples(dag: &Dag, node: Node) -> bool {
+    side(dag, node).is_none()
+}
+
+/// The side an expression is of, if it is of one.
+fn side(dag: &Dag, node: Node) -> Option<Side> {
+    let dependence = dag.dependence(node);
+    match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
+        (_, false) => Some(Side::Q),
+        (false, true) => Some(Side::P),
+        (true, true) => None,
+    }
+}
+
+fn both_sides(dag: &Dag, bodies: &[Node]) -> bool {
+    let on = |what: Dependence| bodies.iter().any(|body| dag.dependence(*body).on(what));
+    on(Dependence::Q) && on(Dependence::P)
+}
+
+fn summed(dag: &mut Dag, terms: &[Term]) -> Node {
+    let mut parts = Vec::new();
+    for term in terms {
+        parts.push((Rational::ONE, around(dag, &term.chain, term.body)));
+    }
+    dag.linear(&Rational::ZERO, &parts)
+}
+
+fn around(dag: &mut Dag, chain: &[Domain], body: Node) -> Node {
+    let loops = chain.iter().rev();
+    loops.fold(body, |body, domain| dag.reduce(*domain, body))
+}
+
+/// The most rows of a body.
+const ROWS: usize = 4;
+
+/// Conditions under which the rows of a body are different ones in every iteration; `None` where that
+/// is not known.
+fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Option<Vec<Node>> {
+    if rows.len() > ROWS {
+        return None;
+    }
+    let mut conditions = Vec::new();
+    for (at, a) in rows.iter().enumerate() {
+        for b in &rows[..at] {
+            for condition in are_apart(dag, a, b)? {
+                if !conditions.contains(&condition) {
+                    conditions.push(condition);
+                }
+            }
+        }
+    }
+    Some(conditions)
+}
+
+/// Conditions under which two rows differ in every iteration.
+fn are_apart(dag: &mut Dag, a: &Index, b: &Index) -> Option<Vec<Node>> {
+    if a.outer.is_some() || b.outer.is_some() {
+        return None;
+    }
+    let difference = a.affine.checked_plus(-1, &b.affine)?;
+    let count = match (&a.modulo, &b.modulo) {
+        (Some(a), Some(b)) if a != b => return None,
+        // A row that is not taken modulo n is below n or differs from all that are.
+        (Some(n), _) | (None, Some(n)) => Some(n.clone()),
+        (None, None) => None,
+    };
+    let Some(count) = count else {
+        let is_positive = |dag: &Dag, form: &Affine| {
+            let less = form.checked_plus(-1, &Affine::constant(1));
+            less.is_some_and(|less| dag.is_never_negative(&less))
+        };
+        let minus = Affine::constant(0).checked_plus(-1, &difference)?;
+        if is_positive(dag, &difference) || is_positive(dag, &minus) {
+            return Some(Vec::new());
+        }
+        if !difference.loops.is_empty() || difference.as_constant().is_some() {
+            return None;
+        }
+        let (apart, zero) = (dag.affine(&difference), dag.integer(0));
+        let (below, above) = (dag.less(apart, zero), dag.less(zero, apart));
+        return Some(vec![dag.or(below, above)]);
+    };
+    let distance = modulo(difference, &count)?.unsigned_abs();
+    if let Some(count) = count.as_constant() {
+        let count = u64::try_from(count).ok().filter(|count| *count > 0)?;
+        return (!distance.is_multiple_of(count)).then(Vec::new);
+    }
+    // On a ring of as many sites as a divisor of the distance the two are one.
+    if !(1..=64).contains(&distance) {
+        return None;
+    }
+    let sites = dag.affine(&count);
+    let divisors = (1..=distance).filter(|k| distance.is_multiple_of(*k));
+    let mut conditions = Vec::new();
+    for divisor in divisors {
+        let divisor_node = dag.integer(divisor as i64);
+        let more = dag.less(divisor_node, sites);
+        conditions.push(match divisor {
+            1 => more,
+            _ => {
+                let fewer = dag.less(sites, divisor_node);
+                dag.or(fewer, more)
+            }
+        });
+    }
+    Some(conditions)
+}
+
+/// A difference of indices up to multiples of a size; `None` where it varies.
+fn modulo(difference: Affine, count: &Affine) -> Option<i64> {
+    let mut rest = difference;
+    if let Some(&(size, k)) = count.sizes.first() {
+        let own = rest.factor_of_size(size);
+        if own % k != 0 {
+            return None;
+        }
+        rest = rest.checked_plus(-(own / k), count)?;
+    }
+    rest.as_constant()
+}
+
+/// The loops of flows that a body is; one, unless it `may_part`.
+fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<Vec<Piece>> {
+    let conditions = are_distinct(&mut model.dag, &site.rows)?;
+    let (mut small, images) = scratch(model, body);
+    let over = |dag: &mut Dag, root: Node, map: &Map<Node, Node>| {
+        dag.substitute(root, |_, node| map.get(&node).copied())
+    };
+    let small_body = over(&mut small.dag, body, &images);
+    let mut space = Space::new(&small, &[small_body])?;
+    space.has_exponentials = false;
+    // The flow of a part as a motion: among scalars a shear moves all at constant rates, in a loop it
+    // does so within one iteration.
+    let parts: Vec<(Node, Flow)> = match any_flow(&mut space, small_body) {
+        Some(flow) => vec![(small_body, flow)],
+        None if may_part => search(&mut space, small_body).ok()?.flows,
+        None => return None,
+    };
+    model.dag = space.model.dag;
+    let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
+    let mut pieces = Vec::with_capacity(parts.len());
+    for (part, Flow { motion, rows }) in parts {
+        let part = over(&mut model.dag, part, &back);
+        let h = around(&mut model.dag, &site.chain, part);
+        let mut motion = motion.map(|node| over(&mut model.dag, node, &back));
+        motion.domain.splice(0..0, conditions.iter().copied());
+        let flow = match site.chain.last() {
+            _ if is_linear(&columns(&model.dag, part)) => ExactFlow::Linear,
+            Some(innermost) => ExactFlow::Loop {
+                motion,
+                rows,
+                innermost: *innermost,
+                merges: commute(&model.dag, &site.chain, &site.rows, part),
+            },
+            None => ExactFlow::Closed(motion, rows),
+        };
+        pieces.push(Piece {
+            h,
+            name: print::text(model, h),
+            flow,
+        });
+    }
+    Some(pieces)
+}
+
+/// Whether the flows of any two iterations are proven to commute, whatever the sizes: each iteration has
+/// one site of its own, or iterations that share a site have the same body.
+fn commute(dag: &Dag, chain: &[Domain], rows: &[Index], body: Node) -> bool {
+    let ([domain], [row]) = (chain, rows) else {
+        return false;
+    };
+    if row.affine.factor(*domain) == 0 {
+        return false;
+    }
+    let is_own = |node: Node| match dag.kind(node) {
+        Kind::Variable(_) => false,
+        Kind::Element(_, index, column) => {
+            let is_free = |index: &Index| index.variables() == 0;
+            (index == row || is_free(index)) && column.as_deref().is_none_or(is_free)
+        }
+        _ => true,
+    };
+    row.modulo.is_none() || dag.reachable(&[body]).into_iter().all(is_own)
+}
+
+/// A system of scalars in which every element that a body names is one of its own, and the
+/// elements with the scalars that stand for them.
+fn scratch(model: &Model, body: Node) -> (Model, Map<Node, Node>) {
+    let mut small = model.clone();
+    let mut images: Map<Node, Node> = Map::default();
+    let mut places: Vec<(Column, Index)> = Vec::new();
+    for (node, column, row) in elements(&model.dag, body) {
+        let side = column.side;
+        let place = (column.on(Side::Q), row.clone());
+        let at = places.iter().position(|known| *known == place);
+        let at = at.unwrap_or_else(|| {
+            let number = places.len();
+            let scalar = Group::scalar(format!("q{number}"), format!("p{number}"));
+            small.groups.push(scalar);
+            places.push(place);
+            number
+        });
+        let own = model.groups.len() + at;
+        images.insert(node, small.scalar(side, own));
+        // The partner is an element too, whether it is named or not.
+        let partner = small.dag.phase(column.conjugate(), row);
+        let image = small.scalar(side.other(), own);
+        images.insert(partner, image);
+    }
+    for node in model.dag.reachable(&[body]) {
+        let is_given = matches!(
+            model.dag.kind(node),
+            Kind::Element(Array::Parameter(_), ..) | Kind::Variable(_) | Kind::Count(_)
+        );
+        if is_given {
+            let number = small.parameters.len();
+            small.parameters.push(ParameterDeclaration {
+                name: format!("c{number}"),
+                shape: Shape::Scalar,
+            });
+            let image = small.dag.parameter(Parameter(number as u16));
+            images.insert(node, image);
+        }
+    }
+    (small, images)
+}

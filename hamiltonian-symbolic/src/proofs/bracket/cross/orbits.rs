@@ -1,0 +1,185 @@
+//! What orbits do not cross: zeros of constants of the motion, and places where H is infinite.
+//!
+//! Input: a statement and what is known so far. Output: more of it, in [`Given`]. Invariant: what is
+//! said to be constant is proven to be so by the rules of [`Claim`]; what is said not to be 0 is
+//! an infinity of a conserved H for all parameters.
+
+use super::Claim;
+use crate::bracket::branches::STEP;
+use crate::bracket::derivative;
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Parameter, Part};
+use crate::facts::{Facts, Given};
+use crate::model::Model;
+use crate::normal_form::{self, Scope};
+use crate::op::{At, Far, Op};
+use crate::rational::Rational;
+
+/// The constant that stands for the energy: no parameter of a definition has this number.
+const ENERGY: Parameter = Parameter(u16::MAX);
+
+/// The most expressions that are looked at.
+const MOST: usize = 64;
+
+/// Adds what is known of the places where a statement may jump; whether there was anything.
+pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool {
+    let mut tried: Map<Node, ()> = Map::default();
+    let below = model.dag.reachable(&[claim.expression]);
+    let mut has_learnt =
+        below.binary_search(&claim.h).is_ok() && is_constant(model, claim, claim.h, given);
+    if has_learnt {
+        given.constant.insert(claim.h, ());
+    }
+    // What is constant uncovers other places, those of functions of it.
+    loop {
+        let facts = Facts::of(&model.dag, &[claim.expression], given);
+        let mut found = false;
+        for locus in &facts.loci {
+            for node in [locus.x, locus.y] {
+                if facts.get(node).is_still
+                    || tried.len() == MOST
+                    || tried.insert(node, ()).is_some()
+                {
+                    continue;
+                }
+                if is_constant(model, claim, node, given) {
+                    given.constant.insert(node, ());
+                    found = true;
+                } else if locus.at == At::Zero && is_wall(model, claim, node) {
+                    given.nonzero.insert(node, ());
+                    found = true;
+                }
+            }
+        }
+        for condition in model.dag.reachable(&[claim.expression]) {
+            if let Kind::Compare(_, a, b) = *model.dag.kind(condition) {
+                let is_still = facts.get(condition).is_still;
+                if is_still || tried.len() == MOST || tried.insert(condition, ()).is_some() {
+                    continue;
+                }
+                // An orbit stays on one side of a = b.
+                let apart = model.dag.sub(a, b);
+                if is_constant(model, claim, apart, given) || is_wall(model, claim, apart) {
+                    given.constant.insert(condition, ());
+                    found = true;
+                }
+            }
+        }
+        has_learnt |= found;
+        if !found {
+            return has_learnt;
+        }
+    }
+}
+
+/// An expression with a constant in the place of H, if it reads H: {H, H} = 0 without expansion. Assumes
+/// an H that does not depend on time, and no force.
+pub(in crate::proofs::bracket) fn without_energy(
+    model: &mut Model,
+    expression: Node,
+    h: Node,
+) -> Option<Node> {
+    let has_time = model.dag.dependence(h).on(Dependence::TIME);
+    if !model.force.is_empty() || has_time {
+        return None;
+    }
+    let dag = &mut model.dag;
+    let energy = dag.parameter(ENERGY);
+    let mut rest = dag.substitute(expression, |_, node| (node == h).then_some(energy));
+    // A sum that H is added to has the terms of H among its own.
+    if let (Kind::Sum(_, terms), Kind::Sum(_, of_h)) = (dag.kind(rest), dag.kind(h))
+        && let Some((k, _)) = terms.iter().find(|(_, term)| *term == of_h[0].1)
+        && let Some(by) = of_h[0].0.recip()
+    {
+        let count = terms.len();
+        let others = dag.linear(
+            &Rational::ZERO,
+            &[(Rational::ONE, rest), (k.mul(&by).neg(), h)],
+        );
+        if !matches!(dag.kind(others), Kind::Sum(_, left) if left.len() >= count) {
+            rest = others;
+        }
+    }
+    (rest != expression).then_some(rest)
+}
+
+/// Whether an expression is constant along orbits. In a loop, that of each iteration: an arbitrary
+/// function of it is summed.
+fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> bool {
+    let this = Claim {
+        expression: node,
+        ..*claim
+    };
+    if !this.passes(model, given) {
+        return false;
+    }
+    if node == claim.h {
+        return claim.is_still;
+    }
+    let dag = &mut model.dag;
+    let mut sum = dag.external(STEP, Part::Value, &[node]);
+    for domain in dag.path(dag.home(node)).into_iter().rev() {
+        sum = dag.reduce(domain, sum);
+    }
+    let rate = derivative(model, sum, claim.h);
+    rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
+}
+
+/// Whether H is conserved and tends to infinity wherever a node is 0, whatever the parameters.
+/// Assumes an H that is continuous into the line closed by one infinity: what one of its terms is
+/// infinite at, the sum is.
+fn is_wall(model: &mut Model, claim: &Claim, node: Node) -> bool {
+    let facts = Facts::of(&model.dag, &[claim.h], &Given::default());
+    if !claim.is_still || !facts.get(claim.h).is_projective {
+        return false;
+    }
+    let dag = &mut model.dag;
+    let minus = dag.neg(node);
+    let zeros = [stem(dag, node), stem(dag, minus)];
+    let is_zero_there = |dag: &Dag, x: Node| zeros.contains(&stem(dag, x));
+    let mut infinite: Map<Node, bool> = Map::default();
+    for x in dag.reachable(&[claim.h]) {
+        let is_infinite = facts.get(x).is_projective
+            && match dag.kind(x) {
+                Kind::Sum(_, terms) => terms.iter().any(|(_, term)| infinite[term]),
+                Kind::Product(_, factors) => (0..factors.len()).any(|at| {
+                    let (factor, n) = factors[at];
+                    let grows = match n > 0 {
+                        true => infinite[&factor],
+                        false => is_zero_there(dag, factor),
+                    };
+                    let mut others = factors.iter().enumerate().filter(|(other, _)| *other != at);
+                    grows
+                        && others.all(|(_, (other, n))| {
+                            let regular = facts.get(*other);
+                            match *n > 0 {
+                                true => regular.has_no_zero,
+                                false => regular.is_continuous,
+                            }
+                        })
+                }),
+                Kind::Reduce(_, body) => infinite[body],
+                Kind::Call(Op::Ln, x) if is_zero_there(dag, x[0]) => true,
+                Kind::Call(Op::Pow, x) => {
+                    let exponent = dag.as_constant(x[1]);
+                    exponent.is_some_and(Rational::is_negative) && is_zero_there(dag, x[0])
+                }
+                Kind::Call(op, x) if x.len() == 1 => {
+                    op.row().regularity.far == Far::Infinite && infinite[&x[0]]
+                }
+                _ => false,
+            };
+        infinite.insert(x, is_infinite);
+    }
+    infinite[&claim.h]
+}
+
+/// An expression that is 0 where the node is, without roots, absolute values and powers.
+fn stem(dag: &Dag, mut node: Node) -> Node {
+    loop {
+        node = match dag.kind(node) {
+            Kind::Call(Op::Sqrt | Op::Abs | Op::Cbrt, x) => x[0],
+            Kind::Product(_, factors) if factors.len() == 1 && factors[0].1 > 0 => factors[0].0,
+            _ => return node,
+        };
+    }
+}

@@ -269,32 +269,26 @@ pub fn forward(
     mut seed: impl FnMut(&mut Dag, Node) -> Option<Node>,
 ) -> Node {
     let zero = dag.integer(0);
-    let mut tangents: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[root]) {
-        if !dag.dependence(node).on(what) {
-            tangents.insert(node, zero);
-            continue;
+    let nodes = dag.reachable(&[root]);
+    let tangents = dag.map(nodes, |dag, node, tangents| match dag.kind(node).clone() {
+        _ if !dag.dependence(node).on(what) => zero,
+        Kind::Sum(_, terms) => {
+            let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, tangents[&n])).collect();
+            dag.linear(&Rational::ZERO, &terms)
         }
-        let tangent = match dag.kind(node).clone() {
-            Kind::Sum(_, terms) => {
-                let terms: Vec<_> = terms.into_iter().map(|(k, n)| (k, tangents[&n])).collect();
-                dag.linear(&Rational::ZERO, &terms)
-            }
-            Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
-                let Branches { condition, yes, no } = Branches::of(dag, node);
-                dag.select(condition, tangents[&yes], tangents[&no])
-            }
-            Kind::Product(..) | Kind::Call(..) | Kind::External(..) => {
-                let parts: Vec<_> = partials(dag, node, what)
-                    .into_iter()
-                    .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
-                    .collect();
-                dag.add(&parts)
-            }
-            Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),
-            _ => seed(dag, node).unwrap_or(zero),
-        };
-        tangents.insert(node, tangent);
-    }
+        Kind::Call(Op::Min | Op::Max, _) | Kind::Select(..) => {
+            let Branches { condition, yes, no } = Branches::of(dag, node);
+            dag.select(condition, tangents[&yes], tangents[&no])
+        }
+        Kind::Product(..) | Kind::Call(..) | Kind::External(..) => {
+            let parts: Vec<_> = partials(dag, node, what)
+                .into_iter()
+                .map(|(child, partial)| dag.mul(&[partial, tangents[&child]]))
+                .collect();
+            dag.add(&parts)
+        }
+        Kind::Reduce(domain, body) => dag.reduce(domain, tangents[&body]),
+        _ => seed(dag, node).unwrap_or(zero),
+    });
     tangents[&root]
 }

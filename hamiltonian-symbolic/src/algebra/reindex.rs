@@ -26,44 +26,41 @@ impl Dag {
         }
         // All in one pass: a loop that moves may be one of `by`.
         let mut moved = Moved::default();
-        let mut new: Map<Node, Node> = Map::default();
         let inside = self.inside(variable);
-        for node in self.reachable(&[root]) {
-            if self.variables(node) & inside == 0 {
-                new.insert(node, node);
-                continue;
-            }
-            let image = match self.kind(node).clone() {
-                Kind::Variable(d) if d == variable => self.variable_at(by)?,
+        let nodes = self.reachable(&[root]);
+        let new = self.try_map(nodes, |dag, node, new| {
+            let image = match dag.kind(node).clone() {
+                _ if dag.variables(node) & inside == 0 => node,
+                Kind::Variable(d) if d == variable => dag.variable_at(by)?,
                 Kind::Variable(d) => {
-                    let d = self.moved(d, variable, &by.affine, &mut moved);
-                    self.variable(d)
+                    let d = dag.moved(d, variable, &by.affine, &mut moved);
+                    dag.variable(d)
                 }
                 Kind::Element(array, row, column) => {
-                    let mut image = |index| self.index_at(index, variable, by, &mut moved);
+                    let mut image = |index| dag.index_at(index, variable, by, &mut moved);
                     let row = image(row)?;
                     let column = match column {
                         Some(column) => Some(image(*column)?),
                         None => None,
                     };
-                    self.element(array, row, column)
+                    dag.element(array, row, column)
                 }
-                Kind::Reduce(d, _) | Kind::Count(d) if !self.can_move(d, variable, by) => {
+                Kind::Reduce(d, _) | Kind::Count(d) if !dag.can_move(d, variable, by) => {
                     return None;
                 }
                 Kind::Reduce(d, body) => {
-                    let d = self.moved(d, variable, &by.affine, &mut moved);
-                    self.reduce(d, new[&body])
+                    let d = dag.moved(d, variable, &by.affine, &mut moved);
+                    dag.reduce(d, new[&body])
                 }
                 Kind::Count(d) => {
-                    let d = self.moved(d, variable, &by.affine, &mut moved);
-                    self.count(d)
+                    let d = dag.moved(d, variable, &by.affine, &mut moved);
+                    dag.count(d)
                 }
-                _ => self.rebuild(node, &|child| new[&child]),
+                _ => dag.rebuild(node, &|child| new[&child]),
             };
-            new.insert(node, image);
-        }
-        Some(new[&root])
+            Some(image)
+        });
+        new.map(|new| new[&root])
     }
 
     /// The expression with a loop variable, the number of an element, replaced by the index of several axes
@@ -71,24 +68,23 @@ impl Dag {
     fn at_site(&mut self, root: Node, variable: Domain, by: &Index) -> Option<Node> {
         let own = Index::plain(Affine::variable(variable));
         let inside = self.inside(variable);
-        let mut new: Map<Node, Node> = Map::default();
-        for node in self.reachable(&[root]) {
-            let is_free = self.variables(node) & inside == 0;
-            let image = match self.kind(node).clone() {
-                _ if is_free => node,
+        let nodes = self.reachable(&[root]);
+        let new = self.try_map(nodes, |dag, node, new| {
+            let image = match dag.kind(node).clone() {
+                _ if dag.variables(node) & inside == 0 => node,
                 Kind::Element(array, row, column) => {
                     let is_number = |index: &Index| index.variables() & inside != 0;
                     if row != own || column.as_deref().is_some_and(is_number) {
                         return None;
                     }
-                    self.element(array, by.clone(), column.map(|column| *column))
+                    dag.element(array, by.clone(), column.map(|column| *column))
                 }
                 Kind::Variable(_) | Kind::Reduce(..) | Kind::Count(_) => return None,
-                _ => self.rebuild(node, &|child| new[&child]),
+                _ => dag.rebuild(node, &|child| new[&child]),
             };
-            new.insert(node, image);
-        }
-        Some(new[&root])
+            Some(image)
+        });
+        new.map(|new| new[&root])
     }
 
     /// Whether the range of a loop has a form where the variable is replaced.

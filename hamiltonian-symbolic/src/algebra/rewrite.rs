@@ -77,14 +77,36 @@ impl Dag {
         of(&new, root)
     }
 
+    /// The image of each node. Children come before their parents, so that `image` finds theirs.
+    pub(crate) fn map(
+        &mut self,
+        nodes: Vec<Node>,
+        mut image: impl FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Node,
+    ) -> Map<Node, Node> {
+        let images = self.try_map(nodes, |dag, node, new| Some(image(dag, node, new)));
+        images.expect("every node has an image")
+    }
+
+    /// The same where a node may have no image: then none has.
+    pub(crate) fn try_map(
+        &mut self,
+        nodes: Vec<Node>,
+        mut image: impl FnMut(&mut Dag, Node, &mut Map<Node, Node>) -> Option<Node>,
+    ) -> Option<Map<Node, Node>> {
+        let mut new = Map::default();
+        for node in nodes {
+            let made = image(self, node, &mut new)?;
+            new.insert(node, made);
+        }
+        Some(new)
+    }
+
     /// The expression with products of products, which differentiation keeps apart, as one.
     pub(crate) fn rebuilt(&mut self, root: Node) -> Node {
-        let mut new: Map<Node, Node> = Map::default();
-        for node in self.reachable(&[root]) {
-            let image = self.made_again(node, &|child| new[&child]);
-            new.insert(node, image);
-        }
-        new[&root]
+        let nodes = self.reachable(&[root]);
+        self.map(nodes, |dag, node, new| {
+            dag.made_again(node, &|child| new[&child])
+        })[&root]
     }
 
     /// The same expression with its sums inside the loop `here`, each in the sum it stands in: the

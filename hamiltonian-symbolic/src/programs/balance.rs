@@ -5,7 +5,7 @@
 //! factor (Speelpenning 1980), and so does every later pass; the factors keep their order.
 
 use crate::algebra::simplify::SHORT;
-use crate::dag::{Dag, Kind, Map, Node};
+use crate::dag::{Dag, Kind, Node};
 use crate::programs::factor::is_prepared;
 use crate::rational::Rational;
 
@@ -17,17 +17,13 @@ pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
     if !order.iter().any(is_long) {
         return;
     }
-    let mut new: Map<Node, Node> = Map::default();
-    for node in order {
-        let image = match dag.kind(node).clone() {
-            Kind::Product(k, factors) if factors.len() > SHORT => {
-                let factors: Vec<_> = factors.iter().map(|(f, n)| (new[f], *n)).collect();
-                balanced(dag, &k, factors)
-            }
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
+    let new = dag.map(order, |dag, node, new| match dag.kind(node).clone() {
+        Kind::Product(k, factors) if factors.len() > SHORT => {
+            let factors: Vec<_> = factors.iter().map(|(f, n)| (new[f], *n)).collect();
+            balanced(dag, &k, factors)
+        }
+        _ => dag.rebuild(node, &|child| new[&child]),
+    });
     for root in roots {
         *root = new[root];
     }

@@ -78,33 +78,29 @@ impl Term {
 pub fn factor(dag: &mut Dag, roots: &mut [Node]) {
     let order = dag.reachable(roots);
     let uses = count_uses(dag, roots, &order);
-    let mut new: Map<Node, Node> = Map::default();
-    for node in order {
-        let image = match dag.kind(node).clone() {
-            Kind::Sum(c, terms) => {
-                let terms: Vec<_> = terms
-                    .into_iter()
-                    .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
-                    .collect();
-                factored_sum(dag, &c, &terms, &Rational::ONE, None)
-            }
-            Kind::Product(..) if dag.is_sealed(node) => dag.rebuild(node, &|child| new[&child]),
-            Kind::Product(k, factors) => match gathered(dag, &k, &factors, &uses) {
-                Some((domain, body, negative)) => {
-                    // Its factors are these, so they are rewritten already.
-                    if let Kind::Product(k, factors) = dag.kind(body).clone() {
-                        let image = factored_product(dag, k, factors, &uses, &new);
-                        new.insert(body, image);
-                    }
-                    let sum = dag.intern(Kind::Reduce(domain, new[&body]));
-                    if negative { dag.neg(sum) } else { sum }
+    let new = dag.map(order, |dag, node, new| match dag.kind(node).clone() {
+        Kind::Sum(c, terms) => {
+            let terms: Vec<_> = terms
+                .into_iter()
+                .map(|(k, n)| (k, new[&n], uses.get(n) == Some(1)))
+                .collect();
+            factored_sum(dag, &c, &terms, &Rational::ONE, None)
+        }
+        Kind::Product(..) if dag.is_sealed(node) => dag.rebuild(node, &|child| new[&child]),
+        Kind::Product(k, factors) => match gathered(dag, &k, &factors, &uses) {
+            Some((domain, body, negative)) => {
+                // Its factors are these, so they are rewritten already.
+                if let Kind::Product(k, factors) = dag.kind(body).clone() {
+                    let image = factored_product(dag, k, factors, &uses, new);
+                    new.insert(body, image);
                 }
-                None => factored_product(dag, k, factors, &uses, &new),
-            },
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
+                let sum = dag.intern(Kind::Reduce(domain, new[&body]));
+                if negative { dag.neg(sum) } else { sum }
+            }
+            None => factored_product(dag, k, factors, &uses, new),
+        },
+        _ => dag.rebuild(node, &|child| new[&child]),
+    });
     for root in roots {
         *root = new[root];
     }

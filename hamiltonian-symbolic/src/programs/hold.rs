@@ -64,49 +64,45 @@ impl Arrays {
             Reads::Scalars | Reads::More => None,
         };
         let is_dear = |node: &Node| known[node].1;
-        let mut new: Map<Node, Node> = Map::default();
-        for &node in &order {
-            let image = match dag.kind(node).clone() {
-                _ if known[&node].0 != Reads::More => node,
-                Kind::Product(k, factors) if !dag.is_sealed(node) => {
-                    let mut rest: Factors = Vec::new();
-                    let mut groups: Vec<(Row, Factors)> = Vec::new();
-                    for (base, n) in factors {
-                        match row(base) {
-                            None => rest.push((new[&base], n)),
-                            Some(row) => match groups.iter_mut().find(|(own, _)| *own == row) {
-                                Some((_, group)) => group.push((base, n)),
-                                None => groups.push((row, vec![(base, n)])),
-                            },
-                        }
+        let new = dag.map(order, |dag, node, new| match dag.kind(node).clone() {
+            _ if known[&node].0 != Reads::More => node,
+            Kind::Product(k, factors) if !dag.is_sealed(node) => {
+                let mut rest: Factors = Vec::new();
+                let mut groups: Vec<(Row, Factors)> = Vec::new();
+                for (base, n) in factors {
+                    match row(base) {
+                        None => rest.push((new[&base], n)),
+                        Some(row) => match groups.iter_mut().find(|(own, _)| *own == row) {
+                            Some((_, group)) => group.push((base, n)),
+                            None => groups.push((row, vec![(base, n)])),
+                        },
                     }
-                    for ((row, rows), group) in groups {
-                        if let [(base, n @ ..=-1)] = group.as_slice() {
-                            // Powers of a reciprocal share it.
-                            let value = dag.product(&Rational::ONE, &[(*base, -1)]);
-                            rest.push((self.element(dag, value, &row, rows), -n));
-                        } else if group.iter().any(|(base, n)| *n < 0 || is_dear(base)) {
-                            let value = dag.product(&Rational::ONE, &group);
-                            rest.push((self.element(dag, value, &row, rows), 1));
-                        } else {
-                            rest.extend(group);
-                        }
-                    }
-                    dag.product(&k, &rest)
                 }
-                _ => {
-                    let mut dear = Vec::new();
-                    dag.for_children(node, |child| dear.extend(Some(child).filter(is_dear)));
-                    for child in dear {
-                        if let Some((row, rows)) = row(child) {
-                            new.insert(child, self.element(dag, child, &row, rows));
-                        }
+                for ((row, rows), group) in groups {
+                    if let [(base, n @ ..=-1)] = group.as_slice() {
+                        // Powers of a reciprocal share it.
+                        let value = dag.product(&Rational::ONE, &[(*base, -1)]);
+                        rest.push((self.element(dag, value, &row, rows), -n));
+                    } else if group.iter().any(|(base, n)| *n < 0 || is_dear(base)) {
+                        let value = dag.product(&Rational::ONE, &group);
+                        rest.push((self.element(dag, value, &row, rows), 1));
+                    } else {
+                        rest.extend(group);
                     }
-                    dag.rebuild(node, &|child| new[&child])
                 }
-            };
-            new.insert(node, image);
-        }
+                dag.product(&k, &rest)
+            }
+            _ => {
+                let mut dear = Vec::new();
+                dag.for_children(node, |child| dear.extend(Some(child).filter(is_dear)));
+                for child in dear {
+                    if let Some((row, rows)) = row(child) {
+                        new.insert(child, self.element(dag, child, &row, rows));
+                    }
+                }
+                dag.rebuild(node, &|child| new[&child])
+            }
+        });
         for root in roots {
             *root = match row(*root) {
                 Some((row, rows)) if is_dear(root) => self.element(dag, *root, &row, rows),

@@ -6,7 +6,7 @@
 //! cannot be solved, a condition `index = k` is summed instead; where not even that can be said,
 //! there is no answer.
 
-use crate::dag::{Array, Dag, Kind, Map, Node};
+use crate::dag::{Array, Dag, Kind, Node};
 use crate::index::{Affine, Domain, Index};
 
 /// The loop over the elements of an array with this many rows.
@@ -159,21 +159,16 @@ fn gather(
 /// index of an axis without a division.
 fn at_number(dag: &mut Dag, site: &Index, loops: u64, value: Node, k: Domain) -> Option<Node> {
     let number = Index::plain(Affine::variable(k));
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[value]) {
-        let image = match dag.kind(node).clone() {
-            _ if dag.variables(node) & loops == 0 => node,
-            Kind::Element(array, row, None) if row == *site => {
-                dag.element(array, number.clone(), None)
-            }
-            Kind::Element(..) | Kind::Variable(_) | Kind::Reduce(..) | Kind::Count(_) => {
-                return None;
-            }
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
-    Some(new[&value])
+    let nodes = dag.reachable(&[value]);
+    let new = dag.try_map(nodes, |dag, node, new| match dag.kind(node).clone() {
+        _ if dag.variables(node) & loops == 0 => Some(node),
+        Kind::Element(array, row, None) if row == *site => {
+            Some(dag.element(array, number.clone(), None))
+        }
+        Kind::Element(..) | Kind::Variable(_) | Kind::Reduce(..) | Kind::Count(_) => None,
+        _ => Some(dag.rebuild(node, &|child| new[&child])),
+    });
+    new.map(|new| new[&value])
 }
 
 /// The value where `index = k`, 0 elsewhere.

@@ -4,7 +4,7 @@
 //! switch ([`known`]), an expression without its steps ([`smoothed`]). Invariant: agreement is an
 //! identity, proven by the normal form.
 
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
+use crate::dag::{Dag, Dependence, Kind, Node, Part};
 use crate::facts::{Facts, Given, comparisons};
 use crate::model::Model;
 use crate::normal_form::{self, Scope};
@@ -142,26 +142,23 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<N
         is_first
     };
     let mut has_steps = false;
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[root]) {
-        let image = match *dag.kind(node) {
-            Kind::Select(condition, yes, no) if is_step(dag, node) => {
-                has_steps = true;
-                let weight = weight(dag, condition);
-                let (yes, no) = (new[&yes], new[&no]);
-                let difference = dag.sub(yes, no);
-                let chosen = dag.mul(&[weight, difference]);
-                dag.add(&[no, chosen])
-            }
-            Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
-                has_steps = true;
-                let x = new[&x[0]];
-                dag.external(STEP, Part::Value, &[x])
-            }
-            _ => dag.rebuild(node, &|child| new[&child]),
-        };
-        new.insert(node, image);
-    }
+    let nodes = dag.reachable(&[root]);
+    let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
+        Kind::Select(condition, yes, no) if is_step(dag, node) => {
+            has_steps = true;
+            let weight = weight(dag, condition);
+            let (yes, no) = (new[&yes], new[&no]);
+            let difference = dag.sub(yes, no);
+            let chosen = dag.mul(&[weight, difference]);
+            dag.add(&[no, chosen])
+        }
+        Kind::Call(Op::Sign, ref x) if is_step(dag, node) => {
+            has_steps = true;
+            let x = new[&x[0]];
+            dag.external(STEP, Part::Value, &[x])
+        }
+        _ => dag.rebuild(node, &|child| new[&child]),
+    });
     has_steps.then(|| new[&root])
 }
 
@@ -169,30 +166,27 @@ pub(super) fn smoothed(model: &mut Model, root: Node, given: &Given) -> Option<N
 /// comparisons.
 fn weight(dag: &mut Dag, condition: Node) -> Node {
     let one = dag.integer(1);
-    let mut new: Map<Node, Node> = Map::default();
-    for node in dag.reachable(&[condition]) {
-        let image = match *dag.kind(node) {
-            Kind::Compare(_, a, b) => {
-                let apart = dag.sub(b, a);
-                dag.external(STEP, Part::Value, &[apart])
-            }
-            Kind::Not(a) => {
-                let a = new[&a];
-                dag.sub(one, a)
-            }
-            Kind::And(a, b) => {
-                let (a, b) = (new[&a], new[&b]);
-                dag.mul(&[a, b])
-            }
-            Kind::Or(a, b) => {
-                let (a, b) = (new[&a], new[&b]);
-                let both = dag.mul(&[a, b]);
-                let any = dag.add(&[a, b]);
-                dag.sub(any, both)
-            }
-            _ => node,
-        };
-        new.insert(node, image);
-    }
+    let nodes = dag.reachable(&[condition]);
+    let new = dag.map(nodes, |dag, node, new| match *dag.kind(node) {
+        Kind::Compare(_, a, b) => {
+            let apart = dag.sub(b, a);
+            dag.external(STEP, Part::Value, &[apart])
+        }
+        Kind::Not(a) => {
+            let a = new[&a];
+            dag.sub(one, a)
+        }
+        Kind::And(a, b) => {
+            let (a, b) = (new[&a], new[&b]);
+            dag.mul(&[a, b])
+        }
+        Kind::Or(a, b) => {
+            let (a, b) = (new[&a], new[&b]);
+            let both = dag.mul(&[a, b]);
+            let any = dag.add(&[a, b]);
+            dag.sub(any, both)
+        }
+        _ => node,
+    });
     new[&condition]
 }

@@ -50,11 +50,9 @@ pub(super) fn substitute(
         rules,
         left: BUDGET,
     };
-    let mut new: Map<Node, Node> = Map::default();
-    for node in order {
+    let new = dag.try_map(order, |dag, node, new| {
         if let Some(image) = images.get(&node) {
-            new.insert(node, *image);
-            continue;
+            return Some(*image);
         }
         let mut changed = false;
         dag.for_children(node, |child| changed |= new[&child] != child);
@@ -73,9 +71,9 @@ pub(super) fn substitute(
         } else {
             node
         };
-        new.insert(node, image);
-    }
-    Some(roots.iter().map(|root| new[root]).collect())
+        Some(image)
+    });
+    new.map(|new| roots.iter().map(|root| new[root]).collect())
 }
 
 /// A node made of others that were reduced before.

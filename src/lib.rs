@@ -128,7 +128,7 @@ gallery! {
     fput "Fermi, Pasta, Ulam and Tsingou: the energy returns to the first mode."
     nbody_eight "Three bodies on a figure eight."
     nbody_collapse "A ball of stars falls together and throws some out."
-    chaos_map "Lyapunov exponents of 40 000 starts of Hénon and Heiles: islands of regular orbits in the chaotic sea."
+    chaos_map "MEGNO of 40 000 starts of Hénon and Heiles: islands of regular orbits in the chaotic sea."
     phi4 "A bent kink and antikink of the φ⁴ field meet and leave a bubble that shrinks: φ = 0 at four times."
     basins "A damped pendulum that is pushed to and fro ends on one of three orbits: their basins."
     mixing "Stars of one energy in a turning bar: those that began on the right and on the left, at t = 5."

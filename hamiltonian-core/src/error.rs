@@ -134,7 +134,7 @@ pub enum Error {
     },
     /// Mean rates over no steps are asked for.
     #[error(
-        "Lyapunov exponents are means over steps: the number of steps must be at least 1, found 0"
+        "indicators of chaos are means over steps: the number of steps must be at least 1, found 0"
     )]
     NoSteps,
     /// A start of a system in another time (`dt = g*ds`) that is not on the shell H = 0, where alone

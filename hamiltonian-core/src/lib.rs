@@ -139,7 +139,7 @@ pub mod stores {
 /// Derivatives of the numerical map: Lyapunov exponents, Floquet multipliers, periodic orbits.
 pub mod tangents {
     pub use crate::periodic::{Closing, PeriodicOrbit};
-    pub use crate::tangent::{Tangent, monodromy, multipliers, symplectic_defect};
+    pub use crate::tangent::{Tangent, megno, monodromy, multipliers, symplectic_defect};
 }
 
 /// The state of a system: `StateOf<Pendulum>`, `StateOf<Toda<8>, Dual<f64>>`.
@@ -171,7 +171,9 @@ pub mod prelude {
         Variational, WisdomHolman3, WisdomHolman5, WisdomHolman7, WisdomHolman11, WisdomHolman17,
         Yoshida4, Yoshida6,
     };
-    pub use crate::tangents::{Closing, PeriodicOrbit, Tangent, monodromy, symplectic_defect};
+    pub use crate::tangents::{
+        Closing, PeriodicOrbit, Tangent, megno, monodromy, symplectic_defect,
+    };
     pub use crate::{
         AnyRun, Checkpoint, DoubleDouble, Dual, Ensemble, Ensembles, Error, Gradient, Integrator,
         Lyapunov, Member, Observer, Real, Run, Shard, Split, State, StateOf, Status, Sweep, System,

@@ -1,11 +1,12 @@
 //! The derivative of the numerical map along an orbit, and quantities computed from it.
 //!
 //! Input: a system, a scheme, a start and a step. Output: [`Tangent`], the run with deviations from it;
-//! Lyapunov exponents, alignment indices, [`monodromy`] matrices. Invariants: deviations are exact
+//! Lyapunov exponents, [`megno()`], alignment indices, [`monodromy`] matrices. Invariants: deviations are exact
 //! derivatives of the scheme's map (runs over [`Dual`]s), not solutions of other equations; taking
 //! other deviations of the same span changes no bit of the orbit.
 
 mod eigenvalues;
+mod megno;
 
 use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
@@ -16,6 +17,8 @@ use crate::vector::Vector;
 use alloc::vec::Vec;
 use hamiltonian_lanes::{Dual, Real};
 use nalgebra::DMatrix;
+
+pub(crate) use megno::Megno;
 
 /// A run with deviations from its orbit: solutions of the linearised map along it.
 ///
@@ -115,21 +118,16 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     pub fn orthonormalise(&mut self) -> Vec<T> {
         let mut matrix = self.matrix();
         let mut lengths = alloc::vec![T::zero(); self.runs.len()];
-        gram_schmidt(matrix.as_mut_slice(), &mut lengths, self);
+        gram_schmidt(matrix.as_mut_slice(), &mut lengths, true, self);
         self.show();
         lengths
     }
 
     /// Scales every deviation to the length 1. Returns the lengths before.
     pub fn normalise(&mut self) -> Vec<T> {
-        let matrix = self.matrix();
-        let lengths = matrix.column_iter();
-        let lengths: Vec<T> = lengths
-            .map(|v| dot(v.as_slice(), v.as_slice()).sqrt())
-            .collect();
-        for (j, length) in lengths.iter().enumerate() {
-            self.combine(j, length.recip(), None);
-        }
+        let mut matrix = self.matrix();
+        let mut lengths = alloc::vec![T::zero(); self.runs.len()];
+        gram_schmidt(matrix.as_mut_slice(), &mut lengths, false, self);
         self.show();
         lengths
     }
@@ -160,23 +158,37 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// # Errors
     /// [`Error::NoSteps`] for 0 steps; those of [`advance`](Tangent::advance).
     pub fn lyapunov(&mut self, steps: u64, every: u64) -> Result<Vec<T>, Error> {
+        let mut sums = alloc::vec![T::zero(); self.runs.len()];
+        let begin = self.time();
+        self.grow(steps, every, |_, lengths| {
+            for (sum, length) in sums.iter_mut().zip(lengths) {
+                *sum += length.ln();
+            }
+        })?;
+        let time = self.time() - begin;
+        Ok(sums.into_iter().map(|sum| sum / time).collect())
+    }
+
+    /// Makes steps, and deviations orthonormal after each stretch of them; `see` receives the first and last step of
+    /// the stretch, counted from the first call, and what each deviation has grown to.
+    fn grow(
+        &mut self,
+        steps: u64,
+        every: u64,
+        mut see: impl FnMut([u64; 2], &[T]),
+    ) -> Result<(), Error> {
         if steps == 0 {
             return Err(Error::NoSteps);
         }
-        let mut sums = alloc::vec![T::zero(); self.runs.len()];
-        let begin = self.time();
-        let mut left = steps;
+        let mut made = 0;
         self.orthonormalise();
-        while left > 0 {
-            let n = every.clamp(1, left);
+        while made < steps {
+            let n = every.clamp(1, steps - made);
             self.advance(n)?;
-            left -= n;
-            for (sum, grown) in sums.iter_mut().zip(self.orthonormalise()) {
-                *sum += grown.ln();
-            }
+            see([made, made + n], &self.orthonormalise());
+            made += n;
         }
-        let time = self.time() - begin;
-        Ok(sums.into_iter().map(|sum| sum / time).collect())
+        Ok(())
     }
 
     /// GALI of all k deviations: the volume of the parallelepiped of their directions, between 0 and 1.
@@ -197,12 +209,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// # Ok::<(), Error>(())
     /// ```
     pub fn gali(&self) -> T {
-        let mut matrix = self.directions();
-        let mut lengths = alloc::vec![T::zero(); self.runs.len()];
-        gram_schmidt(matrix.as_mut_slice(), &mut lengths, &mut ());
-        lengths
-            .into_iter()
-            .fold(T::one(), |volume, length| volume * length)
+        volume(self.matrix().as_mut_slice(), self.runs.len())
     }
 
     /// SALI of the first two deviations, the smaller of |v̂₁ + v̂₂| and |v̂₁ − v̂₂|, between 0 and √2; GALI of
@@ -228,10 +235,8 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     /// The deviations with length 1.
     fn directions(&self) -> DMatrix<T> {
         let mut matrix = self.matrix();
-        for mut column in matrix.column_iter_mut() {
-            let scale = dot(column.as_slice(), column.as_slice()).sqrt().recip();
-            column.iter_mut().for_each(|to| *to *= scale);
-        }
+        let mut lengths = alloc::vec![T::zero(); self.runs.len()];
+        gram_schmidt(matrix.as_mut_slice(), &mut lengths, false, &mut ());
         matrix
     }
 
@@ -301,6 +306,23 @@ pub(crate) fn towards<T: Real, V: Vector<Scalar = Dual<T>>>(
     start
 }
 
+/// A state with a deviation in a direction without symmetry: its components are 1 and the fractional parts of multiples
+/// of the golden ratio.
+pub(crate) fn aslant<T: Real, V: Vector<Scalar = Dual<T>>>(lifted: &State<V>) -> State<V> {
+    /// 2⁶⁴ divided by the golden ratio.
+    const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+    let mut start = lifted.clone();
+    let mut multiple = 0_u64;
+    for part in [&mut start.q, &mut start.p] {
+        for index in 0..part.len() {
+            multiple = multiple.wrapping_add(GOLDEN);
+            let fraction = (multiple >> 11) as f64 / (1_u64 << 53) as f64;
+            part.component_mut(index).eps = T::constant(1.0 + fraction, 0.0);
+        }
+    }
+    start
+}
+
 /// An error for no deviation from a state of `n` coordinates, or more than there are directions.
 pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error> {
     match deviations == 0 || deviations > 2 * n {
@@ -323,20 +345,32 @@ impl<T> Columns<T> for () {
     fn combine(&mut self, _: usize, _: T, _: Option<(usize, T)>) {}
 }
 
-/// Makes columns orthonormal, each against those before it, twice, since once leaves what rounding
-/// did; `lengths` become theirs before the last division. The matrix stands column after column, and `with`
-/// receives every change of a column.
+/// The volume that the directions of some columns span.
+pub(crate) fn volume<T: Real>(matrix: &mut [T], columns: usize) -> T {
+    let mut lengths = alloc::vec![T::zero(); columns];
+    gram_schmidt(matrix, &mut lengths, false, &mut ());
+    gram_schmidt(matrix, &mut lengths, true, &mut ());
+    lengths
+        .into_iter()
+        .fold(T::one(), |volume, length| volume * length)
+}
+
+/// Gives columns the length 1; if they are to be `orthogonal`, first makes each so to those before it, twice, since
+/// once leaves what rounding did. `lengths` become theirs before the last division. The matrix stands column
+/// after column, and `with` receives every change of a column.
 #[inline(always)]
 pub(crate) fn gram_schmidt<T: Real>(
     matrix: &mut [T],
     lengths: &mut [T],
+    orthogonal: bool,
     with: &mut impl Columns<T>,
 ) {
     let rows = matrix.len() / lengths.len().max(1);
     for (j, grown) in lengths.iter_mut().enumerate() {
         let (before, column) = matrix.split_at_mut(j * rows);
         let column = &mut column[..rows];
-        for pass in 0..2 * j {
+        let passes = if orthogonal { 2 * j } else { 0 };
+        for pass in 0..passes {
             let i = pass % j;
             let other = &before[i * rows..][..rows];
             let along = dot(other, column);
@@ -398,6 +432,53 @@ where
     let mut tangent = Tangent::new(system, scheme, start, step, size)?;
     tangent.advance(steps)?;
     Ok(tangent.matrix())
+}
+
+/// MEGNO of an orbit, the mean exponential growth of nearby orbits, over so many steps of the size `step`. The deviation
+/// gets the length 1 every so many of them: so often that it does not overflow.
+///
+/// Over longer and longer stretches MEGNO tends to 2 on a regular orbit, and to 0 if neighbours do not drift apart, as
+/// those of a harmonic oscillator. On a chaotic orbit it grows like λt/2, where λ is the largest Lyapunov exponent.
+///
+/// It is the mean Ȳ(t) of Y(t) = (2/t) ∫₀ᵗ s d ln δ(s) (P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. Ser. 147
+/// (2000) 205, doi:10.1051/aas:2000108). Time is counted in steps, as for a map, and both integrals are sums over the
+/// stretches of `every` steps, by the trapezoidal rule. δ begins in a direction without symmetry, the same for
+/// every orbit: on a section of symmetry, a unit vector can be one in which neighbours do not drift apart.
+///
+/// ```
+#[doc = include_str!("doc/oscillator.md")]
+///
+/// let start = State::new([1.0], [0.0]);
+/// let megno = megno(&Oscillator {}, RungeKutta4, start, 0.1, 10_000, 10)?;
+/// assert!(megno.abs() < 0.01);
+/// # Ok::<(), Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::NoSteps`] for 0 steps; those of [`Tangent::new`] and [`Tangent::advance`].
+pub fn megno<T, S, M>(
+    system: &S,
+    scheme: M,
+    start: State<<S as System<T>>::Vector>,
+    step: T,
+    steps: u64,
+    every: u64,
+) -> Result<T, Error>
+where
+    T: Real,
+    S: System<T> + System<Dual<T>>,
+    M: Scheme<Dual<T>, S>,
+{
+    let start = aslant(&lifted::<T, S>(system, &start)?);
+    let run = Integrator::new(system, scheme, start, Dual::fixed(step))?;
+    let mut tangent = Tangent {
+        runs: alloc::vec![run],
+    };
+    let mut megno = Megno::new();
+    tangent.grow(steps, every, |stretch, lengths| {
+        megno.add(stretch, lengths[0].ln());
+    })?;
+    Ok(Megno::mean(megno.area(), steps))
 }
 
 /// max |MᵀJM − J|, with J = (0, 1; −1, 0) for coordinates, then momenta: 0 where M is symplectic.

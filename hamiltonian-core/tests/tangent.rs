@@ -3,7 +3,7 @@
 use crate::common::systems::*;
 use core::f64::consts::{FRAC_PI_2, TAU};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::private::nalgebra::{Complex, DMatrix};
+use hamiltonian_core::private::nalgebra::{Complex, DMatrix, DVector};
 use hamiltonian_core::private::{Group, SVector};
 use hamiltonian_core::schemes::author::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
@@ -98,7 +98,87 @@ fn alignment_tells_regular_orbits_from_chaotic_ones() {
     }
     let (_, aligned) = gali(State::new([0.0, -0.25], [0.42081, 0.0]));
     println!("chaotic: GALI₂ < 1e-12 at t = {aligned:?}");
-    assert!(aligned.is_some());
+    let t = aligned.expect("it falls");
+    // Like exp(−(λ₁ − λ₂)t), with the exponents of that stretch.
+    let start = State::new([0.0, -0.25], [0.42081, 0.0]);
+    let mut tangent = Tangent::new(&HEILES, BlanesMoan4, start, 0.125, 2).unwrap();
+    let rates = tangent.lyapunov((8.0 * t) as u64, 8).unwrap();
+    let (falls, expected) = (-1e-12_f64.ln() / t, rates[0] - rates[1]);
+    println!("GALI₂ falls at the rate {falls}, λ₁ − λ₂ = {expected}");
+    assert!((falls / expected - 1.0).abs() < 0.1, "{falls} {expected}");
+}
+
+/// A pendulum with both frequencies 1.
+fn unit_pendulum() -> Hand<Pendulum, 1> {
+    Hand(Pendulum {
+        m: 1.0,
+        l: 1.0,
+        g: 1.0,
+        from_bottom: true,
+    })
+}
+
+#[test]
+fn megno_tells_order_from_chaos() {
+    let heiles = |start: Plane, steps| megno(&HEILES, BlanesMoan4, start, 0.125, steps, 8).unwrap();
+    // Neighbours on a torus drift apart linearly, as do those of a pendulum that swings: 2, less a multiple of
+    // (ln t)²/t.
+    for (steps, within) in [(80_000, 0.05), (800_000, 0.01)] {
+        let ordered = heiles(regular(), steps);
+        let start = State::new([1.0], [0.0]);
+        let swinging = megno(&unit_pendulum(), Strang, start, 0.125, steps, 8).unwrap();
+        println!("{steps} steps: on a torus {ordered}, of a pendulum {swinging}");
+        assert!((ordered - 2.0).abs() < within, "{ordered}");
+        assert!((swinging - 2.0).abs() < within, "{swinging}");
+    }
+    // On the section of symmetry x = 0, p_y = 0 too, where neighbours in x do not drift apart.
+    let symmetric = heiles(State::new([0.0, 0.25], [0.44, 0.0]), 80_000);
+    println!("on the section of symmetry {symmetric}");
+    assert!((symmetric - 2.0).abs() < 0.05, "{symmetric}");
+    // Those of springs stay where they are: 0.
+    let start = State::new([1.0, 0.3], [0.0, 0.2]);
+    let system = Hand(Springs { w: 2_f64.sqrt() });
+    let springs = megno(&system, Gauss::<2>::default(), start, 0.125, 80_000, 8).unwrap();
+    assert!(springs.abs() < 0.01, "{springs}");
+    // A pendulum that stands on its head has the exponent 1: t/2.
+    let head = State::new([core::f64::consts::PI], [0.0]);
+    let standing = megno(&unit_pendulum(), Strang, head, 0.125, 160, 8).unwrap();
+    println!("standing {standing} at t = 20");
+    assert!((standing - 10.0).abs() < 0.3, "{standing}");
+    // In the chaotic sea λ ≈ 0.048: about 240 at t = 10⁴, and four times as much as at a quarter of it.
+    let sea = |steps| (0..8).map(|k| heiles(chaotic(k), steps)).sum::<f64>() / 8.0;
+    let (quarter, whole) = (sea(20_000), sea(80_000));
+    println!("in the sea {quarter} at t = 2500, {whole} at t = 10⁴");
+    assert!((150.0..350.0).contains(&whole), "{whole}");
+    assert!((2.5..6.0).contains(&(whole / quarter)), "{quarter} {whole}");
+}
+
+/// ∫ s d ln δ = t ln δ(t) − ∫ ln δ ds, from the lengths of deviations that nothing makes orthonormal.
+#[test]
+fn megno_is_the_mean_of_its_integral() {
+    let megno = |steps, every| megno(&HEILES, BlanesMoan4, chaotic(0), 0.125, steps, every);
+    // 1 and the fractional part of k times the golden ratio.
+    let golden = (5_f64.sqrt() - 1.0) / 2.0;
+    let begin = DVector::from_fn(4, |k, _| 1.0 + ((k + 1) as f64 * golden).fract());
+    for (steps, every) in [(400, 1), (400, 8), (397, 8)] {
+        let mut tangent = Tangent::new(&HEILES, BlanesMoan4, chaotic(0), 0.125, 4).unwrap();
+        let (mut made, mut integral, mut last, mut present, mut area) = (0, 0.0, 0.0, 0.0, 0.0);
+        while made < steps {
+            let n = every.min(steps - made);
+            tangent.advance(n).unwrap();
+            made += n;
+            let logarithm = ((tangent.matrix() * &begin).norm() / begin.norm()).ln();
+            integral += n as f64 * (last + logarithm) / 2.0;
+            last = logarithm;
+            let before = present;
+            present = 2.0 * (logarithm - integral / made as f64);
+            area += n as f64 * (before + present) / 2.0;
+        }
+        let (found, expected) = (megno(steps, every).unwrap(), area / steps as f64);
+        println!("{steps} steps, every {every}: {found}");
+        assert!((found - expected).abs() < 1e-11, "{found} {expected}");
+    }
+    assert_eq!(megno(0, 1).unwrap_err(), Error::NoSteps);
 }
 
 /// The complete elliptic integrals K and E of parameter m, by the arithmetic-geometric mean.
@@ -277,13 +357,7 @@ fn renormalising_changes_neither_orbit_nor_span() {
 fn rates_are_in_the_order_of_the_deviations() {
     let rates = |deviations| {
         let start = State::new([0.1], [1.0]);
-        let system = Hand(Pendulum {
-            m: 1.0,
-            l: 1.0,
-            g: 1.0,
-            from_bottom: true,
-        });
-        let mut tangent = Tangent::new(&system, Strang, start, 0.1, deviations).unwrap();
+        let mut tangent = Tangent::new(&unit_pendulum(), Strang, start, 0.1, deviations).unwrap();
         tangent.lyapunov(1_000, 10).unwrap()
     };
     let (one, two) = (rates(1), rates(2));

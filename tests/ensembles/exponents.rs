@@ -1,52 +1,75 @@
-//! Lyapunov exponents of members.
+//! Exponents and other indicators of chaos of members.
 
 use super::*;
 use std::sync::atomic::AtomicBool;
 
-/// Exponents of members in lanes have the bits of single tangents.
+/// Exponents, MEGNO and GALI of members in lanes have the bits of single tangents.
 fn deviates<S, M>(make: fn(Member) -> (S, StateOf<S>), scheme: M, deviations: usize)
 where
     S: System<f64> + System<Dual<f64>>,
     M: Ensembles<S, Dual<f64>>,
 {
+    type Found = Result<Vec<f64>, Error>;
     let h = 0.0625;
-    let exponents = |count, threads| {
+    let swarm = |count, threads| {
         Lyapunov::new(count, make, scheme.clone(), h)
             .deviations(deviations)
             .steps(50)
             .every(8)
             .threads(threads)
             .reproducible()
-            .collect()
-            .expect("there are members")
     };
-    let all = exponents(COUNT, 2);
-    assert_eq!(all.len(), COUNT);
-    for (index, found) in all.iter().enumerate() {
-        let (system, start) = make(Member::new(index, 0));
-        let expected = Tangent::new(&system, scheme.clone(), start, h, deviations)
-            .and_then(|mut tangent| tangent.lyapunov(50, 8));
-        match (found, expected) {
-            (Ok(found), Ok(expected)) => assert_eq!(
-                found.iter().map(|rate| rate.to_bits()).collect::<Vec<_>>(),
-                expected
-                    .iter()
-                    .map(|rate| rate.to_bits())
-                    .collect::<Vec<_>>(),
-                "member {index}: {found:?} {expected:?}"
-            ),
-            (Err(Error::Member { index: of, error }), Err(expected)) => {
-                assert_eq!((*of, error.to_string()), (index, expected.to_string()));
+    let compare = |all: &[Found], alone: &dyn Fn(&S, StateOf<S>) -> Found| {
+        assert_eq!(all.len(), COUNT);
+        let bits = |numbers: &[f64]| numbers.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+        for (index, found) in all.iter().enumerate() {
+            let (system, start) = make(Member::new(index, 0));
+            match (found, alone(&system, start)) {
+                (Ok(found), Ok(expected)) => {
+                    let same = bits(found) == bits(&expected);
+                    assert!(same, "member {index}: {found:?} {expected:?}");
+                }
+                (Err(Error::Member { index: of, error }), Err(expected)) => {
+                    assert_eq!((*of, error.to_string()), (index, expected.to_string()));
+                }
+                (found, expected) => panic!("member {index}: {found:?}, alone {expected:?}"),
             }
-            (found, expected) => panic!("member {index}: {found:?}, alone {expected:?}"),
         }
-    }
-    let few = exponents(3, 1).into_iter().map(Result::ok);
-    assert!(few.eq(all.into_iter().take(3).map(Result::ok)));
+    };
+    let tangent =
+        |system: &S, start, deviations| Tangent::new(system, scheme.clone(), start, h, deviations);
+
+    let all = swarm(COUNT, 2).collect().expect("there are members");
+    compare(&all, &|system, start| {
+        tangent(system, start, deviations)?.lyapunov(50, 8)
+    });
+    let few = swarm(3, 1).collect().expect("there are members");
+    assert!(
+        few.iter()
+            .zip(&all)
+            .all(|(few, all)| few.as_ref().ok() == all.as_ref().ok())
+    );
+
+    let each = |all: Result<Vec<Result<f64, Error>>, Error>| -> Vec<Found> {
+        let all = all.expect("there are members").into_iter();
+        all.map(|one| one.map(|number| vec![number])).collect()
+    };
+    compare(&each(swarm(COUNT, 2).megno()), &|system, start| {
+        Ok(vec![megno(system, scheme.clone(), start, h, 50, 8)?])
+    });
+    compare(&each(swarm(COUNT, 2).gali(deviations)), &|system, start| {
+        let mut tangent = tangent(system, start, deviations)?;
+        for _ in 0..6 {
+            tangent.advance(8)?;
+            tangent.normalise();
+        }
+        tangent.advance(2)?;
+        Ok(vec![tangent.gali()])
+    });
 }
 
 #[test]
-fn exponents_of_members_are_those_of_single_tangents() {
+fn indicators_of_members_are_those_of_single_tangents() {
     let falling = |member: Member| {
         // Some fall into the hole on the way, one starts outside of it.
         let q = if member.index == 11 {
@@ -65,6 +88,14 @@ fn exponents_of_members_are_those_of_single_tangents() {
     let _level = one_level();
     let of = || Lyapunov::new(2, mixture, ImplicitMidpoint::default(), 0.1);
     assert!(matches!(of().collect(), Err(Error::NoSteps)));
+    assert!(matches!(of().megno(), Err(Error::NoSteps)));
+    let three = of().steps(1).gali(3).expect("members");
+    assert!(
+        three
+            .iter()
+            .all(|one| matches!(one, Err(Error::Member { error, .. })
+        if matches!(**error, Error::Deviations { most: 2, found: 3 })))
+    );
     let none = Lyapunov::new(0, mixture, ImplicitMidpoint::default(), 0.1).steps(1);
     assert!(matches!(none.collect(), Err(Error::NoMembers)));
     let many = of().steps(1).deviations(3).collect().expect("members");

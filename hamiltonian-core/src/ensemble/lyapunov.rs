@@ -1,11 +1,11 @@
-//! Lyapunov exponents of many starts.
+//! Indicators of chaos of many starts.
 //!
-//! Input: a system and a start for each index, a scheme, a step. Output: the exponents of each. Invariants:
+//! Input: a system and a start for each index, a scheme, a step. Output: the exponents, MEGNO or GALI of each. Invariants:
 //! threads and neighbours change no bit of a member.
 
 use super::Member;
 use super::bound::Ensembles;
-use super::drive::deviations::{Deviated, Deviations};
+use super::drive::deviations::{Deviated, Deviations, Indicator};
 use super::guard::guard;
 use super::ordered::in_order;
 use super::threads;
@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::integrator::{check_start, check_step, duration};
 use crate::state::State;
 use crate::system::System;
-use crate::tangent::{check_deviations, lifted, towards};
+use crate::tangent::{aslant, check_deviations, lifted, towards};
 use crate::vector::Vector;
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -28,11 +28,15 @@ type D = Dual<f64>;
 type Make<'a, S> =
     Box<dyn Fn(Member) -> Result<(S, State<<S as System<f64>>::Vector>), Error> + Send + Sync + 'a>;
 
-/// The Lyapunov exponents of many starts, in the lanes of packs and on threads: maps of chaos.
+/// Order and chaos of many starts, in the lanes of packs and on threads: Lyapunov exponents, MEGNO or GALI.
 ///
-/// They are those of [`Tangent::lyapunov`](crate::tangents::Tangent::lyapunov) for each member: mean rates of growth
-/// of deviations over a finite stretch, in units of 1/time. Each deviation is carried by a run over
-/// [`Dual`](crate::Dual)s.
+/// | | for each member | as |
+/// |---|---|---|
+/// | [`collect`](Lyapunov::collect) | exponents, in units of 1/time | [`Tangent::lyapunov`](crate::tangents::Tangent::lyapunov) |
+/// | [`megno`](Lyapunov::megno) | tends to 2, or grows like λt/2 | [`megno`](crate::tangents::megno()) |
+/// | [`gali`](Lyapunov::gali) | stays, or falls like exp(−Σ(λ₁ − λᵢ)t) | [`Tangent::gali`](crate::tangents::Tangent::gali) |
+///
+/// Each deviation is carried by a run over [`Dual`](crate::Dual)s.
 ///
 /// ```
 #[doc = include_str!("../doc/oscillator.md")]
@@ -104,22 +108,22 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         }
     }
 
-    /// Sets the number of steps of which the rates are means.
+    /// Sets the number of steps.
     #[must_use]
     pub fn steps(mut self, n: u64) -> Self {
         self.steps = n;
         self
     }
 
-    /// Makes deviations orthonormal after so many steps (0 counts as 1); by default after 10. Every time unit
-    /// or so is often enough.
+    /// Makes deviations orthonormal, or for GALI of length 1, after so many steps (0 counts as 1); by default after
+    /// 10. Every time unit or so is often enough.
     #[must_use]
     pub fn every(mut self, steps: u64) -> Self {
         self.every = steps.max(1);
         self
     }
 
-    /// Sets the number of exponents, the greatest first; by default it is 1. The rates of k deviations are
+    /// Sets the number of exponents that [`collect`](Lyapunov::collect) gives, the greatest first; by default it is 1. The rates of k deviations are
     /// the first k of more.
     #[must_use]
     pub fn deviations(mut self, k: usize) -> Self {
@@ -162,6 +166,57 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
     /// [`Error::NoMembers`], [`Error::NoSteps`], [`Error::Step`], [`Error::Cancelled`]. The error of a
     /// member is [`Error::Member`] in its place: of its start, [`Error::Deviations`], of its steps.
     pub fn collect(&self) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
+        self.compute(Indicator::Rates, self.deviations)
+    }
+
+    /// The MEGNO of each member, or its error, in the order of the index.
+    ///
+    /// It costs as much as one exponent, and tells order from chaos earlier: regular members are near 2, whatever the
+    /// units.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
+    /// let all = Lyapunov::new(20, start, ImplicitMidpoint::default(), 0.1).steps(1_000);
+    /// for megno in all.megno()? {
+    ///     // Neighbours of an oscillator stay where they are.
+    ///     assert!(megno?.abs() < 0.1);
+    /// }
+    /// for gali in all.gali(2)? {
+    ///     assert!(gali? > 0.9);
+    /// }
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`collect`](Lyapunov::collect).
+    pub fn megno(&self) -> Result<Vec<Result<f64, Error>>, Error> {
+        self.one(Indicator::Megno, 1)
+    }
+
+    /// GALI of the first `k` deviations of each member after all steps, or its error, in the order of the index.
+    ///
+    /// Deviations get the length 1 [`every`](Lyapunov::every) so many steps before the last.
+    ///
+    /// # Errors
+    /// Those of [`collect`](Lyapunov::collect).
+    pub fn gali(&self, k: usize) -> Result<Vec<Result<f64, Error>>, Error> {
+        self.one(Indicator::Gali, k)
+    }
+
+    /// An indicator that is one number.
+    fn one(&self, indicator: Indicator, count: usize) -> Result<Vec<Result<f64, Error>>, Error> {
+        let all = self.compute(indicator, count)?.into_iter();
+        Ok(all.map(|found| Ok(found?[0])).collect())
+    }
+
+    /// An indicator of each member, from so many deviations.
+    fn compute(
+        &self,
+        indicator: Indicator,
+        count: usize,
+    ) -> Result<Vec<Result<Vec<f64>, Error>>, Error> {
         /// The most members that are computed at once, by one thread.
         const CHUNK: usize = 640;
         if self.count == 0 {
@@ -175,7 +230,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         let size = (self.count / 64).next_multiple_of(64).clamp(64, CHUNK);
         let chunk = |job: usize| {
             let first = job * size;
-            self.chunk(first..self.count.min(first + size))
+            self.chunk(indicator, count, first..self.count.min(first + size))
         };
         let mut all = Vec::with_capacity(self.count);
         let mut result = Ok(());
@@ -196,11 +251,17 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         result.map(|()| all)
     }
 
-    /// The exponents of some members; `None` if the flag is set.
-    fn chunk(&self, indices: Range<usize>) -> Option<Vec<Result<Vec<f64>, Error>>> {
+    /// An indicator of some members; `None` if the flag is set.
+    fn chunk(
+        &self,
+        indicator: Indicator,
+        count: usize,
+        indices: Range<usize>,
+    ) -> Option<Vec<Result<Vec<f64>, Error>>> {
         let mut all: Deviations<'_, D, S> = Deviations {
             members: Vec::with_capacity(indices.len()),
-            count: self.deviations,
+            indicator,
+            count,
             step: Dual::fixed(self.step),
             interval: Dual::fixed(self.step * duration::<f64>(&self.scheme.entry())),
             steps: self.steps,
@@ -210,7 +271,7 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         // The errors of members that cannot start.
         let mut errors = Vec::new();
         for index in indices.clone() {
-            match self.begin(index, all.members.first()) {
+            match self.begin(index, (indicator, count), all.members.first()) {
                 Ok(member) => {
                     all.members.push(member);
                     errors.push(None);
@@ -222,25 +283,30 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
         if all.is_cancelled() {
             return None;
         }
-        let mut rates = all.members.into_iter().map(|member| member.rates);
-        let exponents = indices.zip(errors).map(|(index, error)| {
+        let mut found = all.members.into_iter().map(|member| member.found);
+        let numbers = indices.zip(errors).map(|(index, error)| {
             let of_member = match error {
                 Some(error) => Err(error),
-                None => rates.next().unwrap_or_else(|| Ok(Vec::new())),
+                None => found.next().unwrap_or_else(|| Ok(Vec::new())),
             };
             of_member.map_err(|error| Error::Member {
                 index,
                 error: Box::new(error),
             })
         });
-        Some(exponents.collect())
+        Some(numbers.collect())
     }
 
     /// A member at its start, which fits another.
-    fn begin(&self, index: usize, other: Option<&Deviated<D, S>>) -> Result<Deviated<D, S>, Error> {
+    fn begin(
+        &self,
+        index: usize,
+        (indicator, count): (Indicator, usize),
+        other: Option<&Deviated<D, S>>,
+    ) -> Result<Deviated<D, S>, Error> {
         let (system, start) = guard(|| (self.make)(Member::new(index, 0))).and_then(|made| made)?;
         let lifted = lifted::<f64, S>(&system, &start)?;
-        check_deviations(self.deviations, lifted.q.len())?;
+        check_deviations(count, lifted.q.len())?;
         let prepared = check_start::<D, S>(&system, &lifted)?;
         let fits = |other: &Deviated<D, S>| {
             Ensembles::<S, D>::fits(&self.scheme, &other.prepared, &prepared)
@@ -250,18 +316,21 @@ impl<'a, S: System<f64> + System<D>, M: Ensembles<S, D>> Lyapunov<'a, S, M> {
             return Err(Error::OtherSizes { system });
         }
         let mut words = Vec::new();
-        for deviation in 0..self.deviations {
-            let start = towards(&lifted, deviation);
+        for deviation in 0..count {
+            let start = match indicator {
+                Indicator::Megno => aslant(&lifted),
+                _ => towards(&lifted, deviation),
+            };
             self.scheme.check(&prepared, &start)?;
             let carried = self.scheme.start(&prepared, &start, Dual::fixed(self.step));
-            words.reserve_exact(self.deviations * carried.len());
+            words.reserve_exact(count * carried.len());
             words.extend(carried.components());
         }
         Ok(Deviated {
             prepared,
             words,
             start: lifted,
-            rates: Ok(Vec::new()),
+            found: Ok(Vec::new()),
         })
     }
 }

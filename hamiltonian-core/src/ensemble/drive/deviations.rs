@@ -1,7 +1,7 @@
 //! Members with deviations, in the lanes of one pack type.
 //!
-//! Input: a scheme and members at their starts, with some deviations each. Output: the sums of the logarithms
-//! of what deviations grow by, or the failure of a member. Invariants: every deviation is a run over dual
+//! Input: a scheme and members at their starts, with some deviations each. Output: an indicator of chaos, or the
+//! failure of a member. Invariants: every deviation is a run over dual
 //! numbers; a lane does what [`Tangent`](crate::tangents::Tangent) does, in the same order, so its bits depend on
 //! its member and on the arithmetic of the pack alone.
 
@@ -15,7 +15,7 @@ use crate::scheme::Scheme;
 use crate::state::{Carried, Point, State};
 use crate::system::System;
 use crate::system::gather::{Gather, VectorOver};
-use crate::tangent::{Columns, gram_schmidt};
+use crate::tangent::{Columns, Megno, gram_schmidt, volume};
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -32,20 +32,32 @@ pub(crate) struct Deviated<T: Real, S: System<T>> {
     pub(crate) words: Vec<T>,
     /// The state at its start.
     pub(crate) start: State<S::Vector>,
-    /// The mean rates of growth, or its error.
-    pub(crate) rates: Result<Vec<f64>, Error>,
+    /// The numbers of its indicator, or its error.
+    pub(crate) found: Result<Vec<f64>, Error>,
 }
 
-/// Members on their way to their mean rates of growth.
+/// What is computed from the deviations of a member.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Indicator {
+    /// The mean rate of growth of each, orthogonal to those before.
+    Rates,
+    /// The MEGNO of the first.
+    Megno,
+    /// The volume of their directions.
+    Gali,
+}
+
+/// Members on their way to an indicator of chaos.
 pub struct Deviations<'r, T: Real, S: System<T>> {
     pub(crate) members: Vec<Deviated<T, S>>,
+    pub(crate) indicator: Indicator,
     /// The number of deviations of each.
     pub(crate) count: usize,
     pub(crate) step: T,
     /// The time of one step.
     pub(crate) interval: T,
     pub(crate) steps: u64,
-    /// The steps after which deviations are made orthonormal.
+    /// The steps after which deviations are made orthonormal, or of length 1.
     pub(crate) every: u64,
     /// The flag that stops the work.
     pub(crate) cancel: Option<&'r AtomicBool>,
@@ -85,6 +97,7 @@ where
     lengths: Vec<T::Over<P>>,
     /// Sums of the logarithms of their growth.
     sums: Vec<T::Over<P>>,
+    megno: Megno<T::Over<P>>,
     /// Numbers of the lanes, component by component.
     rows: Vec<T>,
 }
@@ -182,6 +195,7 @@ where
                         matrix: vec![zero; n * size],
                         lengths: vec![zero; n],
                         sums: vec![zero; n],
+                        megno: Megno::new(),
                     });
                 }
             }
@@ -207,6 +221,7 @@ where
         for sum in &mut lanes.sums {
             *sum = <T::Over<P> as Real>::zero();
         }
+        lanes.megno = Megno::new();
     }
 
     /// Advances the members in the lanes to their ends. Those that are not finite become suspects, or, if they
@@ -221,7 +236,8 @@ where
     ) {
         let most = if is_careful { 1 } else { BLOCK };
         // At first no step: deviations are made orthonormal at the start too.
-        let (mut made, mut turn) = (0, 0);
+        let (mut made, mut turn, mut last_turn) = (0, 0, 0);
+        let is_volume = all.indicator == Indicator::Gali;
         loop {
             if all.is_cancelled() {
                 return;
@@ -235,7 +251,10 @@ where
                 clock: self.clock,
                 made,
                 n,
-                turns: made + n == turn,
+                // The volume is that of the deviations as they are at the end.
+                turns: made + n == turn && !(is_volume && turn == all.steps),
+                orthogonal: !is_volume,
+                last_turn,
                 carried: &mut self.carried,
                 shown: &mut self.shown,
                 work: &mut self.work,
@@ -243,6 +262,7 @@ where
                 matrix: &mut self.matrix,
                 lengths: &mut self.lengths,
                 sums: &mut self.sums,
+                megno: &mut self.megno,
             });
             if !is_finite {
                 self.note::<L>(scheme, all, (made, is_careful), &reached);
@@ -257,6 +277,7 @@ where
             if made == all.steps {
                 return self.arrive::<L>(all, &reached);
             }
+            last_turn = turn;
             turn = made.saturating_add(all.every).min(all.steps);
         }
     }
@@ -299,7 +320,7 @@ where
                 };
                 let seat = (&member.prepared, &member.start, all.step, clock);
                 let error = explain(scheme, seat, (made, &words), &point, times[lane].to_f64());
-                member.rates = Err(error);
+                member.found = Err(error);
             }
         }
     }
@@ -331,22 +352,37 @@ where
         true
     }
 
-    /// Gives the members their mean rates.
+    /// Gives the members their numbers.
     #[inline(always)]
     fn arrive<L: Level>(&mut self, all: &mut Deviations<'_, T, S>, reached: &T::Over<P>) {
         let lanes = P::LANES as usize;
         let mut times = vec![T::zero(); lanes];
         scatter::<L, T, P>(reached, &mut times);
-        let mut numbers = vec![T::zero(); lanes];
-        for sum in &self.sums {
-            scatter::<L, T, P>(sum, &mut numbers);
-            for (lane, seat) in self.seats.iter().enumerate() {
-                let Some(member) = seat.map(|at| &mut all.members[at]) else {
-                    continue;
-                };
-                let time = times[lane].to_f64() - member.start.t.to_f64();
-                if let Ok(rates) = &mut member.rates {
-                    rates.push(numbers[lane].to_f64() / time);
+        let megno = [self.megno.area()];
+        let packs = match all.indicator {
+            Indicator::Rates => &self.sums[..],
+            Indicator::Megno => &megno,
+            Indicator::Gali => &self.matrix,
+        };
+        let mut rows = vec![T::zero(); packs.len() * lanes];
+        for (pack, row) in packs.iter().zip(rows.chunks_exact_mut(lanes)) {
+            scatter::<L, T, P>(pack, row);
+        }
+        for (lane, seat) in self.seats.iter().enumerate() {
+            let Some(member) = seat.map(|at| &mut all.members[at]) else {
+                continue;
+            };
+            let Ok(found) = &mut member.found else {
+                continue;
+            };
+            let numbers = rows.chunks_exact(lanes).map(|row| row[lane].to_f64());
+            let time = times[lane].to_f64() - member.start.t.to_f64();
+            match all.indicator {
+                Indicator::Rates => found.extend(numbers.map(|sum| sum / time)),
+                Indicator::Megno => found.extend(numbers.map(|area| Megno::mean(area, all.steps))),
+                Indicator::Gali => {
+                    let mut matrix: Vec<f64> = numbers.collect();
+                    found.push(volume(&mut matrix, all.count));
                 }
             }
         }
@@ -359,8 +395,11 @@ struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     clock: Clock<U>,
     made: u64,
     n: u64,
-    /// Whether deviations are made orthonormal after them.
+    /// Whether deviations are made orthonormal after them, or of length 1.
     turns: bool,
+    orthogonal: bool,
+    /// The step at which they were so last.
+    last_turn: u64,
     carried: &'a mut [R::Carried],
     shown: &'a mut [R::Carried],
     work: &'a mut R::Work,
@@ -368,6 +407,7 @@ struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     matrix: &'a mut [U],
     lengths: &'a mut [U],
     sums: &'a mut [U],
+    megno: &'a mut Megno<U>,
 }
 
 impl<L, R, U> KernelAt<L> for Round<'_, R, U>
@@ -408,11 +448,15 @@ where
         }
         if self.turns {
             let mut carried = InLanes(self.carried);
-            gram_schmidt(self.matrix, self.lengths, &mut carried);
+            gram_schmidt(self.matrix, self.lengths, self.orthogonal, &mut carried);
             carried.align();
             if end > 0 {
-                for (sum, length) in self.sums.iter_mut().zip(self.lengths) {
-                    *sum = (*sum + length.ln()).with_derivative(U::zero());
+                for (d, (sum, length)) in self.sums.iter_mut().zip(self.lengths).enumerate() {
+                    let logarithm = length.ln().with_derivative(U::zero());
+                    *sum += logarithm;
+                    if d == 0 {
+                        self.megno.add([self.last_turn, end], logarithm);
+                    }
                 }
             }
         }

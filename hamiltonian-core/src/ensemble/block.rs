@@ -83,25 +83,37 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
 }
 
 impl<U: Real, S: System<U>> Followed<'_, U, S> {
-    /// Follows the state after step `k`, where the clock stands at `t`, with what is carried then: `shown` is
-    /// closed, if [`closes`](Followed::closes). Returns whether the block should end.
+    /// Whether signs are followed in this block.
+    #[inline(always)]
+    fn watches(&self) -> bool {
+        !self.watchers.is_empty() && self.attach.is_none()
+    }
+
+    /// Whether what is followed is evaluated where the block shows it; else at the mark of what is carried.
+    #[inline(always)]
+    fn is_shown(&self) -> bool {
+        self.closes || !self.watches()
+    }
+
+    /// Follows the state after step `k`, where the clock stands at `t`, of which `marks` has what is carried, if
+    /// signs are followed: `shown` is closed, if [`closes`](Followed::closes). Returns whether the block should end.
     #[inline(always)]
     fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
         (k, t): (u64, U),
         shown: &C,
-        carried: &C,
         marks: &mut Marks<C, U::Mask>,
     ) -> bool {
         let due = match (&mut self.apart, self.attach) {
             (Some(apart), None) => Some(apart.due(self.interval)),
             _ => None,
         };
-        let watches = !self.watchers.is_empty() && self.attach.is_none();
-        if watches {
-            marks.add(carried);
-        }
-        let (t, point) = (shown.time(t), shown.point());
+        let watches = self.watches();
+        let seen = match self.is_shown() {
+            true => shown,
+            false => marks.present(),
+        };
+        let (t, point) = (seen.time(t), seen.point());
         let mut is_any_loud = false;
         let mut loud = U::Mask::splat(false);
         // One place evaluates them all: each would have a copy of H, as long as a pack is wide.
@@ -186,9 +198,14 @@ where
         // Each piece occurs once, which keeps the code of a level small.
         loop {
             let t = times.at(k);
-            let opens = if k == made { opening } else { Opening::Join };
+            let mut opens = if k == made { opening } else { Opening::Join };
             if k == stop {
-                shown.copy_from(&z);
+                if k == due && followed.watches() {
+                    marks.add(&z);
+                }
+                if k == end || followed.is_shown() {
+                    shown.copy_from(&z);
+                }
                 if k == end || followed.closes {
                     match opens {
                         Opening::Open => {}
@@ -201,7 +218,7 @@ where
                 let sees = k == due || followed.attach.is_some();
                 due = k.saturating_add(followed.interval);
                 stop = end.min(due);
-                if sees && followed.see((k, t), shown, &z, marks) {
+                if sees && followed.see((k, t), shown, marks) {
                     end = k;
                 }
                 if k == end {
@@ -212,16 +229,24 @@ where
                 shown.copy_from(&z);
                 map.open(t, shown, work);
             }
-            if !matches!(opens, Opening::Open) {
-                map.join(t, &mut z, work);
+            // Nothing else is in the loop of the steps, so that what is carried stays in registers.
+            loop {
+                let t = times.at(k);
+                if !matches!(opens, Opening::Open) {
+                    map.join(t, &mut z, work);
+                }
+                match opens {
+                    Opening::Open => z.copy_from(shown),
+                    Opening::Mixed(fresh) => z.copy_where(fresh, shown),
+                    Opening::Join => {}
+                }
+                opens = Opening::Join;
+                k += 1;
+                map.body(t, times.at(k), &mut z, work);
+                if k == stop {
+                    break;
+                }
             }
-            match opens {
-                Opening::Open => z.copy_from(shown),
-                Opening::Mixed(fresh) => z.copy_where(fresh, shown),
-                Opening::Join => {}
-            }
-            k += 1;
-            map.body(t, times.at(k), &mut z, work);
         }
         *carried = z;
         let t = times.at(end);

@@ -49,6 +49,12 @@ impl<C: Vector, M> Marks<C, M> {
         self.ring[self.turn].copy_from(carried);
     }
 
+    /// What was added last.
+    #[inline(always)]
+    pub(crate) fn present(&self) -> &C {
+        &self.ring[self.turn]
+    }
+
     /// The last three.
     #[inline(always)]
     pub(crate) fn last(&self, to: &mut Three<C>) {

@@ -37,9 +37,10 @@ impl<T: Real> Section<T> {
 pub(crate) struct Watcher<U> {
     pub(crate) quantity: Quantity,
     pub(crate) period: Option<U>,
-    /// The value after the last step, and the one before, counted back from it if there is a period.
-    value: U,
-    before: U,
+    /// The value after the last step, at the place `turn`, and the one before, counted back from it if there is a
+    /// period. No value moves from one place to the other, since packs are long.
+    values: [U; 2],
+    turn: usize,
     /// Whether all lanes that are watched were far from 0 after the last step.
     is_far: bool,
 }
@@ -58,16 +59,23 @@ impl<U: Real> Watcher<U> {
         Watcher {
             quantity,
             period,
-            value,
-            before: value - change,
+            values: [value, value - change],
+            turn: 0,
             is_far: false,
         }
+    }
+
+    /// The value after the last step.
+    #[inline(always)]
+    fn value(&self) -> &U {
+        &self.values[self.turn & 1]
     }
 
     /// The value after the last step, and its change in that step.
     #[inline(always)]
     pub(crate) fn last(&self) -> [U; 2] {
-        [self.value, self.value - self.before]
+        let before = self.values[(self.turn + 1) & 1];
+        [*self.value(), *self.value() - before]
     }
 
     /// Goes on to the value after the next step, if nothing can have happened in the lanes that are watched:
@@ -81,14 +89,14 @@ impl<U: Real> Watcher<U> {
         // and the function falls by less than half of what is left of it, so the next step is not near 0 either
         // in the sense of `is_loud`.
         let least = U::constant(1.0 / 262_144.0, 0.0);
-        let above = least.fma(-value, self.value);
-        let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * self.value);
+        let above = least.fma(-value, *self.value());
+        let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * *self.value());
         let is_far = U::zero().lt(above * below);
         let is_far = !(!is_far & watched).any();
         let was_far = core::mem::replace(&mut self.is_far, is_far);
         if is_far && was_far {
-            self.before = self.value;
-            self.value = value;
+            self.turn = (self.turn + 1) & 1;
+            self.values[self.turn] = value;
         }
         is_far && was_far
     }
@@ -110,8 +118,7 @@ impl<U: Real> Watcher<U> {
             }
         };
         let change = counted - from;
-        self.value = value;
-        self.before = value - change;
+        (self.values, self.turn) = ([value, value - change], 0);
         // from·counted is above a small part of the square of the change.
         let least = U::constant(1.0 / 1_048_576.0, 0.0);
         let product = change.fma(from, from * from);

@@ -11,6 +11,8 @@ mod inspect;
 mod part;
 
 pub use advance::States;
+#[cfg(feature = "rayon")]
+pub(crate) use advance::Steps;
 pub(crate) use checks::{check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
 pub(crate) use part::{Part, Recipe};
@@ -21,6 +23,8 @@ use crate::flow::Scratch;
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
 use crate::scheme::{Entry, Scheme};
+#[cfg(feature = "rayon")]
+use crate::slabs::Threads;
 use crate::state::{Carried, State};
 use crate::system::{Arithmetic, Dynamics, System};
 use crate::vector::Vector;
@@ -83,6 +87,9 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     pub(crate) saving: Option<(u64, std::path::PathBuf)>,
     /// The parameters with their values, by which a saved run is recognised.
     pub(crate) parameters: String,
+    /// The threads on which steps are made.
+    #[cfg(feature = "rayon")]
+    threads: Option<Threads<R>>,
     pub(crate) observer: O,
 }
 
@@ -169,6 +176,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
             refused: None,
             #[cfg(feature = "std")]
             saving: None,
+            #[cfg(feature = "rayon")]
+            threads: None,
             observer: (),
         }
     }
@@ -271,6 +280,48 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.computed(Arithmetic { fused: true, ..now })
     }
 
+    /// The same run on so many threads (0 counts as 1); on one by default. The bits are the same with each
+    /// number. A step that costs less than some 10 μs is not faster on several threads.
+    ///
+    /// Threads share the loops over arrays of forces, drifts and fields that take 16384 iterations or more: rows
+    /// of a lattice whose iterations change elements of their own row alone, and chains. Polynomials of
+    /// neighbours, as `(u[(i + 1) % n][j] - u[i][j])^2`, count as changes of the own row. Sums over a whole
+    /// array, sums over pairs, and all else of a step run on one thread; so do all loops without
+    /// [`lanes`](Integrator::lanes), and chains with neighbours in a [`fused`](Integrator::fused) run. An
+    /// ensemble has threads of its own, and each of its members one.
+    ///
+    /// ```
+    /// use hamiltonian::prelude::*;
+    ///
+    /// hamiltonian! {
+    ///     /// A chain of pendulums with springs.
+    ///     pub struct Chain { n: usize }
+    ///     H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 - cos(q[i]) + (q[(i + 1) % n] - q[i])^2/2 }
+    /// }
+    ///
+    /// let end = |threads| {
+    ///     let start = State::new(vec![0.5; 40_000], vec![0.0; 40_000]);
+    ///     let system = Chain::new(40_000)?;
+    ///     let mut run = Integrator::new(&system, StormerVerlet::default(), start, 0.1)?.threads(threads);
+    ///     run.advance(10).cloned()
+    /// };
+    /// assert_eq!(end(1)?, end(2)?);
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// Where the operating system starts no threads, the run has one. A saved run is resumed on one.
+    #[cfg(feature = "rayon")]
+    #[must_use]
+    pub fn threads(mut self, threads: usize) -> Self
+    where
+        R: Map<Work: Send> + Sync,
+    {
+        self.threads = Threads::new(threads);
+        let now = self.prepared.arithmetic();
+        let threads = self.threads.as_ref().map_or(1, Threads::number);
+        self.computed(Arithmetic { threads, ..now })
+    }
+
     /// The same run, computed in another way.
     pub(crate) fn computed(mut self, arithmetic: Arithmetic) -> Self {
         self.prepared.set_arithmetic(arithmetic);
@@ -371,6 +422,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             #[cfg(feature = "std")]
             saving: self.saving,
             parameters: self.parameters,
+            #[cfg(feature = "rayon")]
+            threads: self.threads,
             observer: make(self.observer),
         }
     }
@@ -400,6 +453,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Clone> Clone for Integrator<T, S,
             #[cfg(feature = "std")]
             saving: None,
             parameters: self.parameters.clone(),
+            #[cfg(feature = "rayon")]
+            threads: self.threads.clone(),
             observer: self.observer.clone(),
         }
     }

@@ -71,6 +71,7 @@ mod any;
 mod ensemble;
 
 mod loops;
+mod slabs;
 
 pub mod function;
 

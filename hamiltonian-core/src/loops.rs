@@ -9,6 +9,7 @@
 
 mod waiting;
 
+use crate::slabs::{both, slabs};
 use crate::system::Arithmetic;
 use hamiltonian_lanes::{Kernel, Level, Nf, Pack, Real, dispatch};
 use waiting::{NONE, Waiting};
@@ -165,10 +166,120 @@ impl<T: Real, const G: usize, const R: usize, const C: usize, const S: usize, co
             self.reads = self.reads.map(|read| &read[before..]);
             self.starts.iter_mut().for_each(|start| *start += before);
         }
-        dispatch(InLanes::<_, B, G, R, C, S, A, W>(
-            self,
-            core::marker::PhantomData,
-        ));
+        let slabs = match B::SUMS.is_empty() {
+            true => slabs(self.arithmetic, self.length),
+            false => 1,
+        };
+        if slabs > 1
+            && let Some(ends) = self.ends::<B, W>()
+        {
+            return self.cut::<B, W>(&ends, slabs, false);
+        }
+        self.dispatch::<B, W>(false);
+    }
+
+    /// The iterations through lanes. Where the stretch is followed, the elements that its last iterations
+    /// share with those after it were changed before.
+    fn dispatch<B: Body<G, R, W>, const W: usize>(self, is_followed: bool) {
+        dispatch(InLanes::<_, B, G, R, C, S, A, W> {
+            stretch: self,
+            is_followed,
+            body: core::marker::PhantomData,
+        });
+    }
+
+    /// For each column the least and the largest start of a store. `None` if stores lie too far apart for
+    /// slabs, or if results that wait have other bits outside of lanes.
+    fn ends<B: Body<G, R, W>, const W: usize>(&self) -> Option<[[usize; 2]; C]> {
+        if has_shared(B::STORES) && self.arithmetic.fused {
+            return None;
+        }
+        let mut ends = [[usize::MAX, 0]; C];
+        for (store, &start) in B::STORES.iter().zip(&self.starts) {
+            let [least, most] = &mut ends[store.column];
+            (*least, *most) = (start.min(*least), start.max(*most));
+        }
+        let is_near = |[least, most]: &[usize; 2]| most.saturating_sub(*least) <= REACH;
+        ends.iter().all(is_near).then_some(ends)
+    }
+
+    /// The iterations through lanes in so many slabs, on threads; `ends` are those of this stretch.
+    #[inline(never)]
+    fn cut<B: Body<G, R, W>, const W: usize>(
+        mut self,
+        ends: &[[usize; 2]; C],
+        slabs: usize,
+        is_followed: bool,
+    ) {
+        if slabs < 2 {
+            return self.dispatch::<B, W>(is_followed);
+        }
+        let half = slabs / 2;
+        let middle = self.length * half / slabs / STRIDE * STRIDE;
+        // Of the elements that both slabs reach, the iterations of the first one come first.
+        if has_shared(B::STORES) {
+            self.ahead::<B, W>(ends, middle);
+        }
+        let mut columns = self.columns;
+        let mut after = columns.each_mut().map(|_| &mut [][..]);
+        for ((column, after), [least, _]) in columns.iter_mut().zip(&mut after).zip(ends) {
+            if *least != usize::MAX {
+                (*column, *after) = core::mem::take(column).split_at_mut(least + middle);
+            }
+        }
+        let mut starts = self.starts;
+        for (store, start) in B::STORES.iter().zip(&mut starts) {
+            *start -= ends[store.column][0];
+        }
+        let mut no_sums = ([[T::zero(); STRIDE]; A], [[T::zero(); STRIDE]; A]);
+        let mut first = Some(Stretch {
+            length: middle,
+            reads: self.reads.map(|read| &read[..middle]),
+            columns,
+            sums: &mut no_sums.0,
+            ..self
+        });
+        let mut second = Some(Stretch {
+            length: self.length - middle,
+            first: self.first + middle,
+            number: self.number + middle,
+            reads: self.reads.map(|read| &read[middle..]),
+            columns: after,
+            starts,
+            sums: &mut no_sums.1,
+            ..self
+        });
+        let from_0 = ends.map(|[least, most]| [0, most.saturating_sub(least)]);
+        both(
+            &mut || {
+                if let Some(first) = first.take() {
+                    first.cut::<B, W>(ends, half, true);
+                }
+            },
+            &mut || {
+                if let Some(second) = second.take() {
+                    second.cut::<B, W>(&from_0, slabs - half, is_followed);
+                }
+            },
+        );
+    }
+
+    /// What the iterations before the middle do to elements that those after it reach too.
+    #[inline(never)]
+    fn ahead<B: Body<G, R, W>, const W: usize>(&mut self, ends: &[[usize; 2]; C], middle: usize) {
+        for k in middle - REACH..middle {
+            let number = match B::COUNTS {
+                true => T::constant((self.number + k) as f64, 0.0),
+                false => T::zero(),
+            };
+            let out = B::compute(self.given, self.reads.map(|read| read[k]), number);
+            for (store, start) in B::STORES.iter().zip(self.starts) {
+                if start + k >= ends[store.column][0] + middle {
+                    let place = &mut self.columns[store.column][start + k];
+                    *place = changed(store.change, *place, store.by.map(|by| out[by]));
+                }
+            }
+        }
     }
 
     /// The same stretch, for a part of its iterations.
@@ -272,7 +383,11 @@ struct InLanes<
     const S: usize,
     const A: usize,
     const W: usize,
->(Stretch<'a, T, G, R, C, S, A>, core::marker::PhantomData<B>);
+> {
+    stretch: Stretch<'a, T, G, R, C, S, A>,
+    is_followed: bool,
+    body: core::marker::PhantomData<B>,
+}
 
 impl<
     T: Real,
@@ -288,10 +403,11 @@ impl<
     type Output = ();
     #[inline(always)]
     fn run<L: Level>(self) {
-        if L::FUSES && self.0.arithmetic.fused {
-            packs::<T, B, L::Eight, G, R, C, S, A, W>(self.0);
+        let (stretch, is_followed) = (self.stretch, self.is_followed);
+        if L::FUSES && stretch.arithmetic.fused {
+            packs::<T, B, L::Eight, G, R, C, S, A, W>(stretch, is_followed);
         } else {
-            packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(self.0);
+            packs::<T, B, Nf<L::Eight>, G, R, C, S, A, W>(stretch, is_followed);
         }
     }
 }
@@ -310,6 +426,7 @@ fn packs<
     const W: usize,
 >(
     stretch: Stretch<'_, T, G, R, C, S, A>,
+    is_followed: bool,
 ) {
     let Stretch {
         length,
@@ -341,7 +458,7 @@ fn packs<
         r += 1;
     }
     let has_shared = const { has_shared(B::STORES) };
-    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length);
+    let mut waiting = Waiting::<T, S, W>::new(B::STORES, starts, length, is_followed);
     let does_wait = has_shared && waiting.is_any();
     let mut is_cut = [false; C];
     let mut s = 0;

@@ -25,6 +25,7 @@ pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
+pub use crate::slabs::rows;
 pub use crate::state::Point;
 pub use crate::state::{Gradient, State};
 pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};

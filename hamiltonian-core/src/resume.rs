@@ -33,7 +33,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         for component in self.carried.components() {
             numbers.scalar(component);
         }
-        let Arithmetic { lanes, fused } = self.prepared.arithmetic();
+        let Arithmetic { lanes, fused, .. } = self.prepared.arithmetic();
         let flags = [(self.ended, ENDED), (fused, FUSED), (!lanes, SCALAR)];
         let flags = flags.map(|(set, flag)| if set { flag } else { 0 });
         let flags = flags.iter().sum();
@@ -159,6 +159,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         let mut run = run.computed(Arithmetic {
             lanes: flags & SCALAR == 0,
             fused: flags & FUSED != 0,
+            ..Arithmetic::default()
         });
         run.restore(clock, began, steps);
         run.ended = flags & ENDED != 0;

@@ -201,8 +201,8 @@ pub trait System<T: Real> {
     }
 }
 
-/// How a single run is computed: [`Integrator::lanes`](crate::Integrator::lanes) and
-/// [`Integrator::fused`](crate::Integrator::fused) choose it. A prepared system carries it to the maps and
+/// How a single run is computed: [`Integrator::lanes`](crate::Integrator::lanes),
+/// [`Integrator::fused`](crate::Integrator::fused) and `Integrator::threads` choose it. A prepared system carries it to the maps and
 /// flows that are made of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arithmetic {
@@ -210,14 +210,18 @@ pub struct Arithmetic {
     pub lanes: bool,
     /// Whether products fuse with sums in those lanes, on CPUs that can: other bits there than elsewhere.
     pub fused: bool,
+    /// The number of threads on which loops over arrays run, within the threads of a run: the bits are the
+    /// same with each number.
+    pub threads: usize,
 }
 
 impl Default for Arithmetic {
-    /// In lanes, unfused.
+    /// In lanes, unfused, on one thread.
     fn default() -> Self {
         Arithmetic {
             lanes: true,
             fused: false,
+            threads: 1,
         }
     }
 }

@@ -8,6 +8,7 @@ use super::part::Part;
 use super::{Integrator, MapOf, numbers};
 use crate::error::Error;
 use crate::failed::Failed;
+use crate::map::{Clock, Map, ScalarOf};
 use crate::observe::{Observer, View};
 use crate::state::{Carried, State};
 use crate::system::{System, clock};
@@ -101,20 +102,24 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         Ok(())
     }
 
-    /// Makes `n` steps from a snapshot; whether all is finite after them. The one place where the
-    /// loop over steps is compiled.
-    #[inline(never)]
+    /// Makes `n` steps from a snapshot; whether all is finite after them.
     fn makes(&mut self, n: u64) -> bool {
-        // In a function of the level of a pack: here its instructions would be calls.
-        T::out_of_line(
-            #[inline(always)]
-            || {
-                self.snapshot.copy_from(&self.carried);
-                let made = self.steps - self.began;
-                (self.map).run(self.clock, made, n, &mut self.carried, &mut self.work);
-                self.arrives(self.steps + n)
-            },
-        )
+        let steps = Steps {
+            map: &self.map,
+            work: &mut self.work,
+            carried: &mut self.carried,
+            snapshot: &mut self.snapshot,
+            shown: &mut self.shown,
+            state: &mut self.state,
+            clock: self.clock,
+            made: self.steps - self.began,
+            n,
+        };
+        #[cfg(feature = "rayon")]
+        if let Some(threads) = &self.threads {
+            return threads.make(steps);
+        }
+        steps.make()
     }
 
     /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
@@ -169,21 +174,70 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     #[inline(always)]
     pub(super) fn arrives(&mut self, steps: u64) -> bool {
         let made = steps - self.began;
+        let steps = Steps {
+            map: &self.map,
+            work: &mut self.work,
+            carried: &mut self.carried,
+            snapshot: &mut self.snapshot,
+            shown: &mut self.shown,
+            state: &mut self.state,
+            clock: self.clock,
+            made,
+            n: 0,
+        };
+        steps.arrive()
+    }
+
+    /// Writes the state anew after what is carried was changed.
+    pub(crate) fn show_carried(&mut self) {
+        self.arrives(self.steps);
+    }
+}
+
+/// What steps are made of.
+pub(crate) struct Steps<'a, R: Map> {
+    map: &'a R,
+    work: &'a mut R::Work,
+    carried: &'a mut R::Carried,
+    snapshot: &'a mut R::Carried,
+    shown: &'a mut R::Carried,
+    state: &'a mut State<<R::Carried as Carried>::Vector>,
+    clock: Clock<ScalarOf<R>>,
+    /// The number of steps made since the clock began.
+    made: u64,
+    /// The number of steps to be made.
+    n: u64,
+}
+
+impl<R: Map> Steps<'_, R> {
+    /// Makes them; whether all is finite after them. The one place where the loop over steps is compiled.
+    #[inline(never)]
+    pub(crate) fn make(self) -> bool {
+        // In a function of the level of a pack: here its instructions would be calls.
+        ScalarOf::<R>::out_of_line(
+            #[inline(always)]
+            || {
+                self.snapshot.copy_from(self.carried);
+                (self.map).run(self.clock, self.made, self.n, self.carried, self.work);
+                self.arrive()
+            },
+        )
+    }
+
+    /// Writes the state after them; whether all is finite.
+    #[inline(always)]
+    fn arrive(self) -> bool {
+        let made = self.made + self.n;
         let t = self.clock.at(made);
-        self.shown.copy_from(&self.carried);
+        self.shown.copy_from(self.carried);
         if made > 0 {
-            self.map.close(t, &mut self.shown, &mut self.work);
+            self.map.close(t, self.shown, self.work);
         }
         let point = self.shown.point();
         self.state.q.copy_from(&point.q);
         self.state.p.copy_from(&point.p);
         self.state.t = self.shown.time(t);
         self.state.t.is_finite() && self.shown.is_finite() && self.carried.is_finite()
-    }
-
-    /// Writes the state anew after what is carried was changed.
-    pub(crate) fn show_carried(&mut self) {
-        self.arrives(self.steps);
     }
 }
 

@@ -123,6 +123,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
             #[cfg(feature = "std")]
             saving: None,
             parameters: self.parameters.clone(),
+            #[cfg(feature = "rayon")]
+            threads: self.threads.clone(),
             observer: (),
         }
     }

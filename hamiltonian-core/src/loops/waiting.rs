@@ -24,6 +24,8 @@ pub(super) struct Waiting<T, const S: usize, const W: usize> {
     next: [usize; S],
     /// For each group the least and the largest start.
     ends: [[usize; 2]; S],
+    /// Whether the elements that iterations after the last one would change too are left to them.
+    is_followed: bool,
 }
 
 /// The group of a store that does not wait.
@@ -31,7 +33,12 @@ pub(super) const NONE: usize = usize::MAX;
 
 impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
     #[inline(always)]
-    pub(super) fn new(stores: &[Store], starts: [usize; S], length: usize) -> Self {
+    pub(super) fn new(
+        stores: &[Store],
+        starts: [usize; S],
+        length: usize,
+        is_followed: bool,
+    ) -> Self {
         let mut order = [0; S];
         let mut s = 0;
         while s < S {
@@ -77,6 +84,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
             group,
             next,
             ends,
+            is_followed,
         }
     }
 
@@ -164,7 +172,8 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
             element += STRIDE;
         }
         self.next[g] = element;
-        while is_last && self.next[g] < most + end {
+        let last = if self.is_followed { least } else { most } + end;
+        while is_last && self.next[g] < last {
             self.element(stores, column, g, at, end);
         }
     }

@@ -29,6 +29,12 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static COUNTING: Counting = Counting;
 
+/// The number of allocations of this thread until now.
+#[allow(dead_code)]
+pub fn calls() -> u64 {
+    CALLS.get()
+}
+
 /// The number of allocations of `work`.
 pub fn allocations(work: impl FnOnce()) -> u64 {
     let before = CALLS.get();

@@ -53,6 +53,8 @@ pub fn write(out: &mut String, context: Context, arithmetic: &'static str, steps
         indices: Vec::new(),
         slices: Vec::new(),
         trees: Vec::new(),
+        slabs: Vec::new(),
+        is_inside: false,
     };
     writer.steps(steps);
 }
@@ -69,6 +71,10 @@ pub(super) struct Writer<'a> {
     /// Sums of the open loop that are trees where it is long: whether it is, and the partial sum that an
     /// iteration adds to.
     pub(super) trees: Vec<(Value, String, String)>,
+    /// Columns of which a slab is there.
+    pub(super) slabs: Vec<Slice>,
+    /// Whether a loop is open.
+    pub(super) is_inside: bool,
 }
 
 impl Writer<'_> {
@@ -90,7 +96,13 @@ impl Writer<'_> {
                     let place = self.target(*target, row, column.as_ref());
                     self.update(&place, update);
                 }
-                Step::Loop(inner) => self.nest(inner),
+                Step::Loop(inner) => {
+                    let is_outermost = !std::mem::replace(&mut self.is_inside, true);
+                    if !(is_outermost && self.in_slabs(inner)) {
+                        self.nest(inner);
+                    }
+                    self.is_inside = !is_outermost;
+                }
             }
         }
     }
@@ -233,7 +245,10 @@ impl Writer<'_> {
                 .find(|(s, index, _)| *s == slice && index == row)
             {
                 Some((_, _, text)) => text.clone(),
-                None => format!("{}[{}]", slice.name(), self.index(row)),
+                None => {
+                    let place = self.within(&slice, self.index(row));
+                    format!("{}[{place}]", slice.name())
+                }
             },
         }
     }
@@ -376,6 +391,7 @@ impl Writer<'_> {
                 }
                 None => self.context.indices.index(index),
             };
+            let start = self.within(slice, start);
             line!(
                 self,
                 "let _x{d}_{at} = {}{}[{start}..][.._l{d}];",

@@ -41,6 +41,7 @@ mod parts;
 mod pieces;
 mod reach;
 mod scan;
+mod slabs;
 mod storage;
 mod stretch;
 mod values;

@@ -154,7 +154,10 @@ impl Writer<'_> {
                     let place = match at {
                         _ if column.is_some() => return None,
                         Some(at) => (format!("_x{}_{at}", inner.domain.0), None),
-                        None => (slice.name(), Some(self.first(row, inner, found)?)),
+                        None => {
+                            let first = self.first(row, inner, found)?;
+                            (slice.name(), Some(self.within(&slice, first)))
+                        }
                     };
                     let column = number(&mut made.columns, place.0);
                     let (change, [a, b]) = match *update {

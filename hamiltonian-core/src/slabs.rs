@@ -1,0 +1,163 @@
+//! Loops of one run in slabs, on several threads.
+//!
+//! Input: a loop whose iterations change elements of their own. Output: those changes. Invariant: an element
+//! is changed on one thread, in the order of the iterations, so that bits depend on neither the number of
+//! threads nor the slabs.
+
+#[cfg(feature = "rayon")]
+use crate::integrator::Steps;
+#[cfg(feature = "rayon")]
+use crate::map::Map;
+use crate::system::Arithmetic;
+#[cfg(feature = "rayon")]
+use alloc::sync::Arc;
+use core::ops::Range;
+use hamiltonian_lanes::Real;
+
+/// The least number of elements of a slab: some microseconds of work, as many as it takes to hand one over.
+pub(crate) const SLAB: usize = 8192;
+
+/// The threads of a run, and its steps among them.
+#[cfg(feature = "rayon")]
+pub(crate) struct Threads<R: Map> {
+    pool: Arc<rayon_core::ThreadPool>,
+    /// [`Steps::make`] on one of the threads. Here it is known that the map may go there.
+    make: fn(&rayon_core::ThreadPool, Steps<'_, R>) -> bool,
+}
+
+#[cfg(feature = "rayon")]
+impl<R: Map> Clone for Threads<R> {
+    fn clone(&self) -> Self {
+        Threads {
+            pool: Arc::clone(&self.pool),
+            make: self.make,
+        }
+    }
+}
+
+#[cfg(feature = "rayon")]
+impl<R: Map<Work: Send> + Sync> Threads<R> {
+    /// So many threads; none if they are fewer than two, or where the system starts none.
+    pub(crate) fn new(number: usize) -> Option<Self> {
+        // As for members of ensembles: what is not touched takes no memory.
+        const STACK: usize = 64 << 20;
+        if number < 2 {
+            return None;
+        }
+        let builder = rayon_core::ThreadPoolBuilder::new()
+            .num_threads(number)
+            .stack_size(STACK);
+        Some(Threads {
+            pool: Arc::new(builder.build().ok()?),
+            make: |pool, steps| pool.install(|| steps.make()),
+        })
+    }
+}
+
+#[cfg(feature = "rayon")]
+impl<R: Map> Threads<R> {
+    /// Their number.
+    pub(crate) fn number(&self) -> usize {
+        self.pool.current_num_threads()
+    }
+
+    /// Makes the steps among the threads; whether all is finite after them.
+    pub(crate) fn make(&self, steps: Steps<'_, R>) -> bool {
+        (self.make)(&self.pool, steps)
+    }
+}
+
+/// Does both, on two threads where one has nothing else to do.
+pub(crate) fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {
+    #[cfg(feature = "rayon")]
+    rayon_core::join(a, b);
+    #[cfg(not(feature = "rayon"))]
+    {
+        a();
+        b();
+    }
+}
+
+/// The number of slabs of so many elements: some for each thread, which takes the next one when it is done with
+/// one. Outside of the threads of a run there is one.
+#[inline(always)]
+pub(crate) fn slabs(arithmetic: Arithmetic, elements: usize) -> usize {
+    match arithmetic.threads > 1 && arithmetic.lanes && elements >= 2 * SLAB {
+        true => several(arithmetic.threads, elements),
+        false => 1,
+    }
+}
+
+#[inline(never)]
+fn several(threads: usize, elements: usize) -> usize {
+    #[cfg(feature = "rayon")]
+    if rayon_core::current_thread_index().is_some() {
+        return (elements / SLAB).min(4 * threads);
+    }
+    let _ = (threads, elements);
+    1
+}
+
+/// The iterations of an outer loop in slabs. Iteration `i` changes elements `i·k..(i + 1)·k` of a column that
+/// comes with `k`, and no others. `work` is given a range of iterations and the elements that are theirs.
+#[inline(always)]
+pub fn rows<T: Real, const C: usize>(
+    count: usize,
+    arithmetic: Arithmetic,
+    columns: [(&mut [T], usize); C],
+    work: impl Fn(Range<usize>, [&mut [T]; C]) + Sync,
+) {
+    let elements = columns.first().map_or(0, |(_, row)| count * row);
+    let slabs = match T::WIDENS {
+        true => slabs(arithmetic, elements),
+        false => 1,
+    };
+    if slabs < 2 {
+        work(0..count, columns.map(|(column, _)| column));
+    } else {
+        cut(0..count, slabs.min(count), columns, &work);
+    }
+}
+
+/// What is done with a range of iterations and their elements.
+type Work<'a, T, const C: usize> = dyn Fn(Range<usize>, [&mut [T]; C]) + Sync + 'a;
+
+/// Some iterations in so many slabs.
+#[inline(never)]
+fn cut<T: Real, const C: usize>(
+    range: Range<usize>,
+    slabs: usize,
+    columns: [(&mut [T], usize); C],
+    work: &Work<'_, T, C>,
+) {
+    if slabs < 2 {
+        return work(range, columns.map(|(column, _)| column));
+    }
+    let half = slabs / 2;
+    let ahead = range.len() * half / slabs;
+    let middle = range.start + ahead;
+    let mut halves = columns.map(|(column, row)| {
+        let (a, b) = column.split_at_mut(ahead * row);
+        [(a, row), (b, row)]
+    });
+    let mut half_of = |at: usize| {
+        let taken = halves.each_mut().map(|half| {
+            let (column, row) = &mut half[at];
+            (core::mem::take(column), *row)
+        });
+        Some(taken)
+    };
+    let (mut first, mut second) = (half_of(0), half_of(1));
+    both(
+        &mut || {
+            if let Some(columns) = first.take() {
+                cut(range.start..middle, half, columns, work);
+            }
+        },
+        &mut || {
+            if let Some(columns) = second.take() {
+                cut(middle..range.end, slabs - half, columns, work);
+            }
+        },
+    );
+}

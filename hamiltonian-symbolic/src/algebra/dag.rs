@@ -8,10 +8,12 @@
 mod array;
 pub(crate) mod bounds;
 pub mod op;
+mod sign;
 mod table;
 mod work;
 
 pub use array::{Array, Column, Side};
+pub(crate) use sign::Sign;
 pub(crate) use table::Numbers;
 pub use table::{Map, Mixer};
 pub(crate) use work::work;
@@ -230,7 +232,7 @@ pub enum Stage {
 struct Facts {
     dependence: Dependence,
     variables: u64,
-    nonnegative: bool,
+    sign: Sign,
     height: u32,
     /// A part of a long product, which no product it stands in takes apart.
     sealed: bool,
@@ -303,10 +305,14 @@ impl Dag {
     pub fn variables(&self, node: Node) -> u64 {
         self.facts[node.0 as usize].variables
     }
+    /// The signs that the value may have, where there is one.
+    pub(crate) fn sign(&self, node: Node) -> Sign {
+        self.facts[node.0 as usize].sign
+    }
     /// Whether the value is provably ≥ 0 (or NaN).
     #[must_use]
     pub fn is_nonnegative(&self, node: Node) -> bool {
-        self.facts[node.0 as usize].nonnegative
+        self.sign(node).is_nonnegative()
     }
     /// The longest way down to a leaf, in operations. A low node can be computed early.
     #[must_use]
@@ -486,25 +492,21 @@ impl Dag {
             dependence.0 |= self.dependence(child).0;
             variables |= self.variables(child);
         });
-        let is_nonnegative = |node: &Node| self.is_nonnegative(*node);
-        let nonnegative = match kind {
-            Kind::Constant(c) => !c.is_negative(),
-            Kind::Pi | Kind::Extent(_) | Kind::Count(_) => true,
-            Kind::Sum(c, terms) => {
-                let is_term = |(k, n): &(Rational, Node)| !k.is_negative() && is_nonnegative(n);
-                !c.is_negative() && terms.iter().all(is_term)
-            }
+        let sign = match kind {
+            Kind::Constant(c) => Sign::of(c),
+            Kind::Pi => Sign::POSITIVE,
+            Kind::Extent(_) | Kind::Count(_) => Sign::NONNEGATIVE,
+            Kind::Sum(c, terms) => terms.iter().fold(Sign::of(c), |sum, (k, n)| {
+                sum.plus(Sign::of(k).times(self.sign(*n)))
+            }),
             Kind::Product(c, factors) => {
-                let factors = factors.iter().map(|(n, k)| (is_nonnegative(n), *k));
-                !c.is_negative() && bounds::is_nonnegative_product(factors)
+                Sign::of_product(c, factors.iter().map(|(f, n)| (self.sign(*f), *n)))
             }
-            Kind::Call(op, arguments) => {
-                let range = op.row().regularity.range;
-                bounds::is_nonnegative_call(range, is_nonnegative(&arguments[0]))
-            }
-            Kind::Reduce(_, body) => is_nonnegative(body),
-            Kind::Select(_, a, b) => is_nonnegative(a) && is_nonnegative(b),
-            _ => false,
+            Kind::Call(op, arguments) => Sign::of_call(*op, self.sign(arguments[0])),
+            // The range may be empty.
+            Kind::Reduce(_, body) => self.sign(*body).or(Sign::ZERO),
+            Kind::Select(_, a, b) => self.sign(*a).or(self.sign(*b)),
+            _ => Sign::UNKNOWN,
         };
         let own = match kind {
             Kind::Scalar(_)
@@ -539,7 +541,7 @@ impl Dag {
         Facts {
             dependence,
             variables,
-            nonnegative,
+            sign,
             height,
             sealed: false,
         }

@@ -12,7 +12,7 @@ mod labels;
 pub(crate) mod tape;
 
 use crate::algebra::ball::Ball;
-use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
 use crate::diff;
 use crate::index::Index;
 use crate::loops::{Sample, Values};
@@ -501,45 +501,11 @@ impl Space {
     /// The sign of an expression that everybody can see: +1, −1, 0, or nothing where parameters
     /// or the point decide.
     pub(crate) fn sign(&mut self, node: Node) -> Option<i32> {
-        // Most are numbers, and seen at once.
-        if let Some(value) = self.model.dag.as_constant(node) {
-            return Some(match value {
-                value if value.is_zero() => 0,
-                value if value.is_negative() => -1,
-                _ => 1,
-            });
+        match self.model.dag.sign(node) {
+            Sign::POSITIVE => Some(1),
+            Sign::NEGATIVE => Some(-1),
+            _ => self.is_zero(node).then_some(0),
         }
-        if is_positive(&self.model.dag, node) {
-            return Some(1);
-        }
-        let negative = self.model.dag.neg(node);
-        if is_positive(&self.model.dag, negative) {
-            return Some(-1);
-        }
-        self.is_zero(node).then_some(0)
-    }
-}
-
-/// Whether a value is > 0 at every point where there is one: a sum of terms ≥ 0 with a positive
-/// number, exponentials, and products of these.
-fn is_positive(dag: &Dag, node: Node) -> bool {
-    match dag.kind(node) {
-        Kind::Constant(value) => !value.is_negative() && !value.is_zero(),
-        Kind::Pi => true,
-        Kind::Sum(c, terms) => {
-            let positive = |(k, n): &(Rational, Node)| !k.is_negative() && is_positive(dag, *n);
-            dag.is_nonnegative(node)
-                && ((!c.is_negative() && !c.is_zero()) || terms.iter().any(positive))
-        }
-        Kind::Product(k, factors) => {
-            !k.is_negative() && factors.iter().all(|(n, _)| is_positive(dag, *n))
-        }
-        Kind::Call(op, arguments) => match op {
-            crate::op::Op::Exp | crate::op::Op::Cosh => true,
-            crate::op::Op::Sqrt => is_positive(dag, arguments[0]),
-            _ => false,
-        },
-        _ => false,
     }
 }
 

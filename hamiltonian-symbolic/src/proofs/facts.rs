@@ -19,10 +19,8 @@ mod pairs;
 
 pub use domain::conditions;
 
-use crate::dag::bounds::is_nonnegative_product;
-use crate::dag::{Dag, Dependence, Kind, Map, Node};
+use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
 use crate::op::{At, Break, Far, Op, Range};
-use crate::rational::Rational;
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
 use pairs::{difference, is_pair};
 
@@ -304,14 +302,9 @@ impl Facts {
         let infinite: Vec<usize> = (0..terms.len())
             .filter(|at| !self.get(terms[*at].1).is_continuous)
             .collect();
-        let positive = infinite.iter().all(|at| {
-            let (k, term) = &terms[*at];
-            !k.is_negative() && dag.is_nonnegative(*term)
-        });
-        let negative = infinite.iter().all(|at| {
-            let (k, term) = &terms[*at];
-            k.is_negative() && dag.is_nonnegative(*term)
-        });
+        let sign = |at: &usize| Sign::of(&terms[*at].0).times(dag.sign(terms[*at].1));
+        let positive = infinite.iter().all(|at| sign(at).is_nonnegative());
+        let negative = infinite.iter().all(|at| sign(at).is_nonpositive());
         let places = || {
             infinite
                 .iter()
@@ -426,7 +419,7 @@ impl Facts {
             Break::Kink(at) | Break::Jump(at) => misses(at),
         };
         // An argument of one sign comes to one end, of which e^x has a finite one.
-        let is_decaying = matches!(op, Op::Exp | Op::ExpM1) && is_nonpositive(dag, x[0]);
+        let is_decaying = matches!(op, Op::Exp | Op::ExpM1) && dag.sign(x[0]).is_nonpositive();
         let is_closed = match regularity.far {
             Far::Infinite => true,
             Far::Limits | Far::Mixed => dag.is_nonnegative(x[0]) || is_decaying,
@@ -513,22 +506,6 @@ impl Facts {
             found = Some(place);
         }
         found
-    }
-}
-
-/// Whether a sum or product is certainly ≤ 0.
-fn is_nonpositive(dag: &Dag, node: Node) -> bool {
-    match dag.kind(node) {
-        Kind::Sum(c, terms) => {
-            let is_nonpositive =
-                |(k, term): &(Rational, Node)| k.is_negative() && dag.is_nonnegative(*term);
-            (c.is_zero() || c.is_negative()) && terms.iter().all(is_nonpositive)
-        }
-        Kind::Product(k, factors) => {
-            let signs = factors.iter().map(|(f, n)| (dag.is_nonnegative(*f), *n));
-            k.is_negative() && is_nonnegative_product(signs)
-        }
-        _ => false,
     }
 }
 

@@ -1,11 +1,9 @@
-//! Bounds of indices and of values.
+//! Bounds of indices.
 //!
-//! Input: affine forms over the loops of the arena, signs of factors. Output: statements that hold
-//! in every iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
+//! Input: affine forms over the loops of the arena. Output: statements that hold in every iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
 
 use super::Dag;
 use crate::index::{Affine, Domain, End, Index};
-use crate::op::Range;
 
 impl Dag {
     /// Whether a loop is `i in 0..rows`.
@@ -56,19 +54,5 @@ impl Dag {
         };
         let least = affine.extreme(End::Least, range);
         least.is_some_and(|least| least.is_never_negative())
-    }
-}
-
-/// Whether a product of powers is ≥ 0, of which is said whether each factor is.
-pub(crate) fn is_nonnegative_product(mut factors: impl Iterator<Item = (bool, i32)>) -> bool {
-    factors.all(|(is_nonnegative, n)| n % 2 == 0 || is_nonnegative)
-}
-
-/// Whether values of a function are ≥ 0, of whose first argument is said whether it is.
-pub(crate) fn is_nonnegative_call(range: Range, first: bool) -> bool {
-    match range {
-        Range::Any => false,
-        Range::NonNegative | Range::Positive => true,
-        Range::OfBase => first,
     }
 }

@@ -5,10 +5,9 @@
 //! of those or has its relation here.
 
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
-use crate::dag::bounds::{is_nonnegative_call, is_nonnegative_product};
-use crate::dag::{Dag, Dependence, Kind, Map, Node, Part};
+use crate::dag::{Dag, Dependence, Map, Node, Part, Sign};
 use crate::index::Domain;
-use crate::op::{Op, Range};
+use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
 
@@ -81,10 +80,8 @@ pub(crate) struct Entry {
     pub(crate) dependence: Dependence,
     /// The loop variables it depends on.
     pub(crate) variables: u64,
-    /// Whether it is known to be ≥ 0.
-    pub(crate) nonnegative: bool,
-    /// Whether it is known to be > 0.
-    pub(crate) positive: bool,
+    /// The signs that it may have.
+    pub(crate) sign: Sign,
 }
 
 /// The base that angles or exponents with one monomial are multiples of.
@@ -153,25 +150,20 @@ impl Algebra {
 
     /// The atom of a leaf.
     pub(crate) fn leaf(&mut self, dag: &Dag, node: Node) -> Atom {
-        let signs = (dag.is_nonnegative(node), *dag.kind(node) == Kind::Pi);
         let own = (dag.dependence(node), dag.variables(node));
-        self.atom(Key::Leaf(node), None, own, signs)
+        self.atom(Key::Leaf(node), None, own, dag.sign(node))
     }
 
     /// The atom of a function of polynomials, with its relation.
     pub(super) fn function(&mut self, key: Key, relation: Option<(u32, Poly)>) -> Atom {
-        let signs = match &key {
-            Key::Exp(_) => (true, true),
-            Key::Root(n, x) => (*n == 2 || self.is_nonnegative(x), self.is_positive(x)),
-            Key::Divisor(x) | Key::Sign(x) => (self.is_nonnegative(x), self.is_positive(x)),
-            Key::Function(op, arguments) => {
-                let range = op.row().regularity.range;
-                let first = self.is_nonnegative(&arguments[0]);
-                (is_nonnegative_call(range, first), range == Range::Positive)
-            }
-            _ => (false, false),
+        let sign = match &key {
+            Key::Exp(_) => Sign::POSITIVE,
+            Key::Root(2, x) => self.sign_of(x).root(),
+            Key::Root(_, x) | Key::Divisor(x) | Key::Sign(x) => self.sign_of(x),
+            Key::Function(op, arguments) => Sign::of_call(*op, self.sign_of(&arguments[0])),
+            _ => Sign::UNKNOWN,
         };
-        self.atom(key, relation, Default::default(), signs)
+        self.atom(key, relation, Default::default(), sign)
     }
 
     /// The atom of a sum over a loop.
@@ -185,17 +177,17 @@ impl Algebra {
         };
         let variables = range.start.variables() | range.end.variables();
         // The range may be empty.
-        let signs = (self.is_nonnegative_term(&body), false);
-        self.atom(Key::Sum(domain, body), None, (own, variables), signs)
+        let sign = self.sign_of_term(&body, &Rational::ONE).or(Sign::ZERO);
+        self.atom(Key::Sum(domain, body), None, (own, variables), sign)
     }
 
-    /// The atom of a key, with its dependences beside those of its parts, and whether it is ≥ 0 and > 0.
+    /// The atom of a key, with its dependences beside those of its parts, and its sign.
     fn atom(
         &mut self,
         key: Key,
         relation: Option<(u32, Poly)>,
         (mut dependence, mut variables): (Dependence, u64),
-        (nonnegative, positive): (bool, bool),
+        sign: Sign,
     ) -> Atom {
         if let Some(&atom) = self.known.get(&key) {
             return atom;
@@ -215,30 +207,20 @@ impl Algebra {
             redefined: None,
             dependence,
             variables,
-            nonnegative,
-            positive,
+            sign,
         });
         atom
     }
 
-    /// Whether a polynomial is ≥ 0 term by term.
-    pub(super) fn is_nonnegative(&self, poly: &Poly) -> bool {
-        let mut terms = poly.terms().iter();
-        terms.all(|(term, k)| !k.is_negative() && self.is_nonnegative_term(term))
+    /// The signs that a polynomial may have, by its terms.
+    pub(crate) fn sign_of(&self, poly: &Poly) -> Sign {
+        let terms = poly.terms().iter();
+        terms.fold(Sign::ZERO, |sum, (m, k)| sum.plus(self.sign_of_term(m, k)))
     }
 
-    fn is_nonnegative_term(&self, term: &Monomial) -> bool {
+    fn sign_of_term(&self, term: &Monomial, k: &Rational) -> Sign {
         let factors = term.0.iter();
-        is_nonnegative_product(factors.map(|(atom, n)| (self.entry(*atom).nonnegative, *n)))
-    }
-
-    /// Whether a polynomial is ≥ 0 term by term, and one term is never 0.
-    pub(crate) fn is_positive(&self, poly: &Poly) -> bool {
-        self.is_nonnegative(poly)
-            && poly
-                .terms()
-                .iter()
-                .any(|(m, _)| m.0.iter().all(|(atom, _)| self.entry(*atom).positive))
+        Sign::of_product(k, factors.map(|(atom, n)| (self.entry(*atom).sign, *n)))
     }
 
     /// Whether zeros of a polynomial do not count. It has few, whatever the parameters, if it is a

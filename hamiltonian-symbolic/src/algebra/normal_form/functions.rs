@@ -5,7 +5,7 @@
 
 use super::atoms::{Algebra, Base, Key};
 use super::polynomial::{Monomial, Poly, Undecided};
-use crate::dag::Part;
+use crate::dag::{Part, Sign};
 use crate::op::{Op, Parity};
 use crate::rational::Rational;
 
@@ -232,7 +232,7 @@ impl Algebra {
         // An even power, or a factor ≥ 0, has no sign.
         let (k, monomial, rest) = self.content(x)?;
         let mut signed = rest;
-        if self.is_nonnegative(&signed) {
+        if self.sign_of(&signed).is_nonnegative() {
             signed = Poly::integer(1);
         }
         if k.is_negative() {
@@ -240,7 +240,7 @@ impl Algebra {
         }
         for &(atom, n) in &monomial.0 {
             let entry = self.entry(atom);
-            if n % 2 != 0 && !entry.nonnegative {
+            if n % 2 != 0 && !entry.sign.is_nonnegative() {
                 let factor = match &entry.key {
                     Key::Divisor(divisor) => divisor.clone(),
                     _ => Poly::atom(atom, 1),
@@ -454,7 +454,7 @@ impl Algebra {
             for &(atom, n) in &monomial.0 {
                 let power = if n % 2 == 0 { 2 } else { power };
                 let entry = self.entry(atom);
-                if entry.positive {
+                if entry.sign == Sign::POSITIVE {
                     continue;
                 }
                 let factor = match entry.key.clone() {
@@ -469,7 +469,7 @@ impl Algebra {
                 };
                 sign = self.mul(&sign, &factor)?;
             }
-            if rest.as_constant().is_none() && !self.is_positive(&rest) {
+            if rest.as_constant().is_none() && self.sign_of(&rest) != Sign::POSITIVE {
                 let factor = self.sign_atom(&rest, power);
                 sign = self.mul(&sign, &factor)?;
             }

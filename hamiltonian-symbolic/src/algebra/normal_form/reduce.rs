@@ -148,7 +148,7 @@ impl Algebra {
     /// s²·m, where m is the leading monomial of x = c·m + r: by m + (r − s²·r)/c.
     fn lower_sign(&mut self, poly: &mut Poly, atom: Atom, of: &Poly) -> Result<bool, Undecided> {
         let of = self.resolved(of)?;
-        let is_idempotent = self.is_nonnegative(&of);
+        let is_idempotent = self.sign_of(&of).is_nonnegative();
         let is_anything_but_zero = self.is_anything_but_zero(&of);
         let leading = of.terms().iter().max_by(|a, b| a.0.newest_first(&b.0));
         let (leading, c) = leading.cloned().ok_or(Undecided)?;

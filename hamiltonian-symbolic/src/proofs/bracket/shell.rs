@@ -7,11 +7,10 @@
 //! shell where it is 0, the residual may be anything.
 
 use crate::algebra::ball::Ball;
-use crate::dag::{Array, Column, Dag, Kind, Node, Side};
+use crate::dag::{Array, Column, Dag, Kind, Node, Side, Sign};
 use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
-use crate::rational::Rational;
 
 /// Whether the residual vanishes where `shell` does.
 pub(super) fn vanishes(
@@ -83,14 +82,13 @@ fn is_never_zero(algebra: &mut Algebra, poly: &Poly, written: &Poly) -> Result<b
             }
         }
     }
-    let is_positive = |poly: &Poly| poly.as_constant().is_some() || algebra.is_positive(poly);
-    Ok(
-        (is_positive(&rest) || is_positive(&rest.scale(&Rational::MINUS_ONE)))
-            && monomial
-                .0
-                .iter()
-                .all(|(atom, _)| algebra.entry(*atom).positive || below.contains(atom)),
-    )
+    let sign = algebra.sign_of(&rest);
+    let is_factor = |(atom, _): &(Atom, i32)| {
+        algebra.entry(*atom).sign == Sign::POSITIVE || below.contains(atom)
+    };
+    let is_one_sign =
+        rest.as_constant().is_some() || matches!(sign, Sign::POSITIVE | Sign::NEGATIVE);
+    Ok(is_one_sign && monomial.0.iter().all(is_factor))
 }
 
 /// The pseudo-remainder of the division by `shell` as polynomials in one atom.

@@ -6,8 +6,7 @@
 //! function or below a fraction line that is known to be ≥ 0 stays known to be so, because a
 //! distance must not be computed by cancellation.
 
-use crate::dag::work;
-use crate::dag::{Dag, Kind, Map, Node, Stage};
+use crate::dag::{Dag, Kind, Map, Node, Sign, Stage, work};
 use crate::op::Op;
 use crate::rational::Rational;
 use crate::structure::{Collected, Term, expand_within, times};
@@ -114,14 +113,17 @@ fn positive(dag: &mut Dag, node: Node, rules: &Rules) -> Node {
             return None;
         };
         let inner = arguments[0];
-        let is_positive = |node: Node| rules.positive.contains(&node) || dag.is_nonnegative(node);
+        let sign = |node: Node| match rules.positive.contains(&node) {
+            true => Sign::POSITIVE,
+            false => dag.sign(node),
+        };
         let known = match dag.kind(inner) {
             Kind::Product(k, factors) => {
-                !k.is_negative() && factors.iter().all(|(n, e)| e % 2 == 0 || is_positive(*n))
+                Sign::of_product(k, factors.iter().map(|(f, n)| (sign(*f), *n)))
             }
-            _ => is_positive(inner),
+            _ => sign(inner),
         };
-        known.then_some(inner)
+        known.is_nonnegative().then_some(inner)
     };
     if let Some(inner) = bare(dag, node) {
         return inner;

@@ -57,9 +57,7 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
     if model.dag.is_zero(g) {
         return Err(Refusal::Factor { reason: "is 0" });
     }
-    let mut dag = model.dag.clone();
-    let opposite = dag.neg(g);
-    if dag.is_nonnegative(opposite) {
+    if model.dag.sign(g).is_nonpositive() {
         return Err(Refusal::Factor {
             reason: "is never positive, so that time runs backwards or stands still",
         });

@@ -159,11 +159,11 @@ fn constant(space: &mut Space, f: Node, [f1, f3]: [Node; 2], x: Node) -> Option<
     }
     let sign = match space.sign(kappa) {
         Some(sign) => sign,
-        None if space.dag().is_nonnegative(kappa) => 1,
-        None => {
-            let negative = space.dag().neg(kappa);
-            space.dag().is_nonnegative(negative).then_some(-1)?
-        }
+        None => match space.dag().sign(kappa) {
+            sign if sign.is_nonnegative() => 1,
+            sign if sign.is_nonpositive() => -1,
+            _ => return None,
+        },
     };
     Some((kappa, sign))
 }

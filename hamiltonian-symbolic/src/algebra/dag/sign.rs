@@ -1,0 +1,84 @@
+//! Signs of values.
+//!
+//! Input: signs of what a value is made of. Output: its own. Invariant: a value that exists has one of the
+//! signs in the set; the set is never empty.
+
+use super::op::{Op, Range};
+use crate::rational::Rational;
+
+/// The signs that a value may have: a set of − (1), 0 (2) and + (4).
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(crate) struct Sign(u8);
+
+impl Sign {
+    pub(crate) const NEGATIVE: Sign = Sign(1);
+    pub(crate) const ZERO: Sign = Sign(2);
+    pub(crate) const POSITIVE: Sign = Sign(4);
+    pub(crate) const NONNEGATIVE: Sign = Sign(6);
+    pub(crate) const UNKNOWN: Sign = Sign(7);
+
+    /// Of a number.
+    pub(crate) fn of(k: &Rational) -> Sign {
+        match k.is_negative() {
+            true => Sign::NEGATIVE,
+            false if k.is_zero() => Sign::ZERO,
+            false => Sign::POSITIVE,
+        }
+    }
+    /// Of a product `k·Π xⁿ`.
+    pub(crate) fn of_product(k: &Rational, factors: impl Iterator<Item = (Sign, i32)>) -> Sign {
+        factors.fold(Sign::of(k), |product, (sign, n)| match n % 2 {
+            0 => product.times(Sign((sign.0 | sign.opposite().0) & Sign::NONNEGATIVE.0)),
+            _ => product.times(sign),
+        })
+    }
+    /// Of a function, by the sign of its first argument.
+    pub(crate) fn of_call(op: Op, first: Sign) -> Sign {
+        match op.row().regularity.range {
+            Range::Positive => Sign::POSITIVE,
+            Range::NonNegative if op == Op::Sqrt => first.root(),
+            Range::NonNegative => Sign::NONNEGATIVE,
+            Range::OfBase if first.is_nonnegative() => Sign::NONNEGATIVE,
+            Range::OfBase | Range::Any => Sign::UNKNOWN,
+        }
+    }
+    /// Of a square root.
+    pub(crate) fn root(self) -> Sign {
+        match self {
+            Sign::POSITIVE => self,
+            _ => Sign::NONNEGATIVE,
+        }
+    }
+    /// Of one of two values.
+    pub(crate) fn or(self, other: Sign) -> Sign {
+        Sign(self.0 | other.0)
+    }
+    /// Of a sum.
+    pub(crate) fn plus(self, other: Sign) -> Sign {
+        match (self.0 | other.0) & !Sign::ZERO.0 {
+            // − and +
+            5 => Sign::UNKNOWN,
+            either => Sign(either | self.0 & other.0 & Sign::ZERO.0),
+        }
+    }
+    /// Of a product.
+    pub(crate) fn times(self, other: Sign) -> Sign {
+        let zero = (self.0 | other.0) & Sign::ZERO.0;
+        let same = if self.is_nonpositive() { 0 } else { other.0 };
+        let opposite = if self.is_nonnegative() {
+            0
+        } else {
+            other.opposite().0
+        };
+        Sign(zero | same | opposite)
+    }
+    fn opposite(self) -> Sign {
+        Sign((self.0 << 2 | self.0 & Sign::ZERO.0 | self.0 >> 2) & Sign::UNKNOWN.0)
+    }
+    pub(crate) fn is_nonnegative(self) -> bool {
+        self.0 & Sign::NEGATIVE.0 == 0
+    }
+    pub(crate) fn is_nonpositive(self) -> bool {
+        self.0 & Sign::POSITIVE.0 == 0
+    }
+}

@@ -39,8 +39,9 @@ pub fn trees() -> Vec<(Tree, &'static str)> {
 fn has_bad_number(tree: &Tree) -> bool {
     let model = tree.model();
     let roots: Vec<_> = model.hamiltonian.into_iter().collect();
-    let is_number =
-        |node: Node| model.dag.stage(node) == Stage::Constant && model.dag.variables(node) == 0;
+    let is_number = |node: Node| {
+        model.dag.stage(node) == Stage::Constant && model.dag.variables(node).is_empty()
+    };
     let is_bad = |node: Node| match model.dag.kind(node) {
         Kind::Product(_, factors) => (factors.iter()).any(|(factor, n)| {
             *n < 0

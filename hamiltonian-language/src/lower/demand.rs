@@ -10,7 +10,8 @@ use crate::ast::BinaryOp;
 use crate::checked::{Checked, Extent, Kind, NodeId, Type};
 use crate::names::Builtin;
 use hamiltonian_symbolic::dag::Dag;
-use hamiltonian_symbolic::index::{Affine, Domain, Index, members};
+use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::set::Set;
 use std::iter;
 
 /// The length of the longest vector that has its sums over components unrolled.
@@ -166,11 +167,13 @@ impl<'a> Demands<'a> {
                 Run::Numbers(number)
             }
             _ => {
-                let indices = demand.indices.iter();
-                let mut set = indices.fold(0, |set, index| set | index.variables());
-                for id in members(self.loops.free(node)) {
+                let mut set = Set::default();
+                for index in &demand.indices {
+                    set |= index.variables();
+                }
+                for id in self.loops.free(node).members() {
                     if !self.loops.is_unrolled(id) {
-                        set |= 1 << self.domain(dag, id, demand).0;
+                        set |= Set::of(self.domain(dag, id, demand));
                     }
                 }
                 let parent = dag.deepest(set);
@@ -323,7 +326,12 @@ impl<'a> Demands<'a> {
                     }
                 }
             }
-            Kind::Sum { .. } if demand.indices.iter().any(|index| index.variables() != 0) => {
+            Kind::Sum { .. }
+                if demand
+                    .indices
+                    .iter()
+                    .any(|index| !index.variables().is_empty()) =>
+            {
                 return Err((
                     "a component of a sum of vectors is chosen by a loop variable here".to_owned(),
                     "choose the component inside the sum: `sum(i in 0..n) { w[i][k] }`",
@@ -350,7 +358,7 @@ impl<'a> Demands<'a> {
         // A value is the same whatever the loops are that it does not depend on.
         for (child, demand) in &mut wanted {
             let numbers = self.loops.numbers(*child);
-            demand.values.retain(|(id, _)| numbers >> id.0 & 1 == 1);
+            demand.values.retain(|(id, _)| numbers.has(*id));
             demand.values.sort_unstable();
         }
         Ok(wanted)

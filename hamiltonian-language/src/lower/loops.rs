@@ -9,10 +9,10 @@
 use crate::ast::{BinaryOp, UnaryOp};
 use crate::checked::{Checked, Extent, Kind, Node, NodeId, Type};
 use crate::names::Builtin;
-use hamiltonian_symbolic::index::{Domain, members};
+use hamiltonian_symbolic::index::Domain;
 
-/// A set of loops; there are at most `LOOPS`.
-pub type Set = u64;
+/// A set of loops of the definition; there are at most `LOOPS`.
+pub type Set = hamiltonian_symbolic::set::Set<Domain>;
 
 /// Facts of loops.
 #[derive(Debug)]
@@ -32,10 +32,6 @@ pub struct Loops {
     numbers: Vec<Set>,
 }
 
-fn bit(id: Domain) -> Set {
-    1 << id.0
-}
-
 impl Loops {
     /// Reads a definition with at most `LOOPS` loops.
     pub fn of(checked: &Checked) -> Loops {
@@ -45,8 +41,8 @@ impl Loops {
             by_number: Vec::with_capacity(checked.nodes.len()),
             parents: vec![None; count],
             depths: vec![0; count],
-            unrolled: 0,
-            numbers: vec![0; count],
+            unrolled: Set::default(),
+            numbers: vec![Set::default(); count],
         };
         for node in &checked.nodes {
             let free = loops.free_of(checked, node);
@@ -57,29 +53,29 @@ impl Loops {
         if let Some(id) = checked.force_row {
             let is_literal = checked.loops[id.0 as usize].upper.as_constant().is_some();
             if !checked.charts.is_empty() && is_literal {
-                loops.unrolled |= bit(id);
+                loops.unrolled |= Set::of(id);
             }
-            loops.numbers[id.0 as usize] = loops.unrolled & bit(id);
+            loops.numbers[id.0 as usize] = loops.unrolled & Set::of(id);
         }
         // Bounds of a loop that is unrolled are numbers; they read only loops before it.
         for (at, one) in checked.loops.iter().enumerate().rev() {
-            if loops.unrolled >> at & 1 == 1 {
+            if loops.is_unrolled(Domain(at as u32)) {
                 loops.unrolled |= one.lower.variables() | one.upper.variables();
             }
         }
         for (at, node) in checked.nodes.iter().enumerate().rev() {
             if let Kind::Sum { loops: own, .. } = &node.kind {
-                let mut parent = loops.deepest(loops.free[at] & !loops.unrolled);
+                let mut parent = loops.deepest(loops.free[at].without(loops.unrolled));
                 for id in own.clone().map(Domain) {
                     let number = id.0 as usize;
                     if loops.is_unrolled(id) {
-                        loops.numbers[number] = bit(id);
+                        loops.numbers[number] = Set::of(id);
                         continue;
                     }
                     let bounds = &checked.loops[number];
                     let own = bounds.lower.variables() | bounds.upper.variables();
-                    let around = parent.map_or(0, |p| loops.numbers[p.0 as usize]);
-                    loops.numbers[number] = own & loops.unrolled | around;
+                    let around = parent.map(|p| loops.numbers[p.0 as usize]);
+                    loops.numbers[number] = own & loops.unrolled | around.unwrap_or_default();
                     loops.depths[number] = parent.map_or(0, |p| loops.depths[p.0 as usize] + 1);
                     loops.parents[number] = parent;
                     parent = Some(id);
@@ -90,19 +86,17 @@ impl Loops {
     }
 
     fn free_of(&self, checked: &Checked, node: &Node) -> Set {
-        let mut set = 0;
+        let mut set = Set::default();
         node.kind.for_each_child(|child| set |= self.free(child));
         match &node.kind {
-            Kind::Loop(id) => set |= bit(*id),
+            Kind::Loop(id) => set |= Set::of(*id),
             Kind::Index { index, .. } => set |= index.variables(),
             Kind::Sum { loops, .. } => {
                 for id in loops.clone() {
                     let one = &checked.loops[id as usize];
                     set |= one.lower.variables() | one.upper.variables();
                 }
-                for id in loops.clone() {
-                    set &= !bit(Domain(id));
-                }
+                set = set.without(loops.clone().map(Domain).collect());
             }
             _ => {}
         }
@@ -150,7 +144,8 @@ impl Loops {
     /// The loops that are unrolled and a node depends on, by itself or by the range of a loop
     /// that it depends on.
     pub fn numbers(&self, node: NodeId) -> Set {
-        members(self.free(node)).fold(0, |set, id| set | self.numbers[id.0 as usize])
+        let free = self.free(node).members();
+        free.fold(Set::default(), |set, id| set | self.numbers[id.0 as usize])
     }
 
     /// Whether components of a vector exist by number only.
@@ -165,11 +160,11 @@ impl Loops {
 
     /// Whether a loop is unrolled.
     pub fn is_unrolled(&self, id: Domain) -> bool {
-        self.unrolled & bit(id) != 0
+        self.unrolled.has(id)
     }
 
     /// The innermost of loops that lie on one path.
     pub fn deepest(&self, set: Set) -> Option<Domain> {
-        members(set).max_by_key(|id| self.depths[id.0 as usize])
+        set.members().max_by_key(|id| self.depths[id.0 as usize])
     }
 }

@@ -63,7 +63,7 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
     };
     let is_looped = |node: Node| match dag.kind(node) {
         Kind::Element(Array::Velocity(Column { group, .. }), row, _) => {
-            row.variables() != 0 && is_written_out(*group)
+            !row.variables().is_empty() && is_written_out(*group)
         }
         _ => false,
     };
@@ -77,11 +77,10 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
 /// An expression of the loop variable `k` at an index with a modulus; `None` where it does more with
 /// `k` than index.
 fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
-    let bit = 1u64 << k.0;
     let modulo = at.modulo.clone()?;
     let mut whole = true;
     let image = dag.substitute(root, |dag, node| {
-        if dag.variables(node) & bit == 0 {
+        if !dag.variables(node).has(k) {
             return Some(node);
         }
         let (array, row, column) = match dag.kind(node) {
@@ -92,7 +91,7 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
             }
             Kind::Reduce(domain, _) => {
                 let range = dag.range(*domain);
-                whole &= (range.start.variables() | range.end.variables()) & bit == 0;
+                whole &= !(range.start.variables() | range.end.variables()).has(k);
                 return None;
             }
             _ => return None,
@@ -105,7 +104,7 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
             }
         });
         let is_plain = row.modulo.is_none() && row.affine == Affine::variable(k);
-        let of_k = column.as_ref().is_some_and(|c| c.variables() & bit != 0);
+        let of_k = column.as_ref().is_some_and(|c| c.variables().has(k));
         // (i mod n + c) mod n = (i + c) mod n
         if of_k || !(is_plain || row.modulo.as_ref() == Some(&modulo)) {
             whole = false;

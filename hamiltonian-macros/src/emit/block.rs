@@ -9,7 +9,7 @@ use super::index::variable;
 use super::layout::{Layout, Slice};
 use super::number;
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
-use hamiltonian_symbolic::index::{Affine, Domain, Index};
+use hamiltonian_symbolic::index::{Affine, Domain, Index, Loops};
 use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Target, Update, Value};
 use std::fmt::Write;
@@ -455,7 +455,7 @@ impl Accesses {
             stores: Vec::new(),
         };
         if context.access == Access::Apart {
-            finder.walk(&inner.body, 0);
+            finder.walk(&inner.body, Loops::default());
         }
         let mut accesses = finder.accesses;
         for (slice, index, steps) in finder.stores {
@@ -484,7 +484,7 @@ struct Finder<'a> {
 }
 
 impl Finder<'_> {
-    fn walk(&mut self, steps: &[Step], inner: u64) {
+    fn walk(&mut self, steps: &[Step], inner: Loops) {
         for step in steps {
             match step {
                 Step::Let(value) => {
@@ -505,14 +505,14 @@ impl Finder<'_> {
                     }
                 }
                 Step::Accumulate(..) => {}
-                Step::Loop(l) => self.walk(&l.body, inner | 1 << l.domain.0),
+                Step::Loop(l) => self.walk(&l.body, inner | Loops::of(l.domain)),
             }
         }
     }
 
     /// Notes the indices of an element that wrap in this loop. Whether it moves by one element of its
     /// column with the loop variable, in the body of this very loop.
-    fn element(&mut self, row: &Index, column: Option<&Index>, inner: u64) -> bool {
+    fn element(&mut self, row: &Index, column: Option<&Index>, inner: Loops) -> bool {
         let along = self.index(row, inner);
         if let Some(column) = column {
             self.index(column, inner);
@@ -520,13 +520,13 @@ impl Finder<'_> {
         along && column.is_none()
     }
 
-    fn index(&mut self, index: &Index, inner: u64) -> bool {
+    fn index(&mut self, index: &Index, inner: Loops) -> bool {
         let variables = index.variables();
-        if variables & inner != 0 || variables & 1 << self.domain.0 == 0 {
+        if variables.meets(inner) || !variables.has(self.domain) {
             return false;
         }
-        let outer = index.outer.as_ref().map_or(0, |o| o.index.variables());
-        if outer & 1 << self.domain.0 != 0 {
+        let outer = index.outer.as_ref();
+        if outer.is_some_and(|outer| outer.index.variables().has(self.domain)) {
             return false;
         }
         let factor = index.affine.factor(self.domain);

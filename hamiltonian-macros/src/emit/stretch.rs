@@ -7,7 +7,7 @@
 use super::block::{Accesses, Writer, name, names};
 use super::context::{Access, ZERO};
 use super::layout::Slice;
-use hamiltonian_symbolic::index::Index;
+use hamiltonian_symbolic::index::{Index, Loops};
 use hamiltonian_symbolic::program::{Instruction, Loop, Step, Update, Value};
 use std::fmt::Write;
 
@@ -75,7 +75,7 @@ impl Writer<'_> {
     /// The loop for core, if it has the form.
     pub(super) fn stretch(&self, inner: &Loop, found: &Accesses) -> Option<Stretch> {
         let program = self.context.program;
-        let varies = |variables: u64| variables & 1 << inner.domain.0 != 0;
+        let varies = |variables: Loops| variables.has(inner.domain);
         let mut made = Stretch {
             name: String::new(),
             given: Vec::new(),

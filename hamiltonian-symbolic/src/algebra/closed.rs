@@ -63,7 +63,7 @@ impl Dag {
     /// `None` at a pole, or so near to one that rounding hides it.
     #[must_use]
     pub fn number(&self, root: Node) -> Option<Ball> {
-        if self.stage(root) != Stage::Constant || self.variables(root) != 0 {
+        if self.stage(root) != Stage::Constant || !self.variables(root).is_empty() {
             return None;
         }
         let mut values: Map<Node, Ball> = Map::default();

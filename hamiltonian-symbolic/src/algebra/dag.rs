@@ -18,7 +18,7 @@ pub(crate) use table::Numbers;
 pub use table::{Map, Mixer};
 pub(crate) use work::work;
 
-use crate::index::{Affine, Domain, Index, LOOPS, Size};
+use crate::index::{Affine, Domain, Index, LOOPS, Loops, Size};
 use crate::rational::Rational;
 use op::Op;
 
@@ -231,7 +231,7 @@ pub enum Stage {
 #[derive(Clone, Copy, Debug)]
 struct Facts {
     dependence: Dependence,
-    variables: u64,
+    variables: Loops,
     sign: Sign,
     height: u32,
     /// A part of a long product, which no product it stands in takes apart.
@@ -300,9 +300,9 @@ impl Dag {
             _ => None,
         }
     }
-    /// The loop variables a node depends on, as a bit set of domain numbers.
+    /// The loops whose variables a node depends on.
     #[must_use]
-    pub fn variables(&self, node: Node) -> u64 {
+    pub fn variables(&self, node: Node) -> Loops {
         self.facts[node.0 as usize].variables
     }
     /// The signs that the value may have, where there is one.
@@ -334,12 +334,9 @@ impl Dag {
     }
     /// The deepest of a set of loops, which lie on one path.
     #[must_use]
-    pub fn deepest(&self, set: u64) -> Option<Domain> {
+    pub fn deepest(&self, set: Loops) -> Option<Domain> {
         let mut best: Option<(usize, Domain)> = None;
-        let mut rest = set;
-        while rest != 0 {
-            let domain = Domain(rest.trailing_zeros());
-            rest &= rest - 1;
+        for domain in set.members() {
             let depth = self.depth(Some(domain));
             if best.is_none_or(|(d, _)| depth > d) {
                 best = Some((depth, domain));
@@ -485,7 +482,7 @@ impl Dag {
 
     fn facts_of(&self, kind: &Kind) -> Facts {
         let mut dependence = Dependence::default();
-        let mut variables = 0u64;
+        let mut variables = Loops::default();
         let mut height = 0;
         kind.for_children(|child| {
             height = height.max(self.height(child) + 1);
@@ -521,7 +518,7 @@ impl Dag {
             Kind::Count(d) | Kind::Reduce(d, _) => {
                 let range = self.range(*d);
                 variables |= range.start.variables() | range.end.variables();
-                variables &= !(1u64 << d.0);
+                variables = variables.without(Loops::of(*d));
                 if range.start.has_sizes() || range.end.has_sizes() {
                     Dependence::PARAMETER
                 } else {
@@ -532,9 +529,10 @@ impl Dag {
         };
         dependence.0 |= own.0;
         match kind {
-            Kind::Variable(d) => variables |= 1 << d.0,
+            Kind::Variable(d) => variables |= Loops::of(*d),
             Kind::Element(_, row, column) => {
-                variables |= row.variables() | column.as_ref().map_or(0, |c| c.variables());
+                variables |= row.variables();
+                variables |= column.as_ref().map(|c| c.variables()).unwrap_or_default();
             }
             _ => {}
         }

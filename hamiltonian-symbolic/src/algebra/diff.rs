@@ -183,8 +183,7 @@ impl Branches {
 
 /// The deeper of two loops on one path.
 fn inner(dag: &Dag, a: Option<Domain>, b: Option<Domain>) -> Option<Domain> {
-    let set = a.map_or(0, |d| 1u64 << d.0) | b.map_or(0, |d| 1u64 << d.0);
-    dag.deepest(set)
+    dag.deepest(a.into_iter().chain(b).collect())
 }
 
 /// A contribution made inside loop `within` to a node that lives further out is summed over the

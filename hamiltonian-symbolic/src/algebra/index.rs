@@ -4,6 +4,8 @@
 //! Input: what the front end resolved. Output: [`Affine`], [`Index`], [`Domain`] ids. Invariant:
 //! terms sorted by variable, no zero coefficients, so that equal indices are equal values.
 
+use crate::set::{MEMBERS, Member, Set};
+
 /// A loop: a range in the context of an enclosing loop. Its number also names its variable.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Domain(pub u32);
@@ -12,14 +14,19 @@ pub struct Domain(pub u32);
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Debug)]
 pub struct Size(pub u16);
 
-/// The most loops that one arena tells apart: a set of them is the bits of a word.
-pub const LOOPS: usize = 64;
+/// The most loops that one arena tells apart.
+pub const LOOPS: usize = MEMBERS;
 
-/// The loops of a set.
-pub fn members(set: u64) -> impl Iterator<Item = Domain> {
-    (0..LOOPS as u32)
-        .filter(move |number| set >> number & 1 == 1)
-        .map(Domain)
+/// A set of loops.
+pub type Loops = Set<Domain>;
+
+impl Member for Domain {
+    fn number(self) -> u32 {
+        self.0
+    }
+    fn numbered(number: u32) -> Domain {
+        Domain(number)
+    }
 }
 
 /// `constant + Σ k·loop variable + Σ k·size + Σ k·(product of sizes)`.
@@ -222,8 +229,8 @@ impl Affine {
     }
     /// The loop variables as a bit set.
     #[must_use]
-    pub fn variables(&self) -> u64 {
-        self.loops.iter().fold(0, |set, (d, _)| set | 1 << d.0)
+    pub fn variables(&self) -> Loops {
+        self.loops.iter().map(|(domain, _)| *domain).collect()
     }
 }
 
@@ -389,13 +396,11 @@ impl Index {
             None => last,
         }
     }
-    /// The loop variables as a bit set.
+    /// The loops whose variables it names.
     #[must_use]
-    pub fn variables(&self) -> u64 {
-        let own = self.affine.variables() | self.modulo.as_ref().map_or(0, Affine::variables);
-        own | self
-            .outer
-            .as_ref()
-            .map_or(0, |outer| outer.index.variables())
+    pub fn variables(&self) -> Loops {
+        let modulo = self.modulo.as_ref().map(Affine::variables);
+        let outer = self.outer.as_ref().map(|outer| outer.index.variables());
+        self.affine.variables() | modulo.unwrap_or_default() | outer.unwrap_or_default()
     }
 }

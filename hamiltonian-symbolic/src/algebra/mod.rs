@@ -16,4 +16,5 @@ pub mod print;
 pub mod rational;
 mod reindex;
 mod rewrite;
+pub mod set;
 pub(crate) mod simplify;

@@ -5,7 +5,7 @@
 //! move with it; a sum over the same loop binds the variable anew and stays.
 
 use crate::dag::{Dag, Kind, Map, Node};
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain, Index, Loops};
 
 /// The images of loops that have moved.
 type Moved = Map<Domain, Domain>;
@@ -30,7 +30,7 @@ impl Dag {
         let nodes = self.reachable(&[root]);
         let new = self.try_map(nodes, |dag, node, new| {
             let image = match dag.kind(node).clone() {
-                _ if dag.variables(node) & inside == 0 => node,
+                _ if !dag.variables(node).meets(inside) => node,
                 Kind::Variable(d) if d == variable => dag.variable_at(by)?,
                 Kind::Variable(d) => {
                     let d = dag.moved(d, variable, &by.affine, &mut moved);
@@ -71,9 +71,9 @@ impl Dag {
         let nodes = self.reachable(&[root]);
         let new = self.try_map(nodes, |dag, node, new| {
             let image = match dag.kind(node).clone() {
-                _ if dag.variables(node) & inside == 0 => node,
+                _ if !dag.variables(node).meets(inside) => node,
                 Kind::Element(array, row, column) => {
-                    let is_number = |index: &Index| index.variables() & inside != 0;
+                    let is_number = |index: &Index| index.variables().meets(inside);
                     if row != own || column.as_deref().is_some_and(is_number) {
                         return None;
                     }
@@ -182,11 +182,11 @@ impl Dag {
         }
     }
 
-    /// A loop and all loops inside it, as a bit set.
-    fn inside(&self, variable: Domain) -> u64 {
-        (0..self.loop_count() as u32)
-            .filter(|d| self.path(Some(Domain(*d))).contains(&variable))
-            .fold(0u64, |set, d| set | 1 << d)
+    /// A loop and all loops inside it.
+    fn inside(&self, variable: Domain) -> Loops {
+        let all = (0..self.loop_count() as u32).map(Domain);
+        all.filter(|d| self.path(Some(*d)).contains(&variable))
+            .collect()
     }
 
     /// The image of a loop when `variable` is replaced.
@@ -206,7 +206,7 @@ impl Dag {
         let range = self.range(domain).clone();
         let parent = match range.parent {
             Some(parent) if parent == variable => {
-                let outer = self.range(variable).parent.map_or(0, |d| 1u64 << d.0);
+                let outer: Loops = self.range(variable).parent.into_iter().collect();
                 self.deepest(by.variables() | outer)
             }
             Some(parent) => Some(self.moved(parent, variable, by, moved)),

@@ -27,7 +27,7 @@ pub(crate) fn is_prepared(dag: &Dag, node: Node) -> bool {
 
 /// Whether a node is computed before a stage, outside loops.
 pub(crate) fn is_known(dag: &Dag, node: Node, now: Stage) -> bool {
-    dag.stage(node) < now && dag.variables(node) == 0
+    dag.stage(node) < now && dag.variables(node).is_empty()
 }
 
 /// The longest sum into whose terms a coefficient is multiplied: it spares one multiplication and
@@ -121,7 +121,7 @@ fn gathered(
         let others = || factors.iter().filter(|(node, _)| *node != sum);
         if n != 1
             || uses.get(sum) != Some(1)
-            || others().any(|(f, _)| dag.variables(*f) >> domain.0 & 1 == 1)
+            || others().any(|(f, _)| dag.variables(*f).has(domain))
         {
             return None;
         }

@@ -145,7 +145,7 @@ fn single(model: &mut Model, gradient: &[VectorEntry]) -> Result<Kick, ()> {
             // Another loop pushes the same momenta: the weight must be the same in all rows.
             (None, Some(at)) => {
                 let (weight, _) = weights[at];
-                if model.dag.variables(weight) != 0 || !is_whole(model, &forces[at]) {
+                if !model.dag.variables(weight).is_empty() || !is_whole(model, &forces[at]) {
                     return Err(());
                 }
                 (weight, false)

@@ -148,7 +148,7 @@ fn describe(
     if dag.stage(node) > Stage::Parameters {
         return (Reads::More, false);
     }
-    if dag.variables(node) == 0 {
+    if dag.variables(node).is_empty() {
         return (Reads::Scalars, false);
     }
     let of_children = || {

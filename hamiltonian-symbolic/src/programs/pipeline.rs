@@ -431,7 +431,7 @@ fn overwrite(
     if let [at] = own {
         let store = &mut stores[*at];
         if let (None, Some(loops)) = (&store.column, dag.loops_of_rows(&store.row, &rows))
-            && dag.variables(store.value) & !loops == 0
+            && dag.variables(store.value).is_within(loops)
         {
             store.add = false;
             return;
@@ -443,7 +443,7 @@ fn overwrite(
             column: None,
             value,
             ..
-        } if dag.variables(*value) == 0 => row.as_constant(),
+        } if dag.variables(*value).is_empty() => row.as_constant(),
         _ => None,
     };
     let mut elements: Vec<i64> = own.iter().filter_map(element).collect();

@@ -158,7 +158,7 @@ pub fn schedule(
 /// The stage that computes a node needed in `now`: numbers stand where they are used, other
 /// constants are prepared, and nothing that depends on a loop is carried over.
 fn stage_of(dag: &Dag, node: Node, now: Stage) -> Stage {
-    if dag.variables(node) != 0 || matches!(dag.kind(node), Kind::Constant(_) | Kind::Pi) {
+    if !dag.variables(node).is_empty() || matches!(dag.kind(node), Kind::Constant(_) | Kind::Pi) {
         return now;
     }
     dag.stage(node).max(Stage::Parameters)
@@ -263,9 +263,9 @@ impl Placer<'_> {
         if self.pinned.is_some() {
             return self.pinned;
         }
-        let set = self.dag.variables(store.value)
-            | store.row.variables()
-            | store.column.as_ref().map_or(0, Index::variables);
+        let indices = std::iter::once(&store.row).chain(&store.column);
+        let set = self.dag.variables(store.value);
+        let set = indices.fold(set, |set, index| set | index.variables());
         self.dag.deepest(set)
     }
 

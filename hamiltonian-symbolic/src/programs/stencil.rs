@@ -8,7 +8,7 @@
 
 use crate::dag::work;
 use crate::dag::{Dag, Kind, Node};
-use crate::index::{Affine, Index};
+use crate::index::{Affine, Index, Loops};
 use crate::schedule::Store;
 
 /// The most operations of a term that is computed twice: fewer than a function takes.
@@ -36,16 +36,16 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
     if !store.add || store.column.is_some() || store.row.outer.is_none() {
         return None;
     }
-    let (mut shifts, mut known) = (Vec::new(), 0u64);
+    let (mut shifts, mut known) = (Vec::new(), Loops::default());
     let site = store.row.try_map(&mut |axis| {
         let [(domain, 1)] = *axis.affine.loops.as_slice() else {
             return None;
         };
         // A loop that chooses two indices at once does not visit all sites.
-        if known >> domain.0 & 1 == 1 {
+        if known.has(domain) {
             return None;
         }
-        known |= 1 << domain.0;
+        known |= Loops::of(domain);
         let own = Index::plain(Affine::variable(domain));
         let shift = axis.affine.plus(-1, &own.affine);
         match &axis.modulo {
@@ -58,7 +58,7 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
         }
         Some(own)
     })?;
-    if shifts.is_empty() || dag.variables(store.value) & !known != 0 {
+    if shifts.is_empty() || !dag.variables(store.value).is_within(known) {
         return None;
     }
     let mut value = store.value;
@@ -89,11 +89,11 @@ fn is_cheap(dag: &Dag, value: Node) -> bool {
     };
     // What is the same at all sites is computed once.
     let varying = dag.reached(&[value], |node, ahead| {
-        if dag.variables(node) != 0 {
+        if !dag.variables(node).is_empty() {
             dag.for_children(node, |child| ahead.add(child));
         }
     });
-    let varies = |node: &Node| dag.variables(*node) != 0;
+    let varies = |node: &Node| !dag.variables(*node).is_empty();
     varying
         .iter()
         .filter(|node| varies(node))

@@ -316,7 +316,7 @@ impl Facts {
             sorted.sort_unstable();
             sorted.dedup();
             // At the variables of loops, two terms may mean the same pair.
-            let is_fixed = |n: &Node| dag.variables(*n) == 0;
+            let is_fixed = |n: &Node| dag.variables(*n).is_empty();
             sorted.len() < places.len() || !sorted.iter().all(|(a, b)| is_fixed(a) && is_fixed(b))
         };
         let are_apart = || {

@@ -3,7 +3,7 @@
 //! Input: affine forms over the loops of the arena. Output: statements that hold in every iteration, whatever the sizes are. Invariant: a size is at least 0, and nothing more is known of it.
 
 use super::Dag;
-use crate::index::{Affine, Domain, End, Index};
+use crate::index::{Affine, Domain, End, Index, Loops};
 
 impl Dag {
     /// Whether a loop is `i in 0..rows`.
@@ -12,28 +12,28 @@ impl Dag {
         let range = self.range(domain);
         range.start == Affine::constant(0) && range.end == *rows
     }
-    /// The loops, as a bit set, whose iterations are the rows, each one once: that of `i` alone in
+    /// The loops whose iterations are the rows, each one once: that of `i` alone in
     /// `0..rows`, or those of `i`, `j`, … for an index of several axes, with no loop around them.
     #[must_use]
-    pub(crate) fn loops_of_rows(&self, row: &Index, rows: &Affine) -> Option<u64> {
-        let (mut loops, mut total) = (0u64, Affine::constant(1));
+    pub(crate) fn loops_of_rows(&self, row: &Index, rows: &Affine) -> Option<Loops> {
+        let (mut loops, mut total) = (Loops::default(), Affine::constant(1));
         let mut innermost = None;
         for axis in row.axes() {
             let [(domain, 1)] = *axis.affine.loops.as_slice() else {
                 return None;
             };
             let range = self.range(domain);
-            let is_new = loops >> domain.0 & 1 == 0;
+            let is_new = !loops.has(domain);
             let is_plain = axis == Index::plain(Affine::variable(domain));
             if !(is_new && is_plain && range.start == Affine::constant(0)) {
                 return None;
             }
-            loops |= 1 << domain.0;
+            loops |= Loops::of(domain);
             total = total.checked_times(&range.end)?;
             innermost = self.deepest(loops);
         }
         let mut around = self.path(innermost).into_iter();
-        let is_alone = around.all(|domain| loops >> domain.0 & 1 == 1);
+        let is_alone = around.all(|domain| loops.has(domain));
         (is_alone && self.fill_axes(row) && total == *rows).then_some(loops)
     }
     /// Whether the loop of each axis but the first runs over its extent.

@@ -7,7 +7,7 @@
 //! there is no answer.
 
 use crate::dag::{Array, Dag, Kind, Node};
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain, Index, Loops};
 
 /// The loop over the elements of an array with this many rows.
 pub fn elements(dag: &mut Dag, rows: &Affine) -> Domain {
@@ -157,11 +157,11 @@ fn gather(
 /// The value at a site of an array with several axes, in loops over all of them, as an expression of the
 /// number k of the element; `None` where it reads more than elements at that site: the number says no
 /// index of an axis without a division.
-fn at_number(dag: &mut Dag, site: &Index, loops: u64, value: Node, k: Domain) -> Option<Node> {
+fn at_number(dag: &mut Dag, site: &Index, loops: Loops, value: Node, k: Domain) -> Option<Node> {
     let number = Index::plain(Affine::variable(k));
     let nodes = dag.reachable(&[value]);
     let new = dag.try_map(nodes, |dag, node, new| match dag.kind(node).clone() {
-        _ if dag.variables(node) & loops == 0 => Some(node),
+        _ if !dag.variables(node).meets(loops) => Some(node),
         Kind::Element(array, row, None) if row == *site => {
             Some(dag.element(array, number.clone(), None))
         }

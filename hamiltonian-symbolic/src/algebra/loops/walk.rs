@@ -93,7 +93,7 @@ pub(crate) fn walk<M: Meaning>(
     }
     let outside: Vec<Node> = order
         .into_iter()
-        .filter(|n| dag.variables(*n) == 0)
+        .filter(|n| dag.variables(*n).is_empty())
         .collect();
     let mut walk = Walk {
         dag,
@@ -116,7 +116,7 @@ pub(crate) fn walk<M: Meaning>(
 /// The nodes a loop's body needs that are computed in each iteration of this loop, but not of one
 /// inside it.
 fn block(dag: &Dag, body: Node, domain: Domain, homes: &Map<Node, Domain>) -> Vec<Node> {
-    let is_inside = |node: Node| dag.variables(node) >> domain.0 & 1 == 1;
+    let is_inside = |node: Node| dag.variables(node).has(domain);
     let mut found = dag.reached(&[body], |node, ahead| {
         dag.for_children(node, |child| {
             if is_inside(child) {

@@ -6,7 +6,7 @@
 
 use super::polynomial::{Atom, Budget, Monomial, Poly, Undecided};
 use crate::dag::{Dag, Dependence, Map, Node, Part, Sign};
-use crate::index::Domain;
+use crate::index::{Domain, Loops};
 use crate::op::Op;
 use crate::rational::Rational;
 use std::rc::Rc;
@@ -79,7 +79,7 @@ pub(crate) struct Entry {
     /// Its dependences.
     pub(crate) dependence: Dependence,
     /// The loop variables it depends on.
-    pub(crate) variables: u64,
+    pub(crate) variables: Loops,
     /// The signs that it may have.
     pub(crate) sign: Sign,
 }
@@ -186,7 +186,7 @@ impl Algebra {
         &mut self,
         key: Key,
         relation: Option<(u32, Poly)>,
-        (mut dependence, mut variables): (Dependence, u64),
+        (mut dependence, mut variables): (Dependence, Loops),
         sign: Sign,
     ) -> Atom {
         if let Some(&atom) = self.known.get(&key) {
@@ -197,7 +197,7 @@ impl Algebra {
             variables |= self.entry(part).variables;
         }
         if let Key::Sum(domain, _) = key {
-            variables &= !(1u64 << domain.0);
+            variables = variables.without(Loops::of(domain));
         }
         let atom = self.entries.len() as Atom;
         self.known.insert(key.clone(), atom);
@@ -232,7 +232,8 @@ impl Algebra {
         };
         // Elements of a loop may be the same one.
         let atoms = poly.atoms();
-        let is_fixed = atoms.len() == 1 || atoms.iter().all(|a| self.entry(*a).variables == 0);
+        let is_fixed =
+            atoms.len() == 1 || atoms.iter().all(|a| self.entry(*a).variables.is_empty());
         self.scope == Scope::Densely
             && is_fixed
             && atoms.into_iter().filter(moves).any(|atom| {

@@ -78,7 +78,6 @@ impl Algebra {
                 self.external(*function, *part, &self.all(arguments))?
             }
             Kind::Reduce(domain, body) => {
-                let bit = 1u64 << domain.0;
                 let body = self.of(*body);
                 let body = self.canonical(&body)?;
                 let mut sum = Sum::default();
@@ -86,7 +85,7 @@ impl Algebra {
                     let (inside, outside): (Vec<_>, Vec<_>) = monomial
                         .0
                         .iter()
-                        .partition(|(atom, _)| self.entry(*atom).variables & bit != 0);
+                        .partition(|(atom, _)| self.entry(*atom).variables.has(*domain));
                     // A body without the variable is a count, which the constructors make.
                     let looped = self.sum(dag, *domain, Monomial(inside));
                     sum.add_term(Monomial(outside).mul(&Monomial::atom(looped, 1)), k.clone());

@@ -104,11 +104,10 @@ fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, 
     };
     let mut sum = monomial;
     for &domain in loops.iter().rev() {
-        let bit = 1u64 << domain.0;
         let (inside, outside): (Vec<_>, Vec<_>) = sum
             .0
             .iter()
-            .partition(|(atom, _)| algebra.entry(*atom).variables & bit != 0);
+            .partition(|(atom, _)| algebra.entry(*atom).variables.has(domain));
         let looped = algebra.sum(dag, domain, Monomial(inside));
         sum = Monomial(outside).mul(&Monomial::atom(looped, 1));
     }

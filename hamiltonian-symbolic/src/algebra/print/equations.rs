@@ -250,7 +250,7 @@ fn elements(
         }
     }
     // A long one read at many numbers would be a list of conditions nobody reads.
-    let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables() == 0);
+    let is_listed = own.len() > 16 && own.iter().all(|(row, _)| row.variables().is_empty());
     let value = match is_listed {
         true => None,
         false => field::field(&mut model.dag, leaves, array, rows),

@@ -3,7 +3,7 @@
 //! Input: nodes. Output: nodes in canonical form. Invariant: that of the constructors of expressions.
 
 use crate::dag::{Dag, Kind, Node, Relation};
-use crate::index::{Affine, Domain};
+use crate::index::{Affine, Domain, Loops};
 use crate::rational::Rational;
 
 impl Dag {
@@ -81,12 +81,11 @@ impl Dag {
     /// Σ of `body` over a loop. Factors that do not depend on the loop stand outside; a loop that
     /// does not depend on its parent is moved out of it.
     pub fn reduce(&mut self, domain: Domain, body: Node) -> Node {
-        let bit = 1u64 << domain.0;
         let range = self.range(domain).clone();
         if self.is_zero(body) {
             return body;
         }
-        if self.variables(body) & bit == 0 {
+        if !self.variables(body).has(domain) {
             let count = self.count(domain);
             return self.mul(&[count, body]);
         }
@@ -99,7 +98,7 @@ impl Dag {
             let (k, factors) = (k.clone(), factors.clone());
             let (inside, mut outside): (Vec<_>, Vec<_>) = factors
                 .iter()
-                .partition(|(n, _)| self.variables(*n) & bit != 0);
+                .partition(|(n, _)| self.variables(*n).has(domain));
             if !outside.is_empty() || !k.is_one() {
                 let inside = self.product(&Rational::ONE, &inside);
                 let sum = self.reduce(domain, inside);
@@ -107,8 +106,8 @@ impl Dag {
                 return self.product(&k, &outside);
             }
         }
-        let needs = (self.variables(body) | range.start.variables() | range.end.variables()) & !bit;
-        let parent = self.deepest(needs);
+        let needs = self.variables(body) | range.start.variables() | range.end.variables();
+        let parent = self.deepest(needs.without(Loops::of(domain)));
         if parent != range.parent {
             let moved = self.domain(parent, range.start, range.end);
             let body = self.replace(body, domain, &Affine::variable(moved));

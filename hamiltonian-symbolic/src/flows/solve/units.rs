@@ -174,7 +174,7 @@ pub(crate) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
 /// A term without the inner loops whose variables it does not read: it stands there as often as they run.
 fn counted(dag: &mut Dag, mut term: Term) -> Term {
     while let Some(&innermost) = term.chain.last()
-        && dag.variables(term.body) & 1 << innermost.0 == 0
+        && !dag.variables(term.body).has(innermost)
     {
         term.chain.pop();
         let count = dag.count(innermost);

@@ -345,7 +345,7 @@ fn commute(dag: &Dag, chain: &[Domain], rows: &[Index], body: Node) -> bool {
     let is_own = |node: Node| match dag.kind(node) {
         Kind::Variable(_) => false,
         Kind::Element(_, index, column) => {
-            let is_free = |index: &Index| index.variables() == 0;
+            let is_free = |index: &Index| index.variables().is_empty();
             (index == row || is_free(index)) && column.as_deref().is_none_or(is_free)
         }
         _ => true,

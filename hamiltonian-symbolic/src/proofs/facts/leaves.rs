@@ -55,7 +55,7 @@ pub fn is_solved_beside(dag: &Dag, one: Node, other: Node) -> bool {
         let mut rest = terms.iter().enumerate().filter(|(other, _)| *other != at);
         // At the variables of loops, another leaf may be the same element.
         let is_plain = matches!(dag.kind(*leaf), Kind::Element(Array::Phase(_), ..))
-            && dag.variables(*leaf) == 0;
+            && dag.variables(*leaf).is_empty();
         is_plain && is_free(*leaf) && rest.all(|(_, (_, term))| !reads(*term))
     })
 }

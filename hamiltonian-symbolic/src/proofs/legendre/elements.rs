@@ -51,7 +51,7 @@ pub(super) fn merged(dag: &mut Dag, entry: Node, k: Domain) -> Node {
         return entry;
     };
     let is_piece = |dag: &Dag, term: Node| match dag.kind(term) {
-        Kind::Select(condition, ..) => dag.variables(*condition) & 1 << k.0 != 0,
+        Kind::Select(condition, ..) => dag.variables(*condition).has(k),
         _ => false,
     };
     // Nothing is made where there is nothing to merge: the order of nodes is that of the code.
@@ -155,8 +155,7 @@ pub(super) fn zero_at(model: &Model, entry: Node, k: Domain) -> Option<Affine> {
 
 /// Whether the expression for one k is that for another but for the names of the elements it reads.
 fn is_the_same_for_all(dag: &Dag, root: Node, k: Domain) -> bool {
-    let bit = 1u64 << k.0;
-    if dag.variables(root) & bit == 0 {
+    if !dag.variables(root).has(k) {
         return true;
     }
     let own = Index::plain(Affine::variable(k));
@@ -164,14 +163,14 @@ fn is_the_same_for_all(dag: &Dag, root: Node, k: Domain) -> bool {
     for node in dag.reachable(&[root]) {
         let is_same = match dag.kind(node) {
             Kind::Element(array, row, column) => {
-                let of_k = *row == own && column.as_ref().is_none_or(|c| c.variables() & bit == 0);
-                let depends = dag.variables(node) & bit != 0;
+                let of_k = *row == own && column.as_ref().is_none_or(|c| !c.variables().has(k));
+                let depends = dag.variables(node).has(k);
                 of_k == depends && *reads.entry(*array).or_insert(of_k) == of_k
             }
             Kind::Variable(domain) => *domain != k,
             Kind::Count(domain) | Kind::Reduce(domain, _) => {
                 let range = dag.range(*domain);
-                (range.start.variables() | range.end.variables()) & bit == 0
+                !(range.start.variables() | range.end.variables()).has(k)
             }
             _ => true,
         };

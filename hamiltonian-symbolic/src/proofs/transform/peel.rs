@@ -135,7 +135,7 @@ fn step(
         let Some((group, row)) = read(dag, node) else {
             continue;
         };
-        if row.variables() >> domain.0 & 1 == 0 {
+        if !row.variables().has(domain) {
             continue;
         }
         if written.contains(&group)

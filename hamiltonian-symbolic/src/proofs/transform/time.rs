@@ -69,7 +69,7 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
             reason: "is no function of coordinates, momenta, time and parameters",
         });
     }
-    if model.dag.variables(g) != 0 {
+    if !model.dag.variables(g).is_empty() {
         return Err(Refusal::Factor {
             reason: "depends on a loop variable",
         });

@@ -9,7 +9,7 @@ pub(crate) mod rows;
 pub(crate) mod units;
 
 use crate::dag::{Kind, Map, Node};
-use crate::flows::space::{Set, Space, bits};
+use crate::flows::space::{Space, Variables};
 use crate::model::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
 use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
@@ -50,11 +50,11 @@ pub(crate) fn exponential(space: &mut Space, h: Node) -> Option<Flow> {
 /// No conjugate pair meets: everything moves at a constant rate.
 pub(crate) fn shear(space: &mut Space, h: Node, s: Node) -> Flow {
     let mut motion = Motion::default();
-    for bit in bits(space.set(h)) {
-        let variable = space.variable(bit);
+    for one in space.set(h).members() {
+        let variable = space.variable(one);
         let slope = space.d(h, variable);
         let value = space.dag().mul(&[s, slope]);
-        space.push(&mut motion, bit, value);
+        space.push(&mut motion, one, value);
     }
     Flow {
         motion,
@@ -81,8 +81,7 @@ fn bare(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
 /// h = G(u, c) of one expression u in which all pairs meet: u's flow for the time s·∂G/∂u.
 fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let active = space.active(h);
-    let set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
-    let u = waist(space, h, set)?;
+    let u = waist(space, h, Variables::of_pairs(&active))?;
     let rate = space.by_node(h, u);
     let time = space.dag().mul(&[s, rate]);
     let inner = whole(space, u, time)
@@ -91,12 +90,12 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         .or_else(|| commuting(space, u, time))?;
     // The factor beside u is a constant of the motion only where u's flow leaves it alone.
     let beside = beside(space, h, u);
-    if space.moved(&inner.motion) & beside != 0 {
+    if space.moved(&inner.motion).meets(beside) {
         return None;
     }
     let mut motion = Motion::default();
-    for bit in bits(beside) {
-        let variable = space.variable(bit);
+    for one in beside.members() {
+        let variable = space.variable(one);
         let all = space.d(h, variable);
         let through = space.d(u, variable);
         let through = space.dag().mul(&[rate, through]);
@@ -105,11 +104,11 @@ fn function(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
             false => partial(space, h, u, variable),
         };
         let value = space.dag().mul(&[s, own]);
-        space.push(&mut motion, bit, value);
+        space.push(&mut motion, one, value);
     }
     let rows = inner.rows.clone();
     // A kick beside must not change the variables of u.
-    if space.moved(&motion) & space.set(u) != 0 {
+    if space.moved(&motion).meets(space.set(u)) {
         return None;
     }
     let motion = inner.motion.then(space.dag(), &motion);
@@ -129,13 +128,13 @@ fn partial(space: &mut Space, h: Node, u: Node, variable: Node) -> Node {
 }
 
 /// The variables of h outside u.
-fn beside(space: &mut Space, h: Node, u: Node) -> Set {
-    let mut set = 0;
+fn beside(space: &mut Space, h: Node, u: Node) -> Variables {
+    let mut set = Variables::default();
     let mut seen: Map<Node, ()> = Map::default();
     let mut left = vec![h];
     while let Some(node) = left.pop() {
         let own = space.set(node);
-        if node == u || own & !set == 0 || seen.insert(node, ()).is_some() {
+        if node == u || own.is_within(set) || seen.insert(node, ()).is_some() {
             continue;
         }
         let dag = space.dag();
@@ -149,18 +148,18 @@ fn beside(space: &mut Space, h: Node, u: Node) -> Set {
 }
 
 /// The deepest node other than h through which alone h depends on some variables.
-fn waist(space: &mut Space, h: Node, set: Set) -> Option<Node> {
+fn waist(space: &mut Space, h: Node, set: Variables) -> Option<Node> {
     let nodes = space.model.dag.reachable(&[h]);
     for node in nodes {
         let is_condition = matches!(
             space.model.dag.kind(node),
             Kind::Compare(..) | Kind::Not(_) | Kind::And(..) | Kind::Or(..)
         );
-        if node == h || is_condition || space.set(node) & set != set {
+        if node == h || is_condition || !set.is_within(space.set(node)) {
             continue;
         }
         let over = beside(space, h, node);
-        if over & set == 0 {
+        if !over.meets(set) {
             return Some(node);
         }
     }
@@ -170,7 +169,7 @@ fn waist(space: &mut Space, h: Node, set: Set) -> Option<Node> {
 /// h = G(K₁, …, K_m, c) with a K of each pair that meets: each moves for its own time s·∂G/∂K.
 fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     let active = space.active(h);
-    let own: Set = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let own = Variables::of_pairs(&active);
     let mut flow = Flow::default();
     for pair in active {
         let found = atom(space, h, pair, s)?;
@@ -178,18 +177,18 @@ fn separated(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
         flow.motion.domain.extend(found.motion.domain);
         flow = flow.noted(&found.rows);
     }
-    for bit in bits(space.set(h) & !own) {
-        let variable = space.variable(bit);
+    for one in space.set(h).without(own).members() {
+        let variable = space.variable(one);
         let slope = space.d(h, variable);
         let value = space.dag().mul(&[s, slope]);
-        space.push(&mut flow.motion, bit, value);
+        space.push(&mut flow.motion, one, value);
     }
     Some(flow)
 }
 
 /// The motion of one pair under h, all other variables held.
 fn atom(space: &mut Space, h: Node, pair: usize, s: Node) -> Option<Flow> {
-    let own: Set = 3 << (2 * pair);
+    let own = Variables::of_pairs(&[pair]);
     let u = waist(space, h, own).unwrap_or(h);
     let outer = space.by_node(h, u);
     let (k, rate) = kernel(space, u, own)?;
@@ -236,15 +235,15 @@ fn of_pair(space: &mut Space, axes: Axes, moved: &Moved) -> Motion {
 }
 
 /// u = rate·K + rest with K of one pair alone, rate and rest free of it.
-fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
-    if space.set(u) & !own == 0 {
+fn kernel(space: &mut Space, u: Node, own: Variables) -> Option<(Node, Node)> {
+    if space.set(u).is_within(own) {
         return Some((u, space.dag().integer(1)));
     }
     let (k, rate) = match space.model.dag.kind(u).clone() {
         Kind::Product(c, factors) => {
             let (mut inside, mut outside) = (Vec::new(), Vec::new());
             for factor in factors {
-                let list = match space.set(factor.0) & own != 0 {
+                let list = match space.set(factor.0).meets(own) {
                     true => &mut inside,
                     false => &mut outside,
                 };
@@ -258,17 +257,17 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
         }
         // A constant, and terms that rest, move nothing of the pair.
         Kind::Sum(_, mut terms) => {
-            terms.retain(|(_, term)| space.set(*term) & own != 0);
+            terms.retain(|(_, term)| space.set(*term).meets(own));
             let k = space.dag().linear(&Rational::ZERO, &terms);
             (k, space.dag().integer(1))
         }
         _ => (u, space.dag().integer(1)),
     };
-    if space.set(k) & !own == 0 {
+    if space.set(k).is_within(own) {
         return Some((k, rate));
     }
     // Other variables inside: held at numbers, if u is a multiple of the result.
-    let others = space.set(k) & !own;
+    let others = space.set(k).without(own);
     let mut rise = |x: f64, y: f64| {
         let [from, to] = [0.0, x].map(|x| {
             let point = space.point_off(&[(own, x), (others, y)]);
@@ -284,8 +283,8 @@ fn kernel(space: &mut Space, u: Node, own: Set) -> Option<(Node, Node)> {
         return None;
     }
     let held = space.section(k, others);
-    let bit = bits(own).find(|bit| space.set(held) >> bit & 1 == 1)?;
-    let variable = space.variable(bit);
+    let one = (own & space.set(held)).members().next()?;
+    let variable = space.variable(one);
     let (a, b) = (space.d(k, variable), space.d(held, variable));
     let ratio = space.dag().div(a, b);
     let inner = space.section(ratio, own);
@@ -306,7 +305,7 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     const TERMS: usize = 36;
     let mut terms = terms(space, h);
     // Parts grow term by term: their order must not be that in which H is written.
-    terms.sort_by_key(|term| pairs(space.set(*term)));
+    terms.sort_by_key(|term| space.set(*term).pairs().len());
     if !(2..=TERMS).contains(&terms.len()) {
         return None;
     }
@@ -323,11 +322,6 @@ fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
     Some(all)
 }
 
-/// The number of pairs of which a set has a variable.
-fn pairs(set: Set) -> u32 {
-    ((set | set >> 1) & 0x5555_5555_5555_5555).count_ones()
-}
-
 /// The terms of a sum, and of sums in it; numbers are left out.
 fn terms(space: &mut Space, h: Node) -> Vec<Node> {
     let mut found = Vec::new();
@@ -341,7 +335,7 @@ fn terms(space: &mut Space, h: Node) -> Vec<Node> {
             Kind::Product(c, factors) if matches!(factors.as_slice(), [(_, 1)]) => {
                 left.push((c.mul(&k), factors[0].0));
             }
-            _ if space.set(node) == 0 => {}
+            _ if space.set(node).is_empty() => {}
             _ => found.push(space.dag().scale(&k, node)),
         }
     }
@@ -381,7 +375,7 @@ fn apart(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
 fn by_pairs(space: &mut Space, terms: &[Node]) -> Option<Vec<Node>> {
     let (mut single, mut joining) = (Vec::new(), Vec::new());
     for &term in terms {
-        match pairs(space.set(term)) {
+        match space.set(term).pairs().len() {
             0 | 1 => single.push(term),
             _ => joining.push(term),
         }

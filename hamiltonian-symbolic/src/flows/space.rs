@@ -19,6 +19,7 @@ use crate::loops::{Sample, Values};
 use crate::model::{Flow, Model, Motion};
 use crate::normal_form::{Effort, tidy, vanishes_within, witness};
 use crate::rational::Rational;
+use crate::set::{Member, Set};
 use std::fmt;
 use tape::Tape;
 
@@ -75,8 +76,68 @@ const COMPONENTS: usize = 16;
 /// The most pairs, so that a set of variables is a word.
 const PAIRS: usize = 32;
 
-/// A set of variables: bit 2i is coordinate i, bit 2i + 1 its momentum.
-pub(crate) type Set = u64;
+/// A variable by its number: 2i is coordinate i, 2i + 1 its momentum.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(crate) struct Variable(pub(crate) usize);
+
+impl Variable {
+    /// The variables of a pair.
+    pub(crate) fn pair(pair: usize) -> [Variable; 2] {
+        [Variable(2 * pair), Variable(2 * pair + 1)]
+    }
+    pub(crate) fn is_coordinate(self) -> bool {
+        self.0.is_multiple_of(2)
+    }
+    pub(crate) fn conjugate(self) -> Variable {
+        Variable(self.0 ^ 1)
+    }
+}
+
+impl Member for Variable {
+    fn number(self) -> u32 {
+        self.0 as u32
+    }
+    fn numbered(number: u32) -> Variable {
+        Variable(number as usize)
+    }
+}
+
+/// A set of variables.
+pub(crate) type Variables = Set<Variable>;
+
+impl Variables {
+    /// All variables of some pairs.
+    pub(crate) fn of_pairs(pairs: &[usize]) -> Variables {
+        pairs
+            .iter()
+            .flat_map(|pair| Variable::pair(*pair))
+            .collect()
+    }
+    /// The number of the one variable in it.
+    pub(crate) fn number(self) -> usize {
+        self.members().next().map_or(usize::MAX, |one| one.0)
+    }
+    /// The pairs with a variable in it.
+    pub(crate) fn pairs(self) -> Vec<usize> {
+        let mut pairs: Vec<usize> = self.members().map(|variable| variable.0 / 2).collect();
+        pairs.dedup();
+        pairs
+    }
+    /// The pairs with both variables in it.
+    pub(crate) fn whole_pairs(self) -> Vec<usize> {
+        let mut pairs = self.pairs();
+        pairs.retain(|pair| Variables::of_pairs(&[*pair]).is_within(self));
+        pairs
+    }
+    /// Whether there are coordinates in it, and momenta.
+    pub(crate) fn sides(self) -> (bool, bool) {
+        let mut all = self.members();
+        (
+            all.clone().any(Variable::is_coordinate),
+            !all.all(Variable::is_coordinate),
+        )
+    }
+}
 
 /// Phase space with the known facts of expressions over it.
 pub(crate) struct Space {
@@ -85,7 +146,7 @@ pub(crate) struct Space {
     /// Coordinates with their momenta, in the order of their labels.
     pub(crate) pairs: Vec<(Node, Node)>,
     /// Of every node so far, the variables it is written with.
-    sets: Vec<Set>,
+    sets: Vec<Variables>,
     derivatives: Map<Node, Map<Node, Node>>,
     zeros: Map<Node, bool>,
     /// Numbers of nodes, from which most questions are answered.
@@ -187,22 +248,22 @@ impl Space {
     pub(crate) fn dag(&mut self) -> &mut Dag {
         &mut self.model.dag
     }
-    /// The variable of a bit.
-    pub(crate) fn variable(&self, bit: usize) -> Node {
-        let (q, p) = self.pairs[bit / 2];
-        if bit.is_multiple_of(2) { q } else { p }
+    /// The node of a variable.
+    pub(crate) fn variable(&self, variable: Variable) -> Node {
+        let (q, p) = self.pairs[variable.0 / 2];
+        if variable.is_coordinate() { q } else { p }
     }
 
     /// The variables an expression is written with.
-    pub(crate) fn set(&mut self, root: Node) -> Set {
+    pub(crate) fn set(&mut self, root: Node) -> Variables {
         // Children have smaller numbers, so that each node is asked once.
         for number in self.sets.len()..=root.0 as usize {
             let node = Node(number as u32);
-            let mut set = 0;
+            let mut set = Variables::default();
             if let Kind::Element(Array::Phase(_), ..) = self.model.dag.kind(node) {
                 let at = |(q, p): &(Node, Node)| *q == node || *p == node;
                 if let Some(pair) = self.pairs.iter().position(at) {
-                    set |= 1 << (2 * pair + usize::from(self.pairs[pair].1 == node));
+                    set |= Set::of(Variable::pair(pair)[usize::from(self.pairs[pair].1 == node)]);
                 }
             }
             let sets = &self.sets;
@@ -214,15 +275,13 @@ impl Space {
     }
     /// The pairs both of whose variables stand in an expression.
     pub(crate) fn active(&mut self, root: Node) -> Vec<usize> {
-        let set = self.set(root);
-        (0..self.pairs.len())
-            .filter(|pair| set >> (2 * pair) & 3 == 3)
-            .collect()
+        self.set(root).whole_pairs()
     }
 
     /// The variables that a motion moves.
-    pub(crate) fn moved(&mut self, motion: &Motion) -> Set {
-        motion.moves.iter().fold(0, |set, m| set | self.set(m.leaf))
+    pub(crate) fn moved(&mut self, motion: &Motion) -> Variables {
+        let none = Variables::default();
+        (motion.moves.iter()).fold(none, |set, m| set | self.set(m.leaf))
     }
 
     /// ∂h/∂v of a variable v; of a sum term by term, as its terms stand in other sums too. After the
@@ -231,7 +290,7 @@ impl Space {
         if self.is_spent() {
             return self.model.dag.parameter(Parameter(u16::MAX));
         }
-        if self.set(h) & self.set(variable) == 0 {
+        if !self.set(h).meets(self.set(variable)) {
             return self.model.dag.integer(0);
         }
         if let Kind::Sum(_, terms) = self.model.dag.kind(h)
@@ -273,11 +332,11 @@ impl Space {
         let mut terms = Vec::new();
         for pair in 0..self.pairs.len() {
             let (q, p) = self.pairs[pair];
-            let has = |set: Set, side: usize| set >> (2 * pair + side) & 1 == 1;
-            if has(in_a, 0) && has(in_b, 1) {
+            let [of_q, of_p] = Variable::pair(pair);
+            if in_a.has(of_q) && in_b.has(of_p) {
                 terms.push((Rational::ONE, [self.d(a, q), self.d(b, p)]));
             }
-            if has(in_a, 1) && has(in_b, 0) {
+            if in_a.has(of_p) && in_b.has(of_q) {
                 terms.push((Rational::MINUS_ONE, [self.d(a, p), self.d(b, q)]));
             }
         }
@@ -354,25 +413,26 @@ impl Space {
     }
 
     /// An expression with numbers in place of some variables.
-    pub(crate) fn section(&mut self, node: Node, set: Set) -> Node {
+    pub(crate) fn section(&mut self, node: Node, set: Variables) -> Node {
         let set = self.set(node) & set;
-        if set == 0 {
+        if set.is_empty() {
             return node;
         }
-        let values: Map<Node, Rational> = bits(set)
-            .map(|bit| (self.variable(bit), place_of(bit)))
+        let values: Map<Node, Rational> = set
+            .members()
+            .map(|variable| (self.variable(variable), place_of(variable)))
             .collect();
         let sets = &self.sets;
         self.model.dag.substitute(node, |dag, node| {
             if let Some(value) = values.get(&node) {
                 return Some(dag.constant(value.clone()));
             }
-            (sets[node.0 as usize] & set == 0).then_some(node)
+            (!sets[node.0 as usize].meets(set)).then_some(node)
         })
     }
     /// The expression written without some variables, if it is proven not to depend on them.
-    pub(crate) fn free(&mut self, node: Node, set: Set) -> Option<Node> {
-        if self.set(node) & set == 0 {
+    pub(crate) fn free(&mut self, node: Node, set: Variables) -> Option<Node> {
+        if !self.set(node).meets(set) {
             return Some(node);
         }
         let [here, there] = [0.0, 1.0].map(|step| self.point_off(&[(set, step)]));
@@ -388,7 +448,7 @@ impl Space {
         }
         // The normal form knows that sin² + cos² = 1, which numbers in their place hide.
         match tidy(&mut self.model.dag, node) {
-            Some(tidy) if self.set(tidy) & set == 0 => Some(tidy),
+            Some(tidy) if !self.set(tidy).meets(set) => Some(tidy),
             _ => Some(section),
         }
     }
@@ -401,10 +461,10 @@ impl Space {
     }
 
     /// Adds to a motion that the conjugate of an inert variable feels `value` = ∂h/∂v·time.
-    pub(crate) fn push(&mut self, motion: &mut Motion, bit: usize, value: Node) {
-        let conjugate = self.variable(bit ^ 1);
+    pub(crate) fn push(&mut self, motion: &mut Motion, variable: Variable, value: Node) {
+        let conjugate = self.variable(variable.conjugate());
         let dag = &mut self.model.dag;
-        let value = if bit.is_multiple_of(2) {
+        let value = if variable.is_coordinate() {
             dag.neg(value)
         } else {
             value
@@ -428,10 +488,10 @@ impl Space {
         (0..2 * self.pairs.len()).map(start).collect()
     }
     /// The same with some variables moved by steps.
-    pub(crate) fn point_off(&self, moved: &[(Set, f64)]) -> Vec<Ball> {
+    pub(crate) fn point_off(&self, moved: &[(Variables, f64)]) -> Vec<Ball> {
         let mut point = self.point();
         for (set, step) in moved {
-            for bit in bits(*set) {
+            for Variable(bit) in set.members() {
                 let step = step * ((bit * 3 + 1) % 5 + 1) as f64 / 16.0;
                 point[bit] = point[bit] + Ball::exact(step);
             }
@@ -443,7 +503,7 @@ impl Space {
         &mut self,
         of: impl Fn(&mut Space, &[Ball]) -> Ball,
     ) -> Option<Rational> {
-        let all = (0..2 * self.pairs.len()).fold(0, |set, bit| set | 1 << bit);
+        let all: Variables = (0..2 * self.pairs.len()).map(Variable).collect();
         let values = [0.0, -2.0, -4.0, 2.0].into_iter().map(|step| {
             let point = self.point_off(&[(all, step)]);
             of(self, &point)
@@ -509,23 +569,11 @@ impl Space {
     }
 }
 
-/// The bits of a set.
-pub(crate) fn bits(set: Set) -> impl Iterator<Item = usize> {
-    let mut left = set;
-    std::iter::from_fn(move || {
-        let bit = left.trailing_zeros() as usize;
-        (left != 0).then(|| {
-            left &= left - 1;
-            bit
-        })
-    })
-}
-
 /// The number that stands for a variable in sections: coordinates and momenta differ.
-fn place_of(bit: usize) -> Rational {
-    let pair = bit as i64 / 2;
-    match bit % 2 {
-        0 => Rational::new(3 + pair, 3),
-        _ => Rational::new(1 + pair % 3, 2),
+fn place_of(variable: Variable) -> Rational {
+    let pair = variable.0 as i64 / 2;
+    match variable.is_coordinate() {
+        true => Rational::new(3 + pair, 3),
+        false => Rational::new(1 + pair % 3, 2),
     }
 }

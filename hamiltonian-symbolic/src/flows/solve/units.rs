@@ -73,9 +73,9 @@ pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
 
 fn append(space: &mut Space, units: &mut Units, nodes: &[Node], source: Node) {
     for &node in nodes {
-        match space.set(node) {
-            0 => units.constant.push(node),
-            _ => {
+        match space.set(node).is_empty() {
+            true => units.constant.push(node),
+            false => {
                 let is_hard = !space.active(node).is_empty();
                 units.units.push(Unit {
                     node,

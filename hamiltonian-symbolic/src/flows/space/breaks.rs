@@ -61,8 +61,9 @@ impl Space {
         }
         found.sort_unstable();
         found.dedup();
-        found
-            .retain(|(node, _)| self.set(*node) != 0 && !separates_nothing(&self.model.dag, *node));
+        found.retain(|(node, _)| {
+            !self.set(*node).is_empty() && !separates_nothing(&self.model.dag, *node)
+        });
         found
     }
 }

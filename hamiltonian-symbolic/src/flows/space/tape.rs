@@ -3,6 +3,7 @@
 //! Input: nodes without loops. Output: [`Tape`]. Invariant: a condition is 1 or 0; a node that
 //! depends on no variable comes first and is computed once a step coefficient.
 
+use super::Variables;
 use crate::dag::{Array, Dag, Kind, Node, Numbers, Relation};
 use crate::op::Op;
 use crate::rational::Rational;
@@ -31,20 +32,20 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
-    /// The tape of some nodes, each of which is written with a set of variables, a bit for each;
-    /// what is `given` has a number. `None` where something has none.
+    /// The tape of some nodes, each of which is written with a set of variables; what is `given` has a number. `None` where something has none.
     pub(crate) fn of(
         dag: &Dag,
         roots: &[Node],
-        variables: impl Fn(Node) -> u64,
+        variables: impl Fn(Node) -> Variables,
         mut given: impl FnMut(Node) -> f64,
     ) -> Option<Tape> {
         let nodes = dag.reachable(roots);
         let mut place = Numbers::new(dag);
         let mut steps = Vec::with_capacity(nodes.len());
         let number = |k: &Rational| k.to_f64();
-        let (fixed, moving): (Vec<Node>, Vec<Node>) =
-            nodes.into_iter().partition(|node| variables(*node) == 0);
+        let (fixed, moving): (Vec<Node>, Vec<Node>) = nodes
+            .into_iter()
+            .partition(|node| variables(*node).is_empty());
         for &node in fixed.iter().chain(&moving) {
             // Every operand was placed before.
             let at = |child: &Node| place.get(*child).map_or(usize::MAX, |at| at as usize);
@@ -52,9 +53,7 @@ impl Tape {
                 Kind::Constant(value) => Step::Number(number(value)),
                 Kind::Pi => Step::Number(std::f64::consts::PI),
                 Kind::Coefficient => Step::Coefficient,
-                Kind::Element(Array::Phase(_), ..) => {
-                    Step::Variable(variables(node).trailing_zeros() as usize)
-                }
+                Kind::Element(Array::Phase(_), ..) => Step::Variable(variables(node).number()),
                 Kind::Scalar(_) | Kind::Time | Kind::Extent(_) | Kind::Element(..) => {
                     Step::Number(given(node))
                 }

@@ -142,7 +142,7 @@ pub(crate) fn best(
                 2 * pieces.len() - 2
             };
             let outer = space.set(pieces[order[0]].node);
-            let mirrored = usize::from(outer & 0x5555_5555_5555_5555 != 0);
+            let mirrored = usize::from(outer.sides().0);
             // Below this it is better.
             let most = match &chosen {
                 Some((best, other, _, reasons))
@@ -229,9 +229,7 @@ fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
     let images = block.flow.motion.images(space.dag());
     let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).collect();
     roots.extend(&block.flow.motion.domain);
-    let moved = images
-        .iter()
-        .map(|(leaf, _)| space.set(*leaf).trailing_zeros() as usize);
+    let moved = images.iter().map(|(leaf, _)| space.set(*leaf).number());
     let moved = moved.collect();
     let tape = space.tape(&roots)?;
     Some(Piece {

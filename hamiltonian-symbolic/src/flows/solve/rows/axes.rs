@@ -9,7 +9,7 @@ use super::circle::SWEPT;
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::Node;
-use crate::flows::space::Space;
+use crate::flows::space::{Space, Variable};
 use crate::model::Motion;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -29,7 +29,8 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let set = space.set(h);
     for third in 0..space.pairs.len() {
         // p_φ stands in h, φ does not.
-        if set >> (2 * third) & 3 != 2 {
+        let [angle, momentum] = Variable::pair(third);
+        if set.has(angle) || !set.has(momentum) {
             continue;
         }
         for (theta, psi) in [(*a, *b), (*b, *a)] {
@@ -136,7 +137,7 @@ fn about(
     ];
     let k = space.at(h, &there);
     let form = space.dag().mul(&[k, square]);
-    if space.set(k) != 0 || !space.same(h, form) {
+    if !space.set(k).is_empty() || !space.same(h, form) {
         return None;
     }
     let w = space

@@ -42,7 +42,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let mut motion = Motion::default();
     let squared = space.dag().powi(root, 2);
     let is_square = squared == lambda;
-    if space.set(lambda) != 0 {
+    if !space.set(lambda).is_empty() {
         // ∫a/sin²θ dt = Δ𝓕(χ; 1, √Λ/w)/2√Λ
         names.read(
             space.dag(),

@@ -8,7 +8,7 @@ use crate::dag::Node;
 use crate::flows::solve::flow;
 use crate::flows::solve::growth::{arctangent, near_zero};
 use crate::flows::solve::units::distributed;
-use crate::flows::space::Space;
+use crate::flows::space::{Space, Variables};
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -36,7 +36,7 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
          p1 = (x*p + 2*a*s*(p^2 + root^2/x^2))/x1; angle = atan2(side*Y, side*X)",
     )?;
     // ∫a/r² dt = angle/2√Λ, where Λ = 0: as/(rX).
-    let time = match is_square && space.set(lambda) != 0 && space.active(lambda).is_empty() {
+    let time = match is_square && !space.set(lambda).is_empty() && space.active(lambda).is_empty() {
         true => names.one(space.dag(), "angle/(2*root)")?,
         false => names.one(space.dag(), "pick(0 < l, angle/(2*root), a*s/(x*X))")?,
     };
@@ -67,7 +67,7 @@ fn of_either_sign(
          p1 = (x*p + v*(x*p^2 + l/x))/x1",
     )?;
     let mut motion = Motion::default();
-    if space.set(lambda) != 0 {
+    if !space.set(lambda).is_empty() {
         // ∫a/r² dt = arctan(√Λ·v/X)/2√Λ = v/2X·artanh(√z)/√z with z = −Λ(v/X)².
         names.read(space.dag(), "u = v/X; z = 0 - l*u^2")?;
         let z = names.get("z")?;
@@ -109,7 +109,7 @@ pub(super) fn central(
         return None;
     }
     let (x, p) = space.pairs[pair];
-    let (own, set) = (3 << (2 * pair), space.set(h));
+    let (own, set) = (Variables::of_pairs(&[pair]), space.set(h));
     let slope = space.d(h, p);
     let slope = space.d(slope, p);
     let a = space.section(slope, set);

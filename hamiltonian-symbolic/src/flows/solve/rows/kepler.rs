@@ -8,7 +8,7 @@
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::Node;
-use crate::flows::space::Space;
+use crate::flows::space::{Space, Variables};
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -17,7 +17,7 @@ const STRAIGHT: (i64, i64) = (1, 1 << 50);
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let active = space.active(h);
-    let own = active.iter().fold(0, |set, pair| set | 3 << (2 * pair));
+    let own = Variables::of_pairs(&active);
     if !(2..=3).contains(&active.len()) || space.set(h) != own || is_not_of_distance(space, h, own)
     {
         return None;
@@ -106,14 +106,10 @@ fn straight(space: &mut Space, pairs: &[(Node, Node)], names: &mut Names) -> Opt
 }
 
 /// Whether numbers say that h is not a·|p|² + f(|q|).
-fn is_not_of_distance(space: &mut Space, h: Node, own: u64) -> bool {
+fn is_not_of_distance(space: &mut Space, h: Node, own: Variables) -> bool {
     let mut at = |q: [f64; 3], p: [f64; 3]| {
         let mut point = space.point();
-        for (k, pair) in crate::flows::space::bits(own)
-            .step_by(2)
-            .map(|bit| bit / 2)
-            .enumerate()
-        {
+        for (k, pair) in own.pairs().into_iter().enumerate() {
             (point[2 * pair], point[2 * pair + 1]) = (Ball::exact(q[k]), Ball::exact(p[k]));
         }
         space.value_at(h, &point)

@@ -182,7 +182,7 @@ fn rates(space: &mut Space, f: Node, x: Node) -> Vec<(Node, i32)> {
             _ => continue,
         };
         let rate = space.d(arguments[0], x);
-        if space.dag().is_zero(rate) || space.set(rate) & x_set != 0 {
+        if space.dag().is_zero(rate) || space.set(rate).meets(x_set) {
             continue;
         }
         for multiple in [1, 2] {

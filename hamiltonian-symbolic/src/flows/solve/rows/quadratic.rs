@@ -6,7 +6,7 @@
 use crate::algebra::ball::Ball;
 use crate::dag::{Dependence, Node};
 use crate::flows::solve::growth::Growth;
-use crate::flows::space::{Set, Space};
+use crate::flows::space::{Space, Variable, Variables};
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -17,16 +17,14 @@ type Matrix = Vec<Vec<Node>>;
 
 pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     let set = space.set(h);
-    let pairs: Vec<usize> = (0..space.pairs.len())
-        .filter(|pair| set >> (2 * pair) & 3 != 0)
-        .collect();
+    let pairs = set.pairs();
     if pairs.len() > PAIRS || space.active(h).is_empty() {
         return None;
     }
     // z = (q, p): row i moves by the derivative along its conjugate.
-    let leaves = |side: usize| pairs.iter().map(move |pair| 2 * pair + side);
-    let z: Vec<usize> = leaves(0).chain(leaves(1)).collect();
-    let z: Vec<Node> = z.into_iter().map(|bit| space.variable(bit)).collect();
+    let leaves = |side: usize| pairs.iter().map(move |pair| Variable::pair(*pair)[side]);
+    let z = leaves(0).chain(leaves(1));
+    let z: Vec<Node> = z.map(|one| space.variable(one)).collect();
     let (a, g) = coefficients(space, h, set, &z)?;
     let n = pairs.len();
     let turned = |i: usize| if i < n { i + n } else { i - n };
@@ -75,7 +73,12 @@ fn is_steeper(space: &mut Space, h: Node) -> bool {
 }
 
 /// A and g, if h is the form they make with a constant.
-fn coefficients(space: &mut Space, h: Node, set: Set, z: &[Node]) -> Option<(Matrix, Vec<Node>)> {
+fn coefficients(
+    space: &mut Space,
+    h: Node,
+    set: Variables,
+    z: &[Node],
+) -> Option<(Matrix, Vec<Node>)> {
     if is_steeper(space, h) {
         return None;
     }
@@ -194,8 +197,6 @@ pub(crate) fn is_constant_form(space: &mut Space, h: Node) -> bool {
 /// Whether an expression is a polynomial of second degree.
 pub(crate) fn is_quadratic(space: &mut Space, h: Node) -> bool {
     let set = space.set(h);
-    let z: Vec<Node> = crate::flows::space::bits(set)
-        .map(|bit| space.variable(bit))
-        .collect();
+    let z: Vec<Node> = set.members().map(|one| space.variable(one)).collect();
     coefficients(space, h, set, &z).is_some()
 }

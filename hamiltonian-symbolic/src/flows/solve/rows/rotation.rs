@@ -6,7 +6,7 @@
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::Node;
-use crate::flows::space::{Space, bits};
+use crate::flows::space::{Space, Variables};
 use crate::model::Motion;
 use crate::rational::Rational;
 
@@ -72,13 +72,13 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         let image = space.dag().scale(k, image);
         motion.set(leaf, image);
     }
-    let own = 3 << (2 * a) | 3 << (2 * b);
-    let rest = space.set(h) & !own;
-    for bit in bits(rest) {
-        let inert = space.variable(bit);
+    let own = Variables::of_pairs(&[*a, *b]);
+    let rest = space.set(h).without(own);
+    for one in rest.members() {
+        let inert = space.variable(one);
         let slope = space.d(h, inert);
         let kick = space.dag().mul(&[slope, s]);
-        space.push(&mut motion, bit, kick);
+        space.push(&mut motion, one, kick);
     }
     Some(motion)
 }

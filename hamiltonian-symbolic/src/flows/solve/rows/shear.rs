@@ -28,7 +28,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
 
 /// Whether differences say that A′ is no polynomial of a degree below that of A.
 fn is_no_polynomial(space: &mut Space, slope: Node, axes: Axes) -> bool {
-    let bit = space.set(axes.x).trailing_zeros() as usize;
+    let bit = space.set(axes.x).number();
     let mut point = space.point();
     let (mut sum, mut weight) = (Ball::exact(0.0), 1.0);
     for k in 0..=DEGREE {
@@ -55,7 +55,7 @@ fn linear(
     let y_set = space.set(y);
     // ∂h/∂y = β and the derivatives of B hold on each side of a break by themselves.
     for (place, _) in space.breaks(h) {
-        if space.set(place) & (x_set | y_set) != 0 {
+        if space.set(place).meets(x_set | y_set) {
             return None;
         }
     }
@@ -66,12 +66,12 @@ fn linear(
     let swept = space.dag().neg(swept);
     let swept = axes.signed(space, swept);
     motion.add(space.dag(), axes.leaf, swept);
-    let rest = space.set(h) & !(x_set | y_set);
-    for bit in crate::flows::space::bits(rest) {
-        let inert = space.variable(bit);
+    let rest = space.set(h).without(x_set | y_set);
+    for one in rest.members() {
+        let inert = space.variable(one);
         let slope = space.d(h, inert);
         let kick = self::swept(space, slope, axes.x, beta, s)?;
-        space.push(&mut motion, bit, kick);
+        space.push(&mut motion, one, kick);
     }
     Some(motion)
 }
@@ -82,7 +82,7 @@ fn swept(space: &mut Space, f: Node, x: Node, beta: Node, s: Node) -> Option<Nod
     let (mut derivative, mut weight) = (f, Rational::ONE);
     let mut terms = Vec::new();
     for n in 0..=DEGREE {
-        if space.set(derivative) & x_set != 0 && space.is_zero(derivative)
+        if space.set(derivative).meets(x_set) && space.is_zero(derivative)
             || space.dag().is_zero(derivative)
         {
             return Some(space.dag().add(&terms));
@@ -103,7 +103,7 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     if space.dag().is_zero(hy) {
         return None;
     }
-    if space.set(hy) == 0 && space.dag().as_constant(hy).is_none() {
+    if space.set(hy).is_empty() && space.dag().as_constant(hy).is_none() {
         return linear(space, axes, h, (hx, hy), s);
     }
     let ratio = space.dag().div(hx, hy);
@@ -131,7 +131,7 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
         integral.push(space.dag().product(&k.mul(&over), &factors(n + 1)));
         factorial = factorial.mul(&Rational::integer(i64::from(n)));
         derivative = space.d(derivative, axes.x);
-        if space.set(derivative) & x_set != 0 && space.is_zero(derivative) {
+        if space.set(derivative).meets(x_set) && space.is_zero(derivative) {
             derivative = zero;
         }
     }
@@ -167,16 +167,16 @@ fn along(space: &mut Space, axes: Axes, h: Node, s: Node) -> Option<Motion> {
     let gained = axes.signed(space, gained);
     motion.add(space.dag(), axes.x, step);
     motion.add(space.dag(), axes.leaf, gained);
-    let rest = space.set(h) & !(x_set | y_set);
-    for bit in crate::flows::space::bits(rest) {
-        let inert = space.variable(bit);
+    let rest = space.set(h).without(x_set | y_set);
+    for one in rest.members() {
+        let inert = space.variable(one);
         let kick = space.d(general, inert);
         let kick = in_y(space, kick);
         let kick = space.dag().mul(&[kick, s]);
         let swept = space.d(integral, inert);
         let swept = there(space, swept);
         let total = space.dag().sub(kick, swept);
-        space.push(&mut motion, bit, total);
+        space.push(&mut motion, one, total);
     }
     Some(motion)
 }

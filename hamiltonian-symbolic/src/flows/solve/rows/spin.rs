@@ -9,7 +9,7 @@ use super::circle::SWEPT;
 use crate::algebra::ball::Ball;
 use crate::algebra::formula::Names;
 use crate::dag::{Kind, Node};
-use crate::flows::space::{Space, bits};
+use crate::flows::space::Space;
 use crate::model::Motion;
 use crate::op::Op;
 use crate::rational::Rational;
@@ -48,7 +48,7 @@ fn bare(space: &mut Space, h: Node) -> (Node, Node) {
     let Kind::Product(c, factors) = space.dag().kind(h).clone() else {
         return (h, space.dag().integer(1));
     };
-    let is_still = |(node, _): &(Node, i32)| space.set(*node) == 0;
+    let is_still = |(node, _): &(Node, i32)| space.set(*node).is_empty();
     let (still, moving): (Vec<_>, Vec<_>) = factors.into_iter().partition(is_still);
     let dag = space.dag();
     (
@@ -100,7 +100,7 @@ fn stays_smooth(space: &mut Space, k: Node) -> bool {
 fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) -> Option<Motion> {
     let one = Rational::ONE;
     // K_ll = −K changes its sign in half a turn.
-    let (mut here, bit) = (space.point(), space.set(axes.x).trailing_zeros() as usize);
+    let (mut here, bit) = (space.point(), space.set(axes.x).number());
     let before = space.value_at(k, &here);
     here[bit] = here[bit] + Ball::pi();
     if !before.differs(-space.value_at(k, &here))
@@ -168,7 +168,7 @@ fn scaled(
     let square = names.one(space.dag(), "(K^2 + N^2)/c^2 + L^2")?;
     let square = space.free(square, own)?;
     names.set("square", square);
-    let rest = space.set(k) & !own;
+    let rest = space.set(k).without(own);
     names.read(
         space.dag(),
         "ct = cos(c*s); st = sin(c*s); L1 = L*ct - N*st/c; N1 = N*ct + c*L*st; \
@@ -181,7 +181,7 @@ fn scaled(
     let y1 = space.dag().scale(scale, y1);
     let y1 = axes.signed(space, y1);
     motion.set(axes.leaf, y1);
-    if rest != 0 {
+    if !rest.is_empty() {
         names.read(
             space.dag(),
             "C = sqrt(square); k = abs(K)/c; less = ((N/c)^2 + L^2)/(C + k); \
@@ -190,12 +190,12 @@ fn scaled(
         names.read(space.dag(), SWEPT)?;
         let angle = names.one(space.dag(), "sign(K)*angle")?;
         let length = names.get("C")?;
-        for bit in bits(rest) {
-            let inert = space.variable(bit);
+        for one in rest.members() {
+            let inert = space.variable(one);
             // C is free of the turning components, as was proven above.
             let slope = space.d(length, inert);
             let moved = space.dag().mul(&[slope, angle]);
-            space.push(&mut motion, bit, moved);
+            space.push(&mut motion, one, moved);
         }
     }
     if !is_squared {

@@ -8,7 +8,7 @@ use super::{Axes, Moved};
 use crate::algebra::formula::Names;
 use crate::dag::Node;
 use crate::flows::solve::growth::Growth;
-use crate::flows::space::Space;
+use crate::flows::space::{Space, Variables};
 use crate::rational::Rational;
 
 /// A chart: u, u′, the way back from u₁ (with the range of u₁ that is > 0), u′ there.
@@ -65,7 +65,7 @@ fn in_chart(
     chart: &Chart,
     axes: Axes,
     (y, f, s): (Node, Node, Node),
-    x_set: u64,
+    x_set: Variables,
 ) -> Option<Moved> {
     let mut names = Names::of(&[("x", axes.x), ("y", y), ("f", f), ("s", s)]);
     let u = names.one(space.dag(), chart.u)?;

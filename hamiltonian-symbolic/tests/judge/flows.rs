@@ -3,8 +3,8 @@
 use super::field::World;
 use super::{Definition, Subject, Verdict, verdicts};
 use crate::common;
-use crate::splits::CASES;
 use crate::splits::arrays::RINGS;
+use crate::splits::rows::CASES;
 use crate::splits::table::FOUND;
 use crate::tree::Random;
 

@@ -1,5 +1,6 @@
 //! Sums over arrays as loops of exact flows: their pieces, and the order of their composition.
 
+use super::order::slope_of;
 use crate::common;
 use crate::eval::{Point, run, run_reversed};
 use hamiltonian_lanes::DoubleDouble;
@@ -205,5 +206,5 @@ fn ring_slope(model: &mut Model) -> f64 {
             .flat_map(|(_, columns)| columns[0].clone())
             .collect::<Vec<_>>()
     };
-    super::slope_of([8, 16, 32].map(end))
+    slope_of([8, 16, 32].map(end))
 }

@@ -2,8 +2,8 @@
 //! terms and of coordinates, a parameter that nothing reads, an added constant, another degree of freedom.
 //! Scaled coordinates keep the structure.
 
-use super::CASES;
 use super::arrays::RINGS;
+use super::rows::CASES;
 use super::table::{FOUND, REFUSED};
 use crate::common;
 use crate::judge::field::{Field, World};

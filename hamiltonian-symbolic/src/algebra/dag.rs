@@ -493,9 +493,16 @@ impl Dag {
             Kind::Constant(c) => Sign::of(c),
             Kind::Pi => Sign::POSITIVE,
             Kind::Extent(_) | Kind::Count(_) => Sign::NONNEGATIVE,
-            Kind::Sum(c, terms) => terms.iter().fold(Sign::of(c), |sum, (k, n)| {
-                sum.plus(Sign::of(k).times(self.sign(*n)))
-            }),
+            Kind::Sum(c, terms) => {
+                let mut sum = Sign::of(c);
+                for (k, node) in terms {
+                    sum = sum.plus(Sign::of(k).times(self.sign(*node)));
+                    if sum.is_unknown() {
+                        break;
+                    }
+                }
+                sum
+            }
             Kind::Product(c, factors) => {
                 Sign::of_product(c, factors.iter().map(|(f, n)| (self.sign(*f), *n)))
             }

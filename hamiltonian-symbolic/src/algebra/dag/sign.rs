@@ -27,10 +27,17 @@ impl Sign {
     }
     /// Of a product `k·Π xⁿ`.
     pub(crate) fn of_product(k: &Rational, factors: impl Iterator<Item = (Sign, i32)>) -> Sign {
-        factors.fold(Sign::of(k), |product, (sign, n)| match n % 2 {
-            0 => product.times(Sign((sign.0 | sign.opposite().0) & Sign::NONNEGATIVE.0)),
-            _ => product.times(sign),
-        })
+        let mut product = Sign::of(k);
+        for (sign, n) in factors {
+            product = match n % 2 {
+                0 => product.times(Sign((sign.0 | sign.opposite().0) & Sign::NONNEGATIVE.0)),
+                _ => product.times(sign),
+            };
+            if product.is_unknown() {
+                break;
+            }
+        }
+        product
     }
     /// Of a function, by the sign of its first argument.
     pub(crate) fn of_call(op: Op, first: Sign) -> Sign {
@@ -74,6 +81,10 @@ impl Sign {
     }
     fn opposite(self) -> Sign {
         Sign((self.0 << 2 | self.0 & Sign::ZERO.0 | self.0 >> 2) & Sign::UNKNOWN.0)
+    }
+    /// Whether nothing is known, which further terms and factors do not change.
+    pub(crate) fn is_unknown(self) -> bool {
+        self.0 == Sign::UNKNOWN.0
     }
     pub(crate) fn is_nonnegative(self) -> bool {
         self.0 & Sign::NEGATIVE.0 == 0

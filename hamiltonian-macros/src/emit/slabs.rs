@@ -36,7 +36,7 @@ impl Writer<'_> {
             .collect();
         line!(
             self,
-            "__h::rows({}, {}, [{}], |_r{d}, [{}]| {{",
+            "__h::rows({}, {}, [{}], #[inline(always)] move |_r{d}, [{}]| {{",
             self.context.indices.saturating(&outer.end),
             self.arithmetic,
             given.join(", "),

@@ -105,7 +105,7 @@ pub fn rows<T: Real, const C: usize>(
     count: usize,
     arithmetic: Arithmetic,
     columns: [(&mut [T], usize); C],
-    work: impl Fn(Range<usize>, [&mut [T]; C]) + Sync,
+    work: impl Fn(Range<usize>, [&mut [T]; C]) + Copy + Sync,
 ) {
     let elements = columns.first().map_or(0, |(_, row)| count * row);
     let slabs = match T::WIDENS {
@@ -115,7 +115,9 @@ pub fn rows<T: Real, const C: usize>(
     if slabs < 2 {
         work(0..count, columns.map(|(column, _)| column));
     } else {
-        cut(0..count, slabs.min(count), columns, &work);
+        // A copy: what is borrowed here would not stay in registers above.
+        let copy = work;
+        cut(0..count, slabs.min(count), columns, &copy);
     }
 }
 

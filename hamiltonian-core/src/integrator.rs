@@ -9,10 +9,10 @@ mod checks;
 mod estimate;
 mod inspect;
 mod part;
+#[cfg(feature = "rayon")]
+mod threads;
 
 pub use advance::States;
-#[cfg(feature = "rayon")]
-pub(crate) use advance::Steps;
 pub(crate) use checks::{check_start, check_state, check_step};
 pub use estimate::ErrorEstimate;
 pub(crate) use part::{Part, Recipe};
@@ -23,8 +23,6 @@ use crate::flow::Scratch;
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
 use crate::scheme::{Entry, Scheme};
-#[cfg(feature = "rayon")]
-use crate::slabs::Threads;
 use crate::state::{Carried, State};
 use crate::system::{Arithmetic, Dynamics, System};
 use crate::vector::Vector;
@@ -34,6 +32,8 @@ use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 use hamiltonian_lanes::Real;
+#[cfg(feature = "rayon")]
+use threads::Threads;
 
 /// A run: a system, a scheme, a step and the present state.
 ///

@@ -4,68 +4,12 @@
 //! is changed on one thread, in the order of the iterations, so that bits depend on neither the number of
 //! threads nor the slabs.
 
-#[cfg(feature = "rayon")]
-use crate::integrator::Steps;
-#[cfg(feature = "rayon")]
-use crate::map::Map;
 use crate::system::Arithmetic;
-#[cfg(feature = "rayon")]
-use alloc::sync::Arc;
 use core::ops::Range;
 use hamiltonian_lanes::Real;
 
 /// The least number of elements of a slab: some microseconds of work, as many as it takes to hand one over.
 pub(crate) const SLAB: usize = 8192;
-
-/// The threads of a run, and its steps among them.
-#[cfg(feature = "rayon")]
-pub(crate) struct Threads<R: Map> {
-    pool: Arc<rayon_core::ThreadPool>,
-    /// [`Steps::make`] on one of the threads. Here it is known that the map may go there.
-    make: fn(&rayon_core::ThreadPool, Steps<'_, R>) -> bool,
-}
-
-#[cfg(feature = "rayon")]
-impl<R: Map> Clone for Threads<R> {
-    fn clone(&self) -> Self {
-        Threads {
-            pool: Arc::clone(&self.pool),
-            make: self.make,
-        }
-    }
-}
-
-#[cfg(feature = "rayon")]
-impl<R: Map<Work: Send> + Sync> Threads<R> {
-    /// So many threads; none if they are fewer than two, or where the system starts none.
-    pub(crate) fn new(number: usize) -> Option<Self> {
-        // As for members of ensembles: what is not touched takes no memory.
-        const STACK: usize = 64 << 20;
-        if number < 2 {
-            return None;
-        }
-        let builder = rayon_core::ThreadPoolBuilder::new()
-            .num_threads(number)
-            .stack_size(STACK);
-        Some(Threads {
-            pool: Arc::new(builder.build().ok()?),
-            make: |pool, steps| pool.install(|| steps.make()),
-        })
-    }
-}
-
-#[cfg(feature = "rayon")]
-impl<R: Map> Threads<R> {
-    /// Their number.
-    pub(crate) fn number(&self) -> usize {
-        self.pool.current_num_threads()
-    }
-
-    /// Makes the steps among the threads; whether all is finite after them.
-    pub(crate) fn make(&self, steps: Steps<'_, R>) -> bool {
-        (self.make)(&self.pool, steps)
-    }
-}
 
 /// Does both, on two threads where one has nothing else to do.
 pub(crate) fn both(a: &mut (dyn FnMut() + Send), b: &mut (dyn FnMut() + Send)) {

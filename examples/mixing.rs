@@ -100,7 +100,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 .collect(),
         };
         Figure {
-            title: format!("Stars in a turning bar at t = {t}"),
+            title: format!("Stars in a rotating bar at t = {t}"),
             x: "x".into(),
             y: "y".into(),
             equal: true,

@@ -2,8 +2,8 @@
 //!
 //! Input: any double. Output: the function's value. Invariant: angles up to 2²⁰ are reduced
 //! modulo π/2 in line, with the head of π/2 by parts whose products are exact, so that what is
-//! left has a second word however near to a multiple of π/2 the angle lies; larger ones are reduced
-//! out of line, lane by lane, by [`reduction`] (Payne and Hanek). The sign bit is
+//! left has a second word however near to a multiple of π/2 the angle lies; larger ones go, lane
+//! by lane, through [`reduction`] (Payne and Hanek). The sign bit is
 //! taken off first and put back last, so that odd functions are odd to the bit. Tiny angles are
 //! computed as 0, and stand where they are their own sine. Sine and cosine of fused lanes need
 //! neither: every operation rounds alike on both sides of 0, and squares of tiny angles become 0.
@@ -194,20 +194,6 @@ impl<W: Word> Turned<W> {
         }
     }
 
-    /// Of any angle from [`LARGE`] on, `quadrants` further on.
-    #[inline(always)]
-    fn of_large(angle: W, quadrants: u64) -> Self {
-        let sign = sign_bit(angle);
-        let (n, r, tail) = reduce_large(angle.abs());
-        // Backwards the quadrants are −n − 1 and 1, in the bits of a complement.
-        let all = W::Bits::splat(0).minus(sign.shr::<63>());
-        Turned {
-            bits: (n ^ all).minus(all).plus(W::Bits::splat(quadrants + 1)),
-            r: flip(r, sign),
-            tail: flip(tail, sign),
-        }
-    }
-
     /// `(z, minus, cut)`: z = r², and z/2 − 1 = minus + cut.
     #[inline(always)]
     fn square(&self) -> (W, W, W) {
@@ -261,12 +247,12 @@ impl<W: Word> Turned<W> {
 pub fn sin<W: Word>(x: W) -> W {
     if W::FUSED {
         let y = Turned::of(x, 0.0).sine();
-        return or_large(x.abs().le(W::splat(LARGE)), y, x, sin_of_large);
+        return y.or_rare(x.abs().le(W::splat(LARGE)), x, sin_of_large);
     }
     let angle = x.abs();
     // First in a single number; last in lanes, where a mask held from here on costs an eighth.
     if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return W::out_of_line(|| sin_of_large(x));
+        return x.replace(W::Mask::splat(true), x, sin_of_large);
     }
     let tiny = is_tiny(angle);
     if W::LANES == 1 && tiny.all() {
@@ -274,19 +260,11 @@ pub fn sin<W: Word>(x: W) -> W {
     }
     let (n, r, tail) = reduce(unless(tiny, angle));
     let y = W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)));
-    if W::LANES == 1 {
-        return y;
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES > 1 && rare.any() {
+        return y.replace(rare, x, sin_of_large);
     }
-    or_large(angle.le(W::splat(LARGE)), y, x, sin_of_large)
-}
-
-#[inline(always)]
-fn sin_of_large<W: Word>(x: W) -> W {
-    if W::FUSED {
-        return Turned::of_large(x, 0).sine();
-    }
-    let (n, r, tail) = reduce_large(x.abs());
-    sine_in(n, r, tail, sign_bit(x))
+    y
 }
 
 /// Cosine.
@@ -294,12 +272,12 @@ fn sin_of_large<W: Word>(x: W) -> W {
 pub fn cos<W: Word>(x: W) -> W {
     if W::FUSED {
         let y = Turned::of(x, 1.0).sine();
-        return or_large(x.abs().le(W::splat(LARGE)), y, x, cos_of_large);
+        return y.or_rare(x.abs().le(W::splat(LARGE)), x, cos_of_large);
     }
     let angle = x.abs();
     // First in a single number; last in lanes, where a mask held from here on costs an eighth.
     if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return W::out_of_line(|| cos_of_large(x));
+        return x.replace(W::Mask::splat(true), x, cos_of_large);
     }
     let tiny = is_tiny(angle);
     if W::LANES == 1 && tiny.all() {
@@ -308,28 +286,17 @@ pub fn cos<W: Word>(x: W) -> W {
     let (n, r, tail) = reduce(unless(tiny, angle));
     let next = n.plus(W::Bits::splat(1));
     let y = sine_in(next, r, tail, W::Bits::splat(0));
-    if W::LANES == 1 {
-        return y;
+    let rare = !angle.le(W::splat(LARGE));
+    if W::LANES > 1 && rare.any() {
+        return y.replace(rare, x, cos_of_large);
     }
-    or_large(angle.le(W::splat(LARGE)), y, x, cos_of_large)
-}
-
-#[inline(always)]
-fn cos_of_large<W: Word>(x: W) -> W {
-    if W::FUSED {
-        return Turned::of_large(x, 1).sine();
-    }
-    let (n, r, tail) = reduce_large(x.abs());
-    sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0))
+    y
 }
 
 /// Sine and cosine.
 #[inline(always)]
 pub fn sin_cos<W: Word>(x: W) -> (W, W) {
     let angle = x.abs();
-    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return W::out_of_line(|| sin_cos_of_large(x));
-    }
     let (sine, cosine) = if W::FUSED {
         Turned::of(x, 0.0).both()
     } else {
@@ -341,72 +308,60 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
         let (sine, cosine) = turn(n, r, tail, sign_bit(x));
         (W::select(tiny, x, sine), cosine)
     };
-    let plain = angle.le(W::splat(LARGE));
-    if W::LANES == 1 || plain.all() {
-        return (sine, cosine);
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return (
+            sine.replace(rare, x, sin_of_large),
+            cosine.replace(rare, x, cos_of_large),
+        );
     }
-    W::out_of_line(|| {
-        let (large_sine, large_cosine) = sin_cos_of_large(unless(plain, x));
-        (
-            W::select(plain, sine, large_sine),
-            W::select(plain, cosine, large_cosine),
-        )
-    })
-}
-
-#[inline(always)]
-fn sin_cos_of_large<W: Word>(x: W) -> (W, W) {
-    if W::FUSED {
-        return Turned::of_large(x, 0).both();
-    }
-    let (n, r, tail) = reduce_large(x.abs());
-    turn(n, r, tail, sign_bit(x))
+    (sine, cosine)
 }
 
 /// Tangent.
 #[inline(always)]
 pub fn tan<W: Word>(x: W) -> W {
     let angle = x.abs();
-    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return W::out_of_line(|| tan_of_large(x));
-    }
     let tiny = is_tiny(angle);
     if W::LANES == 1 && tiny.all() {
         return x;
     }
     let (n, r, tail) = reduce(unless(tiny, angle));
     let y = W::select(tiny, x, slope(n, r, tail, sign_bit(x)));
-    if W::LANES == 1 {
-        return y;
+    let rare = !angle.le(W::splat(LARGE));
+    if rare.any() {
+        return y.replace(rare, x, tan_of_large);
     }
-    or_large(angle.le(W::splat(LARGE)), y, x, tan_of_large)
+    y
 }
 
-#[inline(always)]
-fn tan_of_large<W: Word>(x: W) -> W {
+/// [`reduce`] for every angle beyond [`LARGE`]; NaN where it is not finite.
+fn reduce_large(angle: f64) -> (u64, f64, f64) {
+    if angle.is_finite() {
+        let (n, (r, tail)) = reduction::reduce_large(angle);
+        (n, r, tail)
+    } else {
+        (0, f64::NAN, f64::NAN)
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn sin_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_large(x.abs());
+    sine_in(n, r, tail, sign_bit(x))
+}
+
+#[cold]
+#[inline(never)]
+fn cos_of_large(x: f64) -> f64 {
+    let (n, r, tail) = reduce_large(x.abs());
+    sine_in(n + 1, r, tail, 0)
+}
+
+#[cold]
+#[inline(never)]
+fn tan_of_large(x: f64) -> f64 {
     let (n, r, tail) = reduce_large(x.abs());
     slope(n, r, tail, sign_bit(x))
-}
-
-/// `y` where `plain` is set, and `f(x)` in the other lanes, out of line.
-#[inline(always)]
-fn or_large<W: Word>(plain: W::Mask, y: W, x: W, f: impl FnOnce(W) -> W) -> W {
-    if plain.all() {
-        return y;
-    }
-    W::out_of_line(|| W::select(plain, y, f(unless(plain, x))))
-}
-
-/// [`reduce`] for every angle beyond [`LARGE`], and 0: NaN where it is not finite.
-#[inline(always)]
-fn reduce_large<W: Word>(angle: W) -> (W::Bits, W, W) {
-    let [n, r, tail] = W::look_up([angle], |[angle]| match angle {
-        0.0 => [0.0; 3],
-        _ if angle.is_finite() => {
-            let (n, (r, tail)) = reduction::reduce_large(angle);
-            [f64::from_bits(n), r, tail]
-        }
-        _ => [0.0, f64::NAN, f64::NAN],
-    });
-    (n.bits(), r, tail)
 }

@@ -53,13 +53,13 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> Watcher<U> {
-    /// From the value after the last step and its change in that step.
+    /// From the value after the last step and the one before.
     #[inline(always)]
-    pub(crate) fn new(quantity: Quantity, period: Option<U>, value: U, change: U) -> Self {
+    pub(crate) fn new(quantity: Quantity, period: Option<U>, value: U, before: U) -> Self {
         Watcher {
             quantity,
             period,
-            values: [value, value - change],
+            values: [value, before],
             turn: 0,
             is_far: false,
         }
@@ -71,11 +71,10 @@ impl<U: Real> Watcher<U> {
         &self.values[self.turn & 1]
     }
 
-    /// The value after the last step, and its change in that step.
+    /// The value after the last step, and the one before.
     #[inline(always)]
     pub(crate) fn last(&self) -> [U; 2] {
-        let before = self.values[(self.turn + 1) & 1];
-        [*self.value(), *self.value() - before]
+        [*self.value(), self.values[(self.turn + 1) & 1]]
     }
 
     /// Goes on to the value after the next step, if nothing can have happened in the lanes that are watched:
@@ -108,7 +107,8 @@ impl<U: Real> Watcher<U> {
     /// next.
     #[inline(always)]
     pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
-        let [from, changed] = self.last();
+        let [from, before] = self.last();
+        let changed = from - before;
         let (value, counted) = match self.period {
             None => (value, value),
             Some(period) => {

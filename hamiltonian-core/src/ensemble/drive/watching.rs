@@ -55,7 +55,7 @@ where
                 function.quantity,
                 function.period.map(|period| gathered::<L, T, P>(&[period])),
                 gathered::<L, T, P>(&in_lanes(|section| section.value)),
-                gathered::<L, T, P>(&in_lanes(|section| section.change)),
+                gathered::<L, T, P>(&in_lanes(|section| section.value - section.change)),
             ));
         }
     }
@@ -67,17 +67,17 @@ where
         watchers: &[Watcher<T::Over<P>>],
         crew: &mut Crew<T, S>,
     ) {
-        let [mut values, mut changes] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
+        let [mut values, mut before] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
         for (function, watcher) in self.functions.iter().zip(watchers) {
-            let [value, change] = watcher.last();
-            scatter::<L, T, P>(&value, &mut values);
-            scatter::<L, T, P>(&change, &mut changes);
+            let [last, one_before] = watcher.last();
+            scatter::<L, T, P>(&last, &mut values);
+            scatter::<L, T, P>(&one_before, &mut before);
             crew.for_each_watched(|lane, seat| {
                 let mut own = seat.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
                 // A member whose observer has only now seen its first state has values of its own.
                 if let Some(section) = own.filter(|_| self.watched.lane(lane as u32)) {
-                    (section.value, section.change) = (values[lane], changes[lane]);
+                    (section.value, section.change) = (values[lane], values[lane] - before[lane]);
                 }
                 true
             });

@@ -139,7 +139,7 @@ gallery! {
     three_body "Arenstorf's orbit round the Earth and the Moon, in the frame that turns with them."
     toda "Two solitons on a ring of 200 particles: the faster one passes."
     vortices "Four vortices carry each other round."
-    wisdom_holman "The outer planets in steps of a third of a year: the change of H, with Kepler orbits as a piece of H, and with other schemes."
+    wisdom_holman "The outer planets in steps of a third of a year: the change of H, with Kepler orbits as pieces of H and without."
     paper_long "The paper's schemes on H = ½(q²+1)(p²+1), the longer run: its explicit schemes do not keep H."
     work_precision_34 "Equation (34): the change of H against the CPU time for one unit of time of the system."
     work_precision_schwarzschild "The same for an orbit round a black hole."

@@ -26,20 +26,29 @@ const LARGE: f64 = (1u64 << 20) as f64;
 /// modulo 4 in the lowest bits.
 #[inline(always)]
 fn reduce<W: Word>(angle: W) -> (W::Bits, W, W) {
-    if W::LANES == 1 {
-        // Up to 3π/4, where the chain of operations that finds `n` is the longer half of a single
-        // sine.
-        if angle.le(W::splat(0.78)).all() {
-            return (W::Bits::splat(0), angle, W::zero());
-        }
-        if (W::splat(0.79).le(angle) & angle.le(W::splat(2.35))).all() {
-            let (r, tail) = rest(angle, W::one());
-            return (W::Bits::splat(1), r, tail);
-        }
-    }
     let shifted = angle.fma(W::splat(TWO_OVER_PI), W::splat(ROUNDER));
     let (r, tail) = rest(angle, shifted - W::splat(ROUNDER));
     (shifted.bits(), r, tail)
+}
+
+/// [`reduce`] of a single angle; `None` beyond [`LARGE`]. Up to 3π/4 without the chain of operations that finds
+/// `n`, the longer half of a single sine.
+#[inline(always)]
+fn reduce_one<W: Word>(angle: W) -> Option<(W::Bits, W, W)> {
+    if angle.le(W::splat(0.78)).all() {
+        return Some((W::Bits::splat(0), angle, W::zero()));
+    }
+    if (W::splat(0.79).le(angle) & angle.le(W::splat(2.35))).all() {
+        let (r, tail) = rest(angle, W::one());
+        return Some((W::Bits::splat(1), r, tail));
+    }
+    angle.le(W::splat(LARGE)).all().then(|| reduce(angle))
+}
+
+/// True if a single angle is tiny. [`reduce_one`] begins with the same comparison, so larger angles cost one less.
+#[inline(always)]
+fn one_is_tiny<W: Word>(angle: W) -> bool {
+    angle.le(W::splat(0.78)).all() && is_tiny(angle).all()
 }
 
 /// `(r, tail)` with `angle = n·π/2 + r + tail`.
@@ -250,18 +259,21 @@ pub fn sin<W: Word>(x: W) -> W {
         return y.or_rare(x.abs().le(W::splat(LARGE)), x, sin_of_large);
     }
     let angle = x.abs();
-    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
-    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return x.replace(W::Mask::splat(true), x, sin_of_large);
+    if W::LANES == 1 {
+        if one_is_tiny(angle) {
+            return x;
+        }
+        return match reduce_one(angle) {
+            Some((n, r, tail)) => sine_in(n, r, tail, sign_bit(x)),
+            None => x.replace(W::Mask::splat(true), x, sin_of_large),
+        };
     }
     let tiny = is_tiny(angle);
-    if W::LANES == 1 && tiny.all() {
-        return x;
-    }
     let (n, r, tail) = reduce(unless(tiny, angle));
     let y = W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)));
+    // Last: a mask held from the beginning costs an eighth.
     let rare = !angle.le(W::splat(LARGE));
-    if W::LANES > 1 && rare.any() {
+    if rare.any() {
         return y.replace(rare, x, sin_of_large);
     }
     y
@@ -275,19 +287,22 @@ pub fn cos<W: Word>(x: W) -> W {
         return y.or_rare(x.abs().le(W::splat(LARGE)), x, cos_of_large);
     }
     let angle = x.abs();
-    // First in a single number; last in lanes, where a mask held from here on costs an eighth.
-    if W::LANES == 1 && !angle.le(W::splat(LARGE)).all() {
-        return x.replace(W::Mask::splat(true), x, cos_of_large);
+    if W::LANES == 1 {
+        if one_is_tiny(angle) {
+            return W::one();
+        }
+        return match reduce_one(angle) {
+            Some((n, r, tail)) => sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0)),
+            None => x.replace(W::Mask::splat(true), x, cos_of_large),
+        };
     }
     let tiny = is_tiny(angle);
-    if W::LANES == 1 && tiny.all() {
-        return W::one();
-    }
     let (n, r, tail) = reduce(unless(tiny, angle));
     let next = n.plus(W::Bits::splat(1));
     let y = sine_in(next, r, tail, W::Bits::splat(0));
+    // Last: a mask held from the beginning costs an eighth.
     let rare = !angle.le(W::splat(LARGE));
-    if W::LANES > 1 && rare.any() {
+    if rare.any() {
         return y.replace(rare, x, cos_of_large);
     }
     y
@@ -300,10 +315,15 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
     let (sine, cosine) = if W::FUSED {
         Turned::of(x, 0.0).both()
     } else {
-        let tiny = is_tiny(angle);
-        if W::LANES == 1 && tiny.all() {
-            return (x, W::one());
+        if W::LANES == 1 {
+            if one_is_tiny(angle) {
+                return (x, W::one());
+            }
+            if let Some((n, r, tail)) = reduce_one(angle) {
+                return turn(n, r, tail, sign_bit(x));
+            }
         }
+        let tiny = is_tiny(angle);
         let (n, r, tail) = reduce(unless(tiny, angle));
         let (sine, cosine) = turn(n, r, tail, sign_bit(x));
         (W::select(tiny, x, sine), cosine)
@@ -322,10 +342,16 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
 #[inline(always)]
 pub fn tan<W: Word>(x: W) -> W {
     let angle = x.abs();
-    let tiny = is_tiny(angle);
-    if W::LANES == 1 && tiny.all() {
-        return x;
+    if W::LANES == 1 {
+        if one_is_tiny(angle) {
+            return x;
+        }
+        return match reduce_one(angle) {
+            Some((n, r, tail)) => slope(n, r, tail, sign_bit(x)),
+            None => x.replace(W::Mask::splat(true), x, tan_of_large),
+        };
     }
+    let tiny = is_tiny(angle);
     let (n, r, tail) = reduce(unless(tiny, angle));
     let y = W::select(tiny, x, slope(n, r, tail, sign_bit(x)));
     let rare = !angle.le(W::splat(LARGE));

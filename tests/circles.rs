@@ -154,7 +154,7 @@ fn definition(path: &[String], module: &Module, texts: &Texts, depth: usize) -> 
     at
 }
 
-/// Whether a module only hands names on.
+/// Returns true if a module only hands names on.
 fn is_page(text: &str) -> bool {
     let mut statements = text.split(';').map(str::trim);
     statements.all(|statement| statement.is_empty() || statement.starts_with("pub use "))

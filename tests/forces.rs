@@ -200,7 +200,7 @@ fn orders_with_forces() {
     all(turning);
 }
 
-/// Whether rustc knows the flows of a system's pieces as exact.
+/// Returns true if rustc knows the flows of a system's pieces as exact.
 macro_rules! is_exact {
     ($system:ty) => {{
         struct Probe<T>(core::marker::PhantomData<T>);

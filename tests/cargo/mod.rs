@@ -91,7 +91,7 @@ pub struct Workspace {
 /// The outcome of a call of cargo.
 #[derive(Debug)]
 pub struct Outcome {
-    /// Whether it went well.
+    /// True if it went well.
     pub success: bool,
     /// Everything it said.
     pub text: String,

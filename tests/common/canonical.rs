@@ -1,4 +1,4 @@
-//! Whether a system in other coordinates is the system as it was declared.
+//! Systems in other coordinates are compared with the system as it was declared.
 
 use hamiltonian::{State, Vector};
 

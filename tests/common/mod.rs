@@ -62,7 +62,7 @@ pub fn measured_here() -> usize {
         .count()
 }
 
-/// Whether `value` rounds to `quoted`, a number given to so many significant digits.
+/// Returns true if `value` rounds to `quoted`, a number given to so many significant digits.
 #[track_caller]
 pub fn assert_digits(what: &str, value: f64, quoted: f64, digits: i32) {
     let unit = 10f64.powi(quoted.abs().log10().floor() as i32 - digits + 1);
@@ -73,7 +73,7 @@ pub fn assert_digits(what: &str, value: f64, quoted: f64, digits: i32) {
     );
 }
 
-/// Whether the long versions of the tests were asked for.
+/// Returns true if the long versions of the tests were asked for.
 pub fn is_heavy() -> bool {
     std::env::var_os("HAMILTONIAN_HEAVY").is_some_and(|value| value == "1")
 }

@@ -35,7 +35,7 @@ pub fn trees() -> Vec<(Tree, &'static str)> {
     trees
 }
 
-/// Whether a part of it that is a number has no value: `atanh(2)`, or a division by 0.
+/// Returns true if a part of it that is a number has no value: `atanh(2)`, or a division by 0.
 fn has_bad_number(tree: &Tree) -> bool {
     let model = tree.model();
     let roots: Vec<_> = model.hamiltonian.into_iter().collect();

@@ -52,7 +52,7 @@ impl Interpreted {
         }
     }
 
-    /// Whether H depends on momenta, of which some may cancel.
+    /// True if H depends on momenta, of which some may cancel.
     pub fn has_momentum(&self) -> bool {
         self.has_momentum
     }
@@ -182,7 +182,7 @@ fn point(at: &At, adds: bool) -> Point<f64> {
     point
 }
 
-/// Whether ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written.
+/// Returns true if ∂H/∂q is free of momenta and ∂H/∂p of coordinates as H is written.
 fn separates_as_written(model: &mut Model) -> bool {
     let h = model.hamiltonian.expect("there is an H");
     let mut is_free = |by: Dependence, of: Dependence| {

@@ -120,8 +120,8 @@ macro_rules! gallery {
 
 #[cfg(doc)]
 gallery! {
-    henon_heiles "The section x = 0 of the Hénon–Heiles system at one energy: each orbit in its colour."
-    kerr "An orbit round a rotating black hole fills a torus; the horizon is in the middle."
+    henon_heiles "The section x = 0 of the Hénon–Heiles system at one energy: each orbit in one colour."
+    kerr "An orbit round a rotating black hole fills a torus, here a section of it; on the left, the horizon."
     driven_pendulum "A pendulum whose pivot shakes: hanging, upside down, and the chaotic sea between."
     double_pendulum "Two double pendulums that start almost alike."
     dipole "A particle in the radiation belt: gyration, bounce and mirror points."
@@ -131,17 +131,17 @@ gallery! {
     chaos_map "MEGNO of 40 000 orbits of the Hénon–Heiles system: islands of regular orbits in the chaotic sea."
     phi4 "A bent kink and antikink of the φ⁴ field meet and leave a bubble that shrinks: φ = 0 at four times."
     basins "A damped pendulum that is pushed to and fro ends on one of three orbits: their basins."
-    mixing "Stars of one energy in a rotating bar at t = 5: the colours tell where each began, on the left or on the right."
-    nls "A wave on a ring of 32 wave guides breaks up into peaks."
-    rigid_body "The way of the axis of Kowalevski's top, seen from above."
+    mixing "Stars of one energy in a rotating bar at t = 5: the colours show on which side each began."
+    nls "A wave on a ring of 32 waveguides breaks up into peaks."
+    rigid_body "The path of the axis of Kowalevski's top, seen from above."
     schwarzschild "Orbits round a black hole, without and with a magnetic field about it."
     solar_system "Neptune goes round three times while Pluto does twice: the angle of their resonance."
     three_body "Arenstorf's orbit round the Earth and the Moon, in the frame that turns with them."
-    toda "Two solitons on a ring of 200 particles: the faster one passes."
+    toda "Two solitons on a ring of 200 particles: the faster one overtakes."
     vortices "Four vortices carry each other round."
     wisdom_holman "The outer planets in steps of a third of a year: the change of H, with Kepler orbits as pieces of H and without."
     paper_long "The paper's schemes on H = ½(q²+1)(p²+1), the longer run: its explicit schemes do not keep H."
-    work_precision_34 "Equation (34): the change of H against the CPU time for one unit of time of the system."
+    work_precision_34 "Equation (34): the change of H against the CPU time for one unit of time; numbers at curves are orders."
     work_precision_schwarzschild "The same for an orbit round a black hole."
 }
 

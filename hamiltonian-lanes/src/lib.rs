@@ -16,9 +16,9 @@
 //! | [`W<P, K>`](W) | `K` × those of `P` | as `P` | any pack, `f64` too |
 //! | [`Nf<P>`](Nf) | those of `P` | two roundings: the bits of `f64` | any pack |
 //!
-//! [`dispatch`] asks the CPU once and runs a kernel on its best level, with a plain `cargo build`;
-//! [`dispatch_at_most`] hides features. [`Cpu`] lists the levels. Without the feature `std` nobody
-//! asks the CPU: the best level is that of the target the crate is compiled for.
+//! [`dispatch`] detects the features of the CPU once and runs a kernel on the best level, without build flags;
+//! [`dispatch_at_most`] hides features. [`Cpu`] lists the levels. Without the feature `std`, features are not
+//! detected: the best level is that of the compilation target.
 //!
 //! A sine over a pack, on the best level this CPU has:
 //! ```

@@ -37,6 +37,9 @@
 //! [`Composition`] makes schemes of higher order from any symmetric one, for example `KahanLi6.of(…)`. [`Paced`] gives
 //! one-step schemes reversible steps of varying length.
 //!
+//! With a second piece of size ε, an order (n, m) means the error O(εhⁿ + ε²hᵐ). That of `Aba1064` is
+//! (10, 6, 4): O(εh¹⁰ + ε²h⁶ + ε³h⁴).
+//!
 //! What a scheme requires is a trait bound: a scheme on a system without the structure does not compile. A scheme with
 //! nothing there takes any H with any force. Schemes that require `Split`, except [`Strang`], also require
 //! [`Exact`](crate::Exact): a force that is not affine in the momenta has no exact flow. Equation numbers are those

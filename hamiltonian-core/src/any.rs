@@ -41,7 +41,7 @@ pub trait AnyRun {
     fn advance(&mut self, n: u64) -> Result<(), Error>;
     /// The number of steps made.
     fn steps(&self) -> u64;
-    /// Whether an observer has ended the run.
+    /// Returns true if an observer has ended the run.
     fn has_ended(&self) -> bool;
     /// The present time.
     fn time(&self) -> f64;

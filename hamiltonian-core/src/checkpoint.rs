@@ -285,7 +285,7 @@ impl Memory {
         Checkpoint::same(name, &saved.to_string(), &given.to_string())
     }
 
-    /// Whether all was read.
+    /// Returns true if all was read.
     pub fn is_empty(&self) -> bool {
         self.read == self.words.len()
     }

@@ -27,7 +27,7 @@ use hamiltonian_lanes::{Mask, Real};
 pub struct Located<V: Vector> {
     /// The index of the event in the list given to [`Events::new`].
     pub event: usize,
-    /// Whether the function increases there, in the direction of the run.
+    /// True if the function increases there, in the direction of the run.
     pub rising: bool,
     /// The state: the function is 0 to rounding.
     pub state: State<V>,

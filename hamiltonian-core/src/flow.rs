@@ -47,11 +47,11 @@ impl<X, A: Scratch<X>, B: Scratch<X>> Scratch<X> for (A, B) {
 pub trait Flow<X: Vector>: Clone + Debug {
     /// The piece in the author's notation.
     const NAME: &'static str;
-    /// Whether the map for c₁ followed by the map for c₂ is the map for c₁ + c₂. It is not where the
+    /// True if the map for c₁ followed by the map for c₂ is the map for c₁ + c₂. It is false if the
     /// piece is a loop over terms that do not commute: the map is then the exact flows of the terms
     /// one after the other.
     const MERGES: bool = true;
-    /// Whether the map moves coordinates, and whether it moves momenta.
+    /// True if the map moves coordinates, and the same for momenta.
     const MOVES: [bool; 2] = [true; 2];
     /// The scalar it computes in.
     type Work: Scratch<X>;

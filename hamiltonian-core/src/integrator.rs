@@ -365,7 +365,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// Whether an observer has ended the run: it makes no further steps until it is told to
+    /// Returns true if an observer has ended the run: it makes no further steps until it is told to
     /// [`go_on`](Integrator::go_on).
     pub fn has_ended(&self) -> bool {
         self.ended

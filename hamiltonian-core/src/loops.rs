@@ -54,7 +54,7 @@ pub struct Store {
     change: Change,
     /// The results that change it: `a` and, for a product, `b`.
     by: [usize; 2],
-    /// Whether another store of the iteration reaches other elements of the column.
+    /// True if another store of the iteration reaches other elements of the column.
     is_shared: bool,
 }
 
@@ -84,7 +84,7 @@ impl Store {
 /// The arithmetic of one iteration: of `G` numbers that are the same in all of them, `R` elements that are
 /// read, and the number of the iteration where it counts as a real.
 pub trait Body<const G: usize, const R: usize, const W: usize> {
-    /// Whether the number of the iteration is read.
+    /// True if the number of the iteration is read.
     const COUNTS: bool = false;
     /// The stores, in order.
     const STORES: &'static [Store] = &[];
@@ -122,7 +122,7 @@ pub struct Stretch<
     pub starts: [usize; S],
     /// The partial sums.
     pub sums: &'a mut [[T; STRIDE]; A],
-    /// Whether iterations go through lanes, and whether products fuse there.
+    /// The arithmetic: lanes or one iteration after the other, and in lanes, fused products or none.
     pub arithmetic: Arithmetic,
 }
 
@@ -552,7 +552,7 @@ fn packs<
     }
 }
 
-/// Whether results of any store wait.
+/// Returns true if results of any store wait.
 const fn has_shared(stores: &[Store]) -> bool {
     let mut s = 0;
     while s < stores.len() {

@@ -39,7 +39,7 @@ pub trait Map {
     /// The piece after the body, at the end of the step.
     #[inline(always)]
     fn close(&self, _t: ScalarOf<Self>, _z: &mut Self::Carried, _work: &mut Self::Work) {}
-    /// Whether [`close`](Map::close) changes coordinates, and whether it changes momenta: an observer of the
+    /// True if [`close`](Map::close) changes coordinates, and the same for momenta: an observer of the
     /// others alone needs no closed copy.
     #[inline(always)]
     fn closing(&self) -> [bool; 2] {

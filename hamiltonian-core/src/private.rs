@@ -141,7 +141,7 @@ pub trait ParameterWithoutDefault: Sized {
     fn never() -> Self;
 }
 
-/// Whether the same conditions hold in both.
+/// Returns true if the same conditions hold in both.
 pub fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N]) -> bool {
     let same = |k: usize| ((these[k] & those[k]) | (!these[k] & !those[k])).all();
     (0..N).all(same)

@@ -39,7 +39,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         }
     }
 
-    /// Whether the index stays in `0..extent`.
+    /// Returns true if the index stays in `0..extent`.
     #[must_use]
     pub const fn is_within(&self, extent: usize) -> bool {
         self.escape(extent).is_none()
@@ -119,7 +119,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         form.0
     }
 
-    /// Whether every loop runs at every iteration of the loops around it.
+    /// Returns true if every loop runs at every iteration of the loops around it.
     const fn no_loop_is_empty(&self) -> bool {
         let mut level = 0;
         while level < LOOPS {

@@ -114,7 +114,7 @@ impl Shard {
         self.count.get()
     }
 
-    /// Whether a chunk is of this part.
+    /// Returns true if a chunk is of this part.
     pub fn has(&self, chunk: u64) -> bool {
         chunk % self.count == self.index
     }

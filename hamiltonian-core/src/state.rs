@@ -74,7 +74,7 @@ impl<V: Vector> State<V> {
     }
 }
 
-/// Whether a slice has as many elements as a state.
+/// Checks that a slice has as many elements as a state.
 fn has_length(expected: usize, found: usize) -> Result<(), Error> {
     match expected == found {
         true => Ok(()),

@@ -50,7 +50,7 @@ pub struct Observable {
     pub name: &'static str,
     /// Its declaration.
     pub kind: ObservableKind,
-    /// Whether t is in it.
+    /// True if t is in it.
     pub depends_on_time: bool,
 }
 
@@ -74,7 +74,7 @@ pub trait System<T: Real> {
     const GROUPS: &'static [Group];
     /// Monitors, invariants and events in declaration order.
     const OBSERVABLES: &'static [Observable];
-    /// Whether each of them reads coordinates, and whether it reads momenta. One that is missing here may read
+    /// True if each of them reads coordinates, and the same for momenta. One that is missing here may read
     /// both.
     const READS: &'static [[bool; 2]] = &[];
     /// The name of the time s of a system in another time, dt = g ds: there H is g·(h + p_t) with h the
@@ -202,13 +202,13 @@ pub trait System<T: Real> {
 }
 
 /// How a single run is computed: [`Integrator::lanes`](crate::Integrator::lanes),
-/// [`Integrator::fused`](crate::Integrator::fused) and `Integrator::threads` choose it. A prepared system carries it to the maps and
-/// flows that are made of it.
+/// [`Integrator::fused`](crate::Integrator::fused) and `Integrator::threads` choose it. A prepared system carries
+/// it to the maps and flows that are made of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Arithmetic {
-    /// Whether stages and loops use the lanes of the CPU's registers; the bits are the same without.
+    /// True if stages and loops use the lanes of the CPU's registers; the bits are the same without.
     pub lanes: bool,
-    /// Whether products fuse with sums in those lanes, on CPUs that can: other bits there than elsewhere.
+    /// True if products fuse with sums in those lanes, on CPUs that can: other bits there than elsewhere.
     pub fused: bool,
     /// The number of threads on which loops over arrays run, within the threads of a run: the bits are the
     /// same with each number.

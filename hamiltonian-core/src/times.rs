@@ -75,7 +75,7 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
     {
         let zero = V::Scalar::zero();
         let backwards = view.between.interval().lt(zero).any();
-        // Whether a comes before b in the run.
+        // True if a comes before b in the run.
         let comes_before = |a: V::Scalar, b: V::Scalar| match backwards {
             true => b.lt(a).any(),
             false => a.lt(b).any(),

@@ -64,13 +64,13 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
         len
     }
 
-    /// Whether there are no components at all.
+    /// Returns true if there are no components at all.
     #[inline(always)]
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Whether every part has as many components as the same part of `other`.
+    /// Returns true if every part has as many components as the same part of `other`.
     #[inline(always)]
     fn same_shape(&self, other: &Self) -> bool {
         for k in 0..Self::PARTS {
@@ -244,7 +244,7 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
         finite
     }
 
-    /// Whether every component is finite.
+    /// Returns true if every component is finite.
     #[inline(always)]
     fn is_finite(&self) -> bool {
         let mut finite = true;

@@ -97,14 +97,14 @@ struct Checker<'a> {
     later: Vec<bool>,
     /// Symbols of loop variables, by symbol.
     loop_symbols: Vec<bool>,
-    /// Whether a symbol was reported as unknown, by symbol.
+    /// True for each symbol that was reported as unknown.
     unknown: Vec<bool>,
     /// Sizes that were reported as unknown.
     unknown_sizes: Vec<String>,
     /// The statement that is being read defines this.
     defining: Option<Symbol>,
     place: Place,
-    /// Whether the statement that is being read is a `split`, which reads new coordinates too.
+    /// True if the statement that is being read is a `split`, which reads new coordinates too.
     in_split: bool,
     lets: Vec<LetFunction<'a>>,
     /// The affine form of nodes that have one, by node.
@@ -149,7 +149,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether a program can number so many scalars and arrays of one sort, the last of which stands
+    /// Returns true if a program can number so many scalars and arrays of one sort, the last of which stands
     /// at a place; refuses them otherwise.
     fn are_numbered(&mut self, count: usize, (sort, name): (&str, &str), last: Span) -> bool {
         if count > MOST {

@@ -140,7 +140,7 @@ pub struct Group {
     pub velocity: Option<Ident>,
     /// The type of each of them.
     pub ty: Type,
-    /// Whether it is an array of several axes stored row after row, which loops run through. The columns of
+    /// True if it is an array of several axes stored row after row, which loops run through. The columns of
     /// any other matrix are arrays of their own, and their number is literal.
     pub is_lattice: bool,
 }

@@ -172,22 +172,22 @@ pub fn meaning(name: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a word begins a statement.
+/// Returns true if a word begins a statement.
 pub fn is_statement_word(name: &str) -> bool {
     STATEMENTS.contains(&name)
 }
 
-/// Whether a word is a keyword of Rust and none of the language.
+/// Returns true if a word is a keyword of Rust and none of the language.
 pub fn is_foreign(word: &str) -> bool {
     is_rust_keyword(word) && !is_statement_word(word) && !matches!(word, "if" | "else" | "in")
 }
 
-/// Whether Rust keeps a word to itself.
+/// Returns true if Rust keeps a word to itself.
 pub fn is_rust_keyword(name: &str) -> bool {
     RUST_KEYWORDS.contains(&name)
 }
 
-/// Whether every system has a method of this name.
+/// Returns true if every system has a method of this name.
 pub fn is_method(name: &str) -> bool {
     METHODS.contains(&name)
 }

@@ -134,7 +134,7 @@ impl Tokens {
     }
 }
 
-/// Whether the first word of an attribute, `#[word …]`, is this one. The inside may come from another
+/// Returns true if the first word of an attribute, `#[word …]`, is this one. The inside may come from another
 /// macro.
 pub fn is_attribute(attribute: &TokenStream, word: &str) -> bool {
     let tokens = Tokens::flatten(attribute.clone()).list;

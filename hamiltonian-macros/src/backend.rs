@@ -193,7 +193,7 @@ fn wanted(
     wanted
 }
 
-/// Whether H is so long that emitting every function would cost rustc more than it gives.
+/// Returns true if H is so long that emitting every function would cost rustc more than it gives.
 fn is_large(checked: &Checked, model: &Model) -> bool {
     let is_static = checked.sizes.iter().all(|size| !size.run_time);
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE

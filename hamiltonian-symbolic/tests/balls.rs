@@ -46,7 +46,7 @@ fn inside(ball: Ball, random: &mut Random) -> f64 {
     )
 }
 
-/// Whether a ball holds a number, with so many units of slack as the number's own digits need.
+/// Returns true if a ball holds a number, with so many units of slack as the number's own digits need.
 fn holds(ball: Ball, exact: D) -> bool {
     let off = (D::from(ball.value) - exact).abs().to_f64();
     off <= ball.error

@@ -140,7 +140,7 @@ struct Machine<'a, T: Real> {
     outputs: Map<Target, Vec<Vec<T>>>,
     is_in_place: bool,
     reversed: bool,
-    /// Whether sums of long loops are partial sums and a tree: not in the flows of pieces.
+    /// True if sums of long loops are partial sums and a tree: not in the flows of pieces.
     has_trees: bool,
     /// The partial sums of the innermost loop under way, if it is long.
     strides: Map<Value, [T; STRIDE]>,

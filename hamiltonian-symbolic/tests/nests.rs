@@ -28,7 +28,7 @@ const ALL: [Purpose; 11] = [
     Purpose::Drift,
 ];
 
-/// Whether a purpose stores at a place.
+/// Returns true if a purpose stores at a place.
 fn stores(purpose: Purpose, place: Place) -> bool {
     use Purpose::*;
     match place {

@@ -267,7 +267,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         }
     }
 
-    /// Whether steps differ in time.
+    /// Returns true if steps differ in time.
     fn varies(&self) -> bool {
         self.carried.duration(self.clock.interval).is_some()
     }

@@ -24,7 +24,7 @@ pub(super) struct Waiting<T, const S: usize, const W: usize> {
     next: [usize; S],
     /// For each group the least and the largest start.
     ends: [[usize; 2]; S],
-    /// Whether the elements that iterations after the last one would change too are left to them.
+    /// True if the elements that iterations after the last one would change too are left to them.
     is_followed: bool,
 }
 
@@ -88,7 +88,7 @@ impl<T: Real, const S: usize, const W: usize> Waiting<T, S, W> {
         }
     }
 
-    /// Whether results of any store wait.
+    /// Returns true if results of any store wait.
     #[inline(always)]
     pub(super) fn is_any(&self) -> bool {
         let mut s = 0;

@@ -86,7 +86,7 @@ impl<T: Real> Follower<T> {
         }
     }
 
-    /// Whether signs are followed.
+    /// Returns true if signs are followed.
     pub(crate) fn has_sections(&self) -> bool {
         !self.follows.sections.is_empty()
     }

@@ -16,7 +16,7 @@ pub enum Quantity {
 }
 
 impl Quantity {
-    /// Whether it reads coordinates, and whether it reads momenta.
+    /// True if it reads coordinates, and the same for momenta.
     pub(crate) fn reads<T: Real, S: System<T>>(self) -> [bool; 2] {
         let Quantity::Observable(index) = self else {
             return [true; 2];

@@ -17,12 +17,12 @@ pub struct Section<T> {
     pub(crate) value: T,
     /// Its change in that step.
     pub(crate) change: T,
-    /// Whether it may end the run.
+    /// True if it may end the run.
     pub(crate) ends: bool,
 }
 
 impl<T: Real> Section<T> {
-    /// Whether another section is of the same function.
+    /// Returns true if another section is of the same function.
     pub(crate) fn is_of(&self, other: &Self) -> bool {
         let is_same_period = match (self.period, other.period) {
             (Some(one), Some(other)) => one.equals(other).all(),
@@ -41,7 +41,7 @@ pub(crate) struct Watcher<U> {
     /// period. No value moves from one place to the other, since packs are long.
     values: [U; 2],
     turn: usize,
-    /// Whether all lanes that are watched were far from 0 after the last step.
+    /// True if all lanes that are watched were far from 0 after the last step.
     is_far: bool,
 }
 

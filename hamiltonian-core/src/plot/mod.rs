@@ -61,15 +61,15 @@ pub struct Figure {
     pub x: String,
     /// The label of the y axis.
     pub y: String,
-    /// Whether points are drawn instead of lines.
+    /// True if points are drawn instead of lines.
     pub dots: bool,
-    /// Whether both axes have one scale, so that circles are round.
+    /// True if both axes have one scale, so that circles are round.
     pub equal: bool,
-    /// Whether y is |y| on a logarithmic axis.
+    /// True if y is |y| on a logarithmic axis.
     pub logarithmic: bool,
-    /// Whether x is on a logarithmic axis too.
+    /// True if x is on a logarithmic axis too.
     pub decades: bool,
-    /// Whether the legend stands on the right.
+    /// True if the legend stands on the right.
     pub legend_right: bool,
     /// Words at points.
     pub marks: Vec<((f64, f64), String)>,

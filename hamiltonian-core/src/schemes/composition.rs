@@ -200,7 +200,7 @@ where
 
 struct Stage<M: Map> {
     map: M,
-    /// Whether its `join` closes the stage before; else that closes and this one opens.
+    /// True if its `join` closes the stage before; else that closes and this one opens.
     joins: bool,
     /// When it begins, after the beginning of the step.
     at: ScalarOf<M>,

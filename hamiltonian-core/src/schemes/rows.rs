@@ -31,9 +31,9 @@ pub(super) trait Layout<T: Real> {
     fn splat(value: T) -> Self::Row;
     /// The numbers of the stages.
     fn split(row: Self::Row) -> Self::Few;
-    /// Whether it holds for all stages.
+    /// True if it holds for all stages.
     fn all(mask: <Self::Row as Real>::Mask) -> T::Mask;
-    /// Whether it holds for a stage.
+    /// True if it holds for a stage.
     fn any(mask: <Self::Row as Real>::Mask) -> T::Mask;
     /// The sum of a norm over the stages.
     fn total(size: <Self::Row as Real>::Size) -> T::Size;

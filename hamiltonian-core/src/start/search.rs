@@ -221,7 +221,7 @@ pub(super) fn polished<T: Real>(root: Sample<T>, mut at: impl FnMut(T) -> Sample
     }
 }
 
-/// Whether H − E is negative just after a sample.
+/// Returns true if H − E is negative just after a sample.
 fn sign_after<T: Real>(sample: &Sample<T>, direction: T) -> bool {
     if sample.f.equals(T::zero()).all() {
         is_negative(sample.slope * direction)

@@ -136,7 +136,7 @@ impl Store {
         &self.layout
     }
 
-    /// Whether a chunk was written.
+    /// Returns true if a chunk was written.
     ///
     /// # Errors
     /// [`StoreError::File`].
@@ -467,7 +467,7 @@ pub struct Completeness {
 }
 
 impl Completeness {
-    /// Whether no chunk is missing.
+    /// Returns true if no chunk is missing.
     pub fn is_complete(&self) -> bool {
         self.missing.is_empty()
     }

@@ -82,9 +82,9 @@ pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
     /// One system with member k in lane k, and the last in the lanes that are left. There are at least one
     /// and at most [`MOST`] members, and all of them [`fit`](Gather::fits) the first.
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
-    /// Whether both may stand in one pack: sizes set at run time are the same.
+    /// Returns true if both may stand in one pack: sizes set at run time are the same.
     fn fits(&self, other: &Self) -> bool;
-    /// Whether both are the same system: every parameter is equal.
+    /// Returns true if both are the same system: every parameter is equal.
     fn equals(&self, other: &Self) -> bool;
 }
 

@@ -36,7 +36,7 @@ use hamiltonian_lanes::Real;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table {
     columns: Vec<String>,
-    /// Whether the first column is an index.
+    /// True if the first column is an index.
     indexed: bool,
     /// Row after row.
     values: Vec<f64>,
@@ -128,7 +128,7 @@ impl Table {
         &self.columns
     }
 
-    /// Whether the first column is an index, with whole numbers.
+    /// Returns true if the first column is an index, with whole numbers.
     pub fn has_index(&self) -> bool {
         self.indexed
     }

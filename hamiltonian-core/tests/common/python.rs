@@ -2,7 +2,7 @@
 
 use std::process::Command;
 
-/// Whether Python has these packages; says on standard error which is missing.
+/// Returns true if Python has these packages; says on standard error which is missing.
 pub fn has(packages: &[&str]) -> bool {
     for package in packages {
         let found = Command::new("python3")

@@ -191,7 +191,7 @@ impl Checker<'_> {
         self.refuse(raw, format!("unknown name `{name}`"), help)
     }
 
-    /// Whether a name is used in its own definition or above it, which is an error.
+    /// Returns true if a name is used in its own definition or above it, which is an error.
     pub(super) fn is_early(&mut self, raw: ExprId, symbol: Symbol) -> bool {
         let name = self.ast.symbols.name(symbol);
         let is_own = self.defining == Some(symbol);

@@ -248,7 +248,7 @@ impl Checker<'_> {
         });
     }
 
-    /// Whether some loop of the index has no iteration where the modulus is 0.
+    /// Returns true if some loop of the index has no iteration where the modulus is 0.
     fn runs_over(&self, index: &Affine, modulus: Extent) -> bool {
         if let Extent::Literal(_) = modulus {
             return true;
@@ -326,7 +326,7 @@ impl Checker<'_> {
         [lower, upper]
     }
 
-    /// Whether `loops` run at the end an index was followed to: an inner loop may be empty there
+    /// Returns true if `loops` run at the end an index was followed to: an inner loop may be empty there
     /// (`i in 0..n, j in i + 1..n` at `i = n - 1`).
     fn takes_place(&self, form: &Affine, end: End, loops: &[Domain]) -> bool {
         let mut chosen: Vec<(Domain, Affine)> = Vec::new();

@@ -161,7 +161,7 @@ impl Checker<'_> {
         true
     }
 
-    /// Whether a momentum (velocity) stands among the coordinates, as in `H(x, p_x; y, p_y)`, or in
+    /// Returns true if a momentum (velocity) stands among the coordinates, as in `H(x, p_x; y, p_y)`, or in
     /// the place of another's, as in `H(x, y; p_y, p_x)`. A coordinate that has a momentum which is
     /// named after it was meant.
     fn is_misplaced(
@@ -241,7 +241,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a momentum (velocity) has the shape of its coordinate.
+    /// Returns true if a momentum (velocity) has the shape of its coordinate.
     fn same_shape(
         &mut self,
         coordinate: &Declarator,
@@ -381,7 +381,7 @@ impl<'a> Owners<'a> {
             .find_map(|name| self.by_name.get(name).copied())
     }
 
-    /// Whether `variable` has the name of the momentum (velocity) of `owner`.
+    /// Returns true if `variable` has the name of the momentum (velocity) of `owner`.
     fn is_of(&self, variable: &Declarator, owner: &Declarator) -> bool {
         let names = self.names(&variable.name.to_string());
         names.contains(&owner.name.to_string())

@@ -62,7 +62,7 @@ impl Derived {
         }
     }
 
-    /// Whether somebody wrote it. Then its indices are in range wherever its loops run.
+    /// Returns true if somebody wrote it. Then its indices are in range wherever its loops run.
     pub fn is_written(&self, node: Node) -> bool {
         let is_made = |made: &core::ops::Range<usize>| made.contains(&(node.0 as usize));
         !self.made.iter().any(is_made) || self.written.contains_key(&node)
@@ -75,9 +75,9 @@ pub struct Evaluator<'a> {
     pub(super) checked: &'a Checked,
     pub(super) demands: Demands<'a>,
     report: &'a mut Report,
-    /// Whether something was refused: then there is no model.
+    /// True if something was refused: then there is no model.
     refused: bool,
-    /// Whether a bracket was formed.
+    /// True if a bracket was formed.
     has_brackets: bool,
     /// Numbers that no `f64` is near.
     pub(super) beyond: Beyond,

@@ -19,7 +19,7 @@ pub type Set = hamiltonian_symbolic::set::Set<Domain>;
 pub struct Loops {
     /// The loops each node depends on.
     free: Vec<Set>,
-    /// Whether components of each node (of its rows, for matrices) exist by number only.
+    /// True if components of a node (of its rows, for matrices) exist by number only.
     by_number: Vec<bool>,
     /// The loop around each loop that stays, as far as it matters.
     parents: Vec<Option<Domain>>,
@@ -148,7 +148,7 @@ impl Loops {
         free.fold(Set::default(), |set, id| set | self.numbers[id.0 as usize])
     }
 
-    /// Whether components of a vector exist by number only.
+    /// Returns true if components of a vector exist by number only.
     pub fn by_number(&self, node: NodeId) -> bool {
         self.by_number[node.0 as usize]
     }
@@ -158,7 +158,7 @@ impl Loops {
         self.parents[id.0 as usize]
     }
 
-    /// Whether a loop is unrolled.
+    /// Returns true if a loop is unrolled.
     pub fn is_unrolled(&self, id: Domain) -> bool {
         self.unrolled.has(id)
     }

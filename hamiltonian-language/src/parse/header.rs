@@ -60,7 +60,7 @@ impl Parser<'_> {
         found
     }
 
-    /// Whether an item stands at the cursor, after its attributes.
+    /// Returns true if an item stands at the cursor, after its attributes.
     pub(super) fn at_item(&self) -> bool {
         ["pub", "struct", "enum", "type", "mod", "impl"]
             .iter()

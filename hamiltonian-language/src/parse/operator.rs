@@ -31,7 +31,7 @@ impl Pending {
     }
 }
 
-/// Whether a value may begin with such a token.
+/// Returns true if a value may begin with such a token.
 pub(super) fn begins_operand(kind: TokenKind) -> bool {
     matches!(
         kind,
@@ -41,7 +41,7 @@ pub(super) fn begins_operand(kind: TokenKind) -> bool {
     )
 }
 
-/// Whether a word ends the expression before it.
+/// Returns true if a word ends the expression before it.
 pub(super) fn ends_operand(token: &Token) -> bool {
     token.kind == TokenKind::Ident && matches!(token.text.as_str(), "on" | "else" | "in")
 }
@@ -136,7 +136,7 @@ impl Parser<'_> {
         Ok(Some((op, Spans::from(span).to(end))))
     }
 
-    /// Whether a value begins after the token at the cursor, with a sign before it or none.
+    /// Returns true if a value begins after the token at the cursor, with a sign before it or none.
     fn operand_follows(&self) -> bool {
         self.kind_at(1).is_some_and(|kind| {
             begins_operand(kind) || matches!(kind, TokenKind::Punct('+' | '-' | '!', _))

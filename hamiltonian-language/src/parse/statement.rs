@@ -94,7 +94,7 @@ impl Parser<'_> {
         self.separator(closed)
     }
 
-    /// Whether `#[assume]` stands before an invariant or a split; it stands nowhere else.
+    /// Returns true if `#[assume]` stands before an invariant or a split; it stands nowhere else.
     fn assumed(&mut self, attributes: &[Attribute], word: &str) -> bool {
         let mut assumed = false;
         for attribute in attributes {
@@ -159,7 +159,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Whether the cursor is at the beginning of a statement, where an operator could stand too.
+    /// Returns true if the cursor is at the beginning of a statement, where an operator could stand too.
     pub(super) fn begins_statement(&self) -> bool {
         let Some(token) = self.peek() else {
             return false;

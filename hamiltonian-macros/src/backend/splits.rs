@@ -15,7 +15,7 @@ use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.
 pub struct Found {
-    /// Whether there is one, or the reason why not.
+    /// `Ok` if there is one, or the reason why not.
     pub verdict: Result<(), Reason>,
     /// The sentences of the docs.
     pub facts: Vec<String>,

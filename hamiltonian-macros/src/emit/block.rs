@@ -73,7 +73,7 @@ pub(super) struct Writer<'a> {
     pub(super) trees: Vec<(Value, String, String)>,
     /// Columns of which a slab is there.
     pub(super) slabs: Vec<Slice>,
-    /// Whether a loop is open.
+    /// True if a loop is open.
     pub(super) is_inside: bool,
 }
 
@@ -431,7 +431,7 @@ pub(super) struct Accesses {
 }
 
 impl Accesses {
-    /// Whether the loop counts from 0 and columns run along with it element by element.
+    /// Returns true if the loop counts from 0 and columns run along with it element by element.
     fn is_plain(&self, inner: &Loop) -> bool {
         let along =
             |(_, index): &(Slice, Index)| *index == Index::plain(Affine::variable(inner.domain));

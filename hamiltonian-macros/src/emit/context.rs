@@ -35,7 +35,7 @@ pub struct Context<'a> {
     pub suffix: &'static str,
     /// The names of sizes inside bodies.
     pub indices: Indices<'a>,
-    /// Whether each size is set at run time.
+    /// True for each size that is set at run time.
     pub is_run_time: &'a [bool],
     /// Access to the point of a body.
     pub access: Access,
@@ -78,12 +78,12 @@ impl<'a> Context<'a> {
         (0..sizes.len()).filter(move |size| sizes[*size])
     }
 
-    /// Whether any size is set at run time.
+    /// Returns true if any size is set at run time.
     pub fn has_run_time_sizes(self) -> bool {
         self.is_run_time.contains(&true)
     }
 
-    /// Whether a Rust function is a parameter; these are the first ones.
+    /// Returns true if a Rust function is a parameter; these are the first ones.
     pub fn is_parameter(self, function: u16) -> bool {
         usize::from(function) < self.generics.functions.len()
     }

@@ -23,7 +23,7 @@ pub struct Generics {
     pub functions: Vec<(String, usize)>,
     /// All sizes as they are called in bodies.
     pub sizes: Vec<String>,
-    /// Whether each size is set at run time.
+    /// True for each size that is set at run time.
     pub is_run_time: Vec<bool>,
     /// The fields of the parameters.
     fields: Vec<String>,

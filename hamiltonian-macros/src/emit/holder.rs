@@ -22,7 +22,7 @@ pub struct Holder {
     values: Values,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
     pub arrays: Vec<Slice>,
-    /// Whether it says how work on the system is computed.
+    /// True if it says how work on the system is computed.
     pub arithmetic: bool,
 }
 

@@ -90,7 +90,7 @@ impl Slice {
         Some((if at.side == Side::Q { q } else { p }, at))
     }
 
-    /// Whether elements are written to it.
+    /// Returns true if elements are written to it.
     pub fn is_written(self) -> bool {
         matches!(self, Slice::Write(_))
     }

@@ -162,7 +162,7 @@ pub enum Kick {
     Plain,
     /// The part that reads momenta, and where `rest` the kick after it.
     Damped {
-        /// Whether there is a part that reads none.
+        /// True if there is a part that reads none.
         rest: bool,
     },
     /// Exact by a series over the rates of momenta and their linear part: momenta push each other.

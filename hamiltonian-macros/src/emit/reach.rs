@@ -22,7 +22,7 @@ fn sizes(reach: &Reach) -> Vec<Size> {
     sizes
 }
 
-/// Whether a size that is set at run time has a say.
+/// Returns true if a size that is set at run time has a say.
 fn is_run_time(reach: &Reach, context: Context) -> bool {
     let extent = reach.extent.and_then(|extent| match extent {
         Extent::Size(size) => Some(size),

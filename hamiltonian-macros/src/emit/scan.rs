@@ -39,13 +39,13 @@ pub fn scan(context: Context, steps: &[Step], results: &[Value]) -> Scan {
 struct Walker<'a> {
     program: &'a Program,
     context: Context<'a>,
-    /// Whether a value was met, for each value of the program.
+    /// True for each value of the program that was met.
     known: Vec<bool>,
     scan: Scan,
 }
 
 impl Walker<'_> {
-    /// Whether a value is met for the first time; numbers stand where they are used.
+    /// Returns true if a value is met for the first time; numbers stand where they are used.
     fn is_new(&mut self, value: Value) -> bool {
         let known = &mut self.known[value.0 as usize];
         !self.program.instruction(value).is_number() && !std::mem::replace(known, true)

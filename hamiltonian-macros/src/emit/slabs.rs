@@ -101,7 +101,7 @@ impl Writer<'_> {
         }
     }
 
-    /// Whether the loops may be computed on threads.
+    /// Returns true if the loops may be computed on threads.
     fn has_threads(&self) -> bool {
         self.arithmetic.starts_with("_self")
     }

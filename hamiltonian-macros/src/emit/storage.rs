@@ -10,13 +10,13 @@ use hamiltonian_symbolic::model::{Group, Shape};
 use std::fmt::Write;
 
 impl Context<'_> {
-    /// Whether an extent is set at run time.
+    /// Returns true if an extent is set at run time.
     fn is_set_at_run_time(self, extent: &Affine) -> bool {
         let mut sizes = extent.all_sizes();
         sizes.any(|size| self.is_run_time[usize::from(size.0)])
     }
 
-    /// Whether any extent of a shape is set at run time.
+    /// Returns true if any extent of a shape is set at run time.
     pub fn is_dynamic(self, shape: &Shape) -> bool {
         match shape {
             Shape::Scalar => false,
@@ -27,7 +27,7 @@ impl Context<'_> {
         }
     }
 
-    /// Whether the number of columns is set at run time.
+    /// Returns true if the number of columns is set at run time.
     pub fn has_dynamic_columns(self, shape: &Shape) -> bool {
         matches!(shape, Shape::Matrix(_, columns) if self.is_set_at_run_time(columns))
     }
@@ -136,7 +136,7 @@ impl Context<'_> {
         format!("[{}]", extents.join(", "))
     }
 
-    /// Whether the coordinates of a group are on the heap.
+    /// Returns true if the coordinates of a group are on the heap.
     pub fn is_on_heap(self, group: &Group) -> bool {
         !group.axes.is_empty() || self.is_dynamic(&group.shape.of_parameter())
     }

@@ -33,7 +33,7 @@ impl Values {
         self.numbers.iter().chain(&self.masks).copied()
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub fn is_empty(&self) -> bool {
         self.all().next().is_none()
     }

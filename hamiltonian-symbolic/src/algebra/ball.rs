@@ -62,22 +62,22 @@ impl Ball {
         Ball { value, error }
     }
 
-    /// Whether the exact value is certainly not 0.
+    /// Returns true if the exact value is certainly not 0.
     #[must_use]
     pub fn is_nonzero(self) -> bool {
         self.value.is_finite() && self.value.abs() > self.error
     }
-    /// Whether the exact value certainly exists.
+    /// Returns true if the exact value certainly exists.
     #[must_use]
     pub fn is_defined(self) -> bool {
         self.value.is_finite() && self.error.is_finite()
     }
-    /// Whether two exact values are certainly different.
+    /// Returns true if two exact values are certainly different.
     #[must_use]
     pub fn differs(self, other: Ball) -> bool {
         (self - other).is_nonzero()
     }
-    /// Whether this is a multiple of 1/64 of moderate size, without an error.
+    /// Returns true if this is a multiple of 1/64 of moderate size, without an error.
     fn is_short(self) -> bool {
         self.error == 0.0 && (64.0 * self.value).fract() == 0.0
     }

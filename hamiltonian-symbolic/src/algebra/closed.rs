@@ -91,7 +91,7 @@ impl Dag {
         values.get(&root).copied()
     }
 
-    /// Whether the coefficient of a node, or all of it where it is made of numbers alone, is past the
+    /// Returns true if the coefficient of a node, or all of it where it is made of numbers alone, is past the
     /// range of `f64`.
     #[must_use]
     pub fn leaves_f64(&self, node: Node) -> bool {

@@ -195,7 +195,7 @@ impl Dependence {
     /// On what moves along a trajectory.
     pub const MOVING: Dependence = Dependence(1 | 2 | 4);
 
-    /// Whether it shares anything with `other`.
+    /// Returns true if it shares anything with `other`.
     #[must_use]
     pub fn on(self, other: Dependence) -> bool {
         self.0 & other.0 != 0
@@ -257,7 +257,7 @@ pub struct Dag {
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
-    /// Whether a loop was asked for that there is no number for.
+    /// True if a loop was asked for that there is no number for.
     has_too_many_loops: bool,
 }
 
@@ -272,7 +272,7 @@ impl Dag {
     pub fn len(&self) -> usize {
         self.kinds.len()
     }
-    /// Whether there are none.
+    /// Returns true if there are none.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.kinds.is_empty()
@@ -309,7 +309,7 @@ impl Dag {
     pub(crate) fn sign(&self, node: Node) -> Sign {
         self.facts[node.0 as usize].sign
     }
-    /// Whether the value is provably ≥ 0 (or NaN).
+    /// Returns true if the value is provably ≥ 0 (or NaN).
     #[must_use]
     pub fn is_nonnegative(&self, node: Node) -> bool {
         self.sign(node).is_nonnegative()
@@ -319,7 +319,7 @@ impl Dag {
     pub fn height(&self, node: Node) -> u32 {
         self.facts[node.0 as usize].height
     }
-    /// Whether a node is a product of two that no product takes apart (see `programs::balance`).
+    /// Returns true if a node is a product of two that no product takes apart (see `programs::balance`).
     pub(crate) fn is_sealed(&self, node: Node) -> bool {
         self.facts[node.0 as usize].sealed
     }
@@ -377,7 +377,7 @@ impl Dag {
     pub fn loop_count(&self) -> usize {
         self.ranges.len()
     }
-    /// Whether more than [`LOOPS`] loops were asked for. What was made since may be wrong: who
+    /// Returns true if more than [`LOOPS`] loops were asked for. What was made since may be wrong: who
     /// makes loops asks before the result is used.
     #[must_use]
     pub fn has_too_many_loops(&self) -> bool {
@@ -412,12 +412,12 @@ impl Dag {
             self.for_children(node, |child| ahead.add(child));
         })
     }
-    /// Whether the roots need a node of a kind.
+    /// Returns true if the roots need a node of a kind.
     pub(crate) fn has(&self, roots: &[Node], is_asked: impl Fn(&Kind) -> bool) -> bool {
         let nodes = self.reachable(roots);
         nodes.iter().any(|node| is_asked(self.kind(*node)))
     }
-    /// Whether there are sums over loops below the roots.
+    /// Returns true if there are sums over loops below the roots.
     pub(crate) fn has_loops(&self, roots: &[Node]) -> bool {
         self.has(roots, |kind| matches!(kind, Kind::Reduce(..)))
     }

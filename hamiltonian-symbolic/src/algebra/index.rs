@@ -135,7 +135,7 @@ impl Affine {
         }
         (self.loops.is_empty() && other.loops.is_empty()).then_some(product)
     }
-    /// Whether any size occurs.
+    /// Returns true if any size occurs.
     #[must_use]
     pub fn has_sizes(&self) -> bool {
         !(self.sizes.is_empty() && self.products.is_empty())
@@ -213,12 +213,12 @@ impl Affine {
     ) -> Option<Affine> {
         self.eliminate(|domain, factor| end.of(range(domain), factor))
     }
-    /// Whether a form over sizes is at least 0 whatever the sizes are.
+    /// Returns true if a form over sizes is at least 0 whatever the sizes are.
     #[must_use]
     pub fn is_never_negative(&self) -> bool {
         self.constant >= 0 && self.factors_of_sizes().all(|factor| factor >= 0)
     }
-    /// Whether a form over sizes is below 0 whatever the sizes are.
+    /// Returns true if a form over sizes is below 0 whatever the sizes are.
     #[must_use]
     pub fn is_always_negative(&self) -> bool {
         self.constant < 0 && self.factors_of_sizes().all(|factor| factor <= 0)

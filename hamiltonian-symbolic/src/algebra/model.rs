@@ -217,7 +217,7 @@ pub enum VectorUse {
 }
 
 impl VectorUse {
-    /// Whether it has a part shaped like the coordinates, and one shaped like the momenta.
+    /// True if it has a part shaped like the coordinates, and the same for the momenta.
     #[must_use]
     pub fn sides(self) -> (bool, bool) {
         match self {
@@ -462,7 +462,7 @@ impl Model {
     pub fn time_name(&self) -> &str {
         self.time.as_deref().unwrap_or("t")
     }
-    /// Whether something is declared under a name.
+    /// Returns true if something is declared under a name.
     #[must_use]
     pub fn declares(&self, name: &str) -> bool {
         let of_group = |g: &Group| {

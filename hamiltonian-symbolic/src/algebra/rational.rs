@@ -241,22 +241,22 @@ impl Rational {
             .then(|| Rational::from_big(BigRational::new_raw(n, d)))
     }
 
-    /// Whether this is 0.
+    /// Returns true if this is 0.
     #[must_use]
     pub fn is_zero(&self) -> bool {
         matches!(self.0, Form::Small(0, _))
     }
-    /// Whether this is 1.
+    /// Returns true if this is 1.
     #[must_use]
     pub fn is_one(&self) -> bool {
         matches!(self.0, Form::Small(1, 1))
     }
-    /// Whether this is 1 or −1.
+    /// Returns true if this is 1 or −1.
     #[must_use]
     pub fn is_unit(&self) -> bool {
         matches!(self.0, Form::Small(1 | -1, 1))
     }
-    /// Whether this is below 0.
+    /// Returns true if this is below 0.
     #[must_use]
     pub fn is_negative(&self) -> bool {
         match &self.0 {
@@ -282,7 +282,7 @@ impl Rational {
             _ => Rational::ONE,
         }
     }
-    /// Whether the value is an integer.
+    /// Returns true if the value is an integer.
     #[must_use]
     pub fn is_integer(&self) -> bool {
         match &self.0 {
@@ -290,7 +290,7 @@ impl Rational {
             Form::Big(value) => value.is_integer(),
         }
     }
-    /// Whether the value is an odd integer.
+    /// Returns true if the value is an odd integer.
     #[must_use]
     pub fn is_odd(&self) -> bool {
         match &self.0 {
@@ -341,7 +341,7 @@ impl Rational {
         round(&self.big())
     }
 
-    /// Whether its nearest `f64` is infinite, or 0 although it is not 0.
+    /// Returns true if its nearest `f64` is infinite, or 0 although it is not 0.
     #[must_use]
     pub fn leaves_f64(&self) -> bool {
         let nearest = self.to_f64();

@@ -87,7 +87,7 @@ impl Dag {
         new.map(|new| new[&root])
     }
 
-    /// Whether the range of a loop has a form where the variable is replaced.
+    /// Returns true if the range of a loop has a form where the variable is replaced.
     fn can_move(&self, domain: Domain, variable: Domain, by: &Index) -> bool {
         let range = self.range(domain);
         let is_read = range.start.factor(variable) != 0 || range.end.factor(variable) != 0;

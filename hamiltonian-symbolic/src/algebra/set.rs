@@ -33,7 +33,7 @@ impl<T: Member> Set<T> {
     pub fn of(member: T) -> Set<T> {
         Set(1 << member.number(), PhantomData)
     }
-    /// Whether it has no member.
+    /// Returns true if it has no member.
     #[must_use]
     pub fn is_empty(self) -> bool {
         self.0 == 0
@@ -43,17 +43,17 @@ impl<T: Member> Set<T> {
     pub fn len(self) -> usize {
         self.0.count_ones() as usize
     }
-    /// Whether it has a member.
+    /// Returns true if it has a member.
     #[must_use]
     pub fn has(self, member: T) -> bool {
         self.0 >> member.number() & 1 == 1
     }
-    /// Whether two sets have a member in common.
+    /// Returns true if two sets have a member in common.
     #[must_use]
     pub fn meets(self, other: Set<T>) -> bool {
         self.0 & other.0 != 0
     }
-    /// Whether another set has all members.
+    /// Returns true if another set has all members.
     #[must_use]
     pub fn is_within(self, other: Set<T>) -> bool {
         self.0 & !other.0 == 0

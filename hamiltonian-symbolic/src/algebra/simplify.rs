@@ -95,12 +95,12 @@ impl Dag {
             _ => None,
         }
     }
-    /// Whether the node is the number 0.
+    /// Returns true if the node is the number 0.
     #[must_use]
     pub fn is_zero(&self, node: Node) -> bool {
         self.as_constant(node).is_some_and(Rational::is_zero)
     }
-    /// Whether the node is the number 1.
+    /// Returns true if the node is the number 1.
     #[must_use]
     pub fn is_one(&self, node: Node) -> bool {
         self.as_constant(node).is_some_and(Rational::is_one)
@@ -300,7 +300,7 @@ impl Dag {
         self.bare_product(k, factors)
     }
 
-    /// Whether the n-th power of a product is the product of its factors' powers.
+    /// Returns true if the n-th power of a product is the product of its factors' powers.
     fn is_taken_apart(&self, product: Node, factors: &[(Node, i32)], n: i32) -> bool {
         let is_small = |(_, m): &(Node, i32)| {
             m.checked_mul(n).is_some_and(|power| {

@@ -129,7 +129,7 @@ impl Variables {
         pairs.retain(|pair| Variables::of_pairs(&[*pair]).is_within(self));
         pairs
     }
-    /// Whether there are coordinates in it, and momenta.
+    /// True if there are coordinates in it, and the same for momenta.
     pub(crate) fn sides(self) -> (bool, bool) {
         let mut all = self.members();
         (
@@ -157,7 +157,7 @@ pub(crate) struct Space {
     pub(crate) flows: Map<(Node, Node), Option<Flow>>,
     /// The same of one pair alone.
     pub(crate) atoms: Map<(Node, Node), Option<Flow>>,
-    /// Whether a piece may be a matrix exponential: the point has few components, all of them given.
+    /// True if a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
     /// The number of questions that are left.
     tests: usize,
@@ -165,7 +165,7 @@ pub(crate) struct Space {
     products: usize,
     /// The largest size of the arena in this search.
     last: usize,
-    /// Whether H has more than [`TERMS`] terms.
+    /// True if H has more than [`TERMS`] terms.
     pub(crate) has_more_terms: bool,
 }
 
@@ -230,7 +230,7 @@ impl Space {
         })
     }
 
-    /// Whether the search has spent its budget.
+    /// Returns true if the search has spent its budget.
     pub(crate) fn is_spent(&self) -> bool {
         self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
     }
@@ -342,13 +342,13 @@ impl Space {
         }
         terms
     }
-    /// Whether the flows of a and b are proven to commute: {a, b} = 0, and neither crosses a set where
+    /// Returns true if the flows of a and b are proven to commute: {a, b} = 0, and neither crosses a set where
     /// the other is not smooth.
     pub(crate) fn commute(&mut self, a: Node, b: Node) -> bool {
         self.bracket(a, b).is_empty()
             || self.brackets_vanish(a, b) && self.stays_smooth(a, b) && self.stays_smooth(b, a)
     }
-    /// Whether {a, b} = 0 is proven wherever both have derivatives.
+    /// Returns true if {a, b} = 0 is proven wherever both have derivatives.
     pub(crate) fn brackets_vanish(&mut self, a: Node, b: Node) -> bool {
         let terms = self.bracket(a, b);
         // Numbers of the derivatives first, which are made once for all brackets.
@@ -373,11 +373,11 @@ impl Space {
         self.is_zero(bracket)
     }
 
-    /// Whether numbers say that an expression is not 0.
+    /// Returns true if numbers say that an expression is not 0.
     pub(crate) fn is_off(&mut self, node: Node) -> bool {
         self.near(node).iter().any(|near| near.is_nonzero())
     }
-    /// Whether an expression is proven to be 0 wherever it has a value.
+    /// Returns true if an expression is proven to be 0 wherever it has a value.
     pub(crate) fn is_zero(&mut self, node: Node) -> bool {
         if self.model.dag.is_zero(node) {
             return true;
@@ -399,13 +399,13 @@ impl Space {
         self.zeros.insert(node, answer);
         answer
     }
-    /// Whether two expressions are proven to be the same.
+    /// Returns true if two expressions are proven to be the same.
     pub(crate) fn same(&mut self, a: Node, b: Node) -> bool {
         let difference = self.model.dag.sub(a, b);
         self.is_zero(difference)
     }
 
-    /// Whether two expressions are proven to differ by one that is free of every variable.
+    /// Returns true if two expressions are proven to differ by one that is free of every variable.
     pub(crate) fn constant_apart(&mut self, a: Node, b: Node) -> bool {
         let difference = self.model.dag.sub(a, b);
         let set = self.set(difference);

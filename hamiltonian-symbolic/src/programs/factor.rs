@@ -19,13 +19,13 @@ pub(crate) fn count_uses(dag: &Dag, roots: &[Node], order: &[Node]) -> Numbers {
     uses
 }
 
-/// Whether a node is computed before any evaluation, outside loops: its multiplication into a
+/// Returns true if a node is computed before any evaluation, outside loops: its multiplication into a
 /// coefficient is free.
 pub(crate) fn is_prepared(dag: &Dag, node: Node) -> bool {
     is_known(dag, node, Stage::Evaluation)
 }
 
-/// Whether a node is computed before a stage, outside loops.
+/// Returns true if a node is computed before a stage, outside loops.
 pub(crate) fn is_known(dag: &Dag, node: Node, now: Stage) -> bool {
     dag.stage(node) < now && dag.variables(node).is_empty()
 }

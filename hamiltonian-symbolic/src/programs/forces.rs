@@ -31,7 +31,7 @@ pub enum Kick {
     },
 }
 
-/// Whether two entries add to the same element in the same iteration.
+/// Returns true if two entries add to the same element in the same iteration.
 fn same_place(a: &VectorEntry, b: &VectorEntry) -> bool {
     (a.at.on(Side::P), &a.row) == (b.at.on(Side::P), &b.row)
 }
@@ -93,7 +93,7 @@ fn weight(dag: &mut Dag, rate: Node) -> Node {
     dag.select(still, c, weight)
 }
 
-/// Whether an entry is in every row of its group.
+/// Returns true if an entry is in every row of its group.
 fn is_whole(model: &Model, entry: &VectorEntry) -> bool {
     let rows = model.groups[usize::from(entry.at.group)].shape.rows();
     rows.is_none_or(|rows| model.dag.loops_of_rows(&entry.row, rows).is_some())

@@ -148,7 +148,7 @@ impl Graph {
         }
     }
 
-    /// Whether a unit can be done now and ends as many values as it makes, or more.
+    /// Returns true if a unit can be done now and ends as many values as it makes, or more.
     fn pays(&self, unit: usize) -> bool {
         let Unit { reads, makes, .. } = &self.units[unit];
         let is_there = |value: &usize| self.units[self.values[*value].by].is_done;

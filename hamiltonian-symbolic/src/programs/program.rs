@@ -121,13 +121,13 @@ impl Instruction {
         }
     }
 
-    /// Whether this is a number, which stands where it is used.
+    /// Returns true if this is a number, which stands where it is used.
     #[must_use]
     pub fn is_number(&self) -> bool {
         matches!(self, Instruction::Constant(_) | Instruction::Pi)
     }
 
-    /// Whether this makes a mask.
+    /// Returns true if this makes a mask.
     #[must_use]
     pub fn is_mask(&self) -> bool {
         use Instruction::{And, Compare, Not, Or};

@@ -29,7 +29,7 @@ pub struct Store {
     pub column: Option<Index>,
     /// The number stored there.
     pub value: Node,
-    /// Whether it is added to what is there.
+    /// True if it is added to what is there.
     pub add: bool,
 }
 
@@ -407,7 +407,7 @@ impl Placer<'_> {
         fused
     }
 
-    /// Whether a node is a product without divisors, used once.
+    /// Returns true if a node is a product without divisors, used once.
     pub(crate) fn can_fuse(&self, node: Node) -> bool {
         match self.dag.kind(node) {
             Kind::Product(_, factors) => {
@@ -419,13 +419,13 @@ impl Placer<'_> {
         }
     }
 
-    /// Whether a node is a negative product, used once.
+    /// Returns true if a node is a negative product, used once.
     fn is_negative_once(&self, node: Node) -> bool {
         matches!(self.dag.kind(node), Kind::Product(k, _) if k.is_negative())
             && self.uses.get(node) == Some(1)
     }
 
-    /// Whether a node's value can be looked up.
+    /// Returns true if a node's value can be looked up.
     pub(crate) fn is_computed(&self, node: Node) -> bool {
         self.known.has(node)
     }

@@ -72,7 +72,7 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
     })
 }
 
-/// Whether an expression is a polynomial of few operations.
+/// Returns true if an expression is a polynomial of few operations.
 fn is_cheap(dag: &Dag, value: Node) -> bool {
     let is_polynomial = |node: &Node| match dag.kind(*node) {
         Kind::Sum(..)

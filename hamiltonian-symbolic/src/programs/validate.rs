@@ -1,4 +1,4 @@
-//! Whether a program is one that can be emitted.
+//! Checks that a program can be emitted.
 //!
 //! Input: a program. Output: nothing, or what is wrong with it, which is a fault of the engine.
 //! Invariant: knows the form of programs only, nothing of how they are made.

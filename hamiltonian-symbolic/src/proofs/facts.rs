@@ -343,7 +343,7 @@ impl Facts {
         }
     }
 
-    /// Whether the common zeros of some expressions are nothing, or a set of two dimensions less
+    /// Returns true if the common zeros of some expressions are nothing, or a set of two dimensions less
     /// where such sets do not count: of two that have no coordinate, momentum or time in common.
     fn have_no_common_zero(&self, dag: &Dag, nodes: &[Node]) -> bool {
         nodes.iter().any(|node| self.get(*node).has_no_zero)
@@ -359,7 +359,7 @@ impl Facts {
             })
     }
 
-    /// Whether the zeros and poles of two expressions meet in sets that do not count.
+    /// Returns true if the zeros and poles of two expressions meet in sets that do not count.
     fn meet_rarely(&self, dag: &Dag, a: Node, b: Node) -> bool {
         self.points == Points::Most && have_nothing_in_common(dag, a, b)
     }
@@ -461,7 +461,7 @@ impl Facts {
         }
     }
 
-    /// Whether the root of an expression is a norm: of a sum of squares of what is Lipschitz.
+    /// Returns true if the root of an expression is a norm: of a sum of squares of what is Lipschitz.
     fn is_norm(&self, dag: &Dag, square: Node) -> bool {
         let is_square = |node: Node| match dag.kind(node) {
             Kind::Product(k, factors) => {

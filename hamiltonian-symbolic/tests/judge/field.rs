@@ -115,7 +115,7 @@ impl Field {
         }
     }
 
-    /// Whether each base below a fraction line is negative.
+    /// True for each base below a fraction line that is negative.
     pub fn divisors(&self, z: &[D]) -> Vec<bool> {
         let values = self.values(z);
         let mut signs = Vec::new();

@@ -18,7 +18,7 @@ pub struct End {
     pub z: Vec<D>,
     /// The largest component on the way.
     pub size: f64,
-    /// Whether something in a denominator changed its sign on the way: H has no value in between.
+    /// True if something in a denominator changed its sign on the way: H has no value in between.
     pub crosses: bool,
 }
 

@@ -21,7 +21,7 @@ struct Record {
     value: f64,
     /// Operands on the tape with the derivatives by them.
     operands: [Option<(u32, f64)>; 2],
-    /// Whether it is a zero that mathematics does not know.
+    /// True if it is a zero that mathematics does not know.
     vanished: bool,
 }
 
@@ -40,7 +40,7 @@ pub fn count(name: &str) -> usize {
     TAPE.with_borrow(|tape| tape.iter().filter(|r| r.name == name).count())
 }
 
-/// Whether something recorded overflowed, or lost digits by underflow.
+/// Returns true if something recorded overflowed, or lost digits by underflow.
 pub fn left_range() -> bool {
     TAPE.with_borrow(|tape| {
         tape.iter().any(|r| {

@@ -178,7 +178,7 @@ impl Tree {
         }
         values.last().copied().unwrap_or(f64::NAN)
     }
-    /// Whether a variable occurs.
+    /// Returns true if a variable occurs.
     pub fn mentions(&self, variable: usize) -> bool {
         self.0.contains(&Part::Variable(variable))
     }
@@ -210,7 +210,7 @@ impl Tree {
         model
     }
 
-    /// Whether each place depends on q, p or t.
+    /// True for each place that depends on q, p or t.
     fn varies(&self) -> Vec<bool> {
         let mut varies: Vec<bool> = Vec::with_capacity(self.0.len());
         for part in &self.0 {

@@ -51,7 +51,7 @@ impl<V: Vector> Linear<V> {
         }
     }
 
-    /// Whether Newton's method can be used.
+    /// Returns true if Newton's method can be used.
     pub(super) fn fits(&self) -> bool {
         self.matrix.is_some()
     }

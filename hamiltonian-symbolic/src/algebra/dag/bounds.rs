@@ -6,7 +6,7 @@ use super::Dag;
 use crate::index::{Affine, Domain, End, Index, Loops};
 
 impl Dag {
-    /// Whether a loop is `i in 0..rows`.
+    /// Returns true if a loop is `i in 0..rows`.
     #[must_use]
     pub(crate) fn runs_over(&self, domain: Domain, rows: &Affine) -> bool {
         let range = self.range(domain);
@@ -36,7 +36,7 @@ impl Dag {
         let is_alone = around.all(|domain| loops.has(domain));
         (is_alone && self.fill_axes(row) && total == *rows).then_some(loops)
     }
-    /// Whether the loop of each axis but the first runs over its extent.
+    /// Returns true if the loop of each axis but the first runs over its extent.
     fn fill_axes(&self, row: &Index) -> bool {
         let Some(outer) = &row.outer else {
             return true;
@@ -44,7 +44,7 @@ impl Dag {
         let runs = |(domain, _): &(Domain, i64)| self.runs_over(*domain, &outer.extent);
         row.affine.loops.iter().all(runs) && self.fill_axes(&outer.index)
     }
-    /// Whether an affine form is never negative, whatever the values of its loop variables in their
+    /// Returns true if an affine form is never negative, whatever the values of its loop variables in their
     /// ranges.
     #[must_use]
     pub(crate) fn is_never_negative(&self, affine: &Affine) -> bool {

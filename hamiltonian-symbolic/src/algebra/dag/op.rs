@@ -104,7 +104,7 @@ pub struct Regularity {
     pub pole: Option<At>,
     /// Its limit at infinity.
     pub far: Far,
-    /// Whether it is one analytic function of all complex numbers, poles aside.
+    /// True if it is one analytic function of all complex numbers, poles aside.
     pub is_entire: bool,
 }
 

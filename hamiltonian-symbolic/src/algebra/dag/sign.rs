@@ -82,7 +82,7 @@ impl Sign {
     fn opposite(self) -> Sign {
         Sign((self.0 << 2 | self.0 & Sign::ZERO.0 | self.0 >> 2) & Sign::UNKNOWN.0)
     }
-    /// Whether nothing is known, which further terms and factors do not change.
+    /// Returns true if nothing is known, which further terms and factors do not change.
     pub(crate) fn is_unknown(self) -> bool {
         self.0 == Sign::UNKNOWN.0
     }

@@ -62,7 +62,7 @@ impl Numbers {
             Some(above) => Some(above - 1),
         }
     }
-    /// Whether a node has a number.
+    /// Returns true if a node has a number.
     pub(crate) fn has(&self, node: Node) -> bool {
         self.0.get(node.0 as usize).is_some_and(|above| *above != 0)
     }

@@ -20,11 +20,11 @@ pub struct Sample {
     pub q: u64,
     /// Another seed for momenta.
     pub p: u64,
-    /// Whether coordinates and momenta may be negative.
+    /// True if coordinates and momenta may be negative.
     pub signed: bool,
     /// The parameters that may be negative, and whether the time may.
     pub signs: Signs,
-    /// Whether parameters are multiples of 1/2: powers of negative numbers have values where
+    /// True if parameters are multiples of 1/2: powers of negative numbers have values where
     /// exponents are whole.
     pub halves: bool,
 }

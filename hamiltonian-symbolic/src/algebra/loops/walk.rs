@@ -22,7 +22,7 @@ pub(crate) trait Meaning {
     ) -> Self::Value;
     /// The meaning of a sum over a loop, given its iterations'.
     fn total(&mut self, parts: Vec<Self::Value>) -> Self::Value;
-    /// Whether to stop: nodes that were not visited get no meaning.
+    /// Returns true if to stop: nodes that were not visited get no meaning.
     fn is_done(&self) -> bool;
 }
 

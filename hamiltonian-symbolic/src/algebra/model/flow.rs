@@ -35,7 +35,7 @@ pub enum ExactFlow {
         rows: Vec<&'static str>,
         /// The innermost loop.
         innermost: Domain,
-        /// Whether iterations commute, so that their order does not matter.
+        /// True if iterations commute, so that their order does not matter.
         merges: bool,
     },
 }
@@ -50,7 +50,7 @@ impl ExactFlow {
             ExactFlow::Closed(_, rows) | ExactFlow::Loop { rows, .. } => rows,
         }
     }
-    /// Whether the flow for one time after that for another is the flow for both.
+    /// Returns true if the flow for one time after that for another is the flow for both.
     #[must_use]
     pub fn merges(&self) -> bool {
         match self {
@@ -111,7 +111,7 @@ pub struct Move {
     pub leaf: Node,
     /// The number added to it, or its new value.
     pub value: Node,
-    /// Whether the value is added.
+    /// True if the value is added.
     pub added: bool,
 }
 

@@ -109,9 +109,9 @@ pub(crate) struct Algebra {
     pub(super) arguments: Vec<(Poly, bool)>,
     /// How often an atom was redefined.
     pub(super) redefined: usize,
-    /// Whether a condition stands before a fraction, which may then have no value where it is 0.
+    /// True if a condition stands before a fraction, which may then have no value where it is 0.
     pub(super) any_guarded: bool,
-    /// Whether something is read that need not have a value for the statement to have one, or, in
+    /// True if something is read that need not have a value for the statement to have one, or, in
     /// statements about all points, that tells single points apart.
     pub(super) has_conditions: bool,
     /// The points at which statements are to hold.
@@ -223,7 +223,7 @@ impl Algebra {
         Sign::of_product(k, factors.map(|(atom, n)| (self.entry(*atom).sign, *n)))
     }
 
-    /// Whether zeros of a polynomial do not count. It has few, whatever the parameters, if it is a
+    /// Returns true if zeros of a polynomial do not count. It has few, whatever the parameters, if it is a
     /// polynomial in something that moves with a number for its leading coefficient.
     pub(crate) fn is_anything_but_zero(&self, poly: &Poly) -> bool {
         let moves = |atom: &Atom| {
@@ -243,7 +243,7 @@ impl Algebra {
             })
     }
 
-    /// Whether an atom stands inside another one.
+    /// Returns true if an atom stands inside another one.
     pub(crate) fn is_mentioned(&self, poly: &Poly, atom: Atom) -> bool {
         let mut others = poly.atoms();
         others.retain(|other| *other != atom);
@@ -265,7 +265,7 @@ impl Algebra {
         needed
     }
 
-    /// Whether a polynomial has negative powers.
+    /// Returns true if a polynomial has negative powers.
     pub(super) fn is_divided(poly: &Poly) -> bool {
         let terms = poly.terms();
         terms.iter().any(|(m, _)| m.0.iter().any(|(_, n)| *n < 0))

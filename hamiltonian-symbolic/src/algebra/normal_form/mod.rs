@@ -41,7 +41,7 @@ pub(crate) const SMALL_BUDGET: Budget = Budget {
     products: 40_000,
 };
 
-/// Whether an expression is identically zero.
+/// The answer to the question if an expression is identically zero.
 #[derive(Clone, PartialEq, Debug)]
 pub enum Proof {
     /// It is.
@@ -57,14 +57,14 @@ pub enum Proof {
     Undecided,
 }
 
-/// Whether a node is identically zero. With sizes that are not literal, zero means for all sizes,
+/// Decides if a node is identically zero. With sizes that are not literal, zero means for all sizes,
 /// and not zero for some small one.
 #[must_use]
 pub fn is_zero(model: &Model, node: Node) -> Proof {
     is_zero_where(model, node, &[])
 }
 
-/// Whether a node is identically zero where other nodes have values.
+/// Decides if a node is identically zero where other nodes have values.
 #[must_use]
 pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof {
     if model.dag.is_zero(node) {
@@ -121,7 +121,7 @@ impl Answer {
     }
 }
 
-/// Whether the normal form says that a node is identically zero.
+/// Returns true if the normal form says that a node is identically zero.
 pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
     answer(dag, node, scope) == Answer::Zero
 }

@@ -25,7 +25,7 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// Whether a number of terms, by a number of products, is within the budget.
+    /// Checks that a number of terms, by a number of products, is within the budget.
     fn allow(&self, terms: usize, products: usize) -> Result<(), Undecided> {
         (terms <= self.terms && products <= self.products)
             .then_some(())
@@ -118,7 +118,7 @@ impl Monomial {
             .all(divides)
             .then(|| self.mul(&divisor.pow(-1)))
     }
-    /// Whether this is 1.
+    /// Returns true if this is 1.
     pub(crate) fn is_one(&self) -> bool {
         self.0.is_empty()
     }
@@ -157,7 +157,7 @@ impl Poly {
     pub(crate) fn terms(&self) -> &[(Monomial, Rational)] {
         &self.terms
     }
-    /// Whether this is 0.
+    /// Returns true if this is 0.
     pub(crate) fn is_zero(&self) -> bool {
         self.terms.is_empty()
     }
@@ -251,7 +251,7 @@ impl Poly {
         }
         Ok(result)
     }
-    /// Whether the n-th power is within the budget: its terms, and the products that make it.
+    /// Checks that the n-th power is within the budget: its terms, and the products that make it.
     fn allow_power(&self, n: u32, budget: &Budget) -> Result<(), Undecided> {
         // No two terms of a power have the same exponents.
         let mut ranges: Map<Atom, (i64, i64)> = Map::default();

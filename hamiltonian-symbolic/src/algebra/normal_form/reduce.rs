@@ -194,7 +194,7 @@ impl Algebra {
         Ok(changed)
     }
 
-    /// Whether a monomial is 0, or nothing, where x is, so that the sign of x is no other factor
+    /// Returns true if a monomial is 0, or nothing, where x is, so that the sign of x is no other factor
     /// than 1; or where x is not > 0, unless it `is_square`.
     fn has_zeros_of(&self, monomial: &Monomial, x: &Poly, is_square: bool) -> bool {
         let is_x = |atom: Atom| *x == Poly::atom(atom, 1);

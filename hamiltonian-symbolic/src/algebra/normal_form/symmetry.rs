@@ -39,7 +39,7 @@ pub(super) fn canonical(
     Ok(poly)
 }
 
-/// Whether a polynomial is zero, or all sums over one loop together are sums of zeros.
+/// Returns true if a polynomial is zero, or all sums over one loop together are sums of zeros.
 pub(super) fn summands_vanish(algebra: &mut Algebra, poly: &Poly) -> Result<bool, Undecided> {
     let mut left = vec![poly.clone()];
     while let Some(poly) = left.pop() {
@@ -165,7 +165,7 @@ fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
     found
 }
 
-/// Whether each loop over 0..N that is read modulo N is read bare, too.
+/// Returns true if each loop over 0..N that is read modulo N is read bare, too.
 fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
     let nodes = dag.reachable(&[nest.body]);
     let indices: Vec<Index> = nodes

@@ -86,7 +86,7 @@ fn letter(word: &str) -> String {
     }
 }
 
-/// Whether a number is written as a fraction.
+/// Returns true if a number is written as a fraction.
 fn is_fraction(value: &Rational) -> bool {
     match value.to_small() {
         Some((_, 1)) => false,

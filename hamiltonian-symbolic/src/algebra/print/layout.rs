@@ -83,7 +83,7 @@ pub(super) struct Style {
     /// The head of a sum over a loop: its variable and bounds.
     pub(super) loop_head: fn(&str, &str, &str) -> String,
     pub(super) number: fn(&Rational) -> String,
-    /// Whether a number ≥ 0 is written as a fraction.
+    /// True if a number ≥ 0 is written as a fraction.
     pub(super) is_fraction: fn(&Rational) -> bool,
     /// A declared name with indices.
     pub(super) indexed: fn(&str, &[String]) -> String,
@@ -479,7 +479,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Whether a sum reads better with its constant first: where it is positive and the first term is
+/// Returns true if a sum reads better with its constant first: where it is positive and the first term is
 /// not.
 fn constant_stands_first(constant: &Rational, terms: &[(Rational, Node)], negated: bool) -> bool {
     !constant.is_zero()

@@ -61,8 +61,8 @@ enum Base {
 }
 
 impl Base {
-    /// Whether a thin space stands between two elements: before a function, as in TeX, and beside a word, which
-    /// would run into its neighbour.
+    /// Returns true if a thin space stands between two elements: before a function, as in TeX, and beside a
+    /// word, which would run into its neighbour.
     fn is_apart_from(self, next: Base) -> bool {
         matches!(
             (self, next),

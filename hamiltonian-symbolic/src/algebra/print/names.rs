@@ -66,7 +66,7 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// Whether the model or the language uses a name.
+/// Returns true if the model or the language uses a name.
 pub(crate) fn is_taken(model: &Model, name: &str) -> bool {
     model.declares(name) || name == "pi" || Op::named(name).is_some()
 }

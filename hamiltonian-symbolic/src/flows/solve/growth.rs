@@ -36,7 +36,7 @@ pub(crate) fn arctangent(space: &mut Space, z: Node) -> Node {
     sum
 }
 
-/// Whether |z| < 1/256.
+/// The condition |z| < 1/256.
 pub(crate) fn near_zero(space: &mut Space, z: Node) -> Node {
     let dag = space.dag();
     let size = dag.call(Op::Abs, &[z]);

@@ -21,7 +21,7 @@ pub(crate) struct Unit {
     pub(crate) node: Node,
     /// The term as it was written, which it is, or is a part of.
     pub(crate) source: Node,
-    /// Whether a conjugate pair meets in it.
+    /// True if a conjugate pair meets in it.
     pub(crate) is_hard: bool,
 }
 

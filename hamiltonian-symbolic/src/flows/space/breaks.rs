@@ -11,7 +11,7 @@ use crate::op::{At, Break, Op};
 use crate::rational::Rational;
 
 impl Space {
-    /// Whether the orbits of h stay on one side of every break of f: each is proven to be constant
+    /// Returns true if the orbits of h stay on one side of every break of f: each is proven to be constant
     /// along them.
     pub(crate) fn stays_smooth(&mut self, f: Node, h: Node) -> bool {
         let breaks = self.breaks(f);
@@ -87,7 +87,7 @@ fn place(dag: &mut Dag, at: At, x: &[Node]) -> Option<Node> {
     })
 }
 
-/// Whether the zeros of an expression are none, or a set of codimension 2: those of a sum of terms
+/// Returns true if the zeros of an expression are none, or a set of codimension 2: those of a sum of terms
 /// ≥ 0, two of which have no variable in common.
 fn separates_nothing(dag: &Dag, node: Node) -> bool {
     match dag.kind(node) {
@@ -118,7 +118,7 @@ fn separates_nothing(dag: &Dag, node: Node) -> bool {
     }
 }
 
-/// Whether both of two expressions move, and no variable stands in both.
+/// Returns true if both of two expressions move, and no variable stands in both.
 fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
     let (a, b) = (leaves(dag, a), leaves(dag, b));
     !a.is_empty() && !b.is_empty() && !a.iter().any(|leaf| b.contains(leaf))

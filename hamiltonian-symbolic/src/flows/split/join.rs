@@ -27,7 +27,7 @@ pub(super) fn groups(model: &mut Model, h: Node) -> Vec<Node> {
     groups.iter().map(|group| model.dag.add(group)).collect()
 }
 
-/// Whether an expression has loops, or numbers of their iterations.
+/// Returns true if an expression has loops, or numbers of their iterations.
 pub(super) fn has_loops(dag: &Dag, h: Node) -> bool {
     dag.has(&[h], |kind| {
         matches!(kind, Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_))
@@ -151,7 +151,7 @@ fn choice(groups: &[Parts]) -> Option<Reasons> {
     all
 }
 
-/// Whether each part keeps each declared invariant.
+/// Returns true if each part keeps each declared invariant.
 fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
     let invariants = model.invariants();
     let Some(mut space) = Space::new(model, &[h]) else {

@@ -37,7 +37,7 @@ pub struct Reasons {
     pub error: f64,
     /// The number of splittings and orders that were compared.
     pub among: usize,
-    /// Whether every piece keeps every declared invariant (of which there is at least one).
+    /// True if every piece keeps every declared invariant (of which there is at least one).
     pub keeps_invariants: bool,
 }
 

@@ -27,7 +27,7 @@ struct Piece {
     half: Vec<Lanes>,
     whole: Vec<Lanes>,
     moved: Vec<usize>,
-    /// Whether the tape is that of z + c·J∇h, of a form h, whose exponential acts.
+    /// True if the tape is that of z + c·J∇h, of a form h, whose exponential acts.
     is_exponential: bool,
 }
 
@@ -181,7 +181,7 @@ pub(crate) fn best(
     })
 }
 
-/// Whether all pieces keep all invariants.
+/// Returns true if all pieces keep all invariants.
 fn keeps(space: &mut Space, pieces: &[Block], invariants: &[Node]) -> bool {
     !invariants.is_empty()
         && pieces.iter().all(|piece| {

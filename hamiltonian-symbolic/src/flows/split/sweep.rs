@@ -153,7 +153,7 @@ pub(super) fn columns(dag: &Dag, root: Node) -> Vec<Column> {
     elements(dag, root).into_iter().map(|e| e.1).collect()
 }
 
-/// Whether no column stands among these with its conjugate: then c·J∇h is constant along the flow.
+/// Returns true if no column stands among these with its conjugate: then c·J∇h is constant along the flow.
 pub(super) fn is_linear(columns: &[Column]) -> bool {
     !columns
         .iter()
@@ -333,7 +333,7 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
     Some(pieces)
 }
 
-/// Whether the flows of any two iterations are proven to commute, whatever the sizes: each iteration has
+/// Returns true if the flows of any two iterations are proven to commute, whatever the sizes: each iteration has
 /// one site of its own, or iterations that share a site have the same body.
 fn commute(dag: &Dag, chain: &[Domain], rows: &[Index], body: Node) -> bool {
     let ([domain], [row]) = (chain, rows) else {

@@ -156,7 +156,7 @@ impl Placer<'_> {
         sum
     }
 
-    /// Whether a product is negative, and the two operands of its last multiplication.
+    /// The sign of a product (true if it is negative), and the two operands of its last multiplication.
     pub(crate) fn split_product(
         &mut self,
         steps: &mut Vec<Step>,

@@ -446,7 +446,7 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
             continue;
         }
         let made = pool.make(dag, couple.made());
-        // Whether a quotient spares a division depends on the whole list.
+        // The whole list decides if a quotient spares a division.
         let changes = |item: Item, n: i32| n < 0 || [couple.0, couple.1, made].contains(&item);
         for at in among {
             let list = &mut lists[at];

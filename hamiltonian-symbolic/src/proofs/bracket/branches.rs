@@ -30,7 +30,7 @@ pub(super) fn known(dag: &mut Dag, roots: &[Node]) -> Given {
     given
 }
 
-/// Whether two branches are the same wherever a = b.
+/// Returns true if two branches are the same wherever a = b.
 fn agree(dag: &mut Dag, (a, b): (Node, Node), yes: Node, no: Node) -> bool {
     let difference = dag.sub(yes, no);
     // A variable that a sum binds is not the one of the loop around.
@@ -120,7 +120,7 @@ fn solutions(dag: &mut Dag, x: Node, value: Node) -> Option<Vec<Vec<(Node, Node)
     Some(done)
 }
 
-/// Whether a node stands in another one.
+/// Returns true if a node stands in another one.
 fn reads(dag: &Dag, root: Node, node: Node) -> bool {
     dag.reachable(&[root]).binary_search(&node).is_ok()
 }

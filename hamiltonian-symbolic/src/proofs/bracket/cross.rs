@@ -67,13 +67,13 @@ pub(super) fn find(
 pub(super) struct Claim {
     pub(super) expression: Node,
     pub(super) h: Node,
-    /// Whether its derivative is known to vanish on one shell of H only.
+    /// True if its derivative is known to vanish on one shell of H only.
     pub(super) is_on_shell: bool,
-    /// Whether H is constant along orbits: it does not depend on time, and there is no force.
+    /// True if H is constant along orbits: it does not depend on time, and there is no force.
     pub(super) is_still: bool,
 }
 
-/// Whether H is analytic wherever it is finite, so that its velocity is Lipschitz there and its flow is
+/// Returns true if H is analytic wherever it is finite, so that its velocity is Lipschitz there and its flow is
 /// continuous: each part with a kink, a jump or a steep root that vanishes is a divisor or in a logarithm,
 /// where H is infinite or has no value. Either all its uses are such, or one is a term of H, or a factor of
 /// a term, which is read at every point.
@@ -157,7 +157,7 @@ impl Claim {
         [self.expression, self.h].into_iter().chain(force).collect()
     }
 
-    /// Whether a rule applies. In each the derivative vanishes at least at points near every point,
+    /// Returns true if a rule applies. In each the derivative vanishes at least at points near every point,
     /// of phase space or of the shell.
     pub(super) fn passes(&self, model: &Model, given: &Given) -> bool {
         let roots = self.roots(model);
@@ -232,7 +232,7 @@ impl Claim {
         facts.get(self.expression).is_meromorphic && facts.get(self.h).is_meromorphic
     }
 
-    /// Whether a rule applies to the normal form of the statement, which has its values wherever the
+    /// Returns true if a rule applies to the normal form of the statement, which has its values wherever the
     /// statement has any.
     fn passes_tidily(&self, model: &mut Model) -> bool {
         let Some(tidy) = normal_form::tidy(&mut model.dag, self.expression) else {
@@ -247,7 +247,7 @@ impl Claim {
         tidy.passes(model, &given)
     }
 
-    /// Whether a rule applies for every H that has smooth functions in the place of its steps: an
+    /// Returns true if a rule applies for every H that has smooth functions in the place of its steps: an
     /// orbit of H with steps is a limit of such orbits. Assumes a statement without steps.
     fn passes_without_steps(&self, model: &mut Model) -> bool {
         let given = branches::known(&mut model.dag, &[self.h]);

@@ -16,7 +16,7 @@ use crate::rational::Rational;
 /// Determinants of at most this many velocities are expanded.
 const MOST: usize = 6;
 
-/// Whether an expression, in which velocities stand for themselves, does not
+/// Returns true if an expression, in which velocities stand for themselves, does not
 /// change along the motion. Not where loops are left.
 pub(super) fn vanishes(model: &Model, legendre: &Legendre, expression: Node) -> bool {
     let mut dag = model.dag.clone();

@@ -61,7 +61,7 @@ pub enum Verdict {
     },
 }
 
-/// Whether an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
+/// Judges if an expression is conserved along the flow of the model's H: {I, H} + ∂I/∂t = 0. With a
 /// `shell` the statement is about points with H = shell only, which takes a constant shell and a
 /// conserved H.
 #[must_use]

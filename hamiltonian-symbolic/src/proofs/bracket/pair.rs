@@ -111,7 +111,7 @@ fn paired(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<
     }
 }
 
-/// Whether each iteration of one loop writes one element, and all of them together all elements.
+/// Returns true if each iteration of one loop writes one element, and all of them together all elements.
 fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
     let [domain] = scatter.chain.as_slice() else {
         return false;

@@ -12,7 +12,7 @@ use crate::loops::{Point, Sample, Signs, sample};
 use crate::model::Model;
 use crate::normal_form::{Algebra, Atom, Key, Monomial, Poly, Undecided};
 
-/// Whether the residual vanishes where `shell` does.
+/// Returns true if the residual vanishes where `shell` does.
 pub(super) fn vanishes(
     algebra: &mut Algebra,
     dag: &Dag,
@@ -54,7 +54,7 @@ pub(super) fn vanishes(
     Ok(remainder(algebra, &residual, &shell, atom)?.is_zero())
 }
 
-/// Whether a polynomial is a product of factors that are positive, or that H divides by: a number, a
+/// Returns true if a polynomial is a product of factors that are positive, or that H divides by: a number, a
 /// positive polynomial, what stands below a fraction line of H as it is `written`.
 fn is_never_zero(algebra: &mut Algebra, poly: &Poly, written: &Poly) -> Result<bool, Undecided> {
     let below: Vec<Atom> = written

@@ -9,7 +9,7 @@ pub fn is_moving_leaf(dag: &Dag, node: Node) -> bool {
     is_leaf && dag.dependence(node).on(Dependence::MOVING)
 }
 
-/// Whether a node varies with what moves, whatever the parameters: its zeros are not everything,
+/// Returns true if a node varies with what moves, whatever the parameters: its zeros are not everything,
 /// but in iterations of loops in which two leaves are the same one and it is 0.
 pub fn varies(dag: &Dag, node: Node) -> bool {
     let is_leaf = |n: Node| matches!(dag.kind(n), Kind::Element(Array::Phase(_), ..) | Kind::Time);
@@ -32,7 +32,7 @@ pub fn varies(dag: &Dag, node: Node) -> bool {
     }
 }
 
-/// Whether one expression is 0 at one value of a coordinate or momentum that the other does not read,
+/// Returns true if one expression is 0 at one value of a coordinate or momentum that the other does not read,
 /// as x + cos t is beside y + sin t: where the other is 0, too, two dimensions are lost.
 pub fn is_solved_beside(dag: &Dag, one: Node, other: Node) -> bool {
     let others = moving(dag, other);
@@ -71,7 +71,7 @@ fn may_be_same(a: Leaf, b: Leaf) -> bool {
     }
 }
 
-/// Whether no coordinate or momentum, and not the time, is read by both: their zeros and poles meet
+/// Returns true if no coordinate or momentum, and not the time, is read by both: their zeros and poles meet
 /// in sets that separate nothing.
 pub fn have_nothing_in_common(dag: &Dag, a: Node, b: Node) -> bool {
     let others = moving(dag, b);

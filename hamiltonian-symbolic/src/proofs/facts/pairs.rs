@@ -21,7 +21,7 @@ pub fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
     }
 }
 
-/// Whether two leaves are elements of one array at the variables of two loops, one of which stays
+/// Returns true if two leaves are elements of one array at the variables of two loops, one of which stays
 /// below the other: no two iterations have the same pair.
 pub fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
     let variable = |leaf: Node| match dag.kind(leaf) {

@@ -153,7 +153,7 @@ pub(super) fn zero_at(model: &Model, entry: Node, k: Domain) -> Option<Affine> {
     None
 }
 
-/// Whether the expression for one k is that for another but for the names of the elements it reads.
+/// Returns true if the expression for one k is that for another but for the names of the elements it reads.
 fn is_the_same_for_all(dag: &Dag, root: Node, k: Domain) -> bool {
     if !dag.variables(root).has(k) {
         return true;

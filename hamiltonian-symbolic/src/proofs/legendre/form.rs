@@ -40,7 +40,7 @@ pub(super) enum Singular {
     Element {
         row: usize,
         at: Affine,
-        /// Whether it is coupled to no other row.
+        /// True if it is coupled to no other row.
         is_alone: bool,
     },
     /// Whatever the order, some pivot is 0 for some element, as this row's is for this one.
@@ -167,7 +167,7 @@ impl Form {
         })
     }
 
-    /// Whether an entry is identically 0, be it for one element.
+    /// Returns true if an entry is identically 0, be it for one element.
     fn vanishes(&self, model: &Model, entry: Node) -> bool {
         is_zero(model, entry) == Proof::Zero || self.zero_at(model, entry).is_some()
     }

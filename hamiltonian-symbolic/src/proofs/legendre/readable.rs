@@ -82,7 +82,7 @@ impl Readable {
         readable
     }
 
-    /// Whether a name stands for something that has derivatives.
+    /// Returns true if a name stands for something that has derivatives.
     fn hides_variables(&self) -> bool {
         let both = Dependence(Dependence::Q.0 | Dependence::P.0);
         let mut values = self.names.iter().map(|(_, value)| *value);

@@ -29,7 +29,7 @@ pub struct Split {
     pub kinetic: Node,
     /// V: everything else, terms of time and parameters alone included.
     pub potential: Node,
-    /// Whether H separates without being multiplied out.
+    /// True if H separates without being multiplied out.
     pub as_written: bool,
 }
 
@@ -56,10 +56,10 @@ pub struct Cyclic {
 pub struct Structure {
     /// T and V, or the first coupling term.
     pub separable: Result<Split, Coupling>,
-    /// Whether T = ½pᵀM⁻¹p with M of parameters only; otherwise the reason, a sentence without a
+    /// `Ok` if T = ½pᵀM⁻¹p with M of parameters only; otherwise the reason, a sentence without a
     /// full stop.
     pub quadratic_kinetic: Result<(), String>,
-    /// Whether H does not depend on time; otherwise the reason.
+    /// `Ok` if H does not depend on time; otherwise the reason.
     pub autonomous: Result<(), String>,
     /// Coordinates H does not depend on.
     pub cyclic: Vec<Cyclic>,

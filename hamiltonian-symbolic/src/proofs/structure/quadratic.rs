@@ -8,7 +8,7 @@ use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::model::Model;
 use crate::print;
 
-/// Whether T is a quadratic form in the momenta with coefficients of parameters only.
+/// Checks that T is a quadratic form in the momenta with coefficients of parameters only.
 pub(super) fn form(model: &mut Model, kinetic: Node) -> Result<(), String> {
     if let Some(text) = term_with_time(model, kinetic) {
         return Err(format!("the term `{text}` depends on time"));

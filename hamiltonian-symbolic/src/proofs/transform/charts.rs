@@ -72,7 +72,7 @@ impl Chart {
             Chart::Heliocentric(_) => "heliocentric",
         }
     }
-    /// Whether it replaces a group, or rows of it.
+    /// Returns true if it replaces a group, or rows of it.
     #[must_use]
     pub fn replaces(&self, group: u16) -> bool {
         match self.replaced() {

@@ -127,7 +127,7 @@ fn step(
     let range = dag.range(domain);
     let literal = range.start.as_constant().zip(range.end.as_constant());
     let start = range.start.as_constant();
-    // Whether there is a first iteration.
+    // True if there is a first iteration.
     let runs = start
         .zip(below.of(dag, &range.end))
         .is_some_and(|(start, end)| start < end);

@@ -222,7 +222,7 @@ fn product(dag: &mut Dag, g: Node, h: Node, p: Node) -> Node {
     dag.linear(&Rational::ZERO, &cancelled)
 }
 
-/// Whether a term of a node, down through its sums, has one of the factors below its fraction line.
+/// Returns true if a term of a node, down through its sums, has one of the factors below its fraction line.
 fn meets(dag: &Dag, root: Node, factors: &[Node]) -> bool {
     let is_met = |part: &(Node, i32)| part.1 < 0 && factors.contains(&part.0);
     let mut meets = false;

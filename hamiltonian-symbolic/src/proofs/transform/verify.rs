@@ -1,4 +1,4 @@
-//! Whether a system in new coordinates is the system it was.
+//! Checks that a system in new coordinates is the system it was.
 //!
 //! Input: a [`Transformed`]. Output: nothing, or the point where they differ. Invariant: the points
 //! are the same on every machine; agreement at points is no proof. The check looks for a slip
@@ -23,7 +23,7 @@ const CHOICES: usize = 2;
 /// The largest difference it passes, relative to H or to 1.
 const CLOSE: f64 = 1e-8;
 
-/// Whether H and the observables of the new model are those of the old one: K(Q, P, t) and
+/// Checks that H and the observables of the new model are those of the old one: K(Q, P, t) and
 /// H(q(Q), p(Q, P), t) at pseudo-random points of the chart, to eight digits. Sizes are such that
 /// every index is in range. Points outside the domain of H are passed over for others; so are those
 /// where rounding leaves fewer digits, though as many as there are must agree. At how many points H

@@ -137,7 +137,7 @@ pub(super) fn central(
     Some(names)
 }
 
-/// Whether numbers say that h is not a·(p² + Λ/f²).
+/// Returns true if numbers say that h is not a·(p² + Λ/f²).
 fn is_not_central(space: &mut Space, h: Node, pair: usize, f: fn(Ball) -> Ball) -> bool {
     let mut at = |x: Ball, p: f64| {
         let mut point = space.point();

@@ -81,7 +81,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     Some(motion)
 }
 
-/// Whether an orbit is no line through the centre, or does not meet it: √r of a line is
+/// The condition that an orbit is no line through the centre, or does not meet it: √r of a line is
 /// u₀·(cos φ + …) with φ = ½√ψ, whose product with cos φ is half of 1 + c₀ + A·g₁.
 fn straight(space: &mut Space, pairs: &[(Node, Node)], names: &mut Names) -> Option<Node> {
     let dag = space.dag();
@@ -105,7 +105,7 @@ fn straight(space: &mut Space, pairs: &[(Node, Node)], names: &mut Names) -> Opt
     Some(dag.or(turns, misses))
 }
 
-/// Whether numbers say that h is not a·|p|² + f(|q|).
+/// Returns true if numbers say that h is not a·|p|² + f(|q|).
 fn is_not_of_distance(space: &mut Space, h: Node, own: Variables) -> bool {
     let mut at = |q: [f64; 3], p: [f64; 3]| {
         let mut point = space.point();

@@ -61,7 +61,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     Some(motion)
 }
 
-/// Whether numbers along a line say that h is no polynomial of second degree.
+/// Returns true if numbers along a line say that h is no polynomial of second degree.
 fn is_steeper(space: &mut Space, h: Node) -> bool {
     let set = space.set(h);
     let [a, b, c, d] = [0.0, 1.0, 2.0, 3.0].map(|step| {
@@ -189,12 +189,12 @@ fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Pa
     Some((flow, Vec::new()))
 }
 
-/// Whether an expression is such a form with coefficients that no time changes.
+/// Returns true if an expression is such a form with coefficients that no time changes.
 pub(crate) fn is_constant_form(space: &mut Space, h: Node) -> bool {
     !space.dag().dependence(h).on(Dependence::TIME) && is_quadratic(space, h)
 }
 
-/// Whether an expression is a polynomial of second degree.
+/// Returns true if an expression is a polynomial of second degree.
 pub(crate) fn is_quadratic(space: &mut Space, h: Node) -> bool {
     let set = space.set(h);
     let z: Vec<Node> = set.members().map(|one| space.variable(one)).collect();

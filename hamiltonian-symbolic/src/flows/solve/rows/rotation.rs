@@ -83,7 +83,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
     Some(motion)
 }
 
-/// Whether numbers say that h changes where the point is turned and kicked along its radius.
+/// Returns true if numbers say that h changes where the point is turned and kicked along its radius.
 fn is_not_turned(space: &mut Space, h: Node, pairs: [usize; 2], scale: &Rational) -> bool {
     let mut here = space.point();
     // The point in the scaled variables, and back.

@@ -26,7 +26,7 @@ pub(super) fn solve(space: &mut Space, h: Node, s: Node) -> Option<Motion> {
         .find_map(|axes| along(space, axes, h, s))
 }
 
-/// Whether differences say that A′ is no polynomial of a degree below that of A.
+/// Returns true if differences say that A′ is no polynomial of a degree below that of A.
 fn is_no_polynomial(space: &mut Space, slope: Node, axes: Axes) -> bool {
     let bit = space.set(axes.x).number();
     let mut point = space.point();

@@ -77,7 +77,7 @@ fn square_root(space: &mut Space, h: Node, sign: i64) -> Option<(Node, Rational)
     Some((dag.product(&Rational::ONE, &halves), k))
 }
 
-/// Whether no orbit of K crosses a set where K is not smooth: K keeps its value, so that it does not
+/// Returns true if no orbit of K crosses a set where K is not smooth: K keeps its value, so that it does not
 /// reach the zeros of its factors.
 fn stays_smooth(space: &mut Space, k: Node) -> bool {
     let factors = match space.dag().kind(k).clone() {

@@ -102,7 +102,7 @@ pub(in crate::proofs::bracket) fn without_energy(
     (rest != expression).then_some(rest)
 }
 
-/// Whether an expression is constant along orbits. In a loop, that of each iteration: an arbitrary
+/// Returns true if an expression is constant along orbits. In a loop, that of each iteration: an arbitrary
 /// function of it is summed.
 fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> bool {
     let this = Claim {
@@ -124,7 +124,7 @@ fn is_constant(model: &mut Model, claim: &Claim, node: Node, given: &Given) -> b
     rate.is_some_and(|rate| normal_form::vanishes(&mut model.dag, rate, Scope::Densely))
 }
 
-/// Whether H is conserved and tends to infinity wherever a node is 0, whatever the parameters.
+/// Returns true if H is conserved and tends to infinity wherever a node is 0, whatever the parameters.
 /// Assumes an H that is continuous into the line closed by one infinity: what one of its terms is
 /// infinite at, the sum is.
 fn is_wall(model: &mut Model, claim: &Claim, node: Node) -> bool {

@@ -206,3 +206,20 @@ fn powers_are_not_expanded() {
         assert_eq!(power, value);
     }
 }
+
+/// 0 has no reciprocal, so nothing is known of its sign.
+#[test]
+fn a_reciprocal_of_zero_has_no_sign() {
+    let mut m = model("q; p", "", "a");
+    for (source, is_nonnegative) in [
+        ("0", true),
+        ("0^-1", false),
+        ("0^-2", false),
+        ("-1/0", false),
+        ("0^2", true),
+        ("q^-2", true),
+    ] {
+        let node = parse(&mut m, source);
+        assert_eq!(m.dag.is_nonnegative(node), is_nonnegative, "{source}");
+    }
+}

@@ -30,6 +30,8 @@ impl Sign {
         let mut product = Sign::of(k);
         for (sign, n) in factors {
             product = match n % 2 {
+                // 0 has no reciprocal of which a sign is known.
+                _ if n < 0 && sign == Sign::ZERO => Sign::UNKNOWN,
                 0 => product.times(Sign((sign.0 | sign.opposite().0) & Sign::NONNEGATIVE.0)),
                 _ => product.times(sign),
             };

@@ -12,7 +12,7 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
-use hamiltonian_symbolic::split::{NODES, Refusal, find};
+use hamiltonian_symbolic::split::{Limit, NODES, Refusal, declared, find};
 use hamiltonian_symbolic::transform::check_split;
 use table::{FOUND, REFUSED};
 
@@ -50,6 +50,94 @@ fn what_has_no_flow_is_refused_by_its_term() {
         }
     }
     assert!(others.is_empty(), "{others:#?}");
+}
+
+/// Terms `c(1) + c(2) + …`
+fn sum_of(count: usize, term: impl Fn(usize) -> String) -> String {
+    (1..=count).map(term).collect::<Vec<_>>().join(" + ")
+}
+
+/// `q1, q2, …; p1, p2, …`
+fn pairs(count: usize) -> String {
+    let list = |letter: char| (1..=count).map(move |at| format!("{letter}{at}"));
+    let [q, p] = ['q', 'p'].map(|letter| list(letter).collect::<Vec<_>>().join(", "));
+    format!("{q}; {p}")
+}
+
+/// The limit that a refusal of a search names; `Err` where the search finds pieces.
+fn limit_of_search(signature: &str, sizes: &str, h: &str) -> Result<Option<Limit>, usize> {
+    match find(&mut common::system(signature, sizes, "", h)) {
+        Ok(splitting) => Err(splitting.pieces.len()),
+        Err(refusal) => Ok(refusal.limit),
+    }
+}
+
+/// The same of a piece that is declared, which is all of H.
+fn limit_of_piece(signature: &str, h: &str) -> Result<Option<Limit>, usize> {
+    let mut model = common::system(signature, "", "", h);
+    let parts = [("A".to_owned(), model.h())];
+    match declared(&mut model, &parts) {
+        Ok(splitting) => Err(splitting.pieces.len()),
+        Err((_, refusal)) => Ok(refusal.limit),
+    }
+}
+
+/// A refusal by a limit names it. The same definition with one term or one degree of freedom less is
+/// split, or is refused by its term alone.
+#[test]
+fn limits_that_are_met_are_named() {
+    // Monomials, no two of which have a flow together.
+    let monomials = |count| sum_of(count, |k| format!("q^{}*p^{}", 2 * k + 1, 3 * k + 1));
+    let search = |count| limit_of_search("q; p", "", &monomials(count));
+    assert_eq!(search(8), Err(8));
+    assert_eq!(search(9), Ok(Some(Limit::Pieces)));
+    assert_eq!(search(33), Ok(Some(Limit::Terms)));
+    let piece = |count| limit_of_piece("q; p", &monomials(count));
+    assert_eq!(piece(3), Ok(None));
+    assert_eq!(piece(37), Ok(Some(Limit::Commuting)));
+
+    // Powers of q*p commute.
+    let powers = |count| limit_of_piece("q; p", &sum_of(count, |k| format!("q^{k}*p^{k}")));
+    assert_eq!(powers(9), Err(1));
+    assert_eq!(powers(10), Ok(Some(Limit::Parts)));
+
+    // Terms without a flow.
+    let hard = |count| {
+        let terms = sum_of(count, |k| format!("sin({k}*q)*cos(p)"));
+        limit_of_search("q; p", "", &terms)
+    };
+    assert_eq!(hard(5), Ok(None));
+    assert_eq!(hard(6), Ok(Some(Limit::Coupled)));
+    assert_eq!(hard(11), Ok(Some(Limit::Sums)));
+
+    // A term that joins degrees of freedom, and one without a flow.
+    let joined = |count| {
+        let h = format!(
+            "p1^2/(1 + q1^2) + sin({})",
+            sum_of(count, |k| format!("q{k}"))
+        );
+        limit_of_search(&pairs(count), "", &h)
+    };
+    assert_eq!(joined(32), Ok(None));
+    assert_eq!(joined(33), Ok(Some(Limit::Pairs)));
+
+    // A loop whose body names sites of a ring.
+    let body = |count| {
+        let sites: Vec<String> = (1..count).map(|k| format!("q[(i + {k}) % N]")).collect();
+        let h = format!("sum(i in 0..N) {{ p[i]^2*{} }}", sites.join("*"));
+        limit_of_search("q[N]; p[N]", "N", &h)
+    };
+    assert_eq!(body(4), Err(1));
+    assert_eq!(body(5), Ok(Some(Limit::Rows)));
+
+    // A chain of five, as a piece of a system of eight or nine.
+    let chain = |count| {
+        let springs = sum_of(4, |k| format!("(q{k} - q{})^2/{}", k + 1, k + 1));
+        let h = format!("{} + {springs}", sum_of(5, |k| format!("p{k}^2/2")));
+        limit_of_piece(&pairs(count), &h)
+    };
+    assert_eq!(chain(8), Err(1));
+    assert_eq!(chain(9), Ok(Some(Limit::Components)));
 }
 
 /// Sharing may cancel a prepared expression to a number, which has no name to be handed on by.

@@ -9,7 +9,7 @@ pub(crate) mod rows;
 pub(crate) mod units;
 
 use crate::dag::{Kind, Map, Node};
-use crate::flows::space::{Space, Variables};
+use crate::flows::space::{COMMUTING, Limit, PARTS, Space, Variables};
 use crate::model::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
 use rows::{Axes, Moved, ROWS, Solve, is_constant_form};
@@ -299,18 +299,18 @@ fn kernel(space: &mut Space, u: Node, own: Variables) -> Option<(Node, Node)> {
 
 /// A sum of parts that have flows and commute: one flow after the other.
 fn commuting(space: &mut Space, h: Node, s: Node) -> Option<Flow> {
-    /// The most parts.
-    const PARTS: usize = 9;
-    /// The most terms.
-    const TERMS: usize = 36;
     let mut terms = terms(space, h);
     // Parts grow term by term: their order must not be that in which H is written.
     terms.sort_by_key(|term| space.set(*term).pairs().len());
-    if !(2..=TERMS).contains(&terms.len()) {
+    if terms.len() > COMMUTING {
+        space.meets(Limit::Commuting, h);
+    }
+    if !(2..=COMMUTING).contains(&terms.len()) {
         return None;
     }
     let parts = apart(space, &terms).or_else(|| by_pairs(space, &terms))?;
     if parts.len() > PARTS {
+        space.meets(Limit::Parts, h);
         return None;
     }
     let mut all = Flow::default();

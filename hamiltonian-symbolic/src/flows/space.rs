@@ -17,7 +17,7 @@ use crate::diff;
 use crate::index::Index;
 use crate::loops::{Sample, Values};
 use crate::model::{Flow, Model, Motion};
-use crate::normal_form::{Effort, tidy, vanishes_within, witness};
+use crate::normal_form::{Answer, Effort, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
 use std::fmt;
@@ -42,6 +42,22 @@ const POINTS: usize = 64;
 /// The most terms of H that are combined to pieces.
 pub(crate) const TERMS: usize = 32;
 
+/// The most pieces of a splitting.
+pub const MOST: usize = 8;
+
+/// The most terms of a sum that are parted into parts that commute,
+pub(crate) const COMMUTING: usize = 36;
+/// and the most such parts.
+pub(crate) const PARTS: usize = 9;
+
+/// The most sums of terms of which a flow is sought.
+pub(crate) const SUMS: usize = 64;
+/// The most coupled terms all of whose sums are tried; of more only the terms, pairs of them, and all.
+pub(crate) const COUPLED: usize = 5;
+
+/// The most elements of each array in the body of a loop.
+pub(crate) const ROWS: usize = 4;
+
 /// A limit at which the search for exact flows ends. Each group of terms of H that has no degree of freedom
 /// in common with the others is searched by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -56,6 +72,22 @@ pub enum Limit {
     Terms,
     /// Of degrees of freedom that terms of H join.
     Pairs,
+    /// Of pieces.
+    Pieces,
+    /// Of terms of a sum that are parted into commuting parts.
+    Commuting,
+    /// Of such parts.
+    Parts,
+    /// Of sums of terms of which a flow is sought.
+    Sums,
+    /// Of coupled terms all of whose sums are tried.
+    Coupled,
+    /// Of rows of arrays that the body of a loop names.
+    Rows,
+    /// Of products of terms in the normal form of one question.
+    Question,
+    /// Of coordinates and momenta of a point whose quadratic forms are exponentiated.
+    Components,
 }
 
 impl fmt::Display for Limit {
@@ -66,6 +98,17 @@ impl fmt::Display for Limit {
             Limit::Expressions => write!(f, "{NODES} new expressions"),
             Limit::Terms => write!(f, "{TERMS} terms"),
             Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
+            Limit::Pieces => write!(f, "{MOST} pieces"),
+            Limit::Commuting => write!(f, "{COMMUTING} terms of a sum whose parts may commute"),
+            Limit::Parts => write!(f, "{PARTS} parts that commute"),
+            Limit::Sums => write!(f, "{SUMS} sums of terms"),
+            Limit::Coupled => write!(f, "{COUPLED} coupled terms of which all sums are tried"),
+            Limit::Rows => write!(f, "{ROWS} rows in the body of a loop"),
+            Limit::Components => write!(
+                f,
+                "{COMPONENTS} coordinates and momenta of which a quadratic form is exponentiated"
+            ),
+            Limit::Question => write!(f, "{QUESTION} products of terms for one comparison"),
         }
     }
 }
@@ -159,36 +202,42 @@ pub(crate) struct Space {
     pub(crate) atoms: Map<(Node, Node), Option<Flow>>,
     /// True if a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
+    /// True if the point is given and has too many components for that.
+    pub(crate) has_many_components: bool,
     /// The number of questions that are left.
     tests: usize,
     /// The number of products that are left to the normal form.
     products: usize,
     /// The largest size of the arena in this search.
     last: usize,
-    /// True if H has more than [`TERMS`] terms.
-    pub(crate) has_more_terms: bool,
+    /// The limits that were met at an expression alone.
+    met: Map<Node, Limit>,
+    /// True if a question ended at its limit.
+    has_long_questions: bool,
 }
 
 impl Space {
-    /// The space of the pairs that stand in some expressions; `None` where elements are not
-    /// given by number, or there are too many.
-    pub(crate) fn new(model: &Model, roots: &[Node]) -> Option<Space> {
+    /// The space of the pairs that stand in some expressions.
+    ///
+    /// # Errors
+    /// The limit of pairs; `None` where elements are not given by number.
+    pub(crate) fn new(model: &Model, roots: &[Node]) -> Result<Space, Option<Limit>> {
         let mut model = model.clone();
         let mut places: Vec<(u16, u16, i64)> = Vec::new();
         for node in model.dag.reachable(roots) {
             match model.dag.kind(node) {
                 Kind::Element(Array::Phase(Column { group, column, .. }), row, None) => {
-                    let row = row.as_constant()?;
+                    let row = row.as_constant().ok_or(None)?;
                     places.push((*group, *column, row));
                 }
-                Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => return None,
+                Kind::Reduce(..) | Kind::Count(_) | Kind::Variable(_) => return Err(None),
                 _ => {}
             }
         }
         places.sort_unstable_by_key(|(group, column, row)| (*group, *row, *column));
         places.dedup();
         if places.len() > PAIRS {
-            return None;
+            return Err(Some(Limit::Pairs));
         }
         let mut pairs = Vec::with_capacity(places.len());
         for (group, column, row) in places {
@@ -206,8 +255,9 @@ impl Space {
         labels::sort(&model.dag, roots, &mut pairs);
         let last = model.dag.len() + NODES;
         let components = model.components();
-        Some(Space {
+        Ok(Space {
             has_exponentials: components.is_some_and(|count| count <= COMPONENTS),
+            has_many_components: components.is_some_and(|count| count > COMPONENTS),
             last,
             model,
             pairs,
@@ -226,7 +276,8 @@ impl Space {
             atoms: Map::default(),
             tests: TESTS,
             products: PRODUCTS,
-            has_more_terms: false,
+            met: Map::default(),
+            has_long_questions: false,
         })
     }
 
@@ -234,15 +285,21 @@ impl Space {
     pub(crate) fn is_spent(&self) -> bool {
         self.tests == 0 || self.products == 0 || self.model.dag.len() > self.last
     }
-    /// The limit that the search has reached.
-    pub(crate) fn limit(&self) -> Option<Limit> {
+    /// The limit at which the search for a flow of an expression ended.
+    pub(crate) fn limit(&self, node: Node) -> Option<Limit> {
         match self {
             _ if self.tests == 0 => Some(Limit::Comparisons),
             _ if self.products == 0 => Some(Limit::Products),
             _ if self.is_spent() => Some(Limit::Expressions),
-            _ if self.has_more_terms => Some(Limit::Terms),
-            _ => None,
+            _ => {
+                let long = self.has_long_questions.then_some(Limit::Question);
+                self.met.get(&node).copied().or(long)
+            }
         }
+    }
+    /// Notes that a limit ended the search for a flow of an expression.
+    pub(crate) fn meets(&mut self, limit: Limit, node: Node) {
+        self.met.insert(node, limit);
     }
     /// The arena.
     pub(crate) fn dag(&mut self) -> &mut Dag {
@@ -392,12 +449,15 @@ impl Space {
         self.tests = self.tests.saturating_sub(1);
         let own = self.products.min(QUESTION);
         let mut left = own;
-        let answer = !self.is_spent()
-            && witness(&self.model, node, Effort::Glance, &[]).is_none()
-            && vanishes_within(&mut self.model.dag, node, &mut left);
+        let mut answer = Answer::Other;
+        if !self.is_spent() && witness(&self.model, node, Effort::Glance, &[]).is_none() {
+            answer = answer_within(&mut self.model.dag, node, &mut left);
+            self.has_long_questions |= answer == Answer::Limit;
+        }
         self.products -= own - left;
-        self.zeros.insert(node, answer);
-        answer
+        let is_zero = answer == Answer::Zero;
+        self.zeros.insert(node, is_zero);
+        is_zero
     }
     /// Returns true if two expressions are proven to be the same.
     pub(crate) fn same(&mut self, a: Node, b: Node) -> bool {

@@ -126,15 +126,15 @@ pub(crate) fn vanishes(dag: &mut Dag, node: Node, scope: Scope) -> bool {
     answer(dag, node, scope) == Answer::Zero
 }
 
-/// The same everywhere, at the expense of a number of products for many questions.
-pub(crate) fn vanishes_within(dag: &mut Dag, node: Node, products: &mut usize) -> bool {
+/// The verdict at all points, at the expense of a number of products for many questions.
+pub(crate) fn answer_within(dag: &mut Dag, node: Node, products: &mut usize) -> Answer {
     let mut budget = BUDGET;
     budget.products = budget.products.min(*products);
     let before = budget.products;
     let mut algebra = Algebra::new(budget, Scope::Everywhere);
     let answer = answer_in(&mut algebra, dag, node);
     *products -= before - algebra.budget.products;
-    answer == Answer::Zero
+    answer
 }
 
 /// The expression as its normal form writes it.

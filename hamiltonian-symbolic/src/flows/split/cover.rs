@@ -1,22 +1,18 @@
 //! The ways to make H of pieces that have flows.
 //!
 //! Input: the units of H. Output: candidates, each a list of [`Block`]s. Invariant: the blocks of a
-//! candidate are disjoint and hold every unit; each has a flow; at most [`BLOCKS`] are tried.
+//! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] are tried.
 
 use crate::dag::{Map, Node};
 use crate::flows::solve::rows::is_quadratic;
 use crate::flows::solve::units::{Unit, Units};
 use crate::flows::solve::{exponential, flow};
-use crate::flows::space::{Space, TERMS, Variable, Variables};
+use crate::flows::space::{COUPLED, Limit, SUMS, Space, TERMS, Variable, Variables};
 use crate::model::Flow;
 use crate::set::{Member, Set};
 
-/// The most blocks of which a flow is sought.
-const BLOCKS: usize = 64;
 /// The most ways to cover the hard units.
 const COVERS: usize = 60;
-/// The most hard units all of whose subsets are tried.
-const SUBSETS: usize = 5;
 
 /// A unit by its place in the list of all.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -49,6 +45,8 @@ struct Search<'a> {
     units: &'a [Unit],
     tried: Map<Mask, Option<Flow>>,
     blocks: Vec<Block>,
+    /// The limit past which blocks were left out.
+    limit: Option<Limit>,
 }
 
 impl Search<'_> {
@@ -63,7 +61,10 @@ impl Search<'_> {
         let node = self.sum(mask);
         let known = match self.tried.get(&mask) {
             Some(known) => known.clone(),
-            None if self.tried.len() >= BLOCKS => None,
+            None if self.tried.len() >= SUMS => {
+                self.limit = Some(Limit::Sums);
+                None
+            }
             None => {
                 let c = self.space.dag().coefficient();
                 let found = flow(self.space, node, c);
@@ -95,14 +96,16 @@ impl Search<'_> {
 /// The candidates, fewest pieces first, or a term without a flow.
 pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Block>>, Node> {
     if units.units.len() > TERMS {
-        space.has_more_terms = true;
-        return Err(units.units[0].source);
+        let first = units.units[0].source;
+        space.meets(Limit::Terms, first);
+        return Err(first);
     }
     let mut search = Search {
         space,
         units: &units.units,
         tried: Map::default(),
         blocks: Vec::new(),
+        limit: None,
     };
     let hard = search.mask(|_, unit| unit.is_hard);
     let all: Mask = (0..units.units.len()).map(At).collect();
@@ -115,8 +118,11 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         let bad = units.units.iter().enumerate().find(|(at, unit)| {
             unit.is_hard && !search.blocks.iter().any(|block| block.units.has(At(*at)))
         });
-        let bad = bad.map_or(units.units[0], |(_, unit)| *unit);
-        return Err(bad.source);
+        let bad = bad.map_or(units.units[0], |(_, unit)| *unit).source;
+        if let Some(limit) = search.limit {
+            space.meets(limit, bad);
+        }
+        return Err(bad);
     }
     let easy = easy_blocks(&mut search, all.without(hard));
     let mut found = Vec::new();
@@ -155,7 +161,7 @@ fn hard_blocks(search: &mut Search, hard: Mask, easy: Mask) {
     offers.extend(easy.members().map(Mask::of));
     let numbers: Vec<At> = hard.members().collect();
     let mut subsets: Vec<Mask> = hard.members().map(Mask::of).collect();
-    if numbers.len() <= SUBSETS {
+    if numbers.len() <= COUPLED {
         let chosen = |choice: usize| {
             let all = numbers.iter().enumerate();
             let chosen = all.filter(move |(at, _)| choice >> at & 1 == 1);
@@ -166,6 +172,7 @@ fn hard_blocks(search: &mut Search, hard: Mask, easy: Mask) {
         larger.sort_by_key(|mask| mask.len());
         subsets.extend(larger);
     } else {
+        search.limit = Some(Limit::Coupled);
         for (at, a) in numbers.iter().enumerate() {
             subsets.extend(
                 numbers[at + 1..]

@@ -130,7 +130,7 @@ fn best_place(dag: &Dag, all: &[(Node, Flow)], group: &[(Node, Flow)]) -> (usize
 
 /// The flow of a sum that is a quadratic form over the whole point.
 fn flow_of_sum(model: &mut Model, sum: Node) -> Option<Flow> {
-    let mut space = Space::new(model, &[sum])?;
+    let mut space = Space::new(model, &[sum]).ok()?;
     let flow = any_flow(&mut space, sum)?;
     model.dag = space.model.dag;
     Some(flow)
@@ -154,7 +154,7 @@ fn choice(groups: &[Parts]) -> Option<Reasons> {
 /// Returns true if each part keeps each declared invariant.
 fn keep_invariants(model: &mut Model, h: Node, parts: &[(Node, Flow)]) -> bool {
     let invariants = model.invariants();
-    let Some(mut space) = Space::new(model, &[h]) else {
+    let Ok(mut space) = Space::new(model, &[h]) else {
         return false;
     };
     !invariants.is_empty()

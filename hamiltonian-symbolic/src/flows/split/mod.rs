@@ -10,9 +10,10 @@ mod rank;
 mod sweep;
 
 pub use crate::flows::solve::rows::{ROWS, Row};
-pub use crate::flows::space::{Limit, NODES};
+pub use crate::flows::space::{Limit, MOST, NODES};
 
 use crate::dag::{Dag, Kind, Node};
+use crate::flows::solve::rows::is_constant_form;
 use crate::flows::solve::{self, units};
 use crate::flows::space::Space;
 use crate::model::{ExactFlow, Flow, Model, Piece};
@@ -59,9 +60,6 @@ impl Refusal {
     }
 }
 
-/// The most pieces of a splitting.
-pub const MOST: usize = 8;
-
 /// The exact flow of one expression; its nodes are in the model's arena.
 pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
     flow_of(model, h).ok()
@@ -69,11 +67,15 @@ pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
 
 /// The same, or the limit at which the search ended.
 fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
-    let Some(mut space) = Space::new(model, &[h]) else {
-        return looped(model, h).ok_or(None);
+    let mut space = match Space::new(model, &[h]) {
+        Ok(space) => space,
+        Err(limit) => return looped(model, h).map_err(|own| own.or(limit)),
     };
     let found = any_flow(&mut space, h);
-    let mut limit = space.limit();
+    let mut limit = space.limit(h);
+    if found.is_none() && space.has_many_components && is_constant_form(&mut space, h) {
+        limit = limit.or(Some(Limit::Components));
+    }
     model.dag = space.model.dag;
     if let Some(flow) = found {
         return Ok(flow.into());
@@ -81,24 +83,24 @@ fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     // What is apart has a budget of its own.
     let groups = join::groups(model, h);
     if groups.len() > 1 {
-        let flows = groups.iter().map(|group| {
-            let mut space = Space::new(model, &[*group])?;
-            let found = any_flow(&mut space, *group);
-            limit = space.limit();
+        let mut flows = Vec::with_capacity(groups.len());
+        for group in groups {
+            let mut space = Space::new(model, &[group])?;
+            let found = any_flow(&mut space, group);
+            let limit = space.limit(group);
             model.dag = space.model.dag;
-            found
-        });
-        let flows: Option<Vec<Flow>> = flows.collect();
-        let flow = flows.and_then(|flows| join::flows(&mut model.dag, &flows));
+            flows.push(found.ok_or(limit)?);
+        }
+        let flow = join::flows(&mut model.dag, &flows);
         return flow.map(ExactFlow::from).ok_or(limit);
     }
     Err(limit)
 }
 
 /// The flow of an expression with loops.
-fn looped(model: &mut Model, h: Node) -> Option<ExactFlow> {
+fn looped(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     if sweep::is_linear(&sweep::columns(&model.dag, h)) {
-        return Some(ExactFlow::Linear);
+        return Ok(ExactFlow::Linear);
     }
     sweep::one(model, h)
 }
@@ -133,12 +135,15 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
     let whole = Space::new(model, &[h]);
     let has_loops = join::has_loops(&model.dag, h);
     let parts = match whole {
-        None if has_loops || groups.len() < 2 => {
-            return over_loops(model, h).map_err(|node| Refusal::of(model, node, None));
+        Err(limit) if has_loops || groups.len() < 2 => {
+            return over_loops(model, h).map_err(|refusal| Refusal {
+                limit: refusal.limit.or(limit),
+                ..refusal
+            });
         }
-        Some(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
+        Ok(mut space) if groups.len() < 2 => searched(model, &mut space, h)?,
         whole => {
-            let together = whole.and_then(|mut space| {
+            let together = whole.ok().and_then(|mut space| {
                 let flow = any_flow(&mut space, h)?;
                 model.dag = space.model.dag;
                 Some(flow)
@@ -151,9 +156,8 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
                 None => {
                     let mut found = Vec::with_capacity(groups.len());
                     for group in groups {
-                        let Some(mut space) = Space::new(model, &[group]) else {
-                            return Err(Refusal::of(model, group, Some(Limit::Pairs)));
-                        };
+                        let mut space = Space::new(model, &[group])
+                            .map_err(|limit| Refusal::of(model, group, limit))?;
                         found.push(searched(model, &mut space, group)?);
                     }
                     join::parts(model, h, found)
@@ -162,7 +166,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
         }
     };
     if parts.flows.len() > MOST {
-        return Err(Refusal::of(model, h, None));
+        return Err(Refusal::of(model, h, Some(Limit::Pieces)));
     }
     let pieces = parts.flows.into_iter().map(|(node, flow)| Piece {
         h: node,
@@ -176,12 +180,14 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
 }
 
 /// A splitting into loops of flows.
-fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
-    let pieces = sweep::find(model, h)?;
+fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Refusal> {
+    let pieces = sweep::find(model, h).map_err(|(term, limit)| Refusal::of(model, term, limit))?;
     let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).collect();
-    // More pieces than a splitting may have are refused with the first refusal.
-    if pieces.is_empty() || pieces.len() > MOST || check_split(model, &parts).is_err() {
-        return Err(h);
+    if pieces.len() > MOST {
+        return Err(Refusal::of(model, h, Some(Limit::Pieces)));
+    }
+    if pieces.is_empty() || check_split(model, &parts).is_err() {
+        return Err(Refusal::of(model, h, None));
     }
     Ok(Splitting {
         pieces,
@@ -191,10 +197,9 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Node> {
 
 /// The splitting of an expression in its space, whose arena becomes the model's.
 fn searched(model: &mut Model, space: &mut Space, h: Node) -> Result<Parts, Refusal> {
-    let found = search(space, h);
-    let limit = space.limit();
+    let found = search(space, h).map_err(|node| (node, space.limit(node)));
     model.dag = std::mem::take(&mut space.model.dag);
-    found.map_err(|node| Refusal::of(model, node, limit))
+    found.map_err(|(node, limit)| Refusal::of(model, node, limit))
 }
 
 fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
@@ -215,6 +220,10 @@ fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
         constants = level.constant;
     }
     let fewest = candidates.iter().map(Vec::len).min().unwrap_or(0);
+    if fewest > MOST {
+        space.meets(Limit::Pieces, h);
+        return Err(h);
+    }
     candidates.retain(|pieces| pieces.len() <= (fewest + 2).min(MOST));
     // A number that stands in H is no piece; a sum that is right without it is proven with it. Numbers
     // refute wrong sums, and the chosen one is proven.
@@ -305,7 +314,7 @@ pub fn declared(
 /// The first term of an expression that has no flow; the whole where each has one.
 fn blamed(model: &mut Model, h: Node) -> Node {
     let term = match Space::new(model, &[h]) {
-        Some(mut space) => {
+        Ok(mut space) => {
             let levels = units::levels(&mut space, h);
             let mut refused = levels
                 .iter()
@@ -314,7 +323,7 @@ fn blamed(model: &mut Model, h: Node) -> Node {
             model.dag = space.model.dag;
             term
         }
-        None => sweep::find(model, h).err(),
+        Err(_) => sweep::find(model, h).err().map(|(term, _)| term),
     };
     term.unwrap_or(h)
 }

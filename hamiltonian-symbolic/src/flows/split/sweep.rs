@@ -9,7 +9,7 @@ use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::flows::solve::units::{Term, terms};
-use crate::flows::space::Space;
+use crate::flows::space::{Limit, ROWS, Space};
 use crate::index::{Affine, Domain, Index};
 use crate::model::Flow;
 use crate::model::{Group, Model, ParameterDeclaration, Shape};
@@ -23,8 +23,8 @@ struct Site {
     terms: Vec<Term>,
 }
 
-/// The pieces of H, or its first term without a flow.
-pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
+/// The pieces of H, or its first term without a flow, and the limit at which the search for one ended.
+pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Option<Limit>)> {
     let terms = terms(&mut model.dag, h);
     let mut easy = [Vec::new(), Vec::new()];
     let mut sites: Vec<Site> = Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
         let joins = site.rows.len() > 1 && both_sides(&model.dag, &bodies);
         if is_mixed || joins {
             let body = model.dag.add(&bodies);
-            if let Some(found) = solved(model, &site, body, false) {
+            if let Ok(found) = solved(model, &site, body, false) {
                 pieces.extend(found);
                 continue;
             }
@@ -67,13 +67,16 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
             let (first, bodies) = (first.clone(), hard.iter().map(|term| term.body));
             let bodies: Vec<Node> = bodies.collect();
             let body = model.dag.add(&bodies);
-            if let Some(found) = solved(model, &site, body, true) {
-                pieces.extend(found);
-                continue;
-            }
+            let limit = match solved(model, &site, body, true) {
+                Ok(found) => {
+                    pieces.extend(found);
+                    continue;
+                }
+                Err(limit) => limit,
+            };
             let is_linear = |term: &Term| is_linear(&columns(&model.dag, term.body));
             if !hard.iter().all(is_linear) {
-                return Err(first.source);
+                return Err((first.source, limit));
             }
             linear.extend(hard);
         }
@@ -110,15 +113,15 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, Node> {
 }
 
 /// The flow of one expression with loops, as one loop of flows.
-pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
+pub(super) fn one(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     let terms = terms(&mut model.dag, h);
-    let first = terms.first()?.clone();
+    let first = terms.first().ok_or(None)?.clone();
     let rows = rows(&model.dag, first.body);
     let mut bodies = Vec::new();
     let mut all = rows;
     for term in &terms {
         if term.chain != first.chain {
-            return None;
+            return Err(None);
         }
         bodies.push(term.body);
         for row in self::rows(&model.dag, term.body) {
@@ -134,7 +137,11 @@ pub(super) fn one(model: &mut Model, h: Node) -> Option<ExactFlow> {
     };
     let body = model.dag.add(&bodies);
     let pieces = solved(model, &site, body, false)?;
-    pieces.into_iter().next().map(|piece| piece.flow)
+    pieces
+        .into_iter()
+        .next()
+        .map(|piece| piece.flow)
+        .ok_or(None)
 }
 
 /// The elements of phase space that an expression names.
@@ -200,26 +207,25 @@ fn around(dag: &mut Dag, chain: &[Domain], body: Node) -> Node {
     loops.fold(body, |body, domain| dag.reduce(*domain, body))
 }
 
-/// The most rows of a body.
-const ROWS: usize = 4;
-
-/// Conditions under which the rows of a body are different ones in every iteration; `None` where that
-/// is not known.
-fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Option<Vec<Node>> {
+/// Conditions under which the rows of a body are different ones in every iteration.
+///
+/// # Errors
+/// The limit of rows; `None` where it is not known that they differ.
+fn are_distinct(dag: &mut Dag, rows: &[Index]) -> Result<Vec<Node>, Option<Limit>> {
     if rows.len() > ROWS {
-        return None;
+        return Err(Some(Limit::Rows));
     }
     let mut conditions = Vec::new();
     for (at, a) in rows.iter().enumerate() {
         for b in &rows[..at] {
-            for condition in are_apart(dag, a, b)? {
+            for condition in are_apart(dag, a, b).ok_or(None)? {
                 if !conditions.contains(&condition) {
                     conditions.push(condition);
                 }
             }
         }
     }
-    Some(conditions)
+    Ok(conditions)
 }
 
 /// Conditions under which two rows differ in every iteration.
@@ -290,7 +296,15 @@ fn modulo(difference: Affine, count: &Affine) -> Option<i64> {
 }
 
 /// The loops of flows that a body is; one, unless it `may_part`.
-fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<Vec<Piece>> {
+///
+/// # Errors
+/// The limit at which the search for flows ended.
+fn solved(
+    model: &mut Model,
+    site: &Site,
+    body: Node,
+    may_part: bool,
+) -> Result<Vec<Piece>, Option<Limit>> {
     let conditions = are_distinct(&mut model.dag, &site.rows)?;
     let (mut small, images) = scratch(model, body);
     let over = |dag: &mut Dag, root: Node, map: &Map<Node, Node>| {
@@ -303,8 +317,12 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
     // does so within one iteration.
     let parts: Vec<(Node, Flow)> = match any_flow(&mut space, small_body) {
         Some(flow) => vec![(small_body, flow)],
-        None if may_part => search(&mut space, small_body).ok()?.flows,
-        None => return None,
+        None if may_part => {
+            search(&mut space, small_body)
+                .map_err(|term| space.limit(term))?
+                .flows
+        }
+        None => return Err(space.limit(small_body)),
     };
     model.dag = space.model.dag;
     let back: Map<Node, Node> = images.iter().map(|(leaf, image)| (*image, *leaf)).collect();
@@ -330,7 +348,7 @@ fn solved(model: &mut Model, site: &Site, body: Node, may_part: bool) -> Option<
             flow,
         });
     }
-    Some(pieces)
+    Ok(pieces)
 }
 
 /// Returns true if the flows of any two iterations are proven to commute, whatever the sizes: each iteration has

@@ -1,20 +1,20 @@
-//! Størmer's problem: a charged particle in the field of a magnetic dipole, trapped as in the
-//! radiation belts of the Earth; and one in a uniform field, trapped as in a laboratory.
+//! A charged particle in the field of a magnetic dipole (Størmer's problem), trapped as in the radiation belts of
+//! the Earth; and one in uniform fields, trapped as in a laboratory.
 //!
-//! A field mixes q and p in H, so that no charge in one has T and V. But a uniform field alone is one
-//! piece with an exact flow, together with a uniform electric field too: one step goes as far as one
-//! likes. With any other potential it is one of two pieces, and a dipole is two pieces as well.
+//! A magnetic field couples q and p, so H is not T(p) + V(q). Motion in a uniform magnetic field, with or without a
+//! uniform electric field, has an exact flow: a single step can have any length. With another potential, this flow
+//! is one of two pieces of H. A dipole has two pieces as well.
 //!
-//! The force does no work, so H is the kinetic energy; turning about the axis changes nothing, so
-//! the angular momentum about it is conserved, which is proven when this is compiled. The
-//! magnetic moment of the gyration, |v × B|²/(2|B|³), is conserved only nearly, as long as the
-//! orbit is narrow, and it is what mirrors the particle before the poles.
+//! A magnetic field does no work, so H is the kinetic energy. The dipole is symmetric about its axis, so the
+//! angular momentum about the axis is conserved; the macro proves it. The magnetic moment of the gyration, |v ×
+//! B|²/(2|B|³), is conserved approximately, as long as the radius of gyration is small. The particle turns back
+//! before the poles for this reason.
 //!
-//! Prints an orbit in crossed fields and one in F. M. Penning's trap beside their closed forms, one in the
-//! dipole beside a solution in quadruple precision, and the period of the bounce between
-//! the mirrors beside the approximation 4R/v·(1.30 − 0.56 sin α) (W. N. Hess, The Radiation Belt and
-//! Magnetosphere, 1968). Look at `target/dipole/meridian.svg`: gyration, bounce and mirror in the
-//! plane that turns with the particle; at `energy.svg` and `trap.svg`, how far H moves.
+//! The program prints an orbit in crossed fields and an orbit in a Penning trap beside their closed forms, an orbit
+//! in the dipole beside a solution in quadruple precision, and the period between the mirror points beside the
+//! approximation 4R/v·(1.30 − 0.56 sin α) (W. N. Hess, The Radiation Belt and Magnetosphere, 1968). Pictures:
+//! `target/dipole/meridian.svg` has the orbit in the plane that turns with the particle; `energy.svg` and
+//! `trap.svg` have the drift of H.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

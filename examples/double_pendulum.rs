@@ -1,11 +1,11 @@
 //! The double pendulum, from its Hamiltonian and from its Lagrangian.
 //!
-//! The Lagrangian is what one writes down; the Hamiltonian is what one looks up. The first is turned
-//! into the second when this is compiled, and the two agree to rounding.
+//! The Lagrangian is the shorter text. The macro transforms it into the Hamiltonian, and the two systems agree to
+//! rounding.
 //!
-//! Prints that; the periods of the two small oscillations, whose squared frequencies are
-//! (2 ∓ √2)g/l; and how far two pendulums are apart that started 10⁻⁶ apart. Look at
-//! `target/double_pendulum/paths.svg`, the paths of their lower bobs.
+//! The program prints the difference of the two; the periods of the two small oscillations, whose squared
+//! frequencies are (2 ∓ √2)g/l; and the distance of two pendulums whose starts differ by 10⁻⁶. Picture:
+//! `target/double_pendulum/paths.svg`, the paths of the lower bobs.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,13 +1,11 @@
-//! A pendulum that stands on its head: its pivot shaken up and down (P. L. Kapitza, 1951).
+//! A pendulum that stands upright because its pivot oscillates (P. L. Kapitza, 1951).
 //!
-//! H depends on time. Shaken as a·cos(ωt), upside down is stable when (aω)² > 2gl; the pendulum then
-//! swings slowly about its highest point. Seen once a period of the drive, at the same phase
-//! each time, the motion is a map of the plane to itself: curves where it is regular, a cloud where
-//! it is chaotic.
+//! H depends on time. With the pivot at a·cos(ωt), the upright position is stable if (aω)² > 2gl; the pendulum then
+//! swings slowly about it. The section takes one point per period of the drive, at the same phase. Regular orbits
+//! are curves in the section, chaotic orbits are clouds.
 //!
-//! Prints on which side of the limit it falls, and how fast it swings, beside the theory of fast
-//! driving. Look at `target/driven_pendulum/section.svg`: hanging (0), upside down (±π), islands
-//! in a chaotic sea.
+//! The program prints the stability on both sides of the limit, and the slow frequency beside the theory of fast
+//! driving. Picture: `target/driven_pendulum/section.svg`; 0 is hanging, ±π is upright.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,13 +1,13 @@
-//! Fermi, Pasta, Ulam and Tsingou's chain: the energy that came back.
+//! The chain of Fermi, Pasta, Ulam and Tsingou: the energy of the first mode returns.
 //!
-//! 32 springs with a quadratic correction, fixed ends, all energy in the lowest normal mode. It
-//! spreads to the next few modes, as expected, and then, as nobody expected in 1955, it returns:
-//! after 157 periods of that mode, it is told, all but 3 % of it is there again (E. Fermi, J. Pasta,
-//! S. Ulam, M. Tsingou, Los Alamos report LA-1940, 1955, figure 1; N. J. Zabusky and M. D. Kruskal,
-//! Physical Review Letters 15, 240, 1965).
+//! 32 springs with a quadratic correction and fixed ends start with all energy in the lowest normal mode. The
+//! energy spreads to the next modes, as the authors expected, and returns, which they did not expect. The report of
+//! 1955 states that after 157 periods of the mode all but 3 % of the energy is back (E. Fermi, J. Pasta, S. Ulam,
+//! M. Tsingou, Los Alamos report LA-1940, 1955, figure 1; N. J. Zabusky and M. D. Kruskal, Physical Review Letters
+//! 15, 240, 1965).
 //!
-//! Prints when it is back with the step of 1955, δt² = 1/8, and with finer ones: ten of the 157
-//! periods are that step. Look at `target/fput/modes.svg`, the report's figure 1.
+//! The program prints the time of the return with the step of 1955, δt² = 1/8, and with finer steps. The coarse
+//! step accounts for ten of the 157 periods. Picture: `target/fput/modes.svg`, figure 1 of the report.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,13 +1,14 @@
-//! The Hénon–Heiles system: order and chaos at one energy.
+//! The Hénon–Heiles system: regular and chaotic orbits at one energy.
 //!
-//! A star in the meridian plane of a galaxy, simplified until only the question was left: is there a
-//! third integral of motion? (M. Hénon and C. Heiles, Astronomical Journal 69, 73, 1964.) Where
-//! there is, the points at which an orbit crosses x = 0 upwards lie on a curve; where there is none,
-//! they fill an area. At H = 1/8 there are both.
+//! The system is a simplified model of a star in the meridian plane of a galaxy. It was made to find out if there
+//! is a third integral of motion (M. Hénon and C. Heiles, Astronomical Journal 69, 73, 1964). If there is, the
+//! points at which an orbit crosses x = 0 upwards lie on a curve; if there is none, they fill an area. At H = 1/8
+//! there are orbits of both kinds.
 //!
-//! Prints an orbit beside a solution in quadruple precision and its number of crossings; look at
-//! `target/henon_heiles/section.svg`: each orbit in one colour. The same in polar coordinates, where the
-//! momentum of the angle stands beside r, falls into free flight and a kick: `polar.svg`.
+//! The program prints an orbit beside a solution in quadruple precision, and its number of crossings. Pictures:
+//! `target/henon_heiles/section.svg` has each orbit in one colour. `polar.svg` has the drift of H for the same
+//! system in polar coordinates, where the momentum of the angle stands beside r and H splits into free motion and a
+//! kick.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

@@ -1,19 +1,18 @@
-//! A geodesic round a rotating black hole, and its hidden constant.
+//! A geodesic round a rotating black hole, and its fourth constant.
 //!
-//! Boyer–Lindquist coordinates, units with G = c = M = 1, proper time (divided by the mass of the
-//! particle). Besides the energy E, the angular momentum L and the mass, B. Carter (Physical Review
-//! 174, 1559, 1968) found a fourth constant, which no symmetry shows; with the mass written as
-//! μ² = −2H it is proven when this is compiled.
+//! Boyer–Lindquist coordinates, units with G = c = M = 1, proper time (divided by the mass of the particle).
+//! Besides the energy E, the angular momentum L and the mass, B. Carter (Physical Review 174, 1559, 1968) found a
+//! fourth constant, which follows from no symmetry of the coordinates. The macro proves it, with the mass written
+//! as μ² = −2H.
 //!
-//! In proper time τ nothing of H has a flow in closed form. In a time λ with dτ = Σ dλ (Y. Mino, Physical
-//! Review D 67, 084027, 2003) H falls into two pieces that have one, and the schemes of every order are
-//! explicit.
+//! In proper time τ no piece of H has a flow in closed form. In a time λ with dτ = Σ dλ (Y. Mino, Physical Review D
+//! 67, 084027, 2003) H splits into two pieces that have one, and schemes of every order are explicit.
 //!
-//! Prints two things. Near a circular orbit in the equator, how often the particle goes up and down
-//! and in and out while it goes round once; Newton's answer is 1 and 1, Einstein's is known in
-//! closed form (A. Okazaki, S. Kato, J. Fukue, PASJ 39, 457, 1987). On a wild orbit, how constant the
-//! constants are. Look at `target/kerr/torus.svg`, what that orbit fills in the plane (r sin θ,
-//! r cos θ), with the horizon, and at `target/kerr/energy.svg`, how far H moves in the time λ.
+//! The program prints, for an orbit near a circular one in the equatorial plane, the numbers of vertical and radial
+//! oscillations per revolution. Newtonian gravity gives 1 and 1; general relativity has a closed form (A. Okazaki,
+//! S. Kato, J. Fukue, PASJ 39, 457, 1987). For a generic orbit it prints the drift of the constants. Pictures:
+//! `target/kerr/torus.svg` has that orbit in the plane (r sin θ, r cos θ) with the horizon,
+//! `target/kerr/energy.svg` the drift of H in the time λ.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

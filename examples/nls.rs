@@ -1,16 +1,15 @@
-//! A ring of wave guides: the discrete nonlinear Schrödinger equation, and how a wave breaks up.
+//! A ring of waveguides: the discrete nonlinear Schrödinger equation, and the break-up of a wave.
 //!
-//! i dψₙ/dt = g|ψₙ|²ψₙ − ψₙ₊₁ − ψₙ₋₁ with ψ = q + ip: H is of degree four and not separable. What stands
-//! at one site turns ψ there by an angle that stays; what joins two sites turns ψ of both. The
-//! composition of these turns is explicit, symplectic, and keeps the number of particles Σ|ψ|² as each
-//! turn does.
+//! i dψₙ/dt = g|ψₙ|²ψₙ − ψₙ₊₁ − ψₙ₋₁ with ψ = q + ip. H is of degree four and not separable. The terms of one site
+//! rotate ψ there by a constant angle; the term of two neighbours rotates the two values of ψ. The composition of
+//! these rotations is explicit and symplectic, and keeps the number of particles Σ|ψ|², as each rotation does.
 //!
-//! A wave whose sites alternate in sign is a solution, A(−1)ⁿ exp(−iωt), but for g > 0 not a stable one:
-//! ripples of wave number Q grow by √(ε(2gA² − ε)) a time with ε = 4 sin²(Q/2) (Y. S. Kivshar and
-//! M. Peyrard, Physical Review A 46, 3198, 1992), until the wave is a row of peaks.
+//! A wave whose sites alternate in sign, A(−1)ⁿ exp(−iωt), is a solution. For g > 0 it is unstable: ripples of wave
+//! number Q grow with the rate √(ε(2gA² − ε)), where ε = 4 sin²(Q/2) (Y. S. Kivshar and M. Peyrard, Physical Review
+//! A 46, 3198, 1992), until the wave is a row of peaks.
 //!
-//! Prints this rate of growth, and how constant the constants are. Look at `target/nls/energy.svg`, and
-//! at the wave as it breaks in `peaks.svg`.
+//! The program prints this rate of growth and the drift of the constants. Pictures: `target/nls/energy.svg` has the
+//! drift of H, `peaks.svg` the wave as it breaks up.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

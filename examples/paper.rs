@@ -1,12 +1,13 @@
 //! The paper's schemes on the paper's two systems: its figures, its table, and what it did not see.
 //!
-//! Writes `target/paper/figure1.svg` (the pendulum), `figure2.svg` (H = ½(q²+1)(p²+1), a short
-//! run), `figure3.svg` (the same system run longer), `figure4.svg` (the same to t = 10⁵, with the
-//! exact flows of the pieces that H is split into at compile time: explicit and symplectic, which is
-//! what the paper was after) and `results.csv`, and prints the table.
+//! Pictures: `target/paper/figure1.svg` has the pendulum, `figure2.svg` H = ½(q²+1)(p²+1) in a short run,
+//! `figure3.svg` the same system in a longer run, and `figure4.svg` the same to t = 10⁵ with the exact flows of the
+//! pieces into which the macro splits H: explicit and symplectic, as the paper wanted. The table is printed and
+//! written to `results.csv`.
 //!
-//! The paper leaves open what is assumed and printed here: g, the length of the runs, the zero
-//! of the potential, and that "uncertainty" means the deviation of the run's mean H from H₀.
+//! The paper does not state g, the length of the runs, the zero of the potential, or the definition of
+//! "uncertainty". The program prints what is assumed; "uncertainty" is taken as the deviation of the mean of H over
+//! the run from H₀.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

@@ -1,14 +1,14 @@
-//! A body that turns freely, and a top that is heavy.
+//! A free rigid body, and a heavy top.
 //!
-//! The body in Andoyer's variables, the top in Euler's angles, where no term of H is of momenta alone:
-//! neither is separable. But H is a sum of squares of the components of the spin along the axes of the
-//! body, and each of them turns the spin about its axis, by an angle known in closed form. The
-//! composition of these turns is explicit and symplectic.
+//! The body is given in Andoyer's variables, the top in Euler's angles. No term of H depends on momenta alone, so
+//! neither is separable. But H is a sum of squares of components of the angular momentum along the axes of the
+//! body. The flow of each square rotates the angular momentum about that axis by an angle known in closed form. The
+//! composition of these rotations is explicit and symplectic.
 //!
-//! Prints both beside solutions in quadruple precision, the period of the body's spin in the body, and
-//! how constant the constant is that S. Kowalevski found for the top with A = B = 2C (Acta Mathematica
-//! 12, 177, 1889), which is proven when this is compiled. Look at `target/rigid_body/body.svg` and
-//! `top.svg`, and at the way of the top's axis in `axis.svg`.
+//! The program prints orbits of both beside solutions in quadruple precision, the period of the angular momentum in
+//! the body, and the drift of the constant that S. Kowalevski found for the top with A = B = 2C (Acta Mathematica
+//! 12, 177, 1889), which the macro proves. Pictures: `target/rigid_body/body.svg` and `top.svg` have the drift of
+//! H, `axis.svg` the path of the top's axis.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

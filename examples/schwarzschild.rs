@@ -1,15 +1,14 @@
-//! Round a black hole, without and with a magnetic field about it.
+//! Orbits round a black hole, without and with a magnetic field.
 //!
-//! Schwarzschild coordinates, units with G = c = M = 1, proper time (divided by the mass of the
-//! particle), so that H = −½ on every orbit. H is not separable: p_r² stands beside a function of r.
-//! Every term of it has a flow in closed form, though, and so the composition of these flows is
-//! explicit and symplectic (four of them by hand: Y. Wang, W. Sun, F. Liu, X. Wu, Astrophysical
-//! Journal 907, 66, 2021). A uniform field β along the axis changes the potential only, and makes the
-//! orbit of a charge chaotic.
+//! Schwarzschild coordinates, units with G = c = M = 1, proper time (divided by the mass of the particle), so that
+//! H = −½ on every orbit. H is not separable: p_r² has a factor that depends on r. But every term of H has a flow
+//! in closed form, so the composition of these flows is explicit and symplectic (four of them by hand: Y. Wang, W.
+//! Sun, F. Liu, X. Wu, Astrophysical Journal 907, 66, 2021). A uniform field β along the axis changes the potential
+//! alone, and the orbit of a charge becomes chaotic.
 //!
-//! Prints the radial period and the angle it turns by, both known as integrals; an orbit beside a
-//! solution in quadruple precision; how far H moves over a million steps. Look at
-//! `target/schwarzschild/energy.svg` and `field.svg`, and at the orbits in `orbits.svg`.
+//! The program prints the radial period and the angle of the periapsis's advance, both known as integrals; an orbit
+//! beside a solution in quadruple precision; and the drift of H over a million steps. Pictures:
+//! `target/schwarzschild/energy.svg` and `field.svg` have the drift of H, `orbits.svg` the orbits.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

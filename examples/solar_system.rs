@@ -1,11 +1,11 @@
-//! The outer solar system for 100 000 years, and why Pluto never meets Neptune.
+//! The outer solar system for 100 000 years, and the resonance of Pluto with Neptune.
 //!
-//! The number of bodies is set at run time; `support/planets.rs` says where their masses are from.
+//! The number of bodies is set at run time; `support/planets.rs` has the sources of the masses.
 //!
-//! Prints the periods, found by counting revolutions, beside those of the real planets. Neptune
-//! goes round three times while Pluto does twice: look at `target/solar_system/resonance.svg`, the
-//! angle that would have to pass 0° for the two to meet. It swings about 180° with a period of
-//! 20 000 years (C. J. Cohen and E. C. Hubbard, Astronomical Journal 70, 10, 1965).
+//! The program counts revolutions and prints the periods beside those of the real planets. Neptune makes three
+//! revolutions while Pluto makes two. The two would meet if the resonant angle passed 0°. It swings about 180° with
+//! a period of 20 000 years (C. J. Cohen and E. C. Hubbard, Astronomical Journal 70, 10, 1965). Picture:
+//! `target/solar_system/resonance.svg`, the resonant angle against time.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,17 +1,17 @@
 //! The restricted three-body problem: Arenstorf's orbit round the Earth and the Moon.
 //!
-//! A spacecraft, in the frame that turns with Earth and Moon, starts at 6·10⁻³ of their distance
-//! from the Moon, makes three wide loops and comes back to where it began (R. F. Arenstorf, American
-//! Journal of Mathematics 85, 27, 1963; E. Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary
-//! Differential Equations I, section II.0). What a step gets wrong near the Moon grows up to two
-//! million times on the way: a good examination.
+//! A spacecraft in the rotating frame of Earth and Moon starts at 6·10⁻³ of their distance from the Moon, makes
+//! three wide loops and returns to its start (R. F. Arenstorf, American Journal of Mathematics 85, 27, 1963; E.
+//! Hairer, S. P. Nørsett, G. Wanner, Solving Ordinary Differential Equations I, section II.0). An error near the
+//! Moon grows by a factor of up to two million along the orbit.
 //!
-//! The frame's turning mixes q and p, so that H is not T + V; but free motion in a turning frame has an
-//! exact flow, and H is that and a potential.
+//! The rotation of the frame couples q and p, so H is not T(p) + V(q). Free motion in a rotating frame has an exact
+//! flow, and H is the sum of free motion and a potential.
 //!
-//! Prints how well the orbit closes with ever shorter steps; then the same in a time that runs slowly
-//! near the Earth and the Moon, dt = (r₁r₂)^(3/2) ds (K. F. Sundman 1912), where order 4 is enough. Look
-//! at `target/three_body/orbit.svg`, and at `energy.svg`: how far H moves on an orbit about the point L₄.
+//! The program prints the distance of the end from the start for shorter and shorter steps; then the same in a time
+//! that runs slowly near the Earth and the Moon, dt = (r₁r₂)^(3/2) ds (K. F. Sundman 1912), where order 4 suffices.
+//! Pictures: `target/three_body/orbit.svg` has the orbit, `energy.svg` the drift of H on an orbit about the point
+//! L₄.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

@@ -1,12 +1,11 @@
 //! The Toda lattice: two solitons on a ring of 200 particles, one overtaking the other.
 //!
-//! One definition serves rings of any size. Eight particles are compared with a solution in
-//! quadruple precision, and show order 2. On two hundred run two solitons in the same direction; the faster
-//! catches up, passes, and is thrown forward by ln(sinh(½(κ₁ + κ₂))/sinh(½(κ₁ − κ₂)))/κ₁ sites
-//! (M. Toda, Theory of Nonlinear Lattices, 1989, §3.6). That is measured.
+//! One definition serves rings of any size. A ring of eight particles is compared with a solution in quadruple
+//! precision, and its error shows order 2. On the ring of two hundred, two solitons run in the same direction. The
+//! faster overtakes the slower and is shifted forward by ln(sinh(½(κ₁ + κ₂))/sinh(½(κ₁ − κ₂)))/κ₁ sites (M. Toda,
+//! Theory of Nonlinear Lattices, 1989, §3.6). The program measures this shift.
 //!
-//! Prints the checks; look at `target/toda/solitons.svg`: the two waves before, during and after,
-//! and neither has changed its shape.
+//! Picture: `target/toda/solitons.svg`, the two waves before, during and after. Both keep their shapes.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,13 +1,14 @@
-//! Vortices in the plane: points that carry each other round.
+//! Point vortices in the plane, which carry each other round.
 //!
-//! A vortex has a place and no mass: y times its strength Γ is the momentum of x (G. Kirchhoff,
-//! Vorlesungen über mathematische Physik, 1876, lecture 20). Nothing in H is kinetic, nothing
-//! separates. But two vortices alone turn about the centre of their strengths (or go straight on, where
-//! these cancel), and H is a sum over pairs: the composition of all these turns is explicit, symplectic,
-//! and keeps the impulses of the flow as every turn does.
+//! A vortex has a position and no mass: the momentum of x is y times the strength Γ (G. Kirchhoff, Vorlesungen über
+//! mathematische Physik, 1876, lecture 20). H has no kinetic energy and is not separable. But two vortices alone
+//! rotate about the centre of their strengths (or move along a straight line if the strengths cancel), and H is a
+//! sum over pairs. The composition of these rotations is explicit and symplectic, and keeps the impulses of the
+//! flow, as each rotation does.
 //!
-//! Prints four vortices beside a solution in quadruple precision, their impulses, and how fast a pair
-//! and an opposed pair move. Look at `target/vortices/energy.svg`, and at the vortices in `paths.svg`.
+//! The program prints the drift of the impulses, four vortices beside a solution in quadruple precision, and the
+//! speeds of a pair with equal and of a pair with opposite strengths. Pictures: `target/vortices/energy.svg` has
+//! the drift of H, `paths.svg` the paths of the vortices.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

@@ -1,15 +1,14 @@
-//! The outer planets in steps of a third of a year: each goes on its ellipse round the Sun, and now and
-//! then is pushed by the others.
+//! The outer planets in steps of a third of a year: Kepler motion round the Sun, with kicks by the other planets.
 //!
-//! H in inertial coordinates is no sum of such ellipses and of what is small. In others it is: measured
-//! from the Sun, with momenta about the common centre of mass (M. J. Duncan, H. F. Levison, M. H. Lee,
-//! Astronomical Journal 116, 2067, 1998), or, after C. G. J. Jacobi, each from the centre of mass of
-//! those inside (J. Wisdom, M. Holman, Astronomical Journal 102, 1528, 1991). There `split` names the
-//! pieces, and the flow of an ellipse is known for any time: only what the planets, a thousandth of the
-//! Sun, do to each other makes an error.
+//! In inertial coordinates H is not a sum of Kepler problems and a small rest. It is in heliocentric positions with
+//! barycentric momenta (M. J. Duncan, H. F. Levison, M. H. Lee, Astronomical Journal 116, 2067, 1998) and in C. G.
+//! J. Jacobi's coordinates, in which each body is measured from the centre of mass of the bodies inside its orbit
+//! (J. Wisdom, M. Holman, Astronomical Journal 102, 1528, 1991). `split` names the pieces there. The flow of a
+//! Kepler problem is exact for any time, so the error comes from the interactions of the planets alone, a
+//! thousandth of the attraction of the Sun.
 //!
-//! Prints how far H moves in 10 000 years beside schemes that know nothing of ellipses, and the error
-//! against the masses of the planets. Look at `target/wisdom_holman/energy.svg`.
+//! The program prints the drift of H in 10 000 years beside schemes without Kepler flows, and the error against the
+//! masses of the planets. Picture: `target/wisdom_holman/energy.svg`.
 
 use checks::Checks;
 use energy::{Contest, print_pieces};

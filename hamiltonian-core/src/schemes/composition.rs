@@ -56,8 +56,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// let _ = KahanLi6.of(Composition::with_adjoint(SymplecticEuler::default()));
 /// ```
 ///
-/// Of the weights given to [`new`](Composition::new) and [`of`](Composition::of) nothing is known:
-/// `SYMMETRIC` is false.
+/// `SYMMETRIC` is false for weights given to [`new`](Composition::new) and [`of`](Composition::of), as they can be any.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Composition<M, const S: usize, const SYMMETRIC: bool = true> {
     stages: [(M, Weight); S],

@@ -24,9 +24,9 @@ hamiltonian! {
 
 /// Steps in a period of the push.
 const STEPS: u64 = 50;
-/// Periods until everything is on an attractor.
+/// Periods after which every orbit is on an attractor.
 const PERIODS: u64 = 200;
-/// Points of one attractor differ by less.
+/// Points of one attractor differ by less than this.
 const NEAR: f64 = 1e-4;
 
 /// The angle in [−π, π).
@@ -39,7 +39,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     wrapped(a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// The points of a closed orbit, one a period; none if it does not close after two.
+/// The points of a closed orbit, one a period; none if it does not close after two periods.
 fn orbit(start: [f64; 2], step: f64) -> Result<Option<Vec<[f64; 2]>>, Error> {
     let begin = State::new([start[0]], [start[1]]);
     let mut run = Integrator::new(&Pushed::default(), BlanesMoan4, begin, step)?;
@@ -128,7 +128,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             shrinks,
             1e-9,
         );
-        // With θ(t) the pendulum also does −θ(t + π).
+        // If θ(t) is a solution, so is −θ(t + π).
         let mut half = Integrator::new(
             &Pushed::default(),
             BlanesMoan4,

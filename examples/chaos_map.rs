@@ -28,10 +28,10 @@ const ENERGY: f64 = 0.125;
 const STEP: f64 = 0.125;
 /// To t = 1000.
 const STEPS: u64 = 8_000;
-/// Above what regular orbits reach at that time.
+/// A value above those of regular orbits at that time.
 const CHAOTIC: f64 = 4.0;
 
-/// The start with x = 0 and p_x > 0 at a place of the section, where there is one.
+/// The start with x = 0 and p_x > 0 at a point of the section, if the energy allows one.
 fn start(y: f64, p_y: f64) -> Option<StateOf<HenonHeiles>> {
     let square = 2.0 * ENERGY - p_y * p_y - y * y + 2.0 / 3.0 * y * y * y;
     (square > 0.0 && y < 1.0).then(|| State::new([0.0, y], [square.sqrt(), p_y]))

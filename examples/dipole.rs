@@ -60,7 +60,7 @@ hamiltonian! {
 fn in_uniform_field(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
     let crossed = Crossed::default();
     print_pieces(&crossed);
-    // From rest it rolls along −y on a cycloid of radius E/B².
+    // From rest, the particle moves along −y on a cycloid of radius E/B².
     let start = State::new([0.0; 3], [0.0; 3]);
     let t = 1000.0;
     let mut run = Integrator::new(&crossed, Strang, start, t)?;
@@ -78,7 +78,7 @@ fn in_uniform_field(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error
     let root = (trap.B.powi(2) - 4.0 * trap.k).sqrt();
     let (fast, slow) = (0.5 * (trap.B + root), 0.5 * (trap.B - root));
     let along = (2.0 * trap.k).sqrt();
-    // Two circles one on the other, and up and down: (x, y, z, ẋ, ẏ, ż).
+    // The sum of two circular motions, and an oscillation along z: (x, y, z, ẋ, ẏ, ż).
     let orbit = |t: f64| {
         let circle = |radius: f64, omega: f64| {
             let (sin, cos) = (omega * t).sin_cos();

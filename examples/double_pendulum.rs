@@ -17,7 +17,7 @@ use std::path::Path;
 mod checks;
 
 hamiltonian! {
-    /// Two rods in a plane, one hanging from the other; angles from below.
+    /// Two rods in a plane, one hanging from the other; angles are measured from the downward vertical.
     pub struct FromHamiltonian { m1 = 1.0, m2 = 1.0, l1 = 1.0, l2 = 1.0, g = 9.81 }
     H(a, b; p_a, p_b) = (m2*l2^2*p_a^2 + (m1 + m2)*l1^2*p_b^2 - 2*m2*l1*l2*p_a*p_b*cos(a - b))
             /(2*m2*l1^2*l2^2*(m1 + m2*sin(a - b)^2))
@@ -56,7 +56,7 @@ fn disagreement() -> f64 {
     largest
 }
 
-/// The period of the small oscillation in which the lower rod leans `ratio` times as far.
+/// The period of the small oscillation in which the lower angle is `ratio` times the upper one.
 fn period(pendulum: &FromLagrangian, ratio: f64) -> Result<f64, Error> {
     let mut crossings = Vec::new();
     let mut before = 0.0;
@@ -97,7 +97,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         checks.compare(what, period(&pendulum, ratio)?, known, 1e-5);
     }
 
-    // Far up, and long enough to ask for a symplectic scheme that needs no structure of H.
+    // A large amplitude and a long run: a symplectic scheme that needs no structure of H.
     let at_rest = |a: f64| pendulum.state_from_velocity(0.0, [a, 2.5], [0.0, 0.0]);
     let run_from = |a: f64| {
         Integrator::new(&pendulum, ImplicitMidpoint::default(), at_rest(a), 5e-4)

@@ -40,14 +40,14 @@ const STEPS: u64 = 200;
 /// The lowest height reached from near the highest point, and the mean period of the swing about it.
 fn upside_down(pendulum: &DrivenPendulum) -> Result<(f64, f64), Error> {
     let step = TAU / pendulum.omega / STEPS as f64;
-    // On the fast wobble that belongs to a displacement of 0.02.
+    // With the fast oscillation that accompanies a displacement of 0.02.
     let start = State::new([PI - 0.02 * (1.0 - pendulum.a)], [0.0]);
     let mut lowest = f64::INFINITY;
     let mut crossings = Vec::new();
     let mut before = 0.0;
     // H = T(p) + V(θ, t) is separable at every time: explicit and symplectic.
     let mut run = Integrator::new(pendulum, StormerVerlet::default(), start, step)?;
-    // Once a period the wobble is out of sight.
+    // At one phase of the drive, the fast oscillation is not seen.
     for state in run.states(STEPS).take(1000) {
         let state = state?;
         lowest = pendulum.height(&state).min(lowest);
@@ -94,7 +94,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         0.02,
     );
 
-    // Slower shaking, where islands of both resting points lie in chaos.
+    // A slower drive: islands about both equilibria in a chaotic sea.
     let pendulum = DrivenPendulum::new(0.3, 6.0);
     let step = TAU / pendulum.omega / STEPS as f64;
     let mut curves = Vec::new();

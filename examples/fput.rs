@@ -48,13 +48,13 @@ fn energy(k: usize, q: &[f64], p: &[f64]) -> f64 {
     (component(p).powi(2) + (frequency(k) * component(q)).powi(2)) / 2.0
 }
 
-/// The fate of the energy.
+/// The energies of the modes over a run.
 struct Story {
     /// Energies of the lowest modes against time in periods of the first.
     modes: Vec<Curve>,
-    /// When most of it is back in mode 1, in periods, and its share.
+    /// The time at which most of the energy is back in mode 1, in periods, and its share.
     back: (f64, f64),
-    /// The least share of mode 1 before.
+    /// The least share of mode 1 before that time.
     least: f64,
     /// max |ΔH/H₀|
     drift: f64,
@@ -71,7 +71,7 @@ fn tell(chain: &Fput<N>, step: f64) -> Result<Story, Error> {
             points: Vec::new(),
         })
         .collect();
-    // H is separable and the run is long: the explicit symplectic scheme, which was theirs, too.
+    // H is separable and the run is long: the explicit symplectic scheme, which the authors used too.
     let start = State::new(sine, [0.0; N]);
     let mut run =
         Integrator::new(chain, StormerVerlet::default(), start, step)?.observe(EnergyDrift::new());

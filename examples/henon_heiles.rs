@@ -44,7 +44,7 @@ fn section<const STEPS: usize>(start: (f64, f64, f64, f64)) -> Result<Vec<(f64, 
     let mut points = Vec::new();
     let mut before = (x, y, p_y);
     let start = State::new([x, y], [p_x, p_y]);
-    // H is separable: explicit and symplectic, so that what looks like a curve is one.
+    // H is separable: an explicit symplectic scheme, so that regular orbits stay on their curves.
     let mut run = Integrator::new(&HenonHeiles {}, StormerVerlet::default(), start, STEP)?;
     for state in run.states(1).take(STEPS) {
         let state = state?;

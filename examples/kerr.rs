@@ -62,12 +62,12 @@ hamiltonian! {
 const SHELL: f64 = -0.5;
 const P_THETA: usize = 1;
 
-/// Turns in φ for one up and down, and for one in and out, near the circular orbit at `r`.
+/// Revolutions in φ per vertical and per radial oscillation, near the circular orbit at `r`.
 fn turns(a: f64, r: f64) -> Result<(f64, f64), Error> {
     let root = (1.0 - 3.0 / r + 2.0 * a / r.powf(1.5)).sqrt();
     let energy = (1.0 - 2.0 / r + a / r.powf(1.5)) / root;
     let momentum = r.sqrt() * (1.0 - 2.0 * a / r.powf(1.5) + (a / r).powi(2)) / root;
-    // A little more energy than the circular orbit has goes up and down, and in and out.
+    // A little more energy than that of the circular orbit excites both oscillations.
     let kerr = Kerr {
         a,
         E: energy + 1e-6,
@@ -87,7 +87,7 @@ fn turns(a: f64, r: f64) -> Result<(f64, f64), Error> {
     Ok((up.mean(), out.mean()))
 }
 
-/// The φ at which something grows through 0: the first and the last, and how often.
+/// The φ of the first and of the last crossing of 0 upwards, and the number of crossings.
 #[derive(Default)]
 struct Turns {
     before: Option<(f64, f64)>,
@@ -134,7 +134,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         1e-4,
     );
 
-    // A wild orbit, long enough to need a symplectic scheme; that of the midpoint is one for every H.
+    // A generic orbit and a long run: a symplectic scheme. The implicit midpoint rule is one for every H.
     let kerr = Kerr::new(0.95);
     let guess = State::new([8.0, FRAC_PI_2, 0.0], [0.0, 0.0, 2.0]);
     let start = momentum_from_energy(&kerr, &guess, P_THETA, SHELL, Branch::Forward)?;

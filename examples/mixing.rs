@@ -49,7 +49,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pass = effective(&bar, lagrange, 0.0);
     let energy = pass - 0.1;
     let start = |member: Member| {
-        // Evenly where the energy allows it, inside corotation, in any direction of the velocity.
+        // Uniform in the plane where the energy allows it, inside corotation; uniform in the direction of the velocity.
         let mut seed = member.seed;
         loop {
             let x = lagrange * (2.0 * uniform(&mut seed) - 1.0);

@@ -27,7 +27,7 @@ mod energy;
 hamiltonian! {
     /// A ring of N sites.
     pub struct Ring<const N: usize> {
-        /// The action of a site on itself.
+        /// The strength of the interaction at a site.
         g = 1.0,
     }
     H(q[N]; p[N]) = sum(i in 0..N) { g*(q[i]^2 + p[i]^2)^2/4 }
@@ -46,7 +46,7 @@ fn at(site: usize) -> (f64, f64) {
     (sign, (TAU * RIPPLES * site as f64 / SITES as f64).cos())
 }
 
-/// The height of the ripple on the amplitude of a wave that has turned by some angle.
+/// The height of the ripple in the amplitude of a wave at any phase.
 fn ripple(wave: &Wave, angle: f64) -> f64 {
     let (sin, cos) = angle.sin_cos();
     let of_site = |site: usize| {
@@ -66,7 +66,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let omega = square + 2.0;
     let epsilon = 4.0 * (0.5 * TAU * RIPPLES / SITES as f64).sin().powi(2);
     let rate = (epsilon * (2.0 * square - epsilon)).sqrt();
-    // The wave with the ripple that only grows.
+    // The wave with the ripple that grows and has no decaying part.
     let wave = |height: f64| {
         let (mut q, mut p) = ([0.0; SITES], [0.0; SITES]);
         for site in 0..SITES {

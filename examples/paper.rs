@@ -52,7 +52,7 @@ hamiltonian! {
 
 const STEP: f64 = 1e-3;
 const PENDULUM_END: f64 = 50.0;
-/// The copies of (29) part exponentially on (34): only a short run looks like the paper's figure.
+/// The copies of (29) separate exponentially on (34): only a short run looks like the paper's figure.
 const SHORT_END: f64 = 1.0;
 const LONG_END: f64 = 20.0;
 /// Ten times the paper's step, since the run is five thousand times longer.
@@ -165,7 +165,7 @@ impl<S: System<f64> + Unforced> Visitor<f64, S> for Problem<'_, S> {
     }
 }
 
-/// A problem that any scheme can be run on.
+/// A problem for any scheme.
 fn problem<'a, S: System<f64>>(
     name: &'static str,
     system: &'a S,

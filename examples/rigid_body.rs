@@ -23,7 +23,7 @@ mod checks;
 mod energy;
 
 hamiltonian! {
-    /// A body without forces: L is the spin along its third axis, G the whole spin.
+    /// A body without forces: L is the angular momentum along its third axis, G its magnitude.
     pub struct Body {
         /// Moments of inertia.
         A = 1.0,
@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     checks.compare("body, t = 20: l", end.q[0], 2.385_267_154_242_963_7, 1e-12);
     checks.compare("body, t = 20: g", end.q[1], 20.632_978_680_799_48, 1e-12);
     checks.compare("body, t = 20: L", end.p[0], -0.591_721_023_341_516_3, 1e-12);
-    // L comes back after each period of the spin in the body, and l with it.
+    // L and l have the period of the angular momentum in the body.
     let period = 13.510_502_678_700_29;
     let mut run = Integrator::new(&body, KahanLi8, start.clone(), period / 300.0)?;
     let end = run.advance(300)?;

@@ -35,7 +35,7 @@ hamiltonian! {
 }
 
 hamiltonian! {
-    /// The orbits of a charge, a field along the axis, in four pieces by hand.
+    /// The orbits of a charge in a field along the axis, in four pieces by hand.
     pub struct InField {
         /// The energy of the particle, −p_t.
         E,
@@ -59,7 +59,7 @@ const P_THETA: usize = 1;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut checks = Checks::default();
 
-    // In the equator, from r = 12/1.3 to 12/0.7 and back: semilatus rectum 12, eccentricity 0.3.
+    // In the equatorial plane, from r = 12/1.3 to 12/0.7 and back: semilatus rectum 12, eccentricity 0.3.
     let bound = Schwarzschild {
         E: 0.965_355_742_557_886,
     };

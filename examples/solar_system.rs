@@ -37,7 +37,7 @@ const YEAR: f64 = 365.25;
 const END: f64 = 100_000.0 * YEAR;
 /// 217 steps to a revolution of Jupiter.
 const STEP: f64 = 20.0;
-/// Steps between two looks at the planets: twelve looks to a revolution of Jupiter.
+/// Steps between two samples: twelve samples in a revolution of Jupiter.
 const LOOK: u64 = 18;
 
 type Vector3 = [f64; 3];
@@ -62,7 +62,7 @@ fn longitude(x: Vector3) -> f64 {
 fn longitudes(mu: f64, x: Vector3, v: Vector3) -> (f64, f64) {
     let r = dot(x, x).sqrt();
     let a = 1.0 / (2.0 / r - dot(v, v) / mu);
-    // The Runge–Lenz vector points to the perihelion, and is as long as the orbit is eccentric.
+    // The Runge–Lenz vector points to the perihelion; its length is the eccentricity.
     let kick = cross(v, cross(x, v));
     let lenz: Vector3 = std::array::from_fn(|c| kick[c] / mu - x[c] / r);
     let (e_sin, e_cos) = (dot(x, v) / (mu * a).sqrt(), 1.0 - r / a);
@@ -102,7 +102,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             };
             let of = |i| longitudes(system.G * (SUN + masses[i]), from_sun(i), velocity(i));
             let ((_, neptune), (perihelion, pluto)) = (of(4), of(5));
-            // 0 to 2π: it swings about π.
+            // From 0 to 2π, since it swings about π.
             let angle = (3.0 * pluto - 2.0 * neptune - perihelion).rem_euclid(TAU);
             resonance.push((state.t / YEAR, angle.to_degrees()));
         }
@@ -122,7 +122,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         angle(f64::min).unwrap_or(f64::NAN),
         angle(f64::max).unwrap_or(f64::NAN)
     );
-    // Once up, once down through the middle in every swing.
+    // Each swing crosses the middle once upwards and once downwards.
     let crossings: Vec<f64> = resonance
         .windows(2)
         .filter(|pair| (pair[0].1 < 180.0) != (pair[1].1 < 180.0))

@@ -81,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let start = State::new([x, 0.0], [0.0, v + x]);
     print_pieces(&system);
 
-    // One orbit is short and hard, so order counts.
+    // One orbit is short and needs small errors, so the order counts.
     let mut checks = Checks::default();
     println!(
         "{:>10} {:>22} {:>14}",
@@ -98,7 +98,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("{steps:>10} {off:>22.1e} {drift:>14.1e}");
     }
     checks.compare("off after one period, 40 000 steps", off, 0.0, 5e-7);
-    // Rounding remains of that: Gauss' method carries low words.
+    // What remains is rounding: Gauss's method carries low words.
     let mut run = Integrator::new(&system, Gauss::<8>::default(), start.clone(), PERIOD / 1e4)?;
     let end = run.advance(10_000)?;
     let off = (end.q - start.q).norm().max((end.p - start.p).norm());
@@ -134,7 +134,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .take(5000)
         .map(|state| state.map(|state| (state.q[0], state.q[1])))
         .collect();
-    // At rest in the turning frame, near the point that makes equal triangles with Earth and Moon.
+    // At rest in the rotating frame, near the point that forms an equilateral triangle with Earth and Moon.
     let (x, y) = (0.5 - system.mu + 0.01, 0.75_f64.sqrt());
     let mut contest = Contest::new(&system, State::new([x, y], [-y, x]), 0.05, 1e4);
     contest.enter_others()?;

@@ -108,7 +108,7 @@ impl Soliton {
 }
 
 fn two_hundred(checks: &mut Checks) -> Result<(), Box<dyn std::error::Error>> {
-    // On a ring q cannot fall: every bond is stretched by what the solitons compress, which makes
+    // On a ring the changes of the bonds sum to 0: each is stretched by what the solitons compress, which makes
     // every force weaker by exp(−stretch) and all motion slower by its root.
     let stretch = 2.0 * (FAST.kappa + SLOW.kappa) / N as f64;
     let slower = (-0.5 * stretch).exp();

@@ -39,11 +39,11 @@ hamiltonian! {
     invariant angular_impulse = sum(i in 0..n) { Gamma[i]*x[i]^2 + w[i]^2/Gamma[i] }
 }
 
-/// Two vortices at a distance of 1: where they are after `t`.
+/// Two vortices at a distance of 1: their positions after `t`.
 fn pair(strengths: [f64; 2], t: f64) -> Result<[[f64; 2]; 2], Error> {
     let system = Vortices::new(2, strengths.to_vec())?;
     let start = State::new(vec![0.0, 1.0], vec![0.0, 0.0]);
-    // One pair is one piece: its flow is exact, and one step as good as many.
+    // One pair is one piece: its flow is exact, and one step suffices.
     let mut run = Integrator::new(&system, Strang, start, t)?;
     let end = run.advance(1)?;
     Ok([0, 1].map(|i| [end.q[i], end.p[i] / strengths[i]]))
@@ -52,7 +52,7 @@ fn pair(strengths: [f64; 2], t: f64) -> Result<[[f64; 2]; 2], Error> {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut checks = Checks::default();
 
-    // A pair turns by (Γ₁ + Γ₂)/(2πd²) a time about its centre, an opposed one moves by Γ/(2πd).
+    // A pair rotates about its centre with the rate (Γ₁ + Γ₂)/(2πd²); one with opposite strengths moves with Γ/(2πd).
     let [one, other] = pair([1.0, 1.0], PI * PI / 2.0)?;
     for (name, found, known) in [
         ("x of one", one[0], 0.5),

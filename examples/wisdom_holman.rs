@@ -24,7 +24,7 @@ mod energy;
 mod planets;
 
 hamiltonian! {
-    /// Planets around a star, measured from it.
+    /// Planets around a star; positions are measured from the star.
     pub struct Heliocentric {
         n: usize,
         /// The constant of gravity in AU³/(day² solar masses).

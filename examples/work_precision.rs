@@ -115,7 +115,7 @@ impl Entered {
         Some(a.nanoseconds * (b.nanoseconds / a.nanoseconds).powf(part))
     }
 
-    /// By which power of the step the error of H fell, over the last halvings that rounding is far from.
+    /// The power of the step with which the error of H fell, over the last halvings well above rounding.
     fn slope(&self) -> f64 {
         let errors = self.runs.iter().map(|ran| ran.of_energy);
         let clear: Vec<_> = errors.filter(|error| *error > 1e-11).collect();
@@ -128,7 +128,7 @@ impl Entered {
 }
 
 impl<'a, S: System<f64>> Race<'a, S> {
-    /// A run of so many steps: the least time of five, and its errors, which take no time of theirs.
+    /// A run of so many steps: the least time of five, and its errors, computed outside that time.
     fn run<M: Scheme<f64, S>>(&self, scheme: &M, steps: u64) -> Result<Ran, Error> {
         let h = self.end / steps as f64;
         let begin = || Integrator::new(self.system, scheme.clone(), self.start.clone(), h);
@@ -161,7 +161,7 @@ impl<'a, S: System<f64>> Race<'a, S> {
         let mut steps = (self.steps / stages).max(1);
         let mut runs = Vec::new();
         for _ in 0..14 {
-            // A step too long to be solved is no point.
+            // A step so long that the solver fails gives no point.
             if let Ok(ran) = self.run(&scheme, steps) {
                 runs.push(ran);
                 let is_exact = ran.of_energy.max(ran.of_end) < 1e-11 || ran.of_energy < 1e-13;

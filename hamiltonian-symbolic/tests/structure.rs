@@ -323,3 +323,79 @@ fn loops_are_split_body_by_body() {
     let split = analyse(&mut hidden).separable.unwrap();
     assert_eq!(text(&hidden, split.kinetic), "sum(i in 0..N) { p[i]^2 }");
 }
+
+/// (c₁ + c₂ + …)ⁿ of so many names, times a factor.
+fn power_of_sum(names: usize, n: usize) -> String {
+    let names: Vec<String> = (1..=names).map(|k| format!("c{k}")).collect();
+    format!("({})^{n}", names.join(" + "))
+}
+
+/// The structure of H with a great many parameters.
+fn with_parameters(h: &str) -> Structure {
+    let names: Vec<String> = (1..=12).map(|k| format!("c{k}")).collect();
+    analyse(&mut system("q, x; p, u", "", &names.join(" "), h))
+}
+
+/// A limit of the expansion is named, and a term of another degree of freedom does not reach it.
+#[test]
+fn limits_of_expansion_are_named() {
+    // C(n + 11, 11) terms: 364 of the third power, 12 376 of the sixth.
+    let reason = |h: &str| {
+        with_parameters(h)
+            .separable
+            .map_err(|c| c.to_string())
+            .err()
+    };
+    let cancels = |n| {
+        let long = power_of_sum(12, n);
+        format!("{long}*(q + p)^2 - 2*{long}*q*p + x^2 + u^2")
+    };
+    assert_eq!(reason(&cancels(3)), None);
+    assert_eq!(
+        reason("(q + p)^2 - q*p").unwrap(),
+        "the term `q*p` couples coordinates and momenta"
+    );
+    let limit = reason(&cancels(6)).unwrap();
+    assert!(
+        limit.starts_with("nothing shows that the term `"),
+        "{limit}"
+    );
+    assert!(
+        limit.ends_with("it has more than 4000 terms or takes more than 40000 products"),
+        "{limit}"
+    );
+
+    // What cancels of one degree of freedom is found beside a long one, and the long one is named.
+    let long = power_of_sum(12, 6);
+    let beside = reason(&format!(
+        "(x + u)^2 - 2*x*u + {long}*(q + p)^2 - 2*{long}*q*p"
+    ));
+    assert!(beside.unwrap().contains("(q + p)^2"));
+    let half = |q: &str, p: &str, long: &str| format!("{long}*({q} + {p})^2 - 2*{long}*{q}*{p}");
+    let [first, second] = [("q", "p", 3), ("x", "u", 3)].map(|(q, p, n)| {
+        // 364·3 terms each way: 4096 together with the other, not alone.
+        half(
+            q,
+            p,
+            &format!("{}*{}", power_of_sum(12, n), power_of_sum(4, 1)),
+        )
+    });
+    assert_eq!(reason(&format!("{first} + {second}")), None);
+
+    let quadratic = |h: &str| with_parameters(h).quadratic_kinetic.err();
+    let hidden = |n| {
+        format!(
+            "{}*p*(p + 1) - {}*p",
+            power_of_sum(12, n),
+            power_of_sum(12, n)
+        )
+    };
+    assert_eq!(quadratic(&hidden(3)), None);
+    let limit = quadratic(&hidden(6)).unwrap();
+    assert!(limit.starts_with("the degree of the term `"), "{limit}");
+    assert!(limit.ends_with("it has more than 4096 terms"), "{limit}");
+    assert_eq!(
+        quadratic(&format!("u*(u + 1) - u + {}*p^2", power_of_sum(12, 6))),
+        None
+    );
+}

@@ -167,6 +167,9 @@ fn facts(structure: &Structure, is_forced: bool) -> Vec<String> {
             "H is separable, its kinetic part a quadratic form of the momenta.".to_owned()
         }
         (Ok(_), Err(_)) => "H is separable.".to_owned(),
+        (Err(coupling), _) if coupling.limit.is_some() => {
+            format!("H is not separable: {coupling}.")
+        }
         (Err(coupling), _) => format!("H is not separable: see the term `{}`.", coupling.text),
     });
     facts.push(match &structure.autonomous {

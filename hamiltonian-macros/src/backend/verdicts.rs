@@ -211,13 +211,15 @@ pub(super) fn for_any_h(model: &Model) -> &'static str {
 }
 
 fn not_separable(model: &Model, name: &str, coupling: &Coupling) -> Reason {
-    let q = first_name(model, coupling.term, Side::Q);
-    let p = first_name(model, coupling.term, Side::P);
+    let why = match coupling.limit {
+        Some(_) => coupling.to_string(),
+        None => {
+            let [q, p] = [Side::Q, Side::P].map(|side| first_name(model, coupling.term, side));
+            format!("the term `{}` couples {q} and {p}", coupling.text)
+        }
+    };
     Reason {
-        message: format!(
-            "{name} is not separable: the term `{}` couples {q} and {p}",
-            coupling.text
-        ),
+        message: format!("{name} is not separable: {why}"),
         label: "needs H = T(p) + V(q)".into(),
         note: for_any_h(model).to_owned(),
     }

@@ -17,7 +17,7 @@ use crate::diff;
 use crate::index::Index;
 use crate::loops::{Sample, Values};
 use crate::model::{Flow, Model, Motion};
-use crate::normal_form::{Answer, Effort, answer_within, tidy, witness};
+use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
 use std::fmt;
@@ -449,10 +449,10 @@ impl Space {
         self.tests = self.tests.saturating_sub(1);
         let own = self.products.min(QUESTION);
         let mut left = own;
-        let mut answer = Answer::Other;
+        let mut answer = Answer::Other(None);
         if !self.is_spent() && witness(&self.model, node, Effort::Glance, &[]).is_none() {
             answer = answer_within(&mut self.model.dag, node, &mut left);
-            self.has_long_questions |= answer == Answer::Limit;
+            self.has_long_questions |= answer == Answer::Limit(Undecided::Budget);
         }
         self.products -= own - left;
         let is_zero = answer == Answer::Zero;

@@ -10,15 +10,16 @@ use crate::op::Op;
 use crate::rational::Rational;
 
 /// Angles with more terms than this are not expanded.
-const LONGEST_ANGLE: usize = 6;
+pub(super) const LONGEST_ANGLE: usize = 6;
 /// Multiples of a base past this are bases of their own.
-const LARGEST_MULTIPLE: i64 = 64;
+pub(super) const LARGEST_MULTIPLE: i64 = 64;
 
 impl Algebra {
     /// Cosine and sine of an angle, by addition over its base angles.
     pub(super) fn angle(&mut self, angle: &Poly) -> Result<(Poly, Poly), Undecided> {
         let mut sum = (Poly::integer(1), Poly::default());
         let terms: Vec<(Monomial, Rational)> = if angle.terms().len() > LONGEST_ANGLE {
+            self.left_out = Some(Undecided::Angle);
             // The whole angle is one base, up to its sign.
             let (sign, angle) = self.oriented(angle.clone())?;
             let cos = self.function(Key::Cos(angle.clone()), None);
@@ -28,7 +29,7 @@ impl Algebra {
             angle.terms().to_vec()
         };
         for (monomial, k) in terms {
-            let (n, d) = k.to_small().ok_or(Undecided)?;
+            let (n, d) = k.to_small().ok_or(Undecided::Numbers)?;
             let (cos, sin, multiple) = self.base_angle(&monomial, n, d)?;
             let (c, s) = self.multiple(&cos, &sin, multiple)?;
             sum = self.rotated(&sum, (&c, &s))?;
@@ -56,6 +57,7 @@ impl Algebra {
         d: i64,
     ) -> Result<(Poly, Poly, i64), Undecided> {
         if n.abs() > LARGEST_MULTIPLE {
+            self.left_out = Some(Undecided::Multiple);
             let angle = Poly::term(Rational::new(n.abs(), d), monomial.clone());
             let cos = self.function(Key::Cos(angle.clone()), None);
             let sin = self.sine(angle, cos);
@@ -94,7 +96,7 @@ impl Algebra {
             }
         };
         if denominator > LARGEST_MULTIPLE {
-            return Err(Undecided);
+            return Err(Undecided::Multiple);
         }
         let angle = Poly::term(Rational::new(numerator, denominator), monomial.clone());
         let first = self.function(Key::Cos(angle.clone()), None);
@@ -113,7 +115,7 @@ impl Algebra {
             self.redefine(old.first, old_cos);
             self.redefine(old.second, old_sin);
         }
-        let multiple = times(&base).ok_or(Undecided)?;
+        let multiple = times(&base).ok_or(Undecided::Numbers)?;
         Ok((cos, sin, multiple))
     }
 

@@ -118,6 +118,8 @@ pub(crate) struct Algebra {
     pub(super) scope: Scope,
     /// The rest of the budget.
     pub(crate) budget: Budget,
+    /// The limit at which a rule was left out.
+    pub(crate) left_out: Option<Undecided>,
 }
 
 impl Algebra {
@@ -135,6 +137,7 @@ impl Algebra {
             has_conditions: false,
             scope,
             budget,
+            left_out: None,
         }
     }
 
@@ -299,7 +302,7 @@ impl Algebra {
     /// 1/polynomial: a term is inverted atom by atom, anything longer becomes a divisor.
     pub(crate) fn invert(&mut self, poly: &Poly) -> Result<Poly, Undecided> {
         let (k, monomial, rest) = self.content(poly)?;
-        let k = k.recip().ok_or(Undecided)?;
+        let k = k.recip().ok_or(Undecided::Zero)?;
         let mut inverse = Poly::constant(k);
         for &(atom, n) in &monomial.0 {
             let factor = match &self.entry(atom).key {
@@ -325,7 +328,7 @@ impl Algebra {
         let mut rest = self.canonical(poly)?;
         if self.any_guarded && rest.terms().len() > 1 && Algebra::is_divided(&rest) {
             // 1 + [x > 0]/x is 1 at x = 0, of which a common denominator knows nothing.
-            return Err(Undecided);
+            return Err(Undecided::Conditions);
         }
         let mut monomial = Monomial::default();
         // Divisors inside are cleared: 1/(1 + 1/d) is d/(d + 1).

@@ -10,7 +10,7 @@ use crate::op::{Op, Parity};
 use crate::rational::Rational;
 
 /// The most arguments of functions that are compared with each other.
-const MOST_ARGUMENTS: usize = 64;
+pub(super) const MOST_ARGUMENTS: usize = 64;
 
 impl Algebra {
     /// An elementary function.
@@ -142,6 +142,8 @@ impl Algebra {
         }
         if self.arguments.len() < MOST_ARGUMENTS {
             self.arguments.push((x.clone(), divided));
+        } else {
+            self.left_out = Some(Undecided::Arguments);
         }
         Ok(x)
     }
@@ -175,7 +177,7 @@ impl Algebra {
     fn exponential(&mut self, exponent: &Poly) -> Result<Poly, Undecided> {
         let mut product = Poly::integer(1);
         for (monomial, k) in exponent.terms().to_vec() {
-            let (n, d) = k.to_small().ok_or(Undecided)?;
+            let (n, d) = k.to_small().ok_or(Undecided::Numbers)?;
             let factor = match self.power_of_logarithm(&monomial, n, d)? {
                 Some(factor) => factor,
                 None => {
@@ -196,7 +198,7 @@ impl Algebra {
                             self.exponents.insert(monomial.clone(), base);
                             if let Some(old) = known {
                                 let times = i32::try_from(denominator / old.denominator)
-                                    .map_err(|_| Undecided)?;
+                                    .map_err(|_| Undecided::Numbers)?;
                                 self.redefine(old.first, Poly::atom(first, times));
                             }
                             base
@@ -205,7 +207,7 @@ impl Algebra {
                     let n = n
                         .checked_mul(base.denominator / d)
                         .and_then(|n| i32::try_from(n).ok());
-                    Poly::atom(base.first, n.ok_or(Undecided)?)
+                    Poly::atom(base.first, n.ok_or(Undecided::Numbers)?)
                 }
             };
             product = self.mul(&product, &factor)?;
@@ -217,9 +219,9 @@ impl Algebra {
     /// x. s^(y + n) is s^n·s^y for whole n, s^(−y) is s^y, and its square is 1.
     fn power(&mut self, x: &Poly, y: &Poly) -> Result<Poly, Undecided> {
         if let Some(y) = y.as_constant() {
-            let (n, d) = y.to_small().ok_or(Undecided)?;
+            let (n, d) = y.to_small().ok_or(Undecided::Numbers)?;
             if d == 1 {
-                return self.pow(x, i32::try_from(n).map_err(|_| Undecided)?);
+                return self.pow(x, i32::try_from(n).map_err(|_| Undecided::Numbers)?);
             }
             // NaN at x < 0.
             self.assume_positive(x)?;
@@ -258,7 +260,7 @@ impl Algebra {
         let whole = y.terms().iter().find(|(monomial, _)| monomial.is_one());
         let (n, d) = whole
             .map_or(Some((0, 1)), |(_, k)| k.to_small())
-            .ok_or(Undecided)?;
+            .ok_or(Undecided::Numbers)?;
         let whole = n.div_euclid(d);
         let (_, exponent) = self.oriented(y.sub(&Poly::integer(whole)))?;
         let size = if whole % 2 == 0 {
@@ -385,10 +387,10 @@ impl Algebra {
                 inside = self.mul(&inside, &factor)?;
             }
         }
-        for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
+        for (prime, n) in factored(&k.abs()).ok_or(Undecided::Numbers)? {
             let whole = Rational::integer(prime)
                 .pow(n.div_euclid(2))
-                .ok_or(Undecided)?;
+                .ok_or(Undecided::Numbers)?;
             outside = outside.scale(&whole);
             if n.rem_euclid(2) == 1 {
                 let radicand = Poly::integer(prime);
@@ -410,7 +412,7 @@ impl Algebra {
         let mut left = vec![(poly.clone(), Rational::ONE)];
         while let Some((poly, scale)) = left.pop() {
             let (k, monomial, rest) = self.content(&poly)?;
-            for (prime, n) in factored(&k.abs()).ok_or(Undecided)? {
+            for (prime, n) in factored(&k.abs()).ok_or(Undecided::Numbers)? {
                 let atom = self.function(Key::Ln(Poly::integer(prime)), None);
                 let n = scale.mul(&Rational::integer(i64::from(n)));
                 sum = sum.add(&Poly::term(n, Monomial::atom(atom, 1)));

@@ -28,6 +28,10 @@ use crate::index::LOOPS;
 use crate::loops::{Point, Sample, Signs, sample, unroll_nodes};
 use crate::model::Model;
 use crate::op::Op;
+use angles::{LARGEST_MULTIPLE, LONGEST_ANGLE};
+use functions::MOST_ARGUMENTS;
+use reduce::PASSES;
+use symmetry::MOST as REINDEXINGS;
 
 /// The budget of one expansion.
 pub(crate) const BUDGET: Budget = Budget {
@@ -97,26 +101,53 @@ pub(crate) fn is_zero_where(model: &Model, node: Node, others: &[Node]) -> Proof
 pub(crate) enum Answer {
     /// It is identically zero.
     Zero,
-    /// No rule makes it zero.
-    Other,
-    /// A limit of the expansion stopped the rules.
-    Limit,
-    /// There are more loops than can be told apart.
-    Loops,
+    /// No rule makes it zero; a limit may have left one out.
+    Other(Option<Undecided>),
+    /// A limit stopped the rules.
+    Limit(Undecided),
 }
 
 impl Answer {
     /// Why there is no other answer: a clause.
     pub(crate) fn why(self) -> String {
+        let no_rule = "no rule shows that it is 0, and no point was found where it is not";
         match self {
-            Answer::Zero | Answer::Other => {
-                "no rule shows that it is 0, and no point was found where it is not".to_owned()
-            }
-            Answer::Limit => format!(
+            Answer::Zero | Answer::Other(None) => no_rule.to_owned(),
+            Answer::Other(Some(limit)) => format!("{no_rule}; {}", limit.why(BUDGET)),
+            Answer::Limit(limit) => limit.why(BUDGET),
+        }
+    }
+}
+
+impl Undecided {
+    /// The limit, of an expansion with a budget: a clause on the expression.
+    pub(crate) fn why(self, budget: Budget) -> String {
+        match self {
+            Undecided::Budget => format!(
                 "multiplied out, it has more than {} terms or takes more than {} products",
-                BUDGET.terms, BUDGET.products
+                budget.terms, budget.products
             ),
-            Answer::Loops => format!("it has more than {LOOPS} loops"),
+            Undecided::Passes => {
+                format!("relations between its functions still apply after {PASSES} passes")
+            }
+            Undecided::Numbers => "it has numbers that are too long".to_owned(),
+            Undecided::Zero => "it divides by 0".to_owned(),
+            Undecided::Conditions => {
+                "its fractions under a condition have no common denominator".to_owned()
+            }
+            Undecided::Loops => format!("it has more than {LOOPS} loops"),
+            Undecided::Angle => {
+                format!("an angle of more than {LONGEST_ANGLE} terms is not taken apart")
+            }
+            Undecided::Multiple => format!(
+                "angles are compared up to {LARGEST_MULTIPLE} times, and down to 1/{LARGEST_MULTIPLE} of, one another"
+            ),
+            Undecided::Arguments => {
+                format!("of the arguments of its functions only {MOST_ARGUMENTS} are compared")
+            }
+            Undecided::Reindexings => {
+                format!("of the re-indexings of a sum only {REINDEXINGS} are compared")
+            }
         }
     }
 }
@@ -166,10 +197,10 @@ fn answer_in(algebra: &mut Algebra, dag: &mut Dag, node: Node) -> Answer {
         symmetry::summands_vanish(algebra, &poly)
     };
     match decide() {
-        Err(Undecided) => Answer::Limit,
-        Ok(_) if dag.has_too_many_loops() => Answer::Loops,
+        Err(undecided) => Answer::Limit(undecided),
+        Ok(_) if dag.has_too_many_loops() => Answer::Limit(Undecided::Loops),
         Ok(true) => Answer::Zero,
-        Ok(false) => Answer::Other,
+        Ok(false) => Answer::Other(algebra.left_out),
     }
 }
 
@@ -286,19 +317,24 @@ pub(crate) fn named(model: &Model, sizes: &[i64]) -> Point {
 }
 
 /// T and V of an expression that its normal form separates; not where they would be made of the
-/// signs that conditions are there, in which a branch that is not taken is felt.
-pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
+/// signs that conditions are there: a NaN of the branch not taken would reach the value.
+///
+/// # Errors
+/// The limit that left it undecided, as a clause; `None` where a term couples all the same.
+pub(crate) fn separated(model: &mut Model, h: Node) -> Result<(Node, Node), Option<String>> {
     let mut algebra = Algebra::new(SMALL_BUDGET, Scope::Everywhere);
     let poly = algebra
         .convert(&model.dag, h)
         .and_then(|poly| algebra.canonical(&poly))
-        .ok()?;
+        .map_err(|undecided| Some(undecided.why(SMALL_BUDGET)))?;
     let (mut kinetic, mut potential) = (Poly::default(), Poly::default());
     for (monomial, k) in poly.terms() {
         let dependence = algebra.dependence(monomial);
         let term = Poly::term(k.clone(), monomial.clone());
         match (dependence.on(Dependence::Q), dependence.on(Dependence::P)) {
-            (true, true) => return None,
+            (true, true) => {
+                return Err(algebra.left_out.map(|limit| limit.why(SMALL_BUDGET)));
+            }
             (_, true) => kinetic = kinetic.add(&term),
             _ => potential = potential.add(&term),
         }
@@ -310,6 +346,8 @@ pub(crate) fn separated(model: &mut Model, h: Node) -> Option<(Node, Node)> {
     let is_condition = |kind: &Kind| matches!(kind, Kind::Select(..));
     let is_sign = |kind: &Kind| matches!(kind, Kind::Call(Op::Sign, _));
     let dag = &model.dag;
-    (!(dag.has(&[h], is_condition) && dag.has(&[kinetic, potential], is_sign)))
-        .then_some((kinetic, potential))
+    match dag.has(&[h], is_condition) && dag.has(&[kinetic, potential], is_sign) {
+        true => Err(None),
+        false => Ok((kinetic, potential)),
+    }
 }

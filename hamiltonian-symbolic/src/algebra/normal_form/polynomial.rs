@@ -11,9 +11,30 @@ use std::cmp::Ordering;
 /// The number of an atom in its algebra.
 pub(crate) type Atom = u32;
 
-/// The expansion grew past its budget, or divided by 0: nothing was decided.
+/// The reason why an expression has no normal form, or why a rule was left out of it.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(crate) struct Undecided;
+pub(crate) enum Undecided {
+    /// The expansion grew past its budget.
+    Budget,
+    /// Relations still applied after the last pass.
+    Passes,
+    /// A number is too long.
+    Numbers,
+    /// It divides by 0.
+    Zero,
+    /// A condition stands before a fraction.
+    Conditions,
+    /// There are more loops than can be told apart.
+    Loops,
+    /// An angle has too many terms to be taken apart.
+    Angle,
+    /// An angle is too large a multiple of another one, or too small a part of it.
+    Multiple,
+    /// There are too many arguments of functions to compare them all.
+    Arguments,
+    /// A sum has too many re-indexings to compare them all.
+    Reindexings,
+}
 
 /// The rest of the budget of an expansion.
 #[derive(Clone, Copy, Debug)]
@@ -29,10 +50,11 @@ impl Budget {
     fn allow(&self, terms: usize, products: usize) -> Result<(), Undecided> {
         (terms <= self.terms && products <= self.products)
             .then_some(())
-            .ok_or(Undecided)
+            .ok_or(Undecided::Budget)
     }
     pub(super) fn charge(&mut self, products: usize) -> Result<(), Undecided> {
-        self.products = self.products.checked_sub(products).ok_or(Undecided)?;
+        let left = self.products.checked_sub(products);
+        self.products = left.ok_or(Undecided::Budget)?;
         Ok(())
     }
 }
@@ -238,7 +260,7 @@ impl Poly {
     pub(crate) fn pow(&self, n: u32, budget: &mut Budget) -> Result<Poly, Undecided> {
         if let (Some((monomial, k)), Ok(power)) = (self.as_term(), i32::try_from(n)) {
             return Ok(Poly::term(
-                k.pow(power).ok_or(Undecided)?,
+                k.pow(power).ok_or(Undecided::Numbers)?,
                 monomial.pow(power),
             ));
         }
@@ -383,7 +405,7 @@ impl Sum {
     }
     fn check(&self, budget: &Budget) -> Result<(), Undecided> {
         if self.terms.len() > budget.terms {
-            Err(Undecided)
+            Err(Undecided::Budget)
         } else {
             Ok(())
         }

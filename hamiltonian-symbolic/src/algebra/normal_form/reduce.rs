@@ -11,7 +11,7 @@ use crate::rational::Rational;
 
 /// The most passes over all atoms. Each but the first meets only atoms that redefined ones brought
 /// back.
-const PASSES: usize = 8;
+pub(super) const PASSES: usize = 8;
 
 impl Algebra {
     /// The polynomial with relations applied; divisors stay.
@@ -28,7 +28,7 @@ impl Algebra {
             }
             poly = self.resolved(&poly)?;
         }
-        Err(Undecided)
+        Err(Undecided::Passes)
     }
 
     /// A polynomial that is 0 exactly if the given one is, without divisors and without negative
@@ -54,7 +54,7 @@ impl Algebra {
             }
             poly = self.resolved(&poly)?;
         }
-        Err(Undecided)
+        Err(Undecided::Passes)
     }
 
     /// The polynomial times the lowest power of the atom inverted, and that power (≤ 0). For a
@@ -151,8 +151,8 @@ impl Algebra {
         let is_idempotent = self.sign_of(&of).is_nonnegative();
         let is_anything_but_zero = self.is_anything_but_zero(&of);
         let leading = of.terms().iter().max_by(|a, b| a.0.newest_first(&b.0));
-        let (leading, c) = leading.cloned().ok_or(Undecided)?;
-        let by = c.recip().ok_or(Undecided)?;
+        let (leading, c) = leading.cloned().ok_or(Undecided::Zero)?;
+        let by = c.recip().ok_or(Undecided::Zero)?;
         let mut changed = false;
         let mut sum = Sum::default();
         let mut left = poly.terms().to_vec();
@@ -225,7 +225,7 @@ impl Algebra {
         let Some((leading, c)) = newest(divisor).filter(|(leading, _)| !leading.is_one()) else {
             return Ok(None);
         };
-        let by = c.recip().ok_or(Undecided)?;
+        let by = c.recip().ok_or(Undecided::Zero)?;
         while let Some((monomial, k)) = newest(&rest) {
             let Some(over) = monomial.over(&leading) else {
                 return Ok(None);

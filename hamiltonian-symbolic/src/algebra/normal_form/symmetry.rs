@@ -12,7 +12,7 @@ use crate::index::{Affine, Domain, Index};
 use crate::rational::Rational;
 
 /// The most re-indexings of one sum that are looked at.
-const MOST: usize = 64;
+pub(super) const MOST: usize = 64;
 
 /// A sum: its loops, outermost first, and its body.
 #[derive(Clone, PartialEq, Debug)]
@@ -77,9 +77,13 @@ fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, 
         return Ok(Poly::atom(atom, 1));
     };
     let mut best: Option<(Vec<Domain>, Monomial, Rational)> = None;
-    for candidate in images(dag, nest) {
+    let (images, is_complete) = images(dag, nest);
+    if !is_complete {
+        algebra.left_out = Some(Undecided::Reindexings);
+    }
+    for candidate in images {
         if dag.has_too_many_loops() {
-            return Err(Undecided);
+            return Err(Undecided::Loops);
         }
         let body = algebra.convert(dag, candidate.body)?;
         let body = algebra.canonical(&body)?;
@@ -144,8 +148,8 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
 }
 
 /// All re-indexings of a nest in which each loop that may be shifted has an element at its bare index:
-/// they are the same ones whichever of them the nest is.
-fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
+/// they are the same ones whichever of them the nest is. False if there are more.
+fn images(dag: &mut Dag, nest: Nest) -> (Vec<Nest>, bool) {
     let nest = lower(dag, &nest).unwrap_or(nest);
     let nest = from_zero(dag, nest);
     let mut found = vec![nest];
@@ -159,10 +163,11 @@ fn images(dag: &mut Dag, nest: Nest) -> Vec<Nest> {
             }
         }
     }
+    let is_complete = at == found.len();
     if found.iter().any(|nest| is_anchored(dag, nest)) {
         found.retain(|nest| is_anchored(dag, nest));
     }
-    found
+    (found, is_complete)
 }
 
 /// Returns true if each loop over 0..N that is read modulo N is read bare, too.

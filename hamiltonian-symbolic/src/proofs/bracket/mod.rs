@@ -18,9 +18,7 @@ use crate::diff;
 use crate::legendre::Legendre;
 use crate::loops::{Point, unroll_nodes};
 use crate::model::Model;
-use crate::normal_form::{
-    self, Algebra, Answer, BUDGET, Effort, Scope, Undecided, named, trials, witness,
-};
+use crate::normal_form::{self, Algebra, Answer, BUDGET, Effort, Scope, named, trials, witness};
 use crate::print;
 use crate::rational::Rational;
 use crate::structure::expand_within;
@@ -269,8 +267,8 @@ fn decide(
             let mut algebra = Algebra::new(BUDGET, Scope::Everywhere);
             match shell::vanishes(&mut algebra, &model.dag, residual, difference) {
                 Ok(true) => Answer::Zero,
-                Ok(false) => Answer::Other,
-                Err(Undecided) => Answer::Limit,
+                Ok(false) => Answer::Other(algebra.left_out),
+                Err(undecided) => Answer::Limit(undecided),
             }
         }
     };

@@ -9,7 +9,7 @@ use crate::rational::Rational;
 use std::rc::Rc;
 
 /// The most terms an expansion may have.
-const MOST: usize = 4096;
+pub(super) const MOST: usize = 4096;
 
 /// `k·Π node^n`
 #[derive(Clone, PartialEq, Eq, Debug)]

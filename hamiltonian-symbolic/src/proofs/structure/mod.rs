@@ -21,6 +21,7 @@ use crate::index::Affine;
 use crate::model::Model;
 use crate::print;
 use std::collections::HashSet;
+use std::fmt;
 
 /// H = T(p, t) + V(q, t).
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -40,6 +41,18 @@ pub struct Coupling {
     pub term: Node,
     /// The term as text.
     pub text: String,
+    /// The limit that left it undecided if the term cancels, as a clause.
+    pub limit: Option<String>,
+}
+
+impl fmt::Display for Coupling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = &self.text;
+        match &self.limit {
+            None => write!(f, "the term `{text}` couples coordinates and momenta"),
+            Some(limit) => write!(f, "nothing shows that the term `{text}` cancels: {limit}"),
+        }
+    }
 }
 
 /// A coordinate that H does not depend on: its momentum is conserved.
@@ -71,10 +84,7 @@ pub fn analyse(model: &mut Model) -> Structure {
     let separable = separate::split(model, h);
     let quadratic_kinetic = match &separable {
         Ok(split) => quadratic::form(model, split.kinetic),
-        Err(coupling) => Err(format!(
-            "H is not separable: the term `{}` couples coordinates and momenta",
-            coupling.text
-        )),
+        Err(coupling) => Err(format!("H is not separable: {coupling}")),
     };
     Structure {
         separable,

@@ -3,10 +3,12 @@
 //! Input: parts of H. Output: whether they are, or the term that is not. Invariant: degrees are read
 //! off the expression as it stands, or multiplied out; no number decides.
 
+use super::expand::MOST;
 use super::{expand, term_with};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::model::Model;
 use crate::print;
+use crate::rational::Rational;
 
 /// Checks that T is a quadratic form in the momenta with coefficients of parameters only.
 pub(super) fn form(model: &mut Model, kinetic: Node) -> Result<(), String> {
@@ -16,9 +18,10 @@ pub(super) fn form(model: &mut Model, kinetic: Node) -> Result<(), String> {
     if !model.dag.dependence(kinetic).on(Dependence::P) {
         return Err("no term depends on momenta".to_owned());
     }
-    match term_outside(model, kinetic, |degrees| degrees == (2, 2)) {
+    match outside(model, kinetic, |degrees| degrees == (2, 2)) {
         None => Ok(()),
-        Some(term) => {
+        Some(Outside::Long(term)) => Err(too_long(model, term)),
+        Some(Outside::Term(term)) => {
             let how = match degrees(&model.dag, term) {
                 Some((1, 1)) => "is linear in the momenta",
                 _ => "is not quadratic in the momenta",
@@ -42,11 +45,15 @@ pub fn kick_beside(model: &mut Model, parts: [Node; 2]) -> Result<[usize; 2], St
         }
         let why = if let Some(text) = term_with_time(model, parts[other]) {
             format!("the term `{text}` beside the kick depends on time")
-        } else if let Some(term) = term_outside(model, parts[other], |(_, most)| most <= 2) {
-            let term = print::text(model, term);
-            format!("the term `{term}` is not a polynomial of degree 2 in the momenta")
         } else {
-            return Ok([kick, other]);
+            match outside(model, parts[other], |(_, most)| most <= 2) {
+                None => return Ok([kick, other]),
+                Some(Outside::Long(term)) => too_long(model, term),
+                Some(Outside::Term(term)) => {
+                    let term = print::text(model, term);
+                    format!("the term `{term}` is not a polynomial of degree 2 in the momenta")
+                }
+            }
         };
         reason.get_or_insert(why);
     }
@@ -62,23 +69,56 @@ fn term_with_time(model: &Model, part: Node) -> Option<String> {
     term_with(&model.dag, part, has_time).map(|term| print::text(model, term))
 }
 
+/// A term whose degrees in the momenta are not of a kind.
+enum Outside {
+    /// The first such term, multiplied out.
+    Term(Node),
+    /// A term as it was written, of which too many terms would be made to know.
+    Long(Node),
+}
+
+/// The reason where a term cannot be multiplied out.
+fn too_long(model: &Model, term: Node) -> String {
+    let term = print::text(model, term);
+    format!(
+        "the degree of the term `{term}` in the momenta is not known: multiplied out, it has more than {MOST} terms"
+    )
+}
+
 /// The first term, among those with momenta, whose degrees in them are not of a kind.
-fn term_outside(model: &mut Model, part: Node, is_inside: fn((u32, u32)) -> bool) -> Option<Node> {
-    if degrees(&model.dag, part).is_some_and(is_inside) {
+fn outside(model: &mut Model, part: Node, is_inside: fn((u32, u32)) -> bool) -> Option<Outside> {
+    let is_fine = |dag: &Dag, node: Node| degrees(dag, node).is_some_and(is_inside);
+    if is_fine(&model.dag, part) {
         return None;
     }
     // The source's grouping may hide it: p*(p + 1) - p.
-    let Some(terms) = expand(&mut model.dag, part).filter(|terms| !terms.is_empty()) else {
-        return Some(part);
+    let terms = match expand(&mut model.dag, part) {
+        Some(terms) if terms.is_empty() => return Some(Outside::Term(part)),
+        Some(terms) => terms,
+        None => {
+            // Terms that are of the kind as they stand count towards no limit.
+            let mut left = part;
+            if let Kind::Sum(_, terms) = model.dag.kind(part).clone() {
+                let others = terms
+                    .into_iter()
+                    .filter(|(_, term)| !is_fine(&model.dag, *term));
+                let others: Vec<(Rational, Node)> = others.collect();
+                left = model.dag.linear(&Rational::ZERO, &others);
+            }
+            match expand(&mut model.dag, left) {
+                Some(terms) => terms,
+                None => return Some(Outside::Long(left)),
+            }
+        }
     };
     let mut nodes = Vec::with_capacity(terms.len());
     for term in &terms {
         nodes.push(term.node(&mut model.dag));
     }
-    nodes.into_iter().find(|node| {
-        model.dag.dependence(*node).on(Dependence::P)
-            && !degrees(&model.dag, *node).is_some_and(is_inside)
-    })
+    let mut others = nodes.into_iter().filter(|node| {
+        model.dag.dependence(*node).on(Dependence::P) && !is_fine(&model.dag, *node)
+    });
+    others.next().map(Outside::Term)
 }
 
 /// The lowest and the highest degree in the momenta of the terms of a polynomial in them; `None` for

@@ -4,7 +4,7 @@
 //! couple stays as it was written; only those that do are multiplied out, and of these only those
 //! that still do are replaced by what relations between functions (sin² + cos² = 1) leave of them.
 
-use super::{Coupling, Split, expand};
+use super::{Coupling, Split, components, expand};
 use crate::dag::{Dag, Dependence, Kind, Map, Node};
 use crate::model::Model;
 use crate::normal_form;
@@ -24,12 +24,13 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
     if model.dag.is_zero(parts.coupling) {
         return Ok(parts.split(true));
     }
-    // Coupling terms may cancel.
+    // Coupling terms may cancel, though not those of different degrees of freedom.
     match resolved(model, parts) {
         Ok(parts) => Ok(parts.split(false)),
-        Err(term) => Err(Coupling {
+        Err((term, limit)) => Err(Coupling {
             term,
             text: print::text(model, term),
+            limit,
         }),
     }
 }
@@ -61,36 +62,72 @@ impl Parts {
     }
 }
 
-/// The parts with what couples multiplied out, and then related, or the first term that couples
-/// all the same.
-fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, Node> {
-    let zero = model.dag.integer(0);
-    let mut found = vec![parts];
-    if let Some(terms) = expand(&mut model.dag, parts.coupling) {
-        found[0].coupling = zero;
-        for term in &terms {
-            // A term may be a sum again inside a loop or an `if`.
-            let term = term.node(&mut model.dag);
-            found.push(apart(model, term));
+/// The parts with what couples resolved, or the first term that couples all the same and the limit that
+/// left it undecided. Each group of terms that have no degree of freedom in common with the others has
+/// limits of its own.
+fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, (Node, Option<String>)> {
+    let terms = match model.dag.kind(parts.coupling).clone() {
+        Kind::Sum(_, terms) => {
+            let terms = terms.iter().map(|(k, term)| model.dag.scale(k, *term));
+            terms.collect()
         }
-    }
-    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).collect();
-    if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
-        let coupling = model.dag.add(&couplings);
-        let (kinetic, potential) = normal_form::separated(model, coupling).ok_or(*first)?;
-        found.push(Parts {
-            kinetic,
-            potential,
-            coupling: zero,
-        });
+        _ => vec![parts.coupling],
+    };
+    let mut found = vec![Parts {
+        coupling: model.dag.integer(0),
+        ..parts
+    }];
+    let groups = components(&model.dag, &terms);
+    if groups.len() < 2 {
+        found.extend(resolved_group(model, parts.coupling)?);
+    } else {
+        for group in groups {
+            let coupling = model.dag.add(&group);
+            found.extend(resolved_group(model, coupling)?);
+        }
     }
     let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).collect();
     let potential: Vec<Node> = found.iter().map(|part| part.potential).collect();
     Ok(Parts {
         kinetic: model.dag.add(&kinetic),
         potential: model.dag.add(&potential),
-        coupling: zero,
+        coupling: model.dag.integer(0),
     })
+}
+
+/// A coupling multiplied out, and what still couples related: parts that add up to it.
+fn resolved_group(model: &mut Model, coupling: Node) -> Result<Vec<Parts>, (Node, Option<String>)> {
+    let zero = model.dag.integer(0);
+    let mut found = Vec::new();
+    match expand(&mut model.dag, coupling) {
+        Some(terms) => {
+            for term in &terms {
+                // A term may be a sum again inside a loop or an `if`.
+                let term = term.node(&mut model.dag);
+                found.push(apart(model, term));
+            }
+        }
+        None => found.push(Parts {
+            kinetic: zero,
+            potential: zero,
+            coupling,
+        }),
+    }
+    let couplings: Vec<Node> = found.iter().map(|part| part.coupling).collect();
+    if let Some(first) = couplings.iter().find(|node| !model.dag.is_zero(**node)) {
+        let coupling = model.dag.add(&couplings);
+        let (kinetic, potential) =
+            normal_form::separated(model, coupling).map_err(|limit| (*first, limit))?;
+        for part in &mut found {
+            part.coupling = zero;
+        }
+        found.push(Parts {
+            kinetic,
+            potential,
+            coupling: zero,
+        });
+    }
+    Ok(found)
 }
 
 /// The parts of a node by its own sums, each as it was written.

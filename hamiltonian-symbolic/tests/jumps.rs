@@ -223,3 +223,19 @@ fn points_of_a_shell_have_its_energy() {
         );
     }
 }
+
+/// The limit of expressions that are tried is named where it is reached.
+#[test]
+fn the_limit_of_constants_is_named() {
+    let verdict = |count: usize| {
+        let steps: Vec<String> = (1..=count).map(|k| format!("sign(p - {k})*{k}")).collect();
+        let mut m = system("q; p", "", "", "p^2/2");
+        let claim = parse(&mut m, &steps.join(" + "));
+        is_invariant(&m, claim, None)
+    };
+    assert_eq!(verdict(64), Verdict::Proven);
+    match verdict(65) {
+        Verdict::Jumps { why, .. } => assert!(why.ends_with("only 64 are tried"), "{why}"),
+        found => panic!("{found:?}"),
+    }
+}

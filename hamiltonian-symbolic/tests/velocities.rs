@@ -96,3 +96,21 @@ fn the_double_pendulum_without_gravity_keeps_its_momentum() {
         &["(m + n)*k^2*u + n*l^2*v"],
     );
 }
+
+/// The limit of velocities is named where it leaves a claim undecided, and not below it.
+#[test]
+fn the_limit_of_velocities_is_named() {
+    let why = |count: usize| {
+        let list = |letter: char| (1..=count).map(move |k| format!("{letter}{k}"));
+        let [q, v] = ['q', 'v'].map(|letter| list(letter).collect::<Vec<_>>().join(", "));
+        let squares: Vec<String> = list('v').map(|v| format!("{v}^2/2")).collect();
+        let l = format!("{} - (1 + q1)^1000", squares.join(" + "));
+        let (mut model, legendre) = lagrangian(&format!("{q}; {v}"), "", &l);
+        match verdict(&mut model, &legendre, "v1^2/2 + (1 + 2*q1 + q1^2)^500") {
+            Verdict::Undecided { why, .. } => why,
+            found => panic!("{found:?}"),
+        }
+    };
+    assert!(!why(6).contains("velocities"));
+    assert!(why(7).ends_with("; a proof in velocities is tried with at most 6 of them"));
+}

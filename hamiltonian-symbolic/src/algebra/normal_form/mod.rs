@@ -326,7 +326,10 @@ pub(crate) fn separated(model: &mut Model, h: Node) -> Result<(Node, Node), Opti
     let poly = algebra
         .convert(&model.dag, h)
         .and_then(|poly| algebra.canonical(&poly))
-        .map_err(|undecided| Some(undecided.why(SMALL_BUDGET)))?;
+        .map_err(|undecided| match undecided {
+            Undecided::Conditions | Undecided::Zero => None,
+            limit => Some(limit.why(SMALL_BUDGET)),
+        })?;
     let (mut kinetic, mut potential) = (Poly::default(), Poly::default());
     for (monomial, k) in poly.terms() {
         let dependence = algebra.dependence(monomial);

@@ -45,7 +45,11 @@ pub(super) fn find(
         return None;
     }
     let known = given.clone();
-    if !is_on_shell && orbits::learn(&mut model, &claim, &mut given) {
+    let learnt = match is_on_shell {
+        true => orbits::Learnt::default(),
+        false => orbits::learn(&mut model, &claim, &mut given),
+    };
+    if learnt.anything {
         // A condition on a constant of the motion counts at the one value where it switches: orbits
         // stay there.
         let rest = orbits::without_energy(&mut model, expression, h).unwrap_or(expression);
@@ -59,7 +63,11 @@ pub(super) fn find(
             });
         }
     }
-    Some(claim.obstacle(&mut model, &known))
+    let mut obstacle = claim.obstacle(&mut model, &known);
+    if let Some(limit) = learnt.limit() {
+        obstacle.why.push_str(&limit);
+    }
+    Some(obstacle)
 }
 
 /// A statement to prove: an expression is constant along the orbits of H under the model's force.

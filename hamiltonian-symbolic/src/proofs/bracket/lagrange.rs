@@ -24,6 +24,13 @@ pub(super) fn vanishes(model: &Model, legendre: &Legendre, expression: Node) -> 
         .is_some_and(|rate| normal_form::vanishes(&mut dag, rate, Scope::Densely))
 }
 
+/// The limit that forbids the proof in velocities, if that is what does: a clause.
+pub(super) fn limit(legendre: &Legendre) -> Option<String> {
+    let velocities = legendre.masses.iter().map(|mass| mass.elements.len());
+    (velocities.sum::<usize>() > MOST)
+        .then(|| format!("a proof in velocities is tried with at most {MOST} of them"))
+}
+
 /// dI/dt times the determinant of the mass matrix.
 fn derivative(dag: &mut Dag, legendre: &Legendre, expression: Node) -> Option<Node> {
     let masses = || legendre.masses.iter();

@@ -103,11 +103,18 @@ pub fn is_invariant_of_lagrangian(
 ) -> Verdict {
     let has_velocities = model.dag.dependence(in_velocities).on(Dependence::VELOCITY);
     let is_free = model.force.is_empty();
-    let verdict = if is_free && has_velocities && lagrange::vanishes(model, legendre, in_velocities)
-    {
+    let is_of_velocities = is_free && has_velocities;
+    let verdict = if is_of_velocities && lagrange::vanishes(model, legendre, in_velocities) {
         Verdict::Proven
     } else {
-        judge(model, expression, None).0
+        let mut verdict = judge(model, expression, None).0;
+        if let Verdict::Undecided { why, .. } = &mut verdict
+            && is_of_velocities
+            && let Some(limit) = lagrange::limit(legendre)
+        {
+            why.push_str(&format!("; {limit}"));
+        }
+        verdict
     };
     crossed(model, expression, verdict, false)
 }

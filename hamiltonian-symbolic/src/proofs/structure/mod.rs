@@ -50,7 +50,10 @@ impl fmt::Display for Coupling {
         let text = &self.text;
         match &self.limit {
             None => write!(f, "the term `{text}` couples coordinates and momenta"),
-            Some(limit) => write!(f, "nothing shows that the term `{text}` cancels: {limit}"),
+            Some(limit) => write!(
+                f,
+                "nothing shows that the term `{text}` cancels in the sum of the coupling terms: {limit}"
+            ),
         }
     }
 }

@@ -101,7 +101,7 @@ pub struct Row {
 pub static ROWS: &[Row] = &[
     Row {
         name: "quadratic form",
-        pattern: "½zᵀAz + gᵀz with M = JA and M² = λ, M³ = λM or M⁴ = λM²",
+        pattern: "½zᵀAz + gᵀz of at most 4 pairs with M = JA and M² = λ, M³ = λM or M⁴ = λM²",
         domain: "everywhere",
         source: "Cayley–Hamilton: e^{sM} = 1 + sM + c₂M² + c₃M³",
         solve: Solve::Whole(quadratic::solve),
@@ -136,7 +136,7 @@ pub static ROWS: &[Row] = &[
     },
     Row {
         name: "shear",
-        pattern: "G(p − A(q; c); c) with A a polynomial in q",
+        pattern: "G(p − A(q; c); c) with A a polynomial in q of degree 8 at most",
         domain: "everywhere",
         source: "Y. K. Wu, É. Forest, D. S. Robin, Phys. Rev. E 68 (2003) 046502",
         solve: Solve::Bare(shear::solve),

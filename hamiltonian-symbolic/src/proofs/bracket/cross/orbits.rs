@@ -20,13 +20,39 @@ const ENERGY: Parameter = Parameter(u16::MAX);
 /// The most expressions that are looked at.
 const MOST: usize = 64;
 
-/// Adds what is known of the places where a statement may jump; whether there was anything.
-pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool {
+/// What [`learn`] found.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Learnt {
+    /// True if there was anything.
+    pub(super) anything: bool,
+    /// True if there were more expressions than are looked at.
+    is_cut: bool,
+}
+
+impl Learnt {
+    /// The limit, as the end of a sentence.
+    pub(super) fn limit(self) -> Option<String> {
+        self.is_cut.then(|| {
+            format!("; of the expressions that may be constant along orbits only {MOST} are tried")
+        })
+    }
+}
+
+/// Adds what is known of the places where a statement may jump.
+pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Learnt {
     let mut tried: Map<Node, ()> = Map::default();
     let below = model.dag.reachable(&[claim.expression]);
-    let mut has_learnt =
-        below.binary_search(&claim.h).is_ok() && is_constant(model, claim, claim.h, given);
-    if has_learnt {
+    let mut learnt = Learnt::default();
+    // Each expression is tried once, up to the limit.
+    let mut is_new = |node: Node, is_cut: &mut bool| {
+        if tried.contains_key(&node) {
+            return false;
+        }
+        *is_cut |= tried.len() == MOST;
+        tried.len() < MOST && tried.insert(node, ()).is_none()
+    };
+    if below.binary_search(&claim.h).is_ok() && is_constant(model, claim, claim.h, given) {
+        learnt.anything = true;
         given.constant.insert(claim.h, ());
     }
     // What is constant uncovers other places, those of functions of it.
@@ -35,10 +61,7 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool
         let mut found = false;
         for locus in &facts.loci {
             for node in [locus.x, locus.y] {
-                if facts.get(node).is_still
-                    || tried.len() == MOST
-                    || tried.insert(node, ()).is_some()
-                {
+                if facts.get(node).is_still || !is_new(node, &mut learnt.is_cut) {
                     continue;
                 }
                 if is_constant(model, claim, node, given) {
@@ -53,7 +76,7 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool
         for condition in model.dag.reachable(&[claim.expression]) {
             if let Kind::Compare(_, a, b) = *model.dag.kind(condition) {
                 let is_still = facts.get(condition).is_still;
-                if is_still || tried.len() == MOST || tried.insert(condition, ()).is_some() {
+                if is_still || !is_new(condition, &mut learnt.is_cut) {
                     continue;
                 }
                 // An orbit stays on one side of a = b.
@@ -64,9 +87,9 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> bool
                 }
             }
         }
-        has_learnt |= found;
+        learnt.anything |= found;
         if !found {
-            return has_learnt;
+            return learnt;
         }
     }
 }

@@ -3,8 +3,8 @@
 
 Input: the assembly of a bench, made here by cargo. Output: for each level's entry, how many lane
 loops it has; the exit status says whether one of them calls anything. A lane loop is an innermost
-loop with packed arithmetic. The cold functions that recompute rare arguments lane by lane
-(`replace…`) are allowed: they are reached by a branch that is not taken.
+loop with packed arithmetic. The cold functions for rare arguments (`rare…`, `replace…`) are allowed:
+they are reached by a branch that is not taken. Those of a level (`rare…`) call nothing themselves.
 
     python3 scripts/lane_calls.py [BENCH …]        (by default: ensemble functions stages)
 
@@ -23,7 +23,9 @@ PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
 # Levels that every x86-64 has.
 LEAST = {"Portable", "Sse2"}
 # Rare arguments, and functions that enter the level themselves.
-COLD = re.compile(r"replace|11out_of_line5entry|(?:5enter|8enter_at)5entry")
+COLD = re.compile(r"replace|4rare5entry|11out_of_line5entry|(?:5enter|8enter_at)5entry")
+# The functions of a level for rare arguments.
+RARE = re.compile(r"Register.*4rare5entry")
 # Parts of steps, and their closures.
 STEP = re.compile(r"\d(body|run|map|scale|solve|newton|linearise|eliminate|hessian_vector|gradient_[qp])(17h|28_\$u7b)")
 # An instruction of a level as a function.
@@ -149,6 +151,17 @@ def outside(text):
     return sorted(found)
 
 
+def calls_of_rare(text):
+    """Functions for rare arguments that call something: a part of them lacks the instructions of the level."""
+    found, name = set(), ""
+    for line in text.splitlines():
+        if line.startswith("_"):
+            name = line.rstrip(":")
+        elif RARE.search(name) and re.match(r"\s+call", line) and "replace" not in line:
+            found.add(name)
+    return sorted(found)
+
+
 SAMPLE = """
 _ZN_level..dispatch..Avx2$u20$as$u20$_5enter5entryE:
 \tvxorpd\t%ymm0, %ymm0, %ymm0
@@ -174,12 +187,19 @@ def main():
     name = "_ZN_Collocated4body28_$u7b$$u7b$closure$u7d$$u7d$17h0E"
     assert outside(f"{name}:\n\tcallq\t_ZN4core9core_arch3x863avx13_mm256_mul_pd17h1E\n") == [name]
 
+    rare = "_ZN_Register$GT$4rare5entry17h0E"
+    assert calls_of_rare(f"{rare}:\n\tcallq\tadd\n") == [rare]
+    assert calls_of_rare(f"{name}:\n\tcallq\tadd\n") == []
+
     failed = False
     for bench in sys.argv[1:] or ["ensemble", "functions", "stages"]:
         total, text = 0, assembly(bench)
         for name in outside(text):
             failed = True
             print(f"FAILED {bench}: {name} calls vector instructions")
+        for name in calls_of_rare(text):
+            failed = True
+            print(f"FAILED {bench}: {name} calls something")
         for level, lane_loops, calls in examine(text):
             total += lane_loops
             failed |= bool(calls)

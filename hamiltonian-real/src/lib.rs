@@ -51,5 +51,5 @@ pub mod parts {
     pub use crate::elementary::reduction::reduce;
     pub use crate::lift::words;
     pub use crate::real::series;
-    pub use crate::word::{Bits, Word};
+    pub use crate::word::{Bits, Rare, Word};
 }

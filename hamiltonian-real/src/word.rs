@@ -7,6 +7,7 @@
 
 use core::ops::{BitAnd, BitOr, BitXor};
 
+use crate::elementary::reduction;
 use crate::real::{Mask, Real};
 
 /// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
@@ -23,6 +24,12 @@ pub trait Bits:
     fn shl<const K: u32>(self) -> Self;
     /// Towards lower bits, zeros from above, by `K < 64`.
     fn shr<const K: u32>(self) -> Self;
+}
+
+/// A function at rare arguments, for [`Word::rare`].
+pub trait Rare<const N: usize, const M: usize> {
+    /// The values, in all lanes. To be `#[inline(always)]`.
+    fn of<W: Word>(x: [W; N]) -> [W; M];
 }
 
 /// One `f64` a lane, with its bits. Operators are rounded one by one; [`Real::fma`] is fused where
@@ -60,6 +67,20 @@ pub trait Word: Real {
     fn scaled(self, _k: Self) -> Option<Self> {
         None
     }
+    /// `F::of(x)`, out of line: a function of each level, which the places where rare arguments are met share.
+    #[inline(always)]
+    fn rare<F: Rare<N, M>, const N: usize, const M: usize>(x: [Self; N]) -> [Self; M] {
+        let [values] = Self::rare_of_each::<F, N, M, 1>([x], true);
+        values
+    }
+    /// [`Word::rare`] of each, register by register; without fusing where `fusing` is false.
+    fn rare_of_each<F: Rare<N, M>, const N: usize, const M: usize, const K: usize>(
+        x: [[Self; N]; K],
+        fusing: bool,
+    ) -> [[Self; M]; K];
+    /// The words of [`two_over_pi`](crate::elementary::reduction::two_over_pi) for the exponents of
+    /// numbers with these bits; anything for numbers below 2.
+    fn two_over_pi(bits: Self::Bits) -> [Self; 4];
     /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
     /// To be called where some lane is set, and never inlined (`#[cold]`).
     fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;
@@ -135,6 +156,28 @@ impl Word for f64 {
     fn third(bits: u64) -> u64 {
         // Without the way through a float and back.
         (bits + 1) / 3
+    }
+    #[inline(always)]
+    fn rare_of_each<F: Rare<N, M>, const N: usize, const M: usize, const K: usize>(
+        x: [[f64; N]; K],
+        _fusing: bool,
+    ) -> [[f64; M]; K] {
+        #[cold]
+        #[inline(never)]
+        fn entry<F: Rare<N, M>, const N: usize, const M: usize>(x: [f64; N]) -> [f64; M] {
+            F::of(x)
+        }
+        x.map(entry::<F, N, M>)
+    }
+    #[inline(always)]
+    fn two_over_pi(bits: u64) -> [f64; 4] {
+        let field = bits >> 52;
+        if cfg!(feature = "std") {
+            reduction::TWO_OVER_PI_MODULO_4[field as usize & 1023]
+        } else {
+            // Without the memory of a table.
+            reduction::two_over_pi((field & 2047).max(1024))
+        }
     }
     #[inline(always)]
     fn replace(self, mask: bool, x: Self, f: fn(f64) -> f64) -> Self {

@@ -58,6 +58,23 @@ impl Register for __m256d {
             _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)))
         }
         fn bits(a: __m256d) -> u32 { _mm256_movemask_pd(a) as u32 }
+        fn rows(bits: Self, table: &[[f64; 4]; 1024]) -> [Self; 4] {
+            let bits = Self::store(bits);
+            let mut rows = [Self::splat(0.0); 4];
+            let mut k = 0;
+            while k < 4 {
+                rows[k] = Self::load(&table[bits[k].to_bits() as usize & 1023]);
+                k += 1;
+            }
+            let even = (_mm256_unpacklo_pd(rows[0], rows[1]), _mm256_unpacklo_pd(rows[2], rows[3]));
+            let odd = (_mm256_unpackhi_pd(rows[0], rows[1]), _mm256_unpackhi_pd(rows[2], rows[3]));
+            [
+                _mm256_permute2f128_pd::<0x20>(even.0, even.1),
+                _mm256_permute2f128_pd::<0x20>(odd.0, odd.1),
+                _mm256_permute2f128_pd::<0x31>(even.0, even.1),
+                _mm256_permute2f128_pd::<0x31>(odd.0, odd.1),
+            ]
+        }
     }
 }
 

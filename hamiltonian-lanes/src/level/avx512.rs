@@ -62,5 +62,30 @@ impl Register for __m512d {
         fn either(a: __mmask8, b: __mmask8) -> __mmask8 { a | b }
         fn not(a: __mmask8) -> __mmask8 { !a }
         fn bits(a: __mmask8) -> u32 { u32::from(a) }
+        fn rows(bits: Self, table: &[[f64; 4]; 1024]) -> [Self; 4] {
+            let bits = Self::store(bits);
+            let mut rows = [_mm256_setzero_pd(); 8];
+            let mut k = 0;
+            while k < 8 {
+                rows[k] = _mm256_loadu_pd(table[bits[k].to_bits() as usize & 1023].as_ptr());
+                k += 1;
+            }
+            // Rows k and k + 2, of which the pairs of neighbours lie in order.
+            let mut pairs = [Self::splat(0.0); 4];
+            let mut k = 0;
+            while k < 4 {
+                let first = k + k / 2 * 2;
+                pairs[k] = _mm512_insertf64x4::<1>(_mm512_castpd256_pd512(rows[first]), rows[first + 2]);
+                k += 1;
+            }
+            let even = (_mm512_unpacklo_pd(pairs[0], pairs[1]), _mm512_unpacklo_pd(pairs[2], pairs[3]));
+            let odd = (_mm512_unpackhi_pd(pairs[0], pairs[1]), _mm512_unpackhi_pd(pairs[2], pairs[3]));
+            [
+                _mm512_shuffle_f64x2::<0x88>(even.0, even.1),
+                _mm512_shuffle_f64x2::<0x88>(odd.0, odd.1),
+                _mm512_shuffle_f64x2::<0xdd>(even.0, even.1),
+                _mm512_shuffle_f64x2::<0xdd>(odd.0, odd.1),
+            ]
+        }
     }
 }

@@ -6,6 +6,8 @@
 
 use core::fmt::Debug;
 
+use hamiltonian_real::parts::{Rare, Word};
+
 /// A register of `f64` lanes and the flags of its comparisons.
 pub trait Register: Copy + Send + Sync + 'static {
     /// One flag a lane.
@@ -71,6 +73,33 @@ pub trait Register: Copy + Send + Sync + 'static {
 
     /// `f()` out of line, compiled with the instructions of the register.
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A;
+    /// `F::of` of each, likewise. `F` has no closure, which would be compiled without those instructions.
+    fn rare<F: Rare<N, M>, W: Word, const N: usize, const M: usize, const K: usize>(
+        x: &[[W; N]; K],
+        values: &mut [[W; M]; K],
+    );
+
+    /// The columns of the table's rows that are numbered by the last ten bits of each lane.
+    #[inline(always)]
+    fn rows(bits: Self, table: &[[f64; 4]; 1024]) -> [Self; 4] {
+        let bits = Self::store(bits);
+        let mut columns = [Self::Array::default(); 4];
+        let mut k = 0;
+        while k < Self::LANES as usize {
+            let row = &table[bits.as_ref()[k].to_bits() as usize & 1023];
+            columns[0].as_mut()[k] = row[0];
+            columns[1].as_mut()[k] = row[1];
+            columns[2].as_mut()[k] = row[2];
+            columns[3].as_mut()[k] = row[3];
+            k += 1;
+        }
+        [
+            Self::load(&columns[0]),
+            Self::load(&columns[1]),
+            Self::load(&columns[2]),
+            Self::load(&columns[3]),
+        ]
+    }
 }
 
 /// [`Register::out_of_line`] with these features.
@@ -88,6 +117,34 @@ macro_rules! out_of_line {
             #[allow(unused_unsafe)]
             unsafe {
                 entry(f)
+            }
+        }
+        #[inline(always)]
+        fn rare<F, W, const N: usize, const M: usize, const K: usize>(
+            x: &[[W; N]; K],
+            values: &mut [[W; M]; K],
+        ) where
+            F: hamiltonian_real::parts::Rare<N, M>,
+            W: hamiltonian_real::parts::Word,
+        {
+            $(#[target_feature(enable = $features)])?
+            #[cold]
+            #[inline(never)]
+            fn entry<F, W, const N: usize, const M: usize, const K: usize>(
+                x: &[[W; N]; K],
+                values: &mut [[W; M]; K],
+            ) where
+                F: hamiltonian_real::parts::Rare<N, M>,
+                W: hamiltonian_real::parts::Word,
+            {
+                for (x, values) in x.iter().zip(values) {
+                    *values = F::of(*x);
+                }
+            }
+            // SAFETY: as in `out_of_line`.
+            #[allow(unused_unsafe)]
+            unsafe {
+                entry::<F, W, N, M, K>(x, values)
             }
         }
     };

@@ -57,7 +57,6 @@ fn is_rare_in_lanes(name: &str, x: f64, y: f64) -> bool {
     let ((size, large), small) = ((x.abs(), x.abs().max(y)), x.abs().min(y));
     let apart = |limit: i32| large > 2_f64.powi(limit) || large < 2_f64.powi(-limit);
     match name {
-        "sin" | "cos" | "tan" => size > 2_f64.powi(20),
         "asinh" | "acosh" => size > 2_f64.powi(100),
         "atan2" => apart(381) || small < large / 2_f64.powi(381),
         _ => false,

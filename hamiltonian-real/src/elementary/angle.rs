@@ -2,8 +2,8 @@
 //!
 //! Input: any double. Output: the function's value. Invariant: angles up to 2²⁰ are reduced
 //! modulo π/2 in line, with the head of π/2 by parts whose products are exact, so that what is
-//! left has a second word however near to a multiple of π/2 the angle lies; larger ones go, lane
-//! by lane, through [`reduction`] (Payne and Hanek). The sign bit is
+//! left has a second word however near to a multiple of π/2 the angle lies. A pack with a larger one
+//! is computed out of line, in lanes too, with [`reduction`] (Payne and Hanek). The sign bit is
 //! taken off first and put back last, so that odd functions are odd to the bit. Tiny angles are
 //! computed as 0, and stand where they are their own sine. Sine and cosine of fused lanes need
 //! neither: every operation rounds alike on both sides of 0, and squares of tiny angles become 0.
@@ -14,7 +14,7 @@ use super::pairs::{
 };
 use super::reduction;
 use crate::real::Mask;
-use crate::word::{Bits, Word};
+use crate::word::{Bits, Rare, Word};
 
 /// Added to a square and taken off again; the squares that are lost in it change no sum.
 const LOST: f64 = 1.0 / (1u128 << 100) as f64 / (1u128 << 100) as f64;
@@ -49,6 +49,31 @@ fn reduce_one<W: Word>(angle: W) -> Option<(W::Bits, W, W)> {
 #[inline(always)]
 fn one_is_tiny<W: Word>(angle: W) -> bool {
     angle.le(W::splat(0.78)).all() && is_tiny(angle).all()
+}
+
+/// [`reduce`] of angles of any size.
+#[inline(always)]
+fn reduce_any<W: Word>(angle: W) -> (W::Bits, W, W) {
+    let large = reduction::reduce_large(angle);
+    if W::LANES == 1 {
+        // Smaller ones are not met here.
+        return large;
+    }
+    let usual = angle.le(W::splat(LARGE));
+    if usual.any() {
+        return chosen(usual, reduce(angle), large);
+    }
+    large
+}
+
+/// The one reduced angle where the mask is set, the other elsewhere.
+#[inline(always)]
+fn chosen<W: Word>(mask: W::Mask, one: (W::Bits, W, W), other: (W::Bits, W, W)) -> (W::Bits, W, W) {
+    (
+        W::select(mask, W::from_bits(one.0), W::from_bits(other.0)).bits(),
+        W::select(mask, one.1, other.1),
+        W::select(mask, one.2, other.2),
+    )
 }
 
 /// `(r, tail)` with `angle = n·π/2 + r + tail`.
@@ -203,6 +228,20 @@ impl<W: Word> Turned<W> {
         }
     }
 
+    /// [`Turned::of`] angles of any size.
+    #[inline(always)]
+    fn of_any(angle: W, quadrants: f64) -> Self {
+        let (n, r, tail) = reduction::reduce_large(angle);
+        let bits = n.plus(W::Bits::splat(quadrants as u64 + 1));
+        let usual = angle.abs().le(W::splat(LARGE));
+        if !usual.any() {
+            return Turned { bits, r, tail };
+        }
+        let other = Turned::of(angle, quadrants);
+        let (bits, r, tail) = chosen(usual, (other.bits, other.r, other.tail), (bits, r, tail));
+        Turned { bits, r, tail }
+    }
+
     /// `(z, minus, cut)`: z = r², and z/2 − 1 = minus + cut.
     #[inline(always)]
     fn square(&self) -> (W, W, W) {
@@ -251,91 +290,147 @@ impl<W: Word> Turned<W> {
     }
 }
 
+/// True if an angle of a pack is beyond [`LARGE`], or no number.
+#[inline(always)]
+fn is_any_large<W: Word>(x: W) -> bool {
+    !x.abs().le(W::splat(LARGE)).all()
+}
+
 /// Sine.
 #[inline(always)]
 pub fn sin<W: Word>(x: W) -> W {
-    if W::FUSED {
-        let y = Turned::of(x, 0.0).sine();
-        return y.or_rare(x.abs().le(W::splat(LARGE)), x, sin_of_large);
-    }
-    let angle = x.abs();
-    if W::LANES == 1 {
+    if W::LANES == 1 && !W::FUSED {
+        let angle = x.abs();
         if one_is_tiny(angle) {
             return x;
         }
-        return match reduce_one(angle) {
-            Some((n, r, tail)) => sine_in(n, r, tail, sign_bit(x)),
-            None => x.replace(W::Mask::splat(true), x, sin_of_large),
-        };
+        if let Some((n, r, tail)) = reduce_one(angle) {
+            return sine_in(n, r, tail, sign_bit(x));
+        }
+        return W::rare::<Sine, 1, 1>([x])[0];
     }
+    if is_any_large(x) {
+        return W::rare::<Sine, 1, 1>([x])[0];
+    }
+    if W::FUSED {
+        return Turned::of(x, 0.0).sine();
+    }
+    let angle = x.abs();
     let tiny = is_tiny(angle);
     let (n, r, tail) = reduce(unless(tiny, angle));
-    let y = W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)));
-    // Last: a mask held from the beginning costs an eighth.
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, sin_of_large);
+    W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)))
+}
+
+struct Sine;
+
+impl Rare<1, 1> for Sine {
+    #[inline(always)]
+    fn of<W: Word>([x]: [W; 1]) -> [W; 1] {
+        if W::FUSED {
+            return [Turned::of_any(x, 0.0).sine()];
+        }
+        let angle = x.abs();
+        let tiny = is_tiny(angle);
+        let (n, r, tail) = reduce_any(unless(tiny, angle));
+        [W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)))]
     }
-    y
 }
 
 /// Cosine.
 #[inline(always)]
 pub fn cos<W: Word>(x: W) -> W {
-    if W::FUSED {
-        let y = Turned::of(x, 1.0).sine();
-        return y.or_rare(x.abs().le(W::splat(LARGE)), x, cos_of_large);
-    }
-    let angle = x.abs();
-    if W::LANES == 1 {
+    if W::LANES == 1 && !W::FUSED {
+        let angle = x.abs();
         if one_is_tiny(angle) {
             return W::one();
         }
-        return match reduce_one(angle) {
-            Some((n, r, tail)) => sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0)),
-            None => x.replace(W::Mask::splat(true), x, cos_of_large),
-        };
+        if let Some((n, r, tail)) = reduce_one(angle) {
+            return sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0));
+        }
+        return W::rare::<Cosine, 1, 1>([x])[0];
     }
-    let tiny = is_tiny(angle);
-    let (n, r, tail) = reduce(unless(tiny, angle));
-    let next = n.plus(W::Bits::splat(1));
-    let y = sine_in(next, r, tail, W::Bits::splat(0));
-    // Last: a mask held from the beginning costs an eighth.
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, cos_of_large);
+    if is_any_large(x) {
+        return W::rare::<Cosine, 1, 1>([x])[0];
     }
-    y
+    if W::FUSED {
+        return Turned::of(x, 1.0).sine();
+    }
+    let angle = x.abs();
+    let (n, r, tail) = reduce(unless(is_tiny(angle), angle));
+    sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0))
+}
+
+struct Cosine;
+
+impl Rare<1, 1> for Cosine {
+    #[inline(always)]
+    fn of<W: Word>([x]: [W; 1]) -> [W; 1] {
+        if W::FUSED {
+            return [Turned::of_any(x, 1.0).sine()];
+        }
+        let angle = x.abs();
+        let (n, r, tail) = reduce_any(unless(is_tiny(angle), angle));
+        let next = n.plus(W::Bits::splat(1));
+        [sine_in(next, r, tail, W::Bits::splat(0))]
+    }
 }
 
 /// Sine and cosine.
 #[inline(always)]
 pub fn sin_cos<W: Word>(x: W) -> (W, W) {
     let angle = x.abs();
-    let (sine, cosine) = if W::FUSED {
-        Turned::of(x, 0.0).both()
-    } else {
-        if W::LANES == 1 {
-            if one_is_tiny(angle) {
-                return (x, W::one());
-            }
-            if let Some((n, r, tail)) = reduce_one(angle) {
-                return turn(n, r, tail, sign_bit(x));
-            }
+    if W::LANES == 1 && !W::FUSED {
+        if one_is_tiny(angle) {
+            return (x, W::one());
         }
-        let tiny = is_tiny(angle);
-        let (n, r, tail) = reduce(unless(tiny, angle));
-        let (sine, cosine) = turn(n, r, tail, sign_bit(x));
-        (W::select(tiny, x, sine), cosine)
-    };
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
-        return (
-            sine.replace(rare, x, sin_of_large),
-            cosine.replace(rare, x, cos_of_large),
-        );
+        let (n, r, tail) = match reduce_one(angle) {
+            Some(reduced) => reduced,
+            None => {
+                let [n, r, tail] = W::rare::<Reduced, 1, 3>([angle]);
+                (n.bits(), r, tail)
+            }
+        };
+        return turn(n, r, tail, sign_bit(x));
     }
-    (sine, cosine)
+    if is_any_large(x) {
+        let [sine, cosine] = W::rare::<SineAndCosine, 1, 2>([x]);
+        return (sine, cosine);
+    }
+    if W::FUSED {
+        return Turned::of(x, 0.0).both();
+    }
+    let tiny = is_tiny(angle);
+    let (n, r, tail) = reduce(unless(tiny, angle));
+    let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+    (W::select(tiny, x, sine), cosine)
+}
+
+struct SineAndCosine;
+
+impl Rare<1, 2> for SineAndCosine {
+    #[inline(always)]
+    fn of<W: Word>([x]: [W; 1]) -> [W; 2] {
+        if W::FUSED {
+            let (sine, cosine) = Turned::of_any(x, 0.0).both();
+            return [sine, cosine];
+        }
+        let angle = x.abs();
+        let tiny = is_tiny(angle);
+        let (n, r, tail) = reduce_any(unless(tiny, angle));
+        let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+        [W::select(tiny, x, sine), cosine]
+    }
+}
+
+/// A large angle as [`reduce`] has it, the quadrant as the bits of a number.
+struct Reduced;
+
+impl Rare<1, 3> for Reduced {
+    #[inline(always)]
+    fn of<W: Word>([angle]: [W; 1]) -> [W; 3] {
+        let (n, r, tail) = reduction::reduce_large(angle);
+        [W::from_bits(n), r, tail]
+    }
 }
 
 /// Tangent.
@@ -346,48 +441,26 @@ pub fn tan<W: Word>(x: W) -> W {
         if one_is_tiny(angle) {
             return x;
         }
-        return match reduce_one(angle) {
-            Some((n, r, tail)) => slope(n, r, tail, sign_bit(x)),
-            None => x.replace(W::Mask::splat(true), x, tan_of_large),
-        };
+        if let Some((n, r, tail)) = reduce_one(angle) {
+            return slope(n, r, tail, sign_bit(x));
+        }
+    }
+    if W::LANES == 1 || is_any_large(x) {
+        return W::rare::<Tangent, 1, 1>([x])[0];
     }
     let tiny = is_tiny(angle);
     let (n, r, tail) = reduce(unless(tiny, angle));
-    let y = W::select(tiny, x, slope(n, r, tail, sign_bit(x)));
-    let rare = !angle.le(W::splat(LARGE));
-    if rare.any() {
-        return y.replace(rare, x, tan_of_large);
+    W::select(tiny, x, slope(n, r, tail, sign_bit(x)))
+}
+
+struct Tangent;
+
+impl Rare<1, 1> for Tangent {
+    #[inline(always)]
+    fn of<W: Word>([x]: [W; 1]) -> [W; 1] {
+        let angle = x.abs();
+        let tiny = is_tiny(angle);
+        let (n, r, tail) = reduce_any(unless(tiny, angle));
+        [W::select(tiny, x, slope(n, r, tail, sign_bit(x)))]
     }
-    y
-}
-
-/// [`reduce`] for every angle beyond [`LARGE`]; NaN where it is not finite.
-fn reduce_large(angle: f64) -> (u64, f64, f64) {
-    if angle.is_finite() {
-        let (n, (r, tail)) = reduction::reduce_large(angle);
-        (n, r, tail)
-    } else {
-        (0, f64::NAN, f64::NAN)
-    }
-}
-
-#[cold]
-#[inline(never)]
-fn sin_of_large(x: f64) -> f64 {
-    let (n, r, tail) = reduce_large(x.abs());
-    sine_in(n, r, tail, sign_bit(x))
-}
-
-#[cold]
-#[inline(never)]
-fn cos_of_large(x: f64) -> f64 {
-    let (n, r, tail) = reduce_large(x.abs());
-    sine_in(n + 1, r, tail, 0)
-}
-
-#[cold]
-#[inline(never)]
-fn tan_of_large(x: f64) -> f64 {
-    let (n, r, tail) = reduce_large(x.abs());
-    slope(n, r, tail, sign_bit(x))
 }

@@ -2,8 +2,9 @@
 //!
 //! Input: a [`Word`](crate::word::Word), that is `f64` or a pack of them. Output: the function's
 //! value. Invariant: nothing but the operations of `Word` is used, which IEEE 754 defines to the
-//! last bit; no table is looked up; arguments that need more than the common path (large angles,
-//! subnormals, ends of the range) are recomputed lane by lane by cold functions of one `f64`.
+//! last bit, and a table of 2/π for large angles. Arguments that need more than the common path are
+//! computed by cold functions: large angles in lanes ([`Rare`](crate::word::Rare)), subnormals and ends of
+//! the range lane by lane.
 //! `f32` rounds the values of `f64`.
 
 pub mod angle;

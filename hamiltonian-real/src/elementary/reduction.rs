@@ -11,7 +11,9 @@
 //! costs nothing.
 
 use super::coefficients::{HALF_PI_HIGH, HALF_PI_LOW};
-use super::exact::{fast_two_sum, power_of_two, two_product, two_sum};
+use super::exact::{self, power_of_two};
+use super::pairs::{ROUNDER, fast_two_sum, two_product};
+use crate::word::{Bits, Word};
 
 /// 64 bits before the point and 1536 bits of 2/π, the most significant first.
 #[rustfmt::skip]
@@ -53,34 +55,113 @@ pub fn reduce(high: f64, low: f64) -> (u64, (f64, f64)) {
     (quadrant, times_half_pi(to_pair(&turns), negative))
 }
 
-/// [`reduce`] for finite angles of one word from 2²⁰ on, with a relative error of about 2⁻⁶⁴: three
-/// words of the fixed-point number do, and nothing loops.
-pub(super) fn reduce_large(angle: f64) -> (u64, (f64, f64)) {
-    let (significand, scale) = parts(angle);
+/// [`reduce`] for finite angles of one word from 2²⁰ on, of either sign, with a relative error of about 2⁻⁶⁴; NaN
+/// where they are not finite, anything below 2²⁰. Every operation rounds alike on both sides of 0.
+///
+/// The angle is a whole number of 53 bits times a power of two, whose product with 2/π, modulo 4, is a sum of
+/// four words ([`two_over_pi`]). The first product is exact; so is its remainder modulo 8, to which the
+/// others add.
+#[inline(always)]
+pub(super) fn reduce_large<W: Word>(angle: W) -> (W::Bits, W, W) {
+    let bits = angle.bits();
+    let [first, second, third, fourth] = W::two_over_pi(bits);
+    // Sign and significand are kept, and the exponent is that of 2⁵².
+    let kept = W::Bits::splat(1 << 63 | ((1 << 52) - 1));
+    let whole = W::from_bits((bits & kept) | W::Bits::splat(TWO_TO_52.to_bits()));
+    // Up to 2⁵⁴, and a multiple of 2⁻⁵⁰: so is the remainder, up to 5.
+    let start = if W::FUSED {
+        let eights = whole.fma(first, W::splat(EIGHTS)) - W::splat(EIGHTS);
+        whole.fma(first, -eights)
+    } else {
+        let (product, cut) = exact_product(whole, first);
+        let eights = (product + W::splat(EIGHTS)) - W::splat(EIGHTS);
+        (product - eights) + cut
+    };
+    // Up to 4, to multiples of 2⁻¹⁰⁰.
+    let (more, more_cut) = exact_product(whole, second);
+    let shifted = (start + more) + W::splat(ROUNDER);
+    // A multiple of 2⁻⁵⁰, which is the last place of the other addend or above it.
+    let start = start - (shifted - W::splat(ROUNDER));
+    let (high, high_cut) = fast_two_sum(start, more);
+    // Up to 2⁻⁴⁸.
+    let (less, less_cut) = exact_product(whole, third);
+    let (low, low_cut) = fast_two_sum(more_cut, less);
+    let least = low_cut + whole.fma(fourth, less_cut);
+    // Multiples of 2⁻¹⁰⁰ and below 2⁻⁴⁷.
+    let (turns, turns_cut) = fast_two_sum(high, low);
+    let tail = turns_cut + (high_cut + least);
+    // Quadrants to an angle.
+    let (product, cut) = two_product(turns, W::splat(HALF_PI_HIGH));
+    let cross = turns.fma(W::splat(HALF_PI_LOW), tail * W::splat(HALF_PI_HIGH));
+    let (r, tail) = fast_two_sum(product, cut + cross);
+    (shifted.bits(), r, tail)
+}
+
+const TWO_TO_52: f64 = (1u64 << 52) as f64;
+
+/// Added to a number up to 2⁵⁴ and taken off again it rounds it to a multiple of 8.
+const EIGHTS: f64 = 1.5 * (1u64 << 55) as f64;
+
+/// `a·b = p + e` exactly, for words of whole numbers below 2⁵³ and up to 2⁵², times powers of two, and to a unit
+/// in the last place of `e` where both reach 2⁵³.
+#[inline(always)]
+fn exact_product<W: Word>(a: W, b: W) -> (W, W) {
+    let p = a * b;
+    if W::FUSED {
+        return (p, a.fma(b, -p));
+    }
+    // T. J. Dekker's order of the terms, in which every sum is exact.
+    let (a1, b1) = (a.cut::<27>(), b.cut::<27>());
+    let (a2, b2) = (a - a1, b - b1);
+    (p, (((a1 * b1 - p) + a1 * b2) + a2 * b1) + a2 * b2)
+}
+
+/// `2^(field − 1075)·2/π` modulo 4, for the exponent field of an angle from 2 on: a sum of words up to 2,
+/// 2⁻⁵¹, 2⁻¹⁰¹ and 2⁻¹⁵⁴. They are multiples of 2⁻⁵⁰, 2⁻¹⁰⁰, 2⁻¹⁵³ and 2⁻¹⁹⁰. NaN for the field of infinity.
+pub const fn two_over_pi(field: u64) -> [f64; 4] {
+    if field == 2047 {
+        return [f64::NAN; 4];
+    }
     // The bit worth 2 comes first.
-    let start = (scale + 62) as usize;
-    let product = |words: usize| u128::from(significand) * u128::from(window(start + 64 * words));
-    let low = product(1) + (product(2) >> 64);
-    let top = (product(0) as u64).wrapping_add((low >> 64) as u64);
-    // Half a turn of a quadrant is added, so that cutting off the fraction rounds to nearest.
-    let top = top.wrapping_add(1 << 61);
-    let rest = (u128::from(top << 2 >> 2) << 64 | u128::from(low as u64)) as i128 - (1 << 125);
-    // 53 bits from the leading one on, and the 53 that follow.
-    let size = rest.unsigned_abs();
-    let zeros = size.leading_zeros();
-    let size = size << zeros;
-    let unit = power_of_two(-51 - zeros as i32);
-    let high = (size >> 75) as u64 as f64 * unit;
-    let low = (size << 53 >> 75) as u64 as f64 * (unit * power_of_two(-53));
-    (top >> 62, times_half_pi(fast_two_sum(high, low), rest < 0))
+    let start = field as usize + 62 - 1075;
+    let (a, b, c) = (window(start), window(start + 64), window(start + 128));
+    // Each word is rounded to nearest: what is left has a sign.
+    let first = a.wrapping_add(1 << 11) as i64 >> 12;
+    let rest = (a << 52) as i64 >> 52;
+    let second = (rest << 38) + (b >> 26) as i64 + (b >> 25 & 1) as i64;
+    let rest = (b << 38) as i64 >> 38;
+    let third = (rest << 27) + (c >> 37) as i64 + (c >> 36 & 1) as i64;
+    let rest = (c << 27) as i64 >> 27;
+    [
+        first as f64 * two_to(-50),
+        second as f64 * two_to(-100),
+        third as f64 * two_to(-153),
+        rest as f64 * two_to(-190),
+    ]
+}
+
+/// [`two_over_pi`] of the fields from 1024 on: 32 kB, which only packs refer to.
+pub static TWO_OVER_PI_MODULO_4: [[f64; 4]; 1024] = {
+    let mut rows = [[0.0; 4]; 1024];
+    let mut k = 0;
+    while k < 1024 {
+        rows[k] = two_over_pi(k as u64 + 1024);
+        k += 1;
+    }
+    rows
+};
+
+/// `2^k` for −1022 ≤ k ≤ 1023, in constants.
+const fn two_to(k: i64) -> f64 {
+    f64::from_bits(((1023 + k) as u64) << 52)
 }
 
 /// `pair·π/2`, negated on demand.
 #[inline(always)]
 fn times_half_pi((high, low): (f64, f64), negative: bool) -> (f64, f64) {
-    let (product, error) = two_product(high, HALF_PI_HIGH);
+    let (product, error) = exact::two_product(high, HALF_PI_HIGH);
     let cross = high * HALF_PI_LOW + low * HALF_PI_HIGH;
-    let (high, low) = fast_two_sum(product, error + cross);
+    let (high, low) = exact::fast_two_sum(product, error + cross);
     if negative { (-high, -low) } else { (high, low) }
 }
 
@@ -126,7 +207,7 @@ fn add_turns(turns: &mut [u64; WORDS], word: f64) {
 
 /// 64 bits of 2/π from the bit `start − 64` after the point.
 #[inline(always)]
-fn window(start: usize) -> u64 {
+const fn window(start: usize) -> u64 {
     let (word, bit) = (start / 64, start % 64);
     let next = if bit == 0 {
         0
@@ -167,8 +248,8 @@ fn to_pair(fraction: &[u64; WORDS]) -> (f64, f64) {
     for i in (leading.saturating_sub(2)..=leading).rev() {
         let unit = power_of_two(64 * i as i32 - FRACTION as i32);
         for half in [fraction[i] >> 32 << 32, fraction[i] & 0xffff_ffff] {
-            let (sum, error) = two_sum(high, half as f64 * unit);
-            (high, low) = fast_two_sum(sum, low + error);
+            let (sum, error) = exact::two_sum(high, half as f64 * unit);
+            (high, low) = exact::fast_two_sum(sum, low + error);
         }
     }
     (high, low)

@@ -106,11 +106,9 @@ pub trait Lift<P> {
 /// # Cost of rare arguments
 /// No normal argument with a normal value meets a subnormal number on its way, which on many CPUs
 /// takes a hundred times as long. Where a value is not finite, or below 64 times the smallest normal
-/// number, terms may be subnormal. Angles beyond 2²⁰ take four to five times as long as others,
-/// for `sin_cos` eight times.
+/// number, terms may be subnormal. Angles beyond 2²⁰ take up to four times as long as others.
 ///
-/// A pack computes these arguments lane by lane, for as long as each takes alone: angles beyond
-/// 2²⁰; `atan2` where the larger argument is outside 2⁻³⁸¹ to 2³⁸¹, or they are 2³⁸¹ apart; subnormal
+/// A pack computes these arguments lane by lane, for as long as each takes alone: `atan2` where the larger argument is outside 2⁻³⁸¹ to 2³⁸¹, or they are 2³⁸¹ apart; subnormal
 /// arguments of `ln` and of the base of `pow`; bases below 0; `exp`, `exp_m1`, `sinh` and `cosh` from ±708 on
 /// (but `exp` on AVX-512); results that leave the normal numbers.
 ///

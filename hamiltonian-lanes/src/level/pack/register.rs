@@ -6,10 +6,11 @@
 use core::fmt::{Debug, Formatter, Result};
 use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
-use super::assigning;
+use super::{Nf, assigning};
 use crate::level::register::Register;
 use hamiltonian_real::parts::elementary;
-use hamiltonian_real::parts::{Bits, Word};
+use hamiltonian_real::parts::elementary::reduction::TWO_OVER_PI_MODULO_4;
+use hamiltonian_real::parts::{Bits, Rare, Word};
 use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
 
 /// The numbers of one register.
@@ -317,6 +318,43 @@ impl<R: Register> Word for V<R> {
     #[inline(always)]
     fn scaled(self, k: Self) -> Option<Self> {
         Some(Self(R::scaled(self.0, k.0)?))
+    }
+    #[inline(always)]
+    fn rare_of_each<F: Rare<N, M>, const N: usize, const M: usize, const K: usize>(
+        x: [[Self; N]; K],
+        fusing: bool,
+    ) -> [[Self; M]; K] {
+        let mut values = [[Self::default(); M]; K];
+        // Copies: an argument given by reference is in memory wherever it is used.
+        if fusing || !R::FUSED {
+            let mut copies = [[Self::default(); N]; K];
+            for (copies, x) in copies.iter_mut().zip(&x) {
+                for (copy, x) in copies.iter_mut().zip(x) {
+                    *copy = *x;
+                }
+            }
+            R::rare::<F, Self, N, M, K>(&copies, &mut values);
+            return values;
+        }
+        let mut copies = [[Nf(Self::default()); N]; K];
+        for (copies, x) in copies.iter_mut().zip(&x) {
+            for (copy, x) in copies.iter_mut().zip(x) {
+                *copy = Nf(*x);
+            }
+        }
+        let mut unfused = [[Nf(Self::default()); M]; K];
+        R::rare::<F, Nf<Self>, N, M, K>(&copies, &mut unfused);
+        for (values, unfused) in values.iter_mut().zip(&unfused) {
+            for (value, y) in values.iter_mut().zip(unfused) {
+                *value = y.0;
+            }
+        }
+        values
+    }
+    #[inline(always)]
+    fn two_over_pi(bits: Words<R>) -> [Self; 4] {
+        let [a, b, c, d] = R::rows(R::shr::<52>(bits.0), &TWO_OVER_PI_MODULO_4);
+        [Self(a), Self(b), Self(c), Self(d)]
     }
     #[cold]
     #[inline(never)]

@@ -6,8 +6,8 @@
 use core::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::{Base, assigning};
-use hamiltonian_real::parts::Word;
 use hamiltonian_real::parts::elementary;
+use hamiltonian_real::parts::{Rare, Word};
 use hamiltonian_real::{Lift, Pack, Real, itself_in_lanes};
 
 /// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
@@ -182,6 +182,31 @@ impl<P: Base> Word for Nf<P> {
     #[inline(always)]
     fn scaled(self, k: Self) -> Option<Self> {
         Some(Self(self.0.scaled(k.0)?))
+    }
+    #[inline(always)]
+    fn rare_of_each<F: Rare<N, M>, const N: usize, const M: usize, const K: usize>(
+        x: [[Self; N]; K],
+        _fusing: bool,
+    ) -> [[Self; M]; K] {
+        let mut inner = [[P::default(); N]; K];
+        for (inner, x) in inner.iter_mut().zip(&x) {
+            for (to, x) in inner.iter_mut().zip(x) {
+                *to = x.0;
+            }
+        }
+        let inner = P::rare_of_each::<F, N, M, K>(inner, false);
+        let mut values = [[Self::default(); M]; K];
+        for (values, inner) in values.iter_mut().zip(&inner) {
+            for (value, y) in values.iter_mut().zip(inner) {
+                *value = Self(*y);
+            }
+        }
+        values
+    }
+    #[inline(always)]
+    fn two_over_pi(bits: P::Bits) -> [Self; 4] {
+        let [a, b, c, d] = P::two_over_pi(bits);
+        [Self(a), Self(b), Self(c), Self(d)]
     }
     #[inline(always)]
     fn replace(self, mask: P::Mask, x: Self, f: fn(f64) -> f64) -> Self {

@@ -9,7 +9,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
 use super::{Base, assigning};
 use hamiltonian_real::parts::elementary;
-use hamiltonian_real::parts::{Bits, Word};
+use hamiltonian_real::parts::{Bits, Rare, Word};
 use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
 
 /// `K` packs as one of `K` times as many lanes; pack 0 has the first lanes.
@@ -317,6 +317,40 @@ impl<P: Base, const K: usize> Word for W<P, K> {
     #[inline(always)]
     fn scaled(self, power: Self) -> Option<Self> {
         Some(Self(each!(K, self.0, k => self.0[k].scaled(power.0[k])?)))
+    }
+    #[inline(always)]
+    fn rare_of_each<F: Rare<N, M>, const N: usize, const M: usize, const J: usize>(
+        x: [[Self; N]; J],
+        fusing: bool,
+    ) -> [[Self; M]; J] {
+        let mut values = [[W([P::zero(); K]); M]; J];
+        for (values, x) in values.iter_mut().zip(&x) {
+            let mut packs = [[P::zero(); N]; K];
+            for (k, pack) in packs.iter_mut().enumerate() {
+                for (to, x) in pack.iter_mut().zip(x) {
+                    *to = x.0[k];
+                }
+            }
+            let packs = P::rare_of_each::<F, N, M, K>(packs, fusing);
+            for (k, pack) in packs.iter().enumerate() {
+                for (value, y) in values.iter_mut().zip(pack) {
+                    value.0[k] = *y;
+                }
+            }
+        }
+        values
+    }
+    #[inline(always)]
+    fn two_over_pi(bits: Words<P, K>) -> [Self; 4] {
+        let mut words = [W([P::zero(); K]); 4];
+        let mut k = 0;
+        while k < K {
+            for (to, word) in words.iter_mut().zip(P::two_over_pi(bits.0[k])) {
+                to.0[k] = word;
+            }
+            k += 1;
+        }
+        words
     }
     #[inline(always)]
     fn replace(self, mask: Masks<P, K>, x: Self, f: fn(f64) -> f64) -> Self {

@@ -28,6 +28,7 @@
 
 mod real;
 
+mod two_over_pi;
 mod word;
 
 #[doc(hidden)]
@@ -51,5 +52,7 @@ pub mod parts {
     pub use crate::elementary::reduction::reduce;
     pub use crate::lift::words;
     pub use crate::real::series;
+    #[doc(hidden)]
+    pub use crate::two_over_pi::TWO_OVER_PI_MODULO_4;
     pub use crate::word::{Bits, Rare, Word};
 }

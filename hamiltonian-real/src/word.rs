@@ -7,8 +7,8 @@
 
 use core::ops::{BitAnd, BitOr, BitXor};
 
-use crate::elementary::reduction;
 use crate::real::{Mask, Real};
+use crate::two_over_pi::{TWO_OVER_PI_MODULO_4, two_over_pi};
 
 /// One `u64` a lane. Sums wrap; shifts are logical and by a constant.
 pub trait Bits:
@@ -78,8 +78,8 @@ pub trait Word: Real {
         x: [[Self; N]; K],
         fusing: bool,
     ) -> [[Self; M]; K];
-    /// The words of [`two_over_pi`](crate::elementary::reduction::two_over_pi) for the exponents of
-    /// numbers with these bits; anything for numbers below 2.
+    /// Four words whose sum is 2^(e − 52)·2/π modulo 4, for the exponents e of numbers with these bits; anything for
+    /// numbers below 2.
     fn two_over_pi(bits: Self::Bits) -> [Self; 4];
     /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
     /// To be called where some lane is set, and never inlined (`#[cold]`).
@@ -173,10 +173,10 @@ impl Word for f64 {
     fn two_over_pi(bits: u64) -> [f64; 4] {
         let field = bits >> 52;
         if cfg!(feature = "std") {
-            reduction::TWO_OVER_PI_MODULO_4[field as usize & 1023]
+            TWO_OVER_PI_MODULO_4[field as usize & 1023]
         } else {
             // Without the memory of a table.
-            reduction::two_over_pi((field & 2047).max(1024))
+            two_over_pi((field & 2047).max(1024))
         }
     }
     #[inline(always)]

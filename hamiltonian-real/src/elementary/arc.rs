@@ -10,7 +10,7 @@ use super::pairs::{
     fast_two_sum, flip, is_tiny, polynomial, quotient, sign_bit, square_root, unless,
 };
 use crate::real::{Mask, Real};
-use crate::word::Word;
+use crate::word::{Bits, Rare, Word};
 
 /// The angle of the point (`x`, `y`) in [0, π], for 0 ≤ `x`, `y` where one may be 0, mirrored
 /// where `mirror` is set.
@@ -62,60 +62,67 @@ pub fn atan<W: Word>(x: W) -> W {
 /// inverse or be 0: then no error term underflows.
 const PLAIN: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 << 127) as f64;
 
+/// Where the coordinates are as [`PLAIN`] says.
+#[inline(always)]
+fn is_plain<W: Word>(height: W, width: W) -> W::Mask {
+    let small = Real::min(height, width);
+    let large = Real::max(height, width);
+    let least = W::splat(1.0 / PLAIN);
+    // Farther apart the quotient may be subnormal, which two words cannot round once. The product may be infinite.
+    let apart = !large.le(small * W::splat(PLAIN)) & !small.equals(W::zero());
+    large.le(W::splat(PLAIN)) & least.le(large) & !apart
+}
+
 /// The angle of the point (`x`, `y`).
 #[inline(always)]
 pub fn atan2<W: Word>(y: W, x: W) -> W {
     let (height, width) = (y.abs(), x.abs());
-    let small = Real::min(height, width);
-    let large = Real::max(height, width);
-    let least = W::splat(1.0 / PLAIN);
-    // Farther apart the quotient may be subnormal, which two words cannot round once.
-    let apart = !(large * least).le(small) & !small.equals(W::zero());
-    let plain = large.le(W::splat(PLAIN)) & least.le(large) & !apart;
-    if W::LANES == 1 && !plain.all() {
-        return y.replace2(W::Mask::splat(true), y, x, atan2_of_rare);
+    if !is_plain(height, width).all() {
+        return W::rare::<AngleOfPoint, 2, 1>([y, x])[0];
     }
-    let value = flip(angle(height, width, x.lt(W::zero())), sign_bit(y));
-    value.or_rare2(plain, y, x, atan2_of_rare)
+    flip(angle(height, width, x.lt(W::zero())), sign_bit(y))
 }
 
-#[cold]
-#[inline(never)]
-fn atan2_of_rare(y: f64, x: f64) -> f64 {
-    if x.is_nan() || y.is_nan() {
-        return x + y;
-    }
-    let (height, width) = (y.abs(), x.abs());
-    let left = sign_bit(x) != 0;
-    if height == 0.0 && width == 0.0 || height.is_infinite() && width.is_infinite() {
-        let (height, width) = if height == 0.0 {
-            (0.0, 1.0)
-        } else {
-            (1.0, 1.0)
-        };
-        return flip(angle(height, width, left), sign_bit(y));
-    }
-    // 2⁶⁰ and more apart the angle is the quotient, or a multiple of π/2 to the last bit.
-    const APART: f64 = (1u64 << 60) as f64;
-    // By products: a quotient might be subnormal.
-    let apart = |small: f64, large: f64| (small * APART).min(f64::MAX) < large;
-    let value = if apart(width, height) {
-        angle(1.0, 0.0, left)
-    } else if apart(height, width) {
-        if left {
-            angle(0.0, 1.0, true)
-        } else {
-            height / width
+struct AngleOfPoint;
+
+impl Rare<2, 1> for AngleOfPoint {
+    #[inline(always)]
+    fn of<W: Word>([y, x]: [W; 2]) -> [W; 1] {
+        let (zero, one) = (W::zero(), W::one());
+        let (height, width) = (y.abs(), x.abs());
+        let left = W::odd(sign_bit(x).shr::<63>());
+        // Two zeros are as 0 and 1, two infinities as 1 and 1.
+        let infinite = W::splat(f64::INFINITY).le(Real::min(height, width));
+        let nothing = Real::max(height, width).equals(zero);
+        let height = W::select(infinite, one, height);
+        let width = W::select(infinite | nothing, one, width);
+
+        let plain = is_plain(height, width);
+        let (small, large) = (Real::min(height, width), Real::max(height, width));
+        // 2⁶⁰ and more apart the angle is the quotient, or a multiple of π/2 to the last bit. By products: a
+        // quotient might be subnormal.
+        let far = small * W::splat((1u64 << 60) as f64);
+        let apart = Real::min(far, W::splat(f64::MAX)).lt(large) & !plain;
+        let steep = width.lt(height);
+        let scale = W::select(
+            one.lt(large),
+            W::splat(1.0 / PLAIN),
+            W::splat(2.0 * PLAIN * PLAIN),
+        );
+        let scale = W::select(plain, one, scale);
+        let (up, along) = (W::select(steep, one, zero), W::select(steep, zero, one));
+        let mut value = angle(
+            W::select(apart, up, height * scale),
+            W::select(apart, along, width * scale),
+            left,
+        );
+        let itself = apart & !steep & !left;
+        if itself.any() {
+            value = W::select(itself, height / width, value);
         }
-    } else {
-        let scale = if height.max(width) > 1.0 {
-            1.0 / PLAIN
-        } else {
-            2.0 * PLAIN * PLAIN
-        };
-        angle(height * scale, width * scale, left)
-    };
-    flip(value, sign_bit(y))
+        let defined = x.equals(x) & y.equals(y);
+        [W::select(defined, flip(value, sign_bit(y)), x + y)]
+    }
 }
 
 /// `(beyond, s, rest)` of 0 ≤ `x` ≤ 1: asin x = s + rest up to ½; beyond it `s + rest` is the arc

@@ -161,6 +161,21 @@ pub(super) fn exp_any(x: f64, more: f64, shift: i64) -> f64 {
     scale_any(one + rest, power.wrapping_add(shift as u64))
 }
 
+/// [`exp_any`] in lanes, without a shift.
+#[inline(always)]
+pub(super) fn exp_any_in_lanes<W: Word>(x: W, more: W) -> W {
+    // From there on the value is 0 or infinite.
+    let end = W::splat(800.0);
+    let beyond = end.lt(x.abs());
+    let x = W::select(beyond, flip(end, sign_bit(x)), x);
+    let (power, one, rest) = exp_parts(x, unless(beyond, more));
+    // In two halves, the second of which rounds.
+    let k = W::from_bits(power) - W::splat(ROUNDER);
+    let first = k.fma(W::splat(0.5), W::splat(ROUNDER));
+    let second = (k - (first - W::splat(ROUNDER))) + W::splat(ROUNDER);
+    (one + rest) * two_to::<W>(first.bits()) * two_to::<W>(second.bits())
+}
+
 /// The terms of r^(2K) and r^(2K + 1) of (exp r − 1 − r)/r², over the former.
 #[inline(always)]
 fn exp_pair<W: Word, const K: usize>(r: W) -> W {

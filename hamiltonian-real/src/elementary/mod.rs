@@ -3,8 +3,8 @@
 //! Input: a [`Word`](crate::word::Word), that is `f64` or a pack of them. Output: the function's
 //! value. Invariant: nothing but the operations of `Word` is used, which IEEE 754 defines to the
 //! last bit, and a table of 2/π for large angles. Arguments that need more than the common path are
-//! computed by cold functions: large angles in lanes ([`Rare`](crate::word::Rare)), subnormals and ends of
-//! the range lane by lane.
+//! computed by cold functions: large angles, points and powers in lanes ([`Rare`](crate::word::Rare)), others
+//! lane by lane.
 //! `f32` rounds the values of `f64`.
 
 pub mod angle;

@@ -2,17 +2,17 @@
 //!
 //! Input: any doubles. Output: the function's value. Invariant: `x^y = exp(y·ln x)` with the
 //! logarithm and the product of two words; the cube root and the distance correct a first value by
-//! an exact remainder. Bases that are not positive, normal and finite, and results near or beyond
-//! the ends of the range, go lane by lane.
+//! an exact remainder. Powers of bases that are not positive, normal and finite, and results near or beyond
+//! the ends of the range, are computed out of line.
 
 use super::coefficients::*;
-use super::exponential::{exp_any, exp_parts, scale_normal};
+use super::exponential::{exp_any_in_lanes, exp_parts, scale_normal};
 use super::logarithm::ln_pair;
 use super::pairs::{
     fast_two_sum, flip, sign_bit, square_root, times_two_to_52, two_product, two_square, unless,
 };
-use crate::real::Mask;
-use crate::word::{Bits, Word};
+use crate::real::{Mask, Real};
+use crate::word::{Bits, Rare, Word};
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
 
@@ -43,65 +43,64 @@ pub fn pow<W: Word>(x: W, y: W) -> W {
     let value = scale_normal(one + rest, power);
     // Splitting the largest exponents overflows.
     let plain = is_plain(x) & high.abs().le(W::splat(708.0)) & y.abs().le(W::splat(1e300));
-    value.or_rare2(plain, x, y, pow_of_rare)
+    if plain.all() {
+        return value;
+    }
+    W::rare::<Power, 2, 1>([x, y])[0]
 }
 
-/// The special cases of C17, annex F.10.4.4.
-#[cold]
-#[inline(never)]
-fn pow_of_rare(x: f64, y: f64) -> f64 {
-    if y == 0.0 || x == 1.0 {
-        return 1.0;
+struct Power;
+
+impl Rare<2, 1> for Power {
+    /// With the special cases of C17, annex F.10.4.4.
+    #[inline(always)]
+    fn of<W: Word>([x, y]: [W; 2]) -> [W; 1] {
+        let (zero, one) = (W::zero(), W::one());
+        let size = x.abs();
+        let (nothing, infinite) = (size.equals(zero), W::splat(f64::INFINITY).le(size));
+        let ends = nothing | infinite;
+        let defined = x.equals(x) & y.equals(y);
+        // A subnormal number is an integer, which the bits of 2⁵² and it make a number.
+        let subnormal = size.lt(W::splat(f64::MIN_POSITIVE));
+        let integer = W::from_bits(size.bits() | W::Bits::splat(TWO_TO_52.to_bits()));
+        let integer = integer - W::splat(TWO_TO_52);
+        let base = W::select(subnormal, integer * W::splat(f64::MIN_POSITIVE), size);
+        let shift = W::select(subnormal, W::splat(-52.0), zero);
+        let base = W::select(ends | !defined, one, base);
+
+        // Beyond this every power is 0, 1 or infinite.
+        let most = W::splat(1e25);
+        let tiny = y.abs().lt(W::splat(TINY_EXPONENT));
+        let exponent_size = Real::min(y.abs(), most);
+        let bounded = flip(exponent_size, sign_bit(y));
+        let (high, low) = exponent(base, unless(tiny, bounded), shift);
+        let value = exp_any_in_lanes(high, low);
+
+        let (whole, odd) = parity(y);
+        let falling = y.lt(zero);
+        let grows = (nothing & falling) | (infinite & !falling);
+        let end = W::select(grows, W::splat(f64::INFINITY), zero);
+        let value = W::select(ends, end, value);
+        let negative = W::odd(sign_bit(x).shr::<63>());
+        let value = W::select(negative & odd, -value, value);
+        let none = negative & !whole & !ends;
+        let value = W::select(none, W::splat(f64::NAN), value);
+        let value = W::select(defined, value, x + y);
+        [W::select(y.equals(zero) | x.equals(one), one, value)]
     }
-    if x.is_nan() || y.is_nan() {
-        return x + y;
-    }
-    let size = x.abs();
-    if y.is_infinite() {
-        return if size == 1.0 {
-            1.0
-        } else if (size > 1.0) == (y > 0.0) {
-            f64::INFINITY
-        } else {
-            0.0
-        };
-    }
-    let (integer, odd) = parity(y);
-    let negative = sign_bit(x) != 0;
-    let sign = if negative && odd { 1 << 63 } else { 0 };
-    if size == 0.0 || size.is_infinite() {
-        let grows = (size == 0.0) == (y < 0.0);
-        return flip(if grows { f64::INFINITY } else { 0.0 }, sign);
-    }
-    if negative && !integer {
-        return f64::NAN;
-    }
-    // |ln x| is at least half of this.
-    let distance = (size - 1.0).abs().min(0.5);
-    if distance > 0.0 && y.abs() > 2.0 * 800.0 / distance {
-        let grows = (size > 1.0) == (y > 0.0);
-        return flip(if grows { f64::INFINITY } else { 0.0 }, sign);
-    }
-    // −1 alone has a power that is neither 0 nor infinite.
-    let y = y.clamp(-1e25, 1e25);
-    let (high, low) = if size < f64::MIN_POSITIVE {
-        exponent(times_two_to_52(size), y, -52.0)
-    } else {
-        exponent(size, y, 0.0)
-    };
-    flip(exp_any(high, low, 0), sign)
 }
 
-/// Whether a finite number is an integer, and whether an odd one.
-fn parity(y: f64) -> (bool, bool) {
+/// Where a number that is not NaN is an integer or infinite, and where an odd one.
+#[inline(always)]
+fn parity<W: Word>(y: W) -> (W::Mask, W::Mask) {
     let size = y.abs();
-    if size >= TWO_TO_52 {
-        // The last bit is worth 1 below 2⁵³, and 2 or more above.
-        return (true, size < 2.0 * TWO_TO_52 && size.to_bits() & 1 == 1);
-    }
-    let whole = size as u64;
-    let integer = whole as f64 == size;
-    (integer, integer && whole & 1 == 1)
+    let limit = W::splat(TWO_TO_52);
+    let small = size.lt(limit);
+    // The last bit is worth 1 up to 2⁵³, and 2 or more above.
+    let shifted = W::select(small, size, W::zero()) + limit;
+    let whole = !small | (shifted - limit).equals(size);
+    let large = size.lt(limit + limit) & W::odd(size.bits()) & !small;
+    (whole, (small & whole & W::odd(shifted.bits())) | large)
 }
 
 /// A third of the upper bits of `x`, with an offset that makes `x^(−1/3)` to within 3.5 %.

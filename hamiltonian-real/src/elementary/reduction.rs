@@ -13,19 +13,8 @@
 use super::coefficients::{HALF_PI_HIGH, HALF_PI_LOW};
 use super::exact::{self, power_of_two};
 use super::pairs::{ROUNDER, fast_two_sum, two_product};
+use crate::two_over_pi::window;
 use crate::word::{Bits, Word};
-
-/// 64 bits before the point and 1536 bits of 2/π, the most significant first.
-#[rustfmt::skip]
-const TWO_OVER_PI: [u64; 25] = [
-    0,
-    0xa2f9836e4e441529, 0xfc2757d1f534ddc0, 0xdb6295993c439041, 0xfe5163abdebbc561,
-    0xb7246e3a424dd2e0, 0x06492eea09d1921c, 0xfe1deb1cb129a73e, 0xe88235f52ebb4484,
-    0xe99c7026b45f7e41, 0x3991d639835339f4, 0x9c845f8bbdf9283b, 0x1ff897ffde05980f,
-    0xef2f118b5a0a6d1f, 0x6d367ecf27cb09b7, 0x4f463f669e5fea2d, 0x7527bac7ebe5f17b,
-    0x3d0739f78a5292ea, 0x6bfb5fb11f8d5d08, 0x56033046fc7b6bab, 0xf0cfbc209af4361d,
-    0xa9e391615ee61b08, 0x6599855f14a06840, 0x8dffd8804d732731, 0x06061556ca73a8c9,
-];
 
 /// Words of the fixed-point number `x·2/π mod 4`, least significant first.
 const WORDS: usize = 6;
@@ -59,7 +48,7 @@ pub fn reduce(high: f64, low: f64) -> (u64, (f64, f64)) {
 /// where they are not finite, anything below 2²⁰. Every operation rounds alike on both sides of 0.
 ///
 /// The angle is a whole number of 53 bits times a power of two, whose product with 2/π, modulo 4, is a sum of
-/// four words ([`two_over_pi`]). The first product is exact; so is its remainder modulo 8, to which the
+/// four words ([`Word::two_over_pi`]). The first product is exact; so is its remainder modulo 8, to which the
 /// others add.
 #[inline(always)]
 pub(super) fn reduce_large<W: Word>(angle: W) -> (W::Bits, W, W) {
@@ -116,46 +105,6 @@ fn exact_product<W: Word>(a: W, b: W) -> (W, W) {
     (p, (((a1 * b1 - p) + a1 * b2) + a2 * b1) + a2 * b2)
 }
 
-/// `2^(field − 1075)·2/π` modulo 4, for the exponent field of an angle from 2 on: a sum of words up to 2,
-/// 2⁻⁵¹, 2⁻¹⁰¹ and 2⁻¹⁵⁴. They are multiples of 2⁻⁵⁰, 2⁻¹⁰⁰, 2⁻¹⁵³ and 2⁻¹⁹⁰. NaN for the field of infinity.
-pub const fn two_over_pi(field: u64) -> [f64; 4] {
-    if field == 2047 {
-        return [f64::NAN; 4];
-    }
-    // The bit worth 2 comes first.
-    let start = field as usize + 62 - 1075;
-    let (a, b, c) = (window(start), window(start + 64), window(start + 128));
-    // Each word is rounded to nearest: what is left has a sign.
-    let first = a.wrapping_add(1 << 11) as i64 >> 12;
-    let rest = (a << 52) as i64 >> 52;
-    let second = (rest << 38) + (b >> 26) as i64 + (b >> 25 & 1) as i64;
-    let rest = (b << 38) as i64 >> 38;
-    let third = (rest << 27) + (c >> 37) as i64 + (c >> 36 & 1) as i64;
-    let rest = (c << 27) as i64 >> 27;
-    [
-        first as f64 * two_to(-50),
-        second as f64 * two_to(-100),
-        third as f64 * two_to(-153),
-        rest as f64 * two_to(-190),
-    ]
-}
-
-/// [`two_over_pi`] of the fields from 1024 on: 32 kB, which only packs refer to.
-pub static TWO_OVER_PI_MODULO_4: [[f64; 4]; 1024] = {
-    let mut rows = [[0.0; 4]; 1024];
-    let mut k = 0;
-    while k < 1024 {
-        rows[k] = two_over_pi(k as u64 + 1024);
-        k += 1;
-    }
-    rows
-};
-
-/// `2^k` for −1022 ≤ k ≤ 1023, in constants.
-const fn two_to(k: i64) -> f64 {
-    f64::from_bits(((1023 + k) as u64) << 52)
-}
-
 /// `pair·π/2`, negated on demand.
 #[inline(always)]
 fn times_half_pi((high, low): (f64, f64), negative: bool) -> (f64, f64) {
@@ -203,18 +152,6 @@ fn add_turns(turns: &mut [u64; WORDS], word: f64) {
     } else {
         sum(*turns, term, false)
     };
-}
-
-/// 64 bits of 2/π from the bit `start − 64` after the point.
-#[inline(always)]
-const fn window(start: usize) -> u64 {
-    let (word, bit) = (start / 64, start % 64);
-    let next = if bit == 0 {
-        0
-    } else {
-        TWO_OVER_PI[word + 1] >> (64 - bit)
-    };
-    TWO_OVER_PI[word] << bit | next
 }
 
 /// Word `i` of `number` shifted right by `shift` bits.

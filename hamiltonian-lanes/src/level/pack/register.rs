@@ -9,8 +9,7 @@ use core::ops::{Add, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 use super::{Nf, assigning};
 use crate::level::register::Register;
 use hamiltonian_real::parts::elementary;
-use hamiltonian_real::parts::elementary::reduction::TWO_OVER_PI_MODULO_4;
-use hamiltonian_real::parts::{Bits, Rare, Word};
+use hamiltonian_real::parts::{Bits, Rare, TWO_OVER_PI_MODULO_4, Word};
 use hamiltonian_real::{Lift, Mask, Pack, Real, itself_in_lanes};
 
 /// The numbers of one register.

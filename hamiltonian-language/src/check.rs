@@ -78,7 +78,7 @@ struct LetFunction<'a> {
 
 /// The place of the statement that is being read, relative to the definition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum Position {
     /// A `let` above the definition.
     Before,
     /// The right side of H or L.
@@ -103,7 +103,7 @@ struct Checker<'a> {
     unknown_sizes: Vec<String>,
     /// The statement that is being read defines this.
     defining: Option<Symbol>,
-    place: Place,
+    place: Position,
     /// True if the statement that is being read is a `split`, which reads new coordinates too.
     in_split: bool,
     lets: Vec<LetFunction<'a>>,
@@ -137,7 +137,7 @@ impl<'a> Checker<'a> {
             unknown: vec![false; symbols],
             unknown_sizes: Vec::new(),
             defining: None,
-            place: Place::Before,
+            place: Position::Before,
             in_split: false,
             lets: Vec::new(),
             affines: Vec::new(),

@@ -4,7 +4,7 @@
 //! Invariant: inner names win (loop variables, then arguments, then declarations).
 
 use super::expr::Frame;
-use super::{Binding, Checker, Place};
+use super::{Binding, Checker, Position};
 use crate::ast::{ExprId, ScopeId, StatementKind, Symbol};
 use crate::checked::{CaptureId, Kind, NodeId, Type, Variable};
 use crate::names;
@@ -84,7 +84,7 @@ impl Checker<'_> {
                 self.push(raw, Kind::Parameter(id), ty)
             }
             Binding::Phase(Variable::Momentum, id)
-                if self.is_lagrangian() && self.place != Place::After =>
+                if self.is_lagrangian() && self.place != Position::After =>
             {
                 let group = &self.out.groups[id.0 as usize];
                 let message = format!(
@@ -223,7 +223,7 @@ impl Checker<'_> {
             );
         }
         let mut known = self.known_names(false);
-        if self.is_lagrangian() && self.place == Place::After {
+        if self.is_lagrangian() && self.place == Position::After {
             known.extend(self.out.groups.iter().map(|g| g.momentum.to_string()));
             if name == "p" || name.starts_with("p_") {
                 let momenta = self.out.groups.iter().map(|g| format!("`{}`", g.momentum));
@@ -283,18 +283,18 @@ impl Checker<'_> {
     /// `H` as a value.
     fn hamiltonian(&mut self, raw: ExprId) -> Option<NodeId> {
         match (self.place, self.is_lagrangian()) {
-            (Place::After, _) => self.push(raw, Kind::Hamiltonian, Type::Scalar),
-            (Place::Within, false) => self.refuse(
+            (Position::After, _) => self.push(raw, Kind::Hamiltonian, Type::Scalar),
+            (Position::Within, false) => self.refuse(
                 raw,
                 "`H` is defined in terms of itself",
                 "H depends on coordinates, momenta, time and parameters",
             ),
-            (Place::Within, true) => self.refuse(
+            (Position::Within, true) => self.refuse(
                 raw,
                 "`H` follows from `L` and cannot define it",
                 "write it in terms of coordinates and velocities",
             ),
-            (Place::Before, _) => self.refuse(
+            (Position::Before, _) => self.refuse(
                 raw,
                 "`H` is used above its definition",
                 "move this statement below the definition of `H`",

@@ -4,7 +4,7 @@
 //! charts. Invariant: `let`s and the definition are read in source order, before everything that
 //! may use all of them.
 
-use super::{Binding, Checker, LetFunction, Place};
+use super::{Binding, Checker, LetFunction, Position};
 use crate::ast::{Expression, Function, Statement, StatementKind};
 use crate::checked::{Definition, Extent, FunctionId, NodeId, Observable, Type};
 use crate::names;
@@ -48,14 +48,14 @@ impl<'a> Checker<'a> {
 
     fn definition(&mut self, word: &str, value: &Expression, make: fn(NodeId) -> Definition) {
         // A second definition was reported; it is not read.
-        if self.place == Place::After {
+        if self.place == Position::After {
             return;
         }
-        self.place = Place::Within;
+        self.place = Position::Within;
         if let Some(root) = self.scalar_expression(value, &format!("`{word}`")) {
             self.out.definition = make(root);
         }
-        self.place = Place::After;
+        self.place = Position::After;
     }
 
     fn let_statement(&mut self, name: &Ident, arguments: Option<&[Ident]>, value: &'a Expression) {

@@ -258,7 +258,7 @@ impl Dag {
     /// `k·Π node^n`.
     pub fn product(&mut self, k: &Rational, operands: &[(Node, i32)]) -> Node {
         let mut k = k.clone();
-        let mut factors = Factors::default();
+        let mut factors = ProductBuilder::default();
         for &(node, n) in operands {
             match self.kind(node).clone() {
                 Kind::Constant(value) => match multiplied(&k, &value, n) {
@@ -518,12 +518,12 @@ fn multiplied(k: &Rational, value: &Rational, n: i32) -> Option<Rational> {
 
 /// The factors of a product in the making, each once.
 #[derive(Default)]
-struct Factors {
+struct ProductBuilder {
     list: Vec<(Node, i32)>,
     places: Places,
 }
 
-impl Factors {
+impl ProductBuilder {
     fn multiply(&mut self, dag: &mut Dag, node: Node, n: i32) {
         let Some(at) = self.places.of(node) else {
             self.list.push((node, n));

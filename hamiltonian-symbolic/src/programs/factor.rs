@@ -36,13 +36,13 @@ const ABSORBING: usize = 16;
 
 /// A term `k·p·Π f`, p prepared, the rest not.
 #[derive(Clone, Debug)]
-struct Term {
+struct Summand {
     k: Rational,
     p: Node,
     factors: Vec<(Node, i32)>,
 }
 
-impl Term {
+impl Summand {
     fn has_coefficient(&self, one: Node) -> bool {
         self.p != one || !self.k.is_unit()
     }
@@ -62,7 +62,7 @@ impl Term {
             .map(|(_, n)| *n)
             .filter(|n| n.signum() == sign)
     }
-    fn without(&self, base: Node, power: i32) -> Term {
+    fn without(&self, base: Node, power: i32) -> Summand {
         let mut rest = self.clone();
         for factor in &mut rest.factors {
             if factor.0 == base {
@@ -220,9 +220,9 @@ fn factored_sum(
 ) -> Node {
     let one = dag.integer(1);
     let p = p.unwrap_or(one);
-    let mut list: Vec<Term> = Vec::with_capacity(terms.len() + 1);
+    let mut list: Vec<Summand> = Vec::with_capacity(terms.len() + 1);
     for (k, node, alone) in terms {
-        let mut term = Term {
+        let mut term = Summand {
             k: k.mul(scale),
             p,
             factors: Vec::new(),
@@ -249,7 +249,7 @@ fn factored_sum(
         collect(dag, &constant, list, one)
     } else {
         if !constant.is_zero() {
-            list.push(Term {
+            list.push(Summand {
                 k: constant,
                 p,
                 factors: Vec::new(),
@@ -267,7 +267,7 @@ enum Common {
 }
 
 /// Greedily takes out what saves the most multiplications, until nothing saves any.
-fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) -> Node {
+fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Summand>, one: Node) -> Node {
     // Long sums are searched a few times only; their common parts are found early.
     let mut rounds = 4 + 4096 / terms.len().max(1);
     while terms.len() > 1 && rounds > 0 {
@@ -292,13 +292,14 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
                 Common::Factor(base, power) => term
                     .power(*base, power.signum())
                     .map(|_| term.without(*base, *power)),
-                Common::Coefficient(k, p) => {
-                    (term.p == *p && term.k.abs() == *k && !term.factors.is_empty()).then(|| Term {
-                        k: term.k.sign(),
-                        p: one,
-                        factors: term.factors.clone(),
-                    })
-                }
+                Common::Coefficient(k, p) => (term.p == *p
+                    && term.k.abs() == *k
+                    && !term.factors.is_empty())
+                .then(|| Summand {
+                    k: term.k.sign(),
+                    p: one,
+                    factors: term.factors.clone(),
+                }),
             };
             match quotient {
                 Some(quotient) => {
@@ -313,7 +314,7 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
             Kind::Product(k, factors) => (k, factors),
             _ => (Rational::ONE, vec![(sum, 1)]),
         };
-        let mut term = Term {
+        let mut term = Summand {
             k,
             p: one,
             factors: Vec::new(),
@@ -353,7 +354,7 @@ fn collect(dag: &mut Dag, constant: &Rational, mut terms: Vec<Term>, one: Node) 
 
 /// The common part that saves most multiplications if it is taken out, the first of several; `None`
 /// where none saves any.
-fn best(terms: &[Term], one: Node) -> Option<Common> {
+fn best(terms: &[Summand], one: Node) -> Option<Common> {
     let mut places: Map<Common, usize> = Map::default();
     let mut savings: Vec<(Common, i64)> = Vec::new();
     let mut save = |common: Common, saved: i64| {

@@ -26,7 +26,7 @@ pub struct Held {
 type Factors = Vec<(Node, i32)>;
 
 /// An index, and how many rows the arrays have that it is of.
-type Row = (Index, Affine);
+type Access = (Index, Affine);
 
 /// The dependences of an expression.
 #[derive(Clone, PartialEq)]
@@ -34,7 +34,7 @@ enum Reads {
     /// Scalars among the parameters.
     Scalars,
     /// One row of parameter arrays of equal length too.
-    Row(Box<Index>, Affine),
+    Access(Box<Index>, Affine),
     /// Anything else.
     More,
 }
@@ -60,7 +60,7 @@ impl Arrays {
             known.insert(node, describe(dag, parameters, node, &known));
         }
         let row = |node: Node| match &known[&node].0 {
-            Reads::Row(row, rows) => Some(((**row).clone(), rows.clone())),
+            Reads::Access(row, rows) => Some(((**row).clone(), rows.clone())),
             Reads::Scalars | Reads::More => None,
         };
         let is_dear = |node: &Node| known[node].1;
@@ -68,7 +68,7 @@ impl Arrays {
             _ if known[&node].0 != Reads::More => node,
             Kind::Product(k, factors) if !dag.is_sealed(node) => {
                 let mut rest: Factors = Vec::new();
-                let mut groups: Vec<(Row, Factors)> = Vec::new();
+                let mut groups: Vec<(Access, Factors)> = Vec::new();
                 for (base, n) in factors {
                     match row(base) {
                         None => rest.push((new[&base], n)),
@@ -166,7 +166,7 @@ fn describe(
     match dag.kind(node) {
         Kind::Element(Array::Parameter(parameter), row, None) => {
             match &parameters[usize::from(parameter.0)].shape {
-                Shape::Vector(rows) => (Reads::Row(Box::new(row.clone()), rows.clone()), false),
+                Shape::Vector(rows) => (Reads::Access(Box::new(row.clone()), rows.clone()), false),
                 Shape::Scalar | Shape::Matrix(..) => (Reads::More, false),
             }
         }

@@ -30,7 +30,7 @@ fn is_loop(step: &Step) -> bool {
 
 /// Steps done together: one, or a sine and its cosine.
 #[derive(Default)]
-struct Unit {
+struct Bundle {
     steps: Vec<usize>,
     /// Values of the line that it reads, each once.
     reads: Vec<usize>,
@@ -50,7 +50,7 @@ struct Made {
 /// A straight line as a graph.
 #[derive(Default)]
 struct Graph {
-    units: Vec<Unit>,
+    units: Vec<Bundle>,
     values: Vec<Made>,
     order: Vec<usize>,
 }
@@ -99,10 +99,10 @@ impl Graph {
             self.values[value].readers.push(self.units.len());
             self.values[value].waiting += 1;
         }
-        self.units.push(Unit {
+        self.units.push(Bundle {
             steps: vec![step],
             reads,
-            ..Unit::default()
+            ..Bundle::default()
         });
     }
 
@@ -125,7 +125,7 @@ impl Graph {
             if self.units[unit].is_done || unit != first && !self.pays(unit) {
                 continue;
             }
-            let Unit {
+            let Bundle {
                 steps,
                 reads,
                 makes,
@@ -150,7 +150,7 @@ impl Graph {
 
     /// Returns true if a unit can be done now and ends as many values as it makes, or more.
     fn pays(&self, unit: usize) -> bool {
-        let Unit { reads, makes, .. } = &self.units[unit];
+        let Bundle { reads, makes, .. } = &self.units[unit];
         let is_there = |value: &usize| self.units[self.values[*value].by].is_done;
         let ended = reads
             .iter()

@@ -8,7 +8,7 @@ use crate::index::Index;
 use crate::program::{Function, Instruction, Program, Step, Target, Update, Value};
 
 /// The values that are known at a place.
-type Scope = Map<Value, ()>;
+type Known = Map<Value, ()>;
 /// The elements a function sets, each of which may be set once.
 type Stored = Map<(Target, Index, Option<Index>), ()>;
 
@@ -19,11 +19,11 @@ impl Program {
     /// # Errors
     /// The first thing that is not so.
     pub fn validate(&self) -> Result<(), String> {
-        let mut computed = Scope::default();
-        let mut scope = Scope::default();
+        let mut computed = Known::default();
+        let mut scope = Known::default();
         let mut nothing = Stored::default();
         self.block(&self.prepare, &mut scope, &mut computed, &mut nothing)?;
-        let mut prepared = Scope::default();
+        let mut prepared = Known::default();
         for value in &self.prepared {
             read(*value, &scope, || "what is handed on".to_owned())?;
             if self.instruction(*value).is_number() {
@@ -51,8 +51,8 @@ impl Program {
     fn block(
         &self,
         steps: &[Step],
-        scope: &mut Scope,
-        computed: &mut Scope,
+        scope: &mut Known,
+        computed: &mut Known,
         stored: &mut Stored,
     ) -> Result<(), String> {
         for step in steps {
@@ -109,14 +109,14 @@ impl Program {
     }
 }
 
-fn read(value: Value, scope: &Scope, what: impl Fn() -> String) -> Result<(), String> {
+fn read(value: Value, scope: &Known, what: impl Fn() -> String) -> Result<(), String> {
     match scope.contains_key(&value) {
         true => Ok(()),
         false => Err(format!("{} reads {value} before it is computed", what())),
     }
 }
 
-fn define(value: Value, scope: &mut Scope, computed: &mut Scope) -> Result<(), String> {
+fn define(value: Value, scope: &mut Known, computed: &mut Known) -> Result<(), String> {
     scope.insert(value, ());
     match computed.insert(value, ()) {
         None => Ok(()),

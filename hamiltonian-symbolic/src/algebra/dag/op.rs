@@ -80,7 +80,7 @@ pub enum Far {
 
 /// The domain of a function, poles aside.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Domain {
+pub enum NaturalDomain {
     /// Everywhere.
     All,
     /// x ≥ the number.
@@ -95,7 +95,7 @@ pub enum Domain {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regularity {
     /// Its domain.
-    pub domain: Domain,
+    pub domain: NaturalDomain,
     /// The sign of its values.
     pub range: Range,
     /// The set at which it is not analytic.
@@ -165,7 +165,7 @@ macro_rules! operations {
     };
     (@regularity $domain:ident $(($from:expr))?, $range:ident, $breaks:ident $(($at:ident))?, $pole:ident $(($of:ident))?, $far:ident, $kind:ident) => {
         Regularity {
-            domain: Domain::$domain $(($from))?,
+            domain: NaturalDomain::$domain $(($from))?,
             range: Range::$range,
             breaks: Break::$breaks $((At::$at))?,
             pole: $pole $((At::$of))?,

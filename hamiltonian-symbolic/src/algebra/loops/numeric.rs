@@ -4,7 +4,7 @@
 //! at. Invariant: the same seed gives the same point on every machine; |value| beyond its error
 //! means that the expression is not identically zero, and so do its bounds, which hold on every machine.
 
-use super::walk::{Meaning, Place, walk};
+use super::walk::{Environment, Meaning, walk};
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Kind, Map, Mixer, Node, Parameter, Side};
 use crate::index::Affine;
@@ -70,10 +70,10 @@ pub fn sample(
             _ => {}
         }
     }
-    let meaning = Numbers {
+    let meaning = Evaluator {
         given: elements,
         time,
-        ..Numbers::new(model, how)
+        ..Evaluator::new(model, how)
     };
     let (values, numbers) = walk(&model.dag, roots, sizes, meaning);
     Some((values?, numbers.point))
@@ -120,7 +120,7 @@ impl Values {
             });
         });
         let sizes = vec![3; model.sizes.len()];
-        let (outside, mut numbers) = (Place::new(&sizes), Numbers::new(model, self.how));
+        let (outside, mut numbers) = (Environment::new(&sizes), Evaluator::new(model, self.how));
         for node in unknown {
             let child = |child: Node| self.known[place(child)].unwrap_or(Ball::exact(f64::NAN));
             let value = numbers.value(dag, node, &outside, &child);
@@ -142,7 +142,7 @@ pub(crate) fn next_random(state: &mut u64) -> u64 {
 /// The most nodes a sample may visit.
 const LONGEST: usize = 1 << 20;
 
-struct Numbers<'a> {
+struct Evaluator<'a> {
     model: &'a Model,
     how: Sample,
     given: Map<(Array, i64, i64), Ball>,
@@ -152,9 +152,9 @@ struct Numbers<'a> {
     visits: usize,
 }
 
-impl<'a> Numbers<'a> {
-    fn new(model: &'a Model, how: Sample) -> Numbers<'a> {
-        Numbers {
+impl<'a> Evaluator<'a> {
+    fn new(model: &'a Model, how: Sample) -> Evaluator<'a> {
+        Evaluator {
             model,
             how,
             given: Map::default(),
@@ -188,7 +188,7 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    fn element(&mut self, array: Array, row: i64, column: i64, place: &Place) -> Ball {
+    fn element(&mut self, array: Array, row: i64, column: i64, place: &Environment) -> Ball {
         let key = (array, row, column);
         let leaf = || match array {
             Array::Phase(Column { side: Side::Q, .. }) => {
@@ -229,14 +229,14 @@ impl<'a> Numbers<'a> {
     }
 }
 
-impl Meaning for Numbers<'_> {
+impl Meaning for Evaluator<'_> {
     type Value = Ball;
 
     fn value(
         &mut self,
         dag: &Dag,
         node: Node,
-        place: &Place,
+        place: &Environment,
         child: &dyn Fn(Node) -> Ball,
     ) -> Ball {
         self.visits += 1;

@@ -4,7 +4,7 @@
 //! loops, its array elements at constant indices. Invariant: every index is inside its array; no
 //! more than [`LARGEST`] nodes are made.
 
-use super::walk::{Meaning, Place, walk};
+use super::walk::{Environment, Meaning, walk};
 use crate::dag::{Array, Dag, Kind, Map, Node};
 use crate::index::{Affine, Index};
 use crate::model::{Model, Shape};
@@ -36,7 +36,7 @@ pub fn unroll_nodes(
     let mut unrolled = model.clone();
     unrolled.dag = Dag::new();
     unrolled.sizes.clear();
-    let place = Place::new(sizes);
+    let place = Environment::new(sizes);
     let literal = |rows: &mut Affine| *rows = Affine::constant(place.affine(rows));
     for group in &mut unrolled.groups {
         group.shape.rows_mut().map(literal);
@@ -100,7 +100,7 @@ impl Meaning for Unroller {
         &mut self,
         dag: &Dag,
         node: Node,
-        place: &Place,
+        place: &Environment,
         child: &dyn Fn(Node) -> Node,
     ) -> Node {
         match dag.kind(node) {

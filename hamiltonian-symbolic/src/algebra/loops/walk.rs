@@ -17,7 +17,7 @@ pub(crate) trait Meaning {
         &mut self,
         dag: &Dag,
         node: Node,
-        place: &Place,
+        place: &Environment,
         child: &dyn Fn(Node) -> Self::Value,
     ) -> Self::Value;
     /// The meaning of a sum over a loop, given its iterations'.
@@ -28,15 +28,15 @@ pub(crate) trait Meaning {
 
 /// The place of a walk: the values of sizes and loop variables.
 #[derive(Clone, Debug)]
-pub(crate) struct Place {
+pub(crate) struct Environment {
     sizes: Vec<i64>,
     variables: Vec<i64>,
 }
 
-impl Place {
+impl Environment {
     /// Outside all loops.
-    pub(crate) fn new(sizes: &[i64]) -> Place {
-        Place {
+    pub(crate) fn new(sizes: &[i64]) -> Environment {
+        Environment {
             sizes: sizes.to_vec(),
             variables: vec![0; LOOPS],
         }
@@ -67,7 +67,7 @@ impl Place {
 struct Walk<'a, M: Meaning> {
     dag: &'a Dag,
     meaning: M,
-    place: Place,
+    place: Environment,
     values: Map<Node, M::Value>,
     blocks: Map<Node, Rc<[Node]>>,
 }
@@ -98,7 +98,7 @@ pub(crate) fn walk<M: Meaning>(
     let mut walk = Walk {
         dag,
         meaning,
-        place: Place::new(sizes),
+        place: Environment::new(sizes),
         values: Map::default(),
         blocks,
     };

@@ -96,7 +96,7 @@ fn of_side(model: &mut Model, h: Node, side: Side, is_large: bool, list: &mut Ve
     for (at, rows) in model.columns(side) {
         let own = of_array.remove(&at.conjugate()).unwrap_or_default();
         let found = match &rows {
-            _ if is_large => vec![(rows.as_ref().map(|_| Row::any(model, None)), None)],
+            _ if is_large => vec![(rows.as_ref().map(|_| Subscript::any(model, None)), None)],
             None => {
                 let value = signed(model, side, own.first().map(|(_, adjoint)| *adjoint));
                 vec![(None, Some(value))]
@@ -151,22 +151,22 @@ fn index_names(model: &Model) -> impl Iterator<Item = &'static str> {
 
 /// The index of an element: a number, or a name with the loop that it runs in.
 #[derive(Clone, Debug)]
-struct Row {
+struct Subscript {
     name: String,
     domain: Option<Domain>,
 }
 
-impl Row {
+impl Subscript {
     /// One row of those there are.
-    fn numbered(row: i64) -> Row {
-        Row {
+    fn numbered(row: i64) -> Subscript {
+        Subscript {
             name: row.to_string(),
             domain: None,
         }
     }
     /// The row that stands for all of them.
-    fn any(model: &Model, domain: Option<Domain>) -> Row {
-        Row {
+    fn any(model: &Model, domain: Option<Domain>) -> Subscript {
+        Subscript {
             name: index_name(model).to_owned(),
             domain,
         }
@@ -177,7 +177,7 @@ impl Row {
 #[derive(Debug)]
 struct Equation {
     at: Column,
-    row: Option<Row>,
+    row: Option<Subscript>,
     value: Option<Node>,
 }
 
@@ -217,10 +217,10 @@ fn elements(
     rows: &Affine,
     leaves: &[(Node, Node)],
     own: &[(Index, Node)],
-) -> Vec<(Option<Row>, Option<Node>)> {
+) -> Vec<(Option<Subscript>, Option<Node>)> {
     let domain = field::elements(&mut model.dag, rows);
     if !model.groups[usize::from(at.group)].axes.is_empty() {
-        return vec![(Some(Row::any(model, None)), None)];
+        return vec![(Some(Subscript::any(model, None)), None)];
     }
     let array = Array::Phase(at.conjugate());
     let is_numbered = |row: &Index| row.as_constant().is_some();
@@ -242,7 +242,7 @@ fn elements(
                 parts.push(model.dag.replace(looped, domain, &Affine::constant(row)));
                 let sum = model.dag.add(&parts);
                 (
-                    Some(Row::numbered(row)),
+                    Some(Subscript::numbered(row)),
                     Some(signed(model, at.side, Some(sum))),
                 )
             };
@@ -256,7 +256,7 @@ fn elements(
         false => field::field(&mut model.dag, leaves, array, rows),
     };
     let value = value.map(|value| signed(model, at.side, Some(value)));
-    vec![(Some(Row::any(model, Some(domain))), value)]
+    vec![(Some(Subscript::any(model, Some(domain))), value)]
 }
 
 impl Equation {

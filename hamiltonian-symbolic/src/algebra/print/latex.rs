@@ -3,7 +3,7 @@
 //! Input: a node. Output: pieces for the writer. Invariant: plain LaTeX with amsmath; names of
 //! Greek letters become the letters; trailing digits and words after `_` become subscripts.
 
-use super::layout::{Level, Piece, Power, Style, Writer, fraction};
+use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
@@ -147,30 +147,30 @@ fn loop_head(name: &str, start: &str, last: &str) -> String {
 }
 
 /// Cases, a condition behind each value.
-fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
+fn select(c: Node, yes: Node, no: Node) -> Vec<Fragment> {
     vec![
-        Piece::Static("\\begin{cases} "),
-        Piece::Node(yes, Level::Loose),
-        Piece::Static(" & \\text{if } "),
-        Piece::Node(c, Level::Loose),
-        Piece::Static(" \\\\ "),
-        Piece::Node(no, Level::Loose),
-        Piece::Static(" & \\text{otherwise} \\end{cases}"),
+        Fragment::Static("\\begin{cases} "),
+        Fragment::Node(yes, Level::Loose),
+        Fragment::Static(" & \\text{if } "),
+        Fragment::Node(c, Level::Loose),
+        Fragment::Static(" \\\\ "),
+        Fragment::Node(no, Level::Loose),
+        Fragment::Static(" & \\text{otherwise} \\end{cases}"),
     ]
 }
 
 /// A function, to a power that stands after its name.
-fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piece> {
+fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Fragment> {
     let within = |open, close| {
-        let argument = Piece::Node(x[0], Level::Loose);
-        vec![Piece::Static(open), argument, Piece::Static(close)]
+        let argument = Fragment::Node(x[0], Level::Loose);
+        vec![Fragment::Static(open), argument, Fragment::Static(close)]
     };
     match op {
         Op::Pow => vec![
-            Piece::Node(x[0], Level::Atom),
-            Piece::Static("^{"),
-            Piece::Node(x[1], Level::Loose),
-            Piece::Static("}"),
+            Fragment::Node(x[0], Level::Atom),
+            Fragment::Static("^{"),
+            Fragment::Node(x[1], Level::Loose),
+            Fragment::Static("}"),
         ],
         Op::Exp => within("e^{", "}"),
         Op::Sqrt => within("\\sqrt{", "}"),
@@ -181,7 +181,7 @@ fn call(writer: &Writer<'_>, op: Op, x: &[Node], power: Option<i32>) -> Vec<Piec
             let name = power.map_or_else(|| name.to_owned(), |n| format!("{name}^{{{n}}}"));
             if x.len() == 1 && is_name(writer.dag(), x[0]) {
                 let mut pieces = within("(", ")");
-                pieces.insert(0, Piece::Owned(name));
+                pieces.insert(0, Fragment::Owned(name));
                 return pieces;
             }
             writer.listed(name, x)
@@ -220,7 +220,7 @@ fn external(of: &External, part: Part) -> String {
 
 /// `k·Π` with k ≥ 0: one fraction, unless a sum stands above the line beside numbers only below
 /// it.
-fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
+fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Fragment> {
     let dag = writer.dag();
     let (above, below) = fraction(factors);
     let (n, d) =
@@ -239,14 +239,14 @@ fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
     if below.is_empty() && d == "1" {
         line(writer, &n, &above, false, &mut pieces);
     } else if below.is_empty() && above.iter().any(|(node, _)| is_large(*node)) {
-        pieces.push(Piece::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
+        pieces.push(Fragment::Owned(format!("\\frac{{{n}}}{{{d}}} ")));
         line(writer, "1", &above, false, &mut pieces);
     } else {
-        pieces.push(Piece::Static("\\frac{"));
+        pieces.push(Fragment::Static("\\frac{"));
         line(writer, &n, &above, true, &mut pieces);
-        pieces.push(Piece::Static("}{"));
+        pieces.push(Fragment::Static("}{"));
         line(writer, &d, &below, true, &mut pieces);
-        pieces.push(Piece::Static("}"));
+        pieces.push(Fragment::Static("}"));
     }
     pieces
 }
@@ -258,12 +258,12 @@ fn line(
     number: &str,
     factors: &[Power],
     enclosed: bool,
-    pieces: &mut Vec<Piece>,
+    pieces: &mut Vec<Fragment>,
 ) {
     let dag = writer.dag();
     let mut any = false;
     if number != "1" || factors.is_empty() {
-        pieces.push(Piece::Owned(number.to_owned()));
+        pieces.push(Fragment::Owned(number.to_owned()));
         any = true;
     }
     let is_loop = |(node, n): &Power| *n == 1 && matches!(dag.kind(*node), Kind::Reduce(..));
@@ -271,7 +271,7 @@ fn line(
     let count = others.len() + loops.len();
     for (at, (node, n)) in others.into_iter().chain(loops).enumerate() {
         if any {
-            pieces.push(Piece::Static(if starts_with_digit(dag, node) {
+            pieces.push(Fragment::Static(if starts_with_digit(dag, node) {
                 " \\cdot "
             } else {
                 " "
@@ -280,8 +280,8 @@ fn line(
         any = true;
         match dag.kind(node) {
             Kind::Call(Op::Sqrt, x) if n > 1 => {
-                pieces.push(Piece::Node(x[0], Level::Atom));
-                pieces.push(Piece::Owned(if n % 2 == 0 {
+                pieces.push(Fragment::Node(x[0], Level::Atom));
+                pieces.push(Fragment::Owned(if n % 2 == 0 {
                     format!("^{{{}}}", n / 2)
                 } else {
                     format!("^{{{n}/2}}")
@@ -291,18 +291,18 @@ fn line(
                 pieces.append(&mut call(writer, *op, x, Some(n)))
             }
             Kind::Reduce(..) if n == 1 && at + 1 == count => {
-                pieces.push(Piece::Node(node, Level::Sum))
+                pieces.push(Fragment::Node(node, Level::Sum))
             }
             _ if n == 1 => {
                 let alone = enclosed && count == 1 && number == "1";
-                pieces.push(Piece::Node(
+                pieces.push(Fragment::Node(
                     node,
                     if alone { Level::Sum } else { Level::Unary },
                 ));
             }
             _ => {
-                pieces.push(Piece::Node(node, Level::Atom));
-                pieces.push(Piece::Owned(format!("^{{{n}}}")));
+                pieces.push(Fragment::Node(node, Level::Atom));
+                pieces.push(Fragment::Owned(format!("^{{{n}}}")));
             }
         }
     }

@@ -5,7 +5,7 @@
 //! costs no stack and length is bounded. Invariant: parentheses stand exactly where precedence
 //! needs them.
 
-use super::names::Scope;
+use super::names::LoopNames;
 use crate::dag::{Array, Dag, Kind, Node, Parameter, Part, Relation};
 use crate::index::{Affine, Domain, Index};
 use crate::model::{External, Model, Shape};
@@ -38,7 +38,7 @@ pub(super) enum Level {
 
 /// An entry of the writer's stack.
 #[derive(Clone, Debug)]
-pub(super) enum Piece {
+pub(super) enum Fragment {
     /// As it stands.
     Static(&'static str),
     /// As it stands.
@@ -88,14 +88,14 @@ pub(super) struct Style {
     /// A declared name with indices.
     pub(super) indexed: fn(&str, &[String]) -> String,
     /// A function of the language, and its precedence.
-    pub(super) call: fn(&Writer<'_>, Op, &[Node]) -> Vec<Piece>,
+    pub(super) call: fn(&Writer<'_>, Op, &[Node]) -> Vec<Fragment>,
     pub(super) call_level: fn(Op) -> Level,
     /// The name of a function in Rust, or of a derivative of it.
     pub(super) external: fn(&External, Part) -> String,
     /// A condition, and the two values.
-    pub(super) select: fn(Node, Node, Node) -> Vec<Piece>,
+    pub(super) select: fn(Node, Node, Node) -> Vec<Fragment>,
     /// `k·Π` with k ≥ 0.
-    pub(super) product: fn(&Writer<'_>, &Rational, &[Power]) -> Vec<Piece>,
+    pub(super) product: fn(&Writer<'_>, &Rational, &[Power]) -> Vec<Fragment>,
 }
 
 impl Style {
@@ -112,9 +112,9 @@ impl Style {
 pub(super) struct Writer<'a> {
     model: &'a Model,
     style: &'static Style,
-    scope: Scope<'a>,
+    scope: LoopNames<'a>,
     out: String,
-    stack: Vec<Piece>,
+    stack: Vec<Fragment>,
 }
 
 impl<'a> Writer<'a> {
@@ -126,7 +126,7 @@ impl<'a> Writer<'a> {
         Writer {
             model,
             style,
-            scope: Scope::new(model, bound),
+            scope: LoopNames::new(model, bound),
             out: String::new(),
             stack: Vec::new(),
         }
@@ -138,19 +138,19 @@ impl<'a> Writer<'a> {
 
     /// The expression as text.
     pub(super) fn write(mut self, root: Node) -> String {
-        self.stack.push(Piece::Node(root, Level::Loose));
+        self.stack.push(Fragment::Node(root, Level::Loose));
         while let Some(piece) = self.stack.pop() {
             match piece {
-                Piece::Static(text) => self.out.push_str(text),
-                Piece::Owned(text) => self.out.push_str(&text),
-                Piece::Node(..) if self.is_long() => self.out.push_str(self.style.ellipsis),
-                Piece::Node(node, level) => self.node(node, level),
-                Piece::Product(k, factors) => {
+                Fragment::Static(text) => self.out.push_str(text),
+                Fragment::Owned(text) => self.out.push_str(&text),
+                Fragment::Node(..) if self.is_long() => self.out.push_str(self.style.ellipsis),
+                Fragment::Node(node, level) => self.node(node, level),
+                Fragment::Product(k, factors) => {
                     let pieces = (self.style.product)(&self, &k, &factors);
                     self.push(pieces);
                 }
-                Piece::Terms(node, at, negated) => self.terms(node, at, negated),
-                Piece::Open(domain) => {
+                Fragment::Terms(node, at, negated) => self.terms(node, at, negated),
+                Fragment::Open(domain) => {
                     // The bounds stand outside the loop they bound.
                     let range = self.dag().range(domain);
                     let end = range.end.plus(self.style.last, &Affine::constant(1));
@@ -159,7 +159,7 @@ impl<'a> Writer<'a> {
                     let head = (self.style.loop_head)(&self.scope.name(domain), &start, &end);
                     self.out.push_str(&head);
                 }
-                Piece::Close => self.scope.leave(),
+                Fragment::Close => self.scope.leave(),
             }
         }
         self.out
@@ -170,50 +170,50 @@ impl<'a> Writer<'a> {
     }
 
     /// Pieces to be written next, in order.
-    fn push(&mut self, pieces: Vec<Piece>) {
+    fn push(&mut self, pieces: Vec<Fragment>) {
         self.stack.extend(pieces.into_iter().rev());
     }
 
     fn node(&mut self, node: Node, level: Level) {
         let mut pieces = self.pieces(node);
         if self.level(node) < level {
-            pieces.insert(0, Piece::Static(self.style.open));
-            pieces.push(Piece::Static(self.style.close));
+            pieces.insert(0, Fragment::Static(self.style.open));
+            pieces.push(Fragment::Static(self.style.close));
         }
         self.push(pieces);
     }
 
     /// A node without parentheses around it.
-    fn pieces(&self, node: Node) -> Vec<Piece> {
+    fn pieces(&self, node: Node) -> Vec<Fragment> {
         let dag = self.dag();
         let style = self.style;
         let pair = |a: Node, word: &'static str, b: Node, level: Level| {
-            let (a, b) = (Piece::Node(a, level), Piece::Node(b, level));
-            vec![a, Piece::Static(word), b]
+            let (a, b) = (Fragment::Node(a, level), Fragment::Node(b, level));
+            vec![a, Fragment::Static(word), b]
         };
         match dag.kind(node) {
             Kind::Constant(value) => vec![self.number(value)],
-            Kind::Pi => vec![Piece::Static(style.pi)],
+            Kind::Pi => vec![Fragment::Static(style.pi)],
             Kind::Scalar(parameter) => vec![self.name(&self.parameter(*parameter))],
             Kind::Time => vec![self.name(self.model.time_name())],
-            Kind::Coefficient => vec![Piece::Static("h")],
-            Kind::Variable(domain) => vec![Piece::Owned(self.variable(*domain))],
+            Kind::Coefficient => vec![Fragment::Static("h")],
+            Kind::Variable(domain) => vec![Fragment::Owned(self.variable(*domain))],
             Kind::Extent(size) => vec![self.name(&self.size(*size))],
             Kind::Element(array, row, column) => {
                 let indices = self.indices(*array, row, column.as_deref());
                 let name = self.model.array_name(*array);
-                vec![Piece::Owned(self.indexed(&name, &indices))]
+                vec![Fragment::Owned(self.indexed(&name, &indices))]
             }
-            Kind::Sum(..) => vec![Piece::Terms(node, 0, false)],
+            Kind::Sum(..) => vec![Fragment::Terms(node, 0, false)],
             Kind::Product(k, factors) => {
                 if let Some(sum) = negated_sum(dag, node) {
-                    return vec![Piece::Terms(sum, 0, true)];
+                    return vec![Fragment::Terms(sum, 0, true)];
                 }
                 let mut pieces = Vec::new();
                 if k.is_negative() {
-                    pieces.push(Piece::Static("-"));
+                    pieces.push(Fragment::Static("-"));
                 }
-                pieces.push(Piece::Product(k.abs(), factors.clone()));
+                pieces.push(Fragment::Product(k.abs(), factors.clone()));
                 pieces
             }
             Kind::Call(op, arguments) => (style.call)(self, *op, arguments),
@@ -222,19 +222,23 @@ impl<'a> Writer<'a> {
                 self.listed((style.external)(of, *part), arguments)
             }
             Kind::Reduce(domain, body) => vec![
-                Piece::Open(*domain),
-                Piece::Node(*body, style.body_level),
-                Piece::Close,
-                Piece::Static(style.loop_end),
+                Fragment::Open(*domain),
+                Fragment::Node(*body, style.body_level),
+                Fragment::Close,
+                Fragment::Static(style.loop_end),
             ],
             Kind::Count(domain) => {
                 let range = dag.range(*domain);
                 if range.start == Affine::constant(0) {
-                    return vec![Piece::Owned(self.affine(&range.end))];
+                    return vec![Fragment::Owned(self.affine(&range.end))];
                 }
-                let open = vec![Piece::Open(*domain), Piece::Close, Piece::Static("1")];
+                let open = vec![
+                    Fragment::Open(*domain),
+                    Fragment::Close,
+                    Fragment::Static("1"),
+                ];
                 open.into_iter()
-                    .chain([Piece::Static(style.loop_end)])
+                    .chain([Fragment::Static(style.loop_end)])
                     .collect()
             }
             Kind::Compare(relation, a, b) => pair(*a, style.relation(*relation), *b, Level::Sum),
@@ -242,7 +246,10 @@ impl<'a> Writer<'a> {
                 Kind::Compare(relation, a, b) => {
                     pair(*a, style.opposite(*relation), *b, Level::Sum)
                 }
-                _ => vec![Piece::Static(style.not), Piece::Node(*inner, Level::Atom)],
+                _ => vec![
+                    Fragment::Static(style.not),
+                    Fragment::Node(*inner, Level::Atom),
+                ],
             },
             Kind::And(a, b) => pair(*a, style.and, *b, Level::And),
             Kind::Or(a, b) => pair(*a, style.or, *b, Level::Loose),
@@ -251,15 +258,15 @@ impl<'a> Writer<'a> {
     }
 
     /// A function with its arguments.
-    pub(super) fn listed(&self, name: String, arguments: &[Node]) -> Vec<Piece> {
-        let mut pieces = vec![Piece::Owned(name), Piece::Static(self.style.open)];
+    pub(super) fn listed(&self, name: String, arguments: &[Node]) -> Vec<Fragment> {
+        let mut pieces = vec![Fragment::Owned(name), Fragment::Static(self.style.open)];
         for (at, argument) in arguments.iter().enumerate() {
             if at > 0 {
-                pieces.push(Piece::Static(", "));
+                pieces.push(Fragment::Static(", "));
             }
-            pieces.push(Piece::Node(*argument, Level::Loose));
+            pieces.push(Fragment::Node(*argument, Level::Loose));
         }
-        pieces.push(Piece::Static(self.style.close));
+        pieces.push(Fragment::Static(self.style.close));
         pieces
     }
 
@@ -335,19 +342,19 @@ impl<'a> Writer<'a> {
             (_, false) => self.out.push_str(" + "),
             (_, true) => self.out.push_str(" - "),
         }
-        self.push(vec![piece, Piece::Terms(node, at + 1, negated)]);
+        self.push(vec![piece, Fragment::Terms(node, at + 1, negated)]);
     }
 
-    fn number(&self, value: &Rational) -> Piece {
-        Piece::Owned((self.style.number)(value))
+    fn number(&self, value: &Rational) -> Fragment {
+        Fragment::Owned((self.style.number)(value))
     }
 
     /// `k·node` as one product, k ≥ 0.
-    fn scaled(&self, k: &Rational, node: Node) -> Piece {
+    fn scaled(&self, k: &Rational, node: Node) -> Fragment {
         match self.dag().kind(node) {
-            Kind::Product(c, factors) => Piece::Product(k.mul(c), factors.clone()),
-            _ if k.is_one() => Piece::Node(node, Level::Product),
-            _ => Piece::Product(k.clone(), vec![(node, 1)]),
+            Kind::Product(c, factors) => Fragment::Product(k.mul(c), factors.clone()),
+            _ if k.is_one() => Fragment::Node(node, Level::Product),
+            _ => Fragment::Product(k.clone(), vec![(node, 1)]),
         }
     }
 
@@ -390,8 +397,8 @@ impl<'a> Writer<'a> {
     }
 
     /// A declared name as a piece.
-    fn name(&self, name: &str) -> Piece {
-        Piece::Owned(self.named(name))
+    fn name(&self, name: &str) -> Fragment {
+        Fragment::Owned(self.named(name))
     }
 
     /// An index.

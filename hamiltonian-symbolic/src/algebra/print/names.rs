@@ -12,14 +12,14 @@ const CANDIDATES: &[&str] = &["i", "j", "k", "l", "m", "n", "a", "b", "c", "d"];
 
 /// The loops around the place that is being written, each with its name.
 #[derive(Debug)]
-pub(super) struct Scope<'a> {
+pub(super) struct LoopNames<'a> {
     model: &'a Model,
     bound: Vec<(Domain, String)>,
 }
 
-impl<'a> Scope<'a> {
-    pub(super) fn new(model: &'a Model, bound: &[(Domain, &str)]) -> Scope<'a> {
-        Scope {
+impl<'a> LoopNames<'a> {
+    pub(super) fn new(model: &'a Model, bound: &[(Domain, &str)]) -> LoopNames<'a> {
+        LoopNames {
             model,
             bound: bound
                 .iter()

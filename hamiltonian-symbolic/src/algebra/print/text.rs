@@ -2,7 +2,7 @@
 //!
 //! Input: a node. Output: pieces for the writer. Invariant: read back, the text is the expression.
 
-use super::layout::{Level, Piece, Power, Style, Writer, fraction};
+use super::layout::{Fragment, Level, Power, Style, Writer, fraction};
 use crate::dag::{Dag, Kind, Node, Part};
 use crate::model::External;
 use crate::op::Op;
@@ -59,24 +59,24 @@ fn loop_head(name: &str, start: &str, end: &str) -> String {
 }
 
 /// `if c { yes } else { no }`
-fn select(c: Node, yes: Node, no: Node) -> Vec<Piece> {
+fn select(c: Node, yes: Node, no: Node) -> Vec<Fragment> {
     vec![
-        Piece::Static("if "),
-        Piece::Node(c, Level::Loose),
-        Piece::Static(" { "),
-        Piece::Node(yes, Level::Loose),
-        Piece::Static(" } else { "),
-        Piece::Node(no, Level::Loose),
-        Piece::Static(" }"),
+        Fragment::Static("if "),
+        Fragment::Node(c, Level::Loose),
+        Fragment::Static(" { "),
+        Fragment::Node(yes, Level::Loose),
+        Fragment::Static(" } else { "),
+        Fragment::Node(no, Level::Loose),
+        Fragment::Static(" }"),
     ]
 }
 
 /// A function of the language.
-fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Piece> {
+fn call(writer: &Writer<'_>, op: Op, x: &[Node]) -> Vec<Fragment> {
     match op {
         Op::Pow => vec![
-            Piece::Node(x[0], Level::Atom),
-            Piece::Static("^"),
+            Fragment::Node(x[0], Level::Atom),
+            Fragment::Static("^"),
             exponent(writer.dag(), x[1]),
         ],
         _ => writer.listed(op.row().name.to_owned(), x),
@@ -101,15 +101,15 @@ fn external(of: &External, part: Part) -> String {
 }
 
 /// The right of `^` takes a sign and further powers.
-fn exponent(dag: &Dag, node: Node) -> Piece {
+fn exponent(dag: &Dag, node: Node) -> Fragment {
     match dag.kind(node) {
-        Kind::Constant(value) if !is_fraction(value) => Piece::Owned(value.to_text()),
-        _ => Piece::Node(node, Level::Power),
+        Kind::Constant(value) if !is_fraction(value) => Fragment::Owned(value.to_text()),
+        _ => Fragment::Node(node, Level::Power),
     }
 }
 
 /// `k·Π` with k ≥ 0: `0.5*q^2*p^2`, `p^2/2`, `p^2/(2*m*l^2)`.
-fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
+fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Fragment> {
     let dag = writer.dag();
     let (above, below) = fraction(factors);
     let text = k.to_text();
@@ -136,30 +136,30 @@ fn product(writer: &Writer<'_>, k: &Rational, factors: &[Power]) -> Vec<Piece> {
     };
     let mut pieces = Vec::new();
     if numerator != "1" || above.is_empty() {
-        pieces.push(Piece::Owned(numerator));
+        pieces.push(Fragment::Owned(numerator));
     }
     factors_of(dag, &above, &mut pieces);
     if below.is_empty() && denominator.is_empty() {
         return pieces;
     }
     let count = below.len() + usize::from(!denominator.is_empty());
-    pieces.push(Piece::Static(if count > 1 { "/(" } else { "/" }));
+    pieces.push(Fragment::Static(if count > 1 { "/(" } else { "/" }));
     let mut divisor = Vec::new();
     if !denominator.is_empty() {
-        divisor.push(Piece::Owned(denominator));
+        divisor.push(Fragment::Owned(denominator));
     }
     factors_of(dag, &below, &mut divisor);
     pieces.append(&mut divisor);
     if count > 1 {
-        pieces.push(Piece::Static(")"));
+        pieces.push(Fragment::Static(")"));
     }
     pieces
 }
 
-fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Piece>) {
+fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Fragment>) {
     for &(node, n) in factors {
         if !pieces.is_empty() {
-            pieces.push(Piece::Static("*"));
+            pieces.push(Fragment::Static("*"));
         }
         if n == 1 {
             // A number here is one the constructors could not multiply in.
@@ -168,10 +168,10 @@ fn factors_of(dag: &Dag, factors: &[Power], pieces: &mut Vec<Piece>) {
             } else {
                 Level::Unary
             };
-            pieces.push(Piece::Node(node, level));
+            pieces.push(Fragment::Node(node, level));
         } else {
-            pieces.push(Piece::Node(node, Level::Atom));
-            pieces.push(Piece::Owned(format!("^{n}")));
+            pieces.push(Fragment::Node(node, Level::Atom));
+            pieces.push(Fragment::Owned(format!("^{n}")));
         }
     }
 }

@@ -22,7 +22,7 @@ const OPERATIONS: usize = 100_000;
 const TIE: f64 = 1.1;
 
 /// A flow, ready for half a step and for a whole one.
-struct Piece {
+struct Prepared {
     tape: Tape,
     half: Vec<Lanes>,
     whole: Vec<Lanes>,
@@ -34,7 +34,7 @@ struct Piece {
 /// The terms of an exponential: the flows act on points near unit size for a time of a tenth.
 const TERMS: usize = 12;
 
-impl Piece {
+impl Prepared {
     fn act(&mut self, z: &mut [Lanes], is_whole: bool) {
         if !self.is_exponential {
             self.step(z, is_whole);
@@ -72,7 +72,7 @@ impl Piece {
     }
 
     fn step(&mut self, z: &mut [Lanes], is_whole: bool) {
-        let Piece {
+        let Prepared {
             tape,
             half,
             whole,
@@ -109,7 +109,7 @@ pub(crate) fn best(
     let mut chosen: Option<(f64, usize, Vec<Block>, Reasons)> = None;
     let (mut trials, mut operations) = (0, 0);
     // Candidates share blocks: each is made a piece once.
-    let mut made: Vec<Piece> = Vec::new();
+    let mut made: Vec<Prepared> = Vec::new();
     let mut numbers: Map<Node, Option<usize>> = Map::default();
     for pieces in candidates {
         let keeps = keeps(space, &pieces, invariants);
@@ -225,14 +225,14 @@ fn orders(space: &mut Space, pieces: &[Block]) -> Vec<Vec<usize>> {
     }
 }
 
-fn piece(space: &mut Space, block: &Block) -> Option<Piece> {
+fn piece(space: &mut Space, block: &Block) -> Option<Prepared> {
     let images = block.flow.motion.images(space.dag());
     let mut roots: Vec<Node> = images.iter().map(|(_, image)| *image).collect();
     roots.extend(&block.flow.motion.domain);
     let moved = images.iter().map(|(leaf, _)| space.set(*leaf).number());
     let moved = moved.collect();
     let tape = space.tape(&roots)?;
-    Some(Piece {
+    Some(Prepared {
         half: tape.prepared(STEP / 2.0),
         whole: tape.prepared(STEP),
         is_exponential: block.flow.rows == [EXPONENTIAL],
@@ -266,7 +266,7 @@ const ORBITS: usize = LANES;
 fn error(
     space: &Space,
     (energy, numbers): &mut (Tape, Vec<Lanes>),
-    pieces: &mut [Piece],
+    pieces: &mut [Prepared],
     order: &[usize],
     most: f64,
     operations: &mut usize,

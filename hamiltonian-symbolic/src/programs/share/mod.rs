@@ -12,7 +12,7 @@ mod sums;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::programs::factor::{count_uses, is_known};
 use crate::rational::Rational;
-use products::{FactorPool, Factors, Item, Made, known_root, share_products};
+use products::{FactorPool, Item, Made, SignedProduct, known_root, share_products};
 use sums::{
     TermPair, TermPairs, Terms, gathered, known_multiple, known_start, raw_sum, share_terms,
 };
@@ -48,7 +48,7 @@ pub fn share(dag: &mut Dag, roots: &mut [Node], now: Stage) {
 #[derive(Default)]
 struct Plan {
     /// Products as lists.
-    lists: Vec<Factors>,
+    lists: Vec<SignedProduct>,
     /// The list of each product.
     product_at: Map<Node, usize>,
     /// The list of a term with its coefficient in a sum, by (sum, term).
@@ -99,7 +99,7 @@ impl Plan {
             match dag.kind(node).clone() {
                 Kind::Product(k, factors) => {
                     let list = match roots.get(&node) {
-                        Some(&(root, n)) => Factors::power_of(root, n),
+                        Some(&(root, n)) => SignedProduct::power_of(root, n),
                         None => pool.grouped(dag, &k, &factors),
                     };
                     plan.product_at.insert(node, plan.lists.len());

@@ -1,6 +1,6 @@
 //! Products as lists of powers, and what several of them have in common.
 //!
-//! Input: products of the arena. Output: [`Factors`] over [`Item`]s, where shared powers, pairs,
+//! Input: products of the arena. Output: [`SignedProduct`] over [`Item`]s, where shared powers, pairs,
 //! quotients and reciprocals are items of their own. Invariant: every list stands for the product
 //! it was made from; a made item names earlier items only.
 
@@ -36,14 +36,14 @@ pub(super) enum Made {
 
 /// A product `±Π item^n`.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Factors {
+pub(super) struct SignedProduct {
     pub(super) negative: bool,
     pub(super) items: Vec<(Item, i32)>,
 }
 
-impl Factors {
-    pub(super) fn power_of(node: Node, n: i32) -> Factors {
-        Factors {
+impl SignedProduct {
+    pub(super) fn power_of(node: Node, n: i32) -> SignedProduct {
+        SignedProduct {
             negative: false,
             items: vec![(Item::Node(node), n)],
         }
@@ -119,12 +119,12 @@ impl FactorPool {
         dag: &mut Dag,
         k: &Rational,
         factors: &[(Node, i32)],
-    ) -> Factors {
+    ) -> SignedProduct {
         let common = if k.is_one() { common_power(factors) } else { 1 };
         let roots = factors.iter().map(|(node, n)| (*node, n / common));
         let (prepared, rest): (Vec<_>, Vec<_>) =
             roots.partition(|(n, _)| is_known(dag, *n, self.now));
-        let mut list = Factors {
+        let mut list = SignedProduct {
             negative: k.is_negative(),
             items: Vec::with_capacity(rest.len() + 1),
         };
@@ -172,7 +172,7 @@ pub(super) fn known_root(dag: &Dag, uses: &Numbers, product: Node) -> Option<(No
 }
 
 /// Makes items of what the lists have in common.
-pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     merge_roots(dag, pool, lists);
     merge_companions(dag, pool, lists);
     // A reciprocal rounds once more; it pays where divisions are done again and again.
@@ -184,7 +184,7 @@ pub(super) fn share_products(dag: &Dag, pool: &mut FactorPool, lists: &mut [Fact
 }
 
 /// The places of each divisor and its powers there, in order of first appearance.
-fn divisors(lists: &[Factors]) -> Vec<(Item, Vec<(usize, i32)>)> {
+fn divisors(lists: &[SignedProduct]) -> Vec<(Item, Vec<(usize, i32)>)> {
     let mut all: Vec<(Item, Vec<(usize, i32)>)> = Vec::new();
     let mut place: Map<Item, usize> = Map::default();
     for (at, list) in lists.iter().enumerate() {
@@ -201,7 +201,7 @@ fn divisors(lists: &[Factors]) -> Vec<(Item, Vec<(usize, i32)>)> {
 
 /// Divisions by √x and by x ≥ 0 are divisions by powers of √x; where only (√x)⁻³ is needed the
 /// divisor is x·√x.
-fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     let mut all = divisors(lists);
     let places: Map<Item, usize> = all.iter().enumerate().map(|(at, d)| (d.0, at)).collect();
     for at in 0..all.len() {
@@ -229,7 +229,7 @@ fn merge_roots(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
 }
 
 /// Divisors that several products have together, and only together, are one divisor.
-fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     let mut first: Map<Vec<(usize, i32)>, Item> = Map::default();
     for (item, places) in divisors(lists) {
         if places.len() < 2 {
@@ -250,7 +250,7 @@ fn merge_companions(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
 
 /// A divisor becomes a reciprocal where that leaves at least two products without a division, or
 /// where it lives in an outer loop.
-fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     let all = divisors(lists);
     let mut inverted: Map<Item, bool> = Map::default();
     for (item, places) in &all {
@@ -268,7 +268,7 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
         }
     }
     // The number of divisors of a list that would remain.
-    let remaining = |list: &Factors, inverted: &Map<Item, bool>| {
+    let remaining = |list: &SignedProduct, inverted: &Map<Item, bool>| {
         let kept = list.divisors().filter(|(item, _)| !inverted[item]);
         kept.count()
     };
@@ -294,8 +294,8 @@ fn share_reciprocals(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
     }
 }
 
-/// Factors that live in an outer loop are multiplied with each other first.
-fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+/// Products that live in an outer loop are multiplied with each other first.
+fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     if dag.loop_count() == 0 {
         return;
     }
@@ -349,7 +349,7 @@ impl Couple {
         }
     }
     /// The number of times the couple stands in a product, negative below the line.
-    fn times(self, list: &Factors) -> i32 {
+    fn times(self, list: &SignedProduct) -> i32 {
         let Couple(a, b, divided) = self;
         let (m, n) = (list.power(a), list.power(b));
         if a == b {
@@ -380,7 +380,7 @@ struct Counts {
 
 impl Counts {
     /// Counts the couples of a list in which an item is one of those asked for.
-    fn tally(&mut self, list: &Factors, sign: i64, is_asked: impl Fn(Item, i32) -> bool) {
+    fn tally(&mut self, list: &SignedProduct, sign: i64, is_asked: impl Fn(Item, i32) -> bool) {
         if list.items.len() > LONGEST {
             return;
         }
@@ -417,7 +417,7 @@ impl Counts {
 }
 
 /// Greedily makes an item of the couple that most products have in common.
-fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [Factors]) {
+fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
     let mut counts = Counts::default();
     let mut holders: Map<Item, Vec<usize>> = Map::default();
     for (at, list) in lists.iter().enumerate() {

@@ -3,7 +3,7 @@
 use super::{Facts, Given};
 use crate::dag::{Dependence, Kind, Node};
 use crate::model::Model;
-use crate::op::{At, Domain as Values};
+use crate::op::{At, NaturalDomain};
 use crate::print;
 
 /// The conditions under which expressions have values, as text: "`q - a` is not 0".
@@ -29,7 +29,7 @@ pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
             Kind::Call(op, x) => {
                 let regularity = op.row().regularity;
                 match regularity.domain {
-                    Values::From(least) if !(least <= 0 && dag.is_nonnegative(x[0])) => {
+                    NaturalDomain::From(least) if !(least <= 0 && dag.is_nonnegative(x[0])) => {
                         let is = if regularity.pole.is_some() {
                             ">"
                         } else {
@@ -37,14 +37,16 @@ pub fn conditions(model: &Model, roots: &[Node]) -> Vec<String> {
                         };
                         note(x[0], &format!("{is} {least}"));
                     }
-                    Values::Units => note(x[0], "is between -1 and 1"),
-                    Values::Power if !dag.is_nonnegative(x[0]) => match dag.as_constant(x[1]) {
-                        Some(_) => note(x[0], "≥ 0"),
-                        None => {
-                            let exponent = print::text(model, x[1]);
-                            note(x[0], &format!("≥ 0, or `{exponent}` is whole"));
+                    NaturalDomain::Units => note(x[0], "is between -1 and 1"),
+                    NaturalDomain::Power if !dag.is_nonnegative(x[0]) => {
+                        match dag.as_constant(x[1]) {
+                            Some(_) => note(x[0], "≥ 0"),
+                            None => {
+                                let exponent = print::text(model, x[1]);
+                                note(x[0], &format!("≥ 0, or `{exponent}` is whole"));
+                            }
                         }
-                    },
+                    }
                     _ => {}
                 }
                 if regularity.pole == Some(At::Cosine) {

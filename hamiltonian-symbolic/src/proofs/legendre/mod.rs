@@ -122,7 +122,7 @@ pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusa
 
 /// Velocities with a common mass matrix: of scalars, or of element k of arrays.
 #[derive(Default)]
-struct Block {
+struct Velocities {
     domain: Option<Domain>,
     /// The velocities.
     elements: Vec<Node>,
@@ -160,10 +160,10 @@ impl Transform<'_> {
     }
 
     /// Scalars in one block, arrays by their length.
-    fn blocks(&mut self, lagrangian: Node) -> Result<Vec<Block>, String> {
+    fn blocks(&mut self, lagrangian: Node) -> Result<Vec<Velocities>, String> {
         let leaves = diff::gradient(&mut self.model.dag, lagrangian, Dependence::P);
-        let mut scalars = Block::default();
-        let mut arrays: Vec<Block> = Vec::new();
+        let mut scalars = Velocities::default();
+        let mut arrays: Vec<Velocities> = Vec::new();
         for group in 0..self.model.groups.len() {
             let shape = self.model.groups[group].shape.clone();
             let Some(rows) = shape.rows() else {
@@ -180,9 +180,9 @@ impl Transform<'_> {
                 .iter()
                 .position(|block| block.domain == Some(k))
                 .unwrap_or_else(|| {
-                    arrays.push(Block {
+                    arrays.push(Velocities {
                         domain: Some(k),
-                        ..Block::default()
+                        ..Velocities::default()
                     });
                     arrays.len() - 1
                 });
@@ -224,7 +224,7 @@ impl Transform<'_> {
     }
 
     /// Each momentum may depend on velocities of its own block and element only.
-    fn check_uncoupled(&mut self, blocks: &mut [Block]) -> Result<(), String> {
+    fn check_uncoupled(&mut self, blocks: &mut [Velocities]) -> Result<(), String> {
         for block in blocks {
             for (&element, momentum) in block.elements.iter().zip(&block.momenta) {
                 // A sum over all elements may be one over k: its velocities are not element k's.
@@ -263,11 +263,11 @@ impl Transform<'_> {
 
     /// The Lagrangian with its loops unrolled and all elements in one block; `None` if there
     /// are too many, or their number is not literal.
-    fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Block)> {
+    fn written_out(&mut self, lagrangian: Node) -> Option<(Node, Velocities)> {
         let extents = self.extents()?;
         let written = unrolled(self.model, lagrangian).ok()?;
         let leaves = diff::gradient(&mut self.model.dag, written, Dependence::P);
-        let mut block = Block::default();
+        let mut block = Velocities::default();
         for (group, (rows, columns)) in extents.into_iter().enumerate() {
             for row in 0..rows {
                 for column in 0..columns {
@@ -285,7 +285,7 @@ impl Transform<'_> {
         Some((written, block))
     }
 
-    fn solve(&mut self, lagrangian: Node, blocks: &[Block]) -> Result<Legendre, String> {
+    fn solve(&mut self, lagrangian: Node, blocks: &[Velocities]) -> Result<Legendre, String> {
         let mut momenta = Vec::new();
         let mut velocities = Vec::new();
         let mut kinetic = Vec::new();
@@ -345,7 +345,7 @@ impl Transform<'_> {
     }
 
     /// M and p − b of a block.
-    fn form(&mut self, block: &Block) -> Result<Form, String> {
+    fn form(&mut self, block: &Velocities) -> Result<Form, String> {
         let zero = self.model.dag.integer(0);
         let count = block.elements.len();
         let mut matrix = vec![vec![zero; count]; count];
@@ -382,7 +382,7 @@ impl Transform<'_> {
         })
     }
 
-    fn explain(&mut self, block: &Block, singular: Singular) -> String {
+    fn explain(&mut self, block: &Velocities, singular: Singular) -> String {
         let (rows, at) = match &singular {
             Singular::Empty(rows) | Singular::Dependent(rows) => (rows.clone(), None),
             Singular::Element { row, at, .. } | Singular::NoOrder { row, at } => {
@@ -439,7 +439,7 @@ fn array(dag: &Dag, element: Node) -> Option<Array> {
     }
 }
 
-impl Block {
+impl Velocities {
     fn push(&mut self, dag: &mut Dag, element: Node, leaves: &[(Node, Node)]) {
         let zero = dag.integer(0);
         let momentum = leaves

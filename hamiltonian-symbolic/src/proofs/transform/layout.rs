@@ -63,7 +63,8 @@ impl Block {
     }
 }
 
-pub(super) struct Place {
+/// The variables that a chart maps.
+pub(super) struct Mapped {
     pub(super) blocks: Vec<Block>,
     /// The first new group.
     pub(super) first: u16,
@@ -72,7 +73,7 @@ pub(super) struct Place {
 /// The groups of the new model.
 pub(super) struct Layout {
     pub(super) groups: Vec<Group>,
-    pub(super) places: Vec<Place>,
+    pub(super) places: Vec<Mapped>,
     pub(super) kept: Vec<(u16, u16)>,
     pub(super) replaced: Vec<u16>,
 }
@@ -143,7 +144,7 @@ impl Layout {
             .map(|(chart, first)| {
                 let first = first.expect("a chart has members");
                 let blocks = blocks(model, chart, first);
-                Place { blocks, first }
+                Mapped { blocks, first }
             })
             .collect();
         Ok(Layout {

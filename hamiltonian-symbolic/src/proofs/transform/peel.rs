@@ -16,7 +16,7 @@ use crate::model::Model;
 const LARGEST: usize = 1 << 20;
 
 /// The next change of a loop.
-enum Step {
+enum Change {
     /// Unrolled.
     Unroll(i64, i64),
     /// Its first iteration taken out.
@@ -41,13 +41,13 @@ pub(super) fn peel(
             break;
         };
         let peeled = match step {
-            Step::Unroll(start, end) => {
+            Change::Unroll(start, end) => {
                 let each: Vec<Node> = (start..end)
                     .map(|at| dag.replace(body, domain, &Affine::constant(at)))
                     .collect();
                 dag.add(&each)
             }
-            Step::Peel => {
+            Change::Peel => {
                 let range = dag.range(domain).clone();
                 let first = dag.replace(body, domain, &range.start);
                 let rest = range.start.plus(1, &Affine::constant(1));
@@ -99,8 +99,8 @@ fn candidate(
     written: &[u16],
     bodies: &[Bodies],
     below: &Below,
-) -> Option<(Node, Step)> {
-    let mut found: Option<(usize, Node, Step)> = None;
+) -> Option<(Node, Change)> {
+    let mut found: Option<(usize, Node, Change)> = None;
     for node in dag.reachable(roots) {
         let Kind::Reduce(domain, body) = *dag.kind(node) else {
             continue;
@@ -123,7 +123,7 @@ fn step(
     written: &[u16],
     bodies: &[Bodies],
     below: &Below,
-) -> Option<Step> {
+) -> Option<Change> {
     let range = dag.range(domain);
     let literal = range.start.as_constant().zip(range.end.as_constant());
     let start = range.start.as_constant();
@@ -141,7 +141,7 @@ fn step(
         if written.contains(&group)
             && let Some((start, end)) = literal
         {
-            return Some(Step::Unroll(start, end));
+            return Some(Change::Unroll(start, end));
         }
         let is_body = bodies.iter().any(|bodies| bodies.old == group);
         if is_body
@@ -151,7 +151,7 @@ fn step(
             && row.affine.factor(domain) > 0
             && below.of(dag, &row.affine) == Some(0)
         {
-            return Some(Step::Peel);
+            return Some(Change::Peel);
         }
     }
     None

@@ -11,7 +11,7 @@ use super::pairs::{
     unless,
 };
 use crate::real::Mask;
-use crate::word::{Bits, Word};
+use crate::word::{Bits, Rare, Word};
 
 /// Up to here 2^k and its inverse are normal.
 const LARGE: f64 = 708.0;
@@ -161,16 +161,16 @@ pub(super) fn exp_any(x: f64, more: f64, shift: i64) -> f64 {
     scale_any(one + rest, power.wrapping_add(shift as u64))
 }
 
-/// [`exp_any`] in lanes, without a shift.
+/// [`exp_any`] in lanes.
 #[inline(always)]
-pub(super) fn exp_any_in_lanes<W: Word>(x: W, more: W) -> W {
+pub(super) fn exp_any_in_lanes<W: Word>(x: W, more: W, shift: f64) -> W {
     // From there on the value is 0 or infinite.
     let end = W::splat(800.0);
     let beyond = end.lt(x.abs());
     let x = W::select(beyond, flip(end, sign_bit(x)), x);
     let (power, one, rest) = exp_parts(x, unless(beyond, more));
     // In two halves, the second of which rounds.
-    let k = W::from_bits(power) - W::splat(ROUNDER);
+    let k = W::from_bits(power) - W::splat(ROUNDER - shift);
     let first = k.fma(W::splat(0.5), W::splat(ROUNDER));
     let second = (k - (first - W::splat(ROUNDER))) + W::splat(ROUNDER);
     (one + rest) * two_to::<W>(first.bits()) * two_to::<W>(second.bits())
@@ -265,13 +265,22 @@ pub fn sinh<W: Word>(x: W) -> W {
     let (high, low) = both(unless(tiny, size)).0;
     let y = flip(W::splat(0.5) * (high + low), sign_bit(x));
     let y = W::select(tiny, x, y);
-    y.or_rare(size.le(W::splat(LARGE)), x, sinh_of_large)
+    let plain = size.le(W::splat(LARGE));
+    if plain.all() {
+        return y;
+    }
+    let half = W::rare::<HalfExponential, 1, 1>([size])[0];
+    W::select(plain, y, flip(half, sign_bit(x)))
 }
 
-#[cold]
-#[inline(never)]
-fn sinh_of_large(x: f64) -> f64 {
-    flip(exp_any(x.abs(), 0.0, -1), sign_bit(x))
+/// exp(x)/2: from [`LARGE`] on both sinh and cosh.
+struct HalfExponential;
+
+impl Rare<1, 1> for HalfExponential {
+    #[inline(always)]
+    fn of<W: Word>([x]: [W; 1]) -> [W; 1] {
+        [exp_any_in_lanes(x, W::zero(), -1.0)]
+    }
 }
 
 /// Hyperbolic cosine.
@@ -284,13 +293,12 @@ pub fn cosh<W: Word>(x: W) -> W {
     }
     let (high, low) = both(unless(tiny, size)).1;
     let y = W::splat(0.5) * (high + low);
-    y.or_rare(size.le(W::splat(LARGE)), x, cosh_of_large)
-}
-
-#[cold]
-#[inline(never)]
-fn cosh_of_large(x: f64) -> f64 {
-    exp_any(x.abs(), 0.0, -1)
+    let plain = size.le(W::splat(LARGE));
+    if plain.all() {
+        return y;
+    }
+    let half = W::rare::<HalfExponential, 1, 1>([size])[0];
+    W::select(plain, y, half)
 }
 
 /// Hyperbolic tangent: 1 to the last bit from 22 on.

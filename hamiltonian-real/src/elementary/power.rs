@@ -74,7 +74,7 @@ impl Rare<2, 1> for Power {
         let exponent_size = Real::min(y.abs(), most);
         let bounded = flip(exponent_size, sign_bit(y));
         let (high, low) = exponent(base, unless(tiny, bounded), shift);
-        let value = exp_any_in_lanes(high, low);
+        let value = exp_any_in_lanes(high, low, 0.0);
 
         let (whole, odd) = parity(y);
         let falling = y.lt(zero);

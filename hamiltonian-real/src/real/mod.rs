@@ -108,10 +108,10 @@ pub trait Lift<P> {
 /// takes a hundred times as long. Where a value is not finite, or below 64 times the smallest normal
 /// number, terms may be subnormal. Some arguments take up to four times as long as others: angles beyond 2²⁰;
 /// `atan2` where the larger argument is outside 2⁻³⁸¹ to 2³⁸¹, or they are 2³⁸¹ apart; `pow` of bases that are
-/// subnormal or below 0, or with results that leave the normal numbers.
+/// subnormal or below 0, or with results that leave the normal numbers; `sinh` and `cosh` from ±708 on.
 ///
 /// A pack computes these arguments lane by lane, for as long as each takes alone: subnormal arguments of `ln`;
-/// `exp`, `exp_m1`, `sinh` and `cosh` from ±708 on (but `exp` on AVX-512).
+/// `exp` and `exp_m1` from ±708 on (but `exp` on AVX-512).
 ///
 /// ```
 /// use hamiltonian::prelude::*;

@@ -19,7 +19,8 @@ import re
 import subprocess
 import sys
 
-ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*(?:5enter|8enter_at)5entry")
+# What is compiled with the instructions of a level; `entry` around it is a jump.
+ENTRY = re.compile(r"level\.\.dispatch\.\.(\w+?)\$u20\$as.*(?:5enter|8enter_at)5entry6inside")
 PACKED = re.compile(r"v?(add|sub|mul|div|sqrt|f(n?)m(add|sub)\d{3})pd$")
 # Levels that every x86-64 has.
 LEAST = {"Portable", "Sse2"}
@@ -170,7 +171,7 @@ def calls_of_rare(text):
 
 
 SAMPLE = """
-_ZN_level..dispatch..Avx2$u20$as$u20$_5enter5entryE:
+_ZN_level..dispatch..Avx2$u20$as$u20$_5enter5entry6insideE:
 \tvxorpd\t%ymm0, %ymm0, %ymm0
 .LBB0_1:
 \tvmulpd\t%ymm0, %ymm0, %ymm0

@@ -13,7 +13,7 @@ use crate::vector::Vector;
 use hamiltonian_lanes::{KernelAt, Level, Mask, Real};
 
 /// Times of lanes that began at different steps: `start + (k + ahead)·interval`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Times<U> {
     pub(crate) start: U,
     pub(crate) interval: U,
@@ -43,7 +43,7 @@ pub(crate) enum Opening<M> {
 }
 
 /// The steps at which each lane sees a state, where lanes differ in them.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Apart<U> {
     /// The steps to the next state that a lane sees; 0 for one that sees none.
     pub(crate) left: U,
@@ -70,33 +70,34 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) watchers: &'a mut [Watcher<U>],
     /// The lanes whose observers follow signs.
     pub(crate) watched: U::Mask,
-    /// Whether any of them reads what the closing piece changes.
+    /// True if any of them reads what the closing piece changes.
     pub(crate) closes: bool,
     /// The steps to the first state that a lane sees.
     pub(crate) first: u64,
     /// The steps between two of them.
     pub(crate) interval: u64,
     /// The states that each lane sees, if the lanes differ.
-    pub(crate) apart: Option<Apart<U>>,
+    pub(crate) apart: Option<&'a mut Apart<U>>,
     /// The lanes that see their first state at the end of this block, of no steps.
     pub(crate) attach: Option<U::Mask>,
 }
 
 impl<U: Real, S: System<U>> Followed<'_, U, S> {
-    /// Whether signs are followed in this block.
+    /// Returns true if signs are followed in this block.
     #[inline(always)]
     fn watches(&self) -> bool {
         !self.watchers.is_empty() && self.attach.is_none()
     }
 
-    /// Whether what is followed is evaluated where the block shows it; else at the mark of what is carried.
+    /// Returns true if what is followed is evaluated where the block shows it; else it is at the mark of what is
+    /// carried.
     #[inline(always)]
     fn is_shown(&self) -> bool {
         self.closes || !self.watches()
     }
 
     /// Follows the state after step `k`, where the clock stands at `t`, of which `marks` has what is carried, if
-    /// signs are followed: `shown` is closed, if [`closes`](Followed::closes). Returns whether the block should end.
+    /// signs are followed: `shown` is closed, if [`closes`](Followed::closes). Returns true if the block should end.
     #[inline(always)]
     fn see<C: Carried<Vector = S::Vector, Scalar = U>>(
         &mut self,
@@ -146,7 +147,7 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
 /// The block.
 pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: System<U>> {
     pub(crate) map: &'a R,
-    pub(crate) times: Times<U>,
+    pub(crate) times: &'a Times<U>,
     /// Steps since the count of times began.
     pub(crate) made: u64,
     pub(crate) n: u64,
@@ -183,6 +184,7 @@ where
             mut followed,
             marks,
         } = self;
+        let times = *times;
         let mut end = made + n;
         let watches = !followed.watchers.is_empty();
         let follows = watches || !followed.trackers.is_empty();

@@ -46,10 +46,10 @@ pub trait Ensembles<S: System<T>, T: Real = f64>: Scheme<T, S> {
     /// Advances members with deviations to their ends.
     #[doc(hidden)]
     fn deviate(&self, all: &mut Deviations<'_, T, S>, fuses: bool);
-    /// Returns whether two systems may stand in one pack.
+    /// Returns true if two systems may stand in one pack.
     #[doc(hidden)]
     fn fits(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
-    /// Returns whether all their parameters are equal.
+    /// Returns true if all their parameters are equal.
     #[doc(hidden)]
     fn equals(&self, a: &S::Prepared, b: &S::Prepared) -> bool;
 }
@@ -128,7 +128,7 @@ impl<T: Real, S: System<T>> Work<T, S> for Deviating<'_, '_, T, S> {
         scheme.deviate::<L>(self.0);
     }
 }
-/// Returns whether a step works on so few numbers that many registers in lock-step hide its latency. With
+/// Returns true if a step works on so few numbers that many registers in lock-step hide its latency. With
 /// more numbers, registers spill.
 const fn is_small<T: Real, S: System<T>, M: Scheme<T, S>>() -> bool {
     const MOST: usize = 4 * size_of::<f64>();
@@ -189,7 +189,7 @@ pub(crate) trait Engine<S: System<f64>>: Send + Sync {
         step: f64,
         words: &mut Vec<f64>,
     ) -> Result<(), Error>;
-    /// Returns whether steps of this size differ in time.
+    /// Returns true if steps of this size differ in time.
     fn varies(&self, prepared: &S::Prepared, start: &State<S::Vector>, step: f64) -> bool;
     /// The scheme's line of the catalogue.
     fn entry(&self) -> Entry;

@@ -164,7 +164,7 @@ pub(crate) struct Common<V: Vector<Scalar = f64>> {
     pub(crate) step: f64,
     /// The time of one step.
     pub(crate) interval: f64,
-    /// Whether steps differ in time.
+    /// True if steps differ in time.
     pub(crate) varies: bool,
     /// The number of steps made by those that still go on.
     pub(crate) steps: u64,
@@ -177,13 +177,13 @@ pub(crate) struct Going<'a, S: System<f64>, O, F> {
     pub(crate) common: &'a Common<S::Vector>,
     /// The number of steps at which they leave.
     pub(crate) target: u64,
-    /// Whether observers see anything.
+    /// True if observers see anything.
     pub(crate) looks: bool,
     /// The index of the next member.
     pub(crate) next: usize,
-    /// Whether observers see their first state.
+    /// True if observers see their first state.
     pub(crate) attaches: bool,
-    /// Whether lanes follow what observers follow.
+    /// True if lanes follow what observers follow.
     pub(crate) follows: bool,
     pub(crate) see: F,
 }

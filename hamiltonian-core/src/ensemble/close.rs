@@ -14,7 +14,7 @@ use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 /// duration of a step.
 pub(crate) struct Close<'a, R: Map<Carried: Carried<Scalar = T::Over<P>>>, T: Real, P: Pack> {
     pub(crate) map: &'a R,
-    pub(crate) times: Times<T::Over<P>>,
+    pub(crate) times: &'a Times<T::Over<P>>,
     /// Steps since the count of times began; before it where this is negative.
     pub(crate) made: u64,
     pub(crate) carried: &'a R::Carried,
@@ -29,16 +29,44 @@ where
     T: Real,
     P: Pack,
 {
-    /// Whether the duration of a step is carried, and the lanes in which the state is finite.
+    /// True if the duration of a step is carried; and the lanes in which the state is finite.
     type Output = (bool, <T::Over<P> as Real>::Mask);
 
     #[inline(always)]
     fn run(self) -> Self::Output {
-        let lanes = P::LANES as usize;
         let t = self.times.at(self.made);
         self.shown.copy_from(self.carried);
         let mut work = R::Work::like(self.carried);
         self.map.close(t, self.shown, &mut work);
+        let (times, made) = (self.times, self.made);
+        let (carried, shown, rows) = (self.carried, &*self.shown, self.rows);
+        let show = Show::<'_, _, T, P> {
+            times,
+            made,
+            carried,
+            shown,
+            rows,
+        };
+        let carries_duration = show.write();
+        let finite = shown.finite() & carried.finite() & shown.time(t).finite();
+        (carries_duration, finite)
+    }
+}
+
+/// Writes a closed copy of what is carried to rows of lanes, as [`Close`] does.
+pub(crate) struct Show<'a, C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> {
+    pub(crate) times: &'a Times<T::Over<P>>,
+    pub(crate) made: u64,
+    pub(crate) carried: &'a C,
+    pub(crate) shown: &'a C,
+    pub(crate) rows: &'a mut Vec<T>,
+}
+
+impl<C: Carried<Scalar = T::Over<P>>, T: Real, P: Pack> Show<'_, C, T, P> {
+    /// Returns true if the duration of a step is carried.
+    #[inline(always)]
+    fn write(self) -> bool {
+        let lanes = P::LANES as usize;
         let Point { q, p } = self.shown.point();
         self.rows.resize((2 * q.len() + 2) * lanes, T::zero());
         let mut rows = self.rows.chunks_exact_mut(lanes);
@@ -48,11 +76,26 @@ where
             }
         }
         let duration = self.carried.duration(self.times.interval);
-        let last = [Some(self.shown.time(t)), duration];
+        let last = [Some(self.shown.time(self.times.at(self.made))), duration];
         for (number, row) in last.into_iter().flatten().zip(rows) {
             T::scatter::<P>(number, row);
         }
-        let finite = self.shown.finite() & self.carried.finite() & self.shown.time(t).finite();
-        (duration.is_some(), finite)
+        duration.is_some()
+    }
+}
+
+impl<L, C, T, P> KernelAt<L> for Show<'_, C, T, P>
+where
+    L: Level,
+    C: Carried<Scalar = T::Over<P>>,
+    T: Real,
+    P: Pack,
+{
+    /// True if the duration of a step is carried.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(self) -> bool {
+        self.write()
     }
 }

@@ -17,9 +17,9 @@ pub(crate) struct Crew<T: Real, S: System<T>> {
     place: Vec<Place>,
     /// Members that failed in a block of steps.
     suspects: Vec<Seat<T, S>>,
-    /// Whether suspects stand in the lanes.
+    /// True if suspects stand in the lanes.
     careful: bool,
-    /// Whether the host has members left.
+    /// True if the host has members left.
     more: bool,
     change: Option<Change>,
 }
@@ -83,7 +83,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Fills the empty lanes. Returns whether any member is left.
+    /// Fills the empty lanes. Returns true if any member is left.
     pub(crate) fn fill(&mut self, host: &mut dyn Host<T, S>) -> bool {
         let mut some = false;
         // A new member sees states at the steps at which the others do.
@@ -128,7 +128,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         lanes.filter_map(|lane| taken(lane).or(stand_in)).collect()
     }
 
-    /// Whether the crew has changed.
+    /// Returns true if the crew has changed.
     pub(crate) fn has_changed(&self) -> bool {
         self.change.is_some()
     }
@@ -310,7 +310,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         self.suspects.push(seat);
     }
 
-    /// Whether a member is at its stop.
+    /// Returns true if a member is at its stop.
     pub(crate) fn is_any_due(&self) -> bool {
         self.under().any(|seat| seat.made == seat.stop)
     }
@@ -338,7 +338,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         }
     }
 
-    /// Returns whether a member at its stop after `n` more steps has an observer of signs.
+    /// Returns true if a member at its stop after `n` more steps has an observer of signs.
     pub(crate) fn is_any_watched_due(&self, n: u64) -> bool {
         let mut due = self.under().filter(|seat| seat.made + n == seat.stop);
         due.any(|seat| !seat.follows.sections.is_empty())
@@ -362,7 +362,7 @@ impl<T: Real, S: System<T>> Crew<T, S> {
         self.change.get_or_insert_default();
     }
 
-    /// Whether a member leaves.
+    /// Returns true if a member leaves.
     pub(crate) fn is_any_leaving(&self) -> bool {
         self.place.contains(&Place::Leaving)
     }

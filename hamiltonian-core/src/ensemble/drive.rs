@@ -11,9 +11,9 @@ mod watching;
 
 use self::alone::{arrivals, explain};
 use self::deviations::Deviations;
-use self::rows::{Prepare, gathered, load, scatter, store};
+use self::rows::{Begin, Prepare, gather, lanes_of, load, scatter, store};
 use super::block::{Apart, Block, Followed, Opening, Times};
-use super::close::Close;
+use super::close::{Close, Show};
 use super::crew::Crew;
 use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
@@ -21,9 +21,9 @@ use crate::flow::Scratch;
 use crate::map::Map;
 use crate::observe::{Section, Tracker, Watcher};
 use crate::scheme::Scheme;
-use crate::state::{Carried, State};
+use crate::state::Carried;
 use crate::system::System;
-use crate::system::gather::{self, Gather, VectorOver};
+use crate::system::gather::{Gather, VectorOver};
 use crate::vector::Vector;
 use alloc::vec;
 use alloc::vec::Vec;
@@ -80,15 +80,19 @@ where
                 None => crew.steps(BLOCK, host),
             };
             lanes.before.copy_from(&lanes.carried);
-            lanes.trackers_before.clone_from(&lanes.trackers);
+            lanes.trackers_before.copy_from_slice(&lanes.trackers);
             let watches = !lanes.watchers.is_empty();
             if watches {
-                lanes.watchers_before.clone_from(&lanes.watchers);
+                lanes.watchers_before.copy_from_slice(&lanes.watchers);
                 lanes.marks.last(&mut lanes.three);
                 lanes.marks.steps.clear();
             }
             let schedule = crew.schedule();
             let closes = lanes.closes();
+            if let Some([left, interval]) = &schedule.apart {
+                gather::<L, T, P>(&counts(left), &mut lanes.apart.left);
+                gather::<L, T, P>(&counts(interval), &mut lanes.apart.interval);
+            }
             let followed: Followed<'_, T::Over<P>, S> = Followed {
                 prepared: &lanes.prepared,
                 trackers: &mut lanes.trackers,
@@ -97,15 +101,12 @@ where
                 closes,
                 first: schedule.first,
                 interval: schedule.interval,
-                apart: schedule.apart.map(|[left, interval]| Apart {
-                    left: counts::<L, T, P>(&left),
-                    interval: counts::<L, T, P>(&interval),
-                }),
+                apart: schedule.apart.map(|_| &mut lanes.apart),
                 attach,
             };
             let (mut finite, end) = L::enter_at(Block {
                 map: &lanes.map,
-                times: lanes.times,
+                times: &lanes.times,
                 made: lanes.made,
                 n,
                 opening: lanes.opening,
@@ -118,7 +119,7 @@ where
             if !closes && end < lanes.made + n {
                 (_, finite) = L::enter_at(Close::<'_, _, T, P> {
                     map: &lanes.map,
-                    times: lanes.times,
+                    times: &lanes.times,
                     made: end,
                     carried: &lanes.carried,
                     shown: &mut lanes.shown,
@@ -186,9 +187,13 @@ where
     passing_rows: Vec<T>,
     /// The lanes whose drift begins at their present state.
     attach: Option<MaskIn<T, P>>,
+    /// The steps at which lanes see states, where they differ in them.
+    apart: Apart<T::Over<P>>,
+    /// True if the map is that of a crew which has yet to board.
+    is_prepared: bool,
     /// The step of each lane for which the map is made.
     steps: Vec<T>,
-    /// Whether all lanes have the same parameters.
+    /// True if all lanes have the same parameters.
     uniform: bool,
     /// Numbers of the lanes, component by component.
     rows: Vec<T>,
@@ -213,43 +218,43 @@ where
         let steps = each(&seats, |seat| seat.step);
         let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
         let (prepared, map) = L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
-        let h = gathered::<L, T, P>(&steps);
-        let state = State {
-            t: gathered::<L, T, P>(&each(&seats, |seat| seat.state.t)),
-            q: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.q),
-            p: gather::vectors::<_, P, _>(&seats, |seat| &seat.state.p),
-        };
-        let carried = Scheme::<T::Over<P>, S>::start(scheme, &prepared, &state, h);
-        let zero = <T::Over<P> as Real>::zero();
-        Lanes {
+        let begin = Begin::<T, S, P, M>::new(scheme, &prepared, &seats[0].state, &steps);
+        let carried = L::enter_at(begin);
+        let mut lanes = Lanes {
             map,
             work: Scratch::like(&carried),
-            before: carried.clone(),
-            marks: Marks::new(&carried),
-            three: [carried.clone(), carried.clone(), carried.clone()],
+            before: another(&carried),
+            marks: Marks::new([another(&carried), another(&carried), another(&carried)]),
+            three: [another(&carried), another(&carried), another(&carried)],
             watchers: Vec::new(),
             watchers_before: Vec::new(),
             functions: Vec::new(),
-            passing: carried.clone(),
+            passing: another(&carried),
             passing_rows: Vec::new(),
             watched: Mask::splat(false),
-            shown: carried.clone(),
+            shown: another(&carried),
             rows: vec![T::default(); carried.len() * P::LANES as usize],
             carried,
-            times: Times {
-                start: zero,
-                interval: zero,
-                ahead: zero,
-            },
+            times: Times::default(),
             opening: Opening::Open,
             prepared,
             trackers: Vec::new(),
             trackers_before: Vec::new(),
             attach: None,
+            apart: Apart::default(),
             made: 0,
             steps,
             uniform: false,
-        }
+            is_prepared: true,
+        };
+        lanes.compare(&seats);
+        lanes
+    }
+
+    /// Compares the parameters of all seats.
+    fn compare(&mut self, seats: &[&Seat<T, S>]) {
+        let mut pairs = seats.windows(2);
+        self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
     }
 
     /// Puts a crew that has changed into the lanes.
@@ -264,33 +269,38 @@ where
         let seats = crew.seats();
         let steps = each(&seats, |seat| seat.step);
         let others = changed.parameters || !self.uniform;
-        if others || steps != self.steps {
+        let is_prepared = core::mem::take(&mut self.is_prepared);
+        if !is_prepared && (others || steps != self.steps) {
             let systems: Vec<_> = seats.iter().map(|seat| &seat.prepared).collect();
             (self.prepared, self.map) =
                 L::enter_at(Prepare::<T, S, P, M>::new(scheme, &systems, &steps));
             self.steps = steps;
-            let mut pairs = seats.windows(2);
-            self.uniform = pairs.all(|pair| pair[0].prepared.equals(&pair[1].prepared));
+            self.compare(&seats);
         }
         load::<L, T, P, _>(&self.rows, &mut self.carried);
         self.track::<L>(&seats);
         self.watch::<L>(&seats);
         self.marks.replace(&self.carried);
         self.made = 0;
-        let made = gathered::<L, T, P>(&each(&seats, |seat| count(seat.made)));
-        self.times = Times {
-            start: gathered::<L, T, P>(&each(&seats, |seat| seat.clock.start)),
-            interval: gathered::<L, T, P>(&each(&seats, |seat| seat.clock.interval)),
-            ahead: made,
-        };
+        let Times {
+            start,
+            interval,
+            ahead,
+        } = &mut self.times;
+        gather::<L, T, P>(&each(&seats, |seat| seat.clock.start), start);
+        gather::<L, T, P>(&each(&seats, |seat| seat.clock.interval), interval);
+        gather::<L, T, P>(&each(&seats, |seat| count(seat.made)), ahead);
         self.opening = match (changed.some_fresh, changed.all_fresh) {
             (_, true) => Opening::Open,
             (false, _) => Opening::Join,
-            _ => Opening::Mixed(made.equals(<T::Over<P> as Real>::zero())),
+            _ => {
+                let fresh: Vec<bool> = seats.iter().map(|seat| seat.made == 0).collect();
+                Opening::Mixed(lanes_of::<L, T, P>(&fresh))
+            }
         };
     }
 
-    /// Whether anything that is followed reads what the closing piece of a step changes.
+    /// Returns true if anything that is followed reads what the closing piece of a step changes.
     #[inline(always)]
     fn closes(&self) -> bool {
         let closing = self.map.closing();
@@ -305,20 +315,24 @@ where
     /// Puts the drifts of the members into lanes.
     #[inline(always)]
     fn track<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
-        self.trackers.clear();
         // The first that is followed stands for all: others are seen at their stops.
-        let Some(first) = seats.iter().find(|seat| !seat.follows.drifts.is_empty()) else {
+        let first = seats.iter().find(|seat| !seat.follows.drifts.is_empty());
+        let drifts = first.map_or(&[][..], |seat| &seat.follows.drifts);
+        for trackers in [&mut self.trackers, &mut self.trackers_before] {
+            trackers.truncate(drifts.len());
+        }
+        if drifts.is_empty() {
             return;
-        };
-        let mut begins = vec![T::zero(); seats.len()];
-        for (k, track) in first.follows.drifts.iter().enumerate() {
+        }
+        let mut begins = vec![false; seats.len()];
+        for (k, track) in drifts.iter().enumerate() {
             let mut lanes = [(); 4].map(|()| vec![T::zero(); seats.len()]);
             for (lane, seat) in seats.iter().enumerate() {
                 let Some(track) = seat.follows.drifts.get(k) else {
                     continue;
                 };
                 let Some(drift) = &track.drift else {
-                    begins[lane] = T::one();
+                    begins[lane] = true;
                     continue;
                 };
                 let number = |number| T::constant(number, 0.0);
@@ -327,16 +341,19 @@ where
                 lanes[2][lane] = number(drift.sum_of_sizes);
                 lanes[3][lane] = number(drift.sum);
             }
-            self.trackers.push(Tracker {
-                quantity: track.quantity,
-                start: gathered::<L, T, P>(&lanes[0]),
-                max: gathered::<L, T, P>(&lanes[1]),
-                sizes: gathered::<L, T, P>(&lanes[2]),
-                sum: gathered::<L, T, P>(&lanes[3]),
-            });
+            if k == self.trackers.len() {
+                self.trackers.push(Tracker::new(track.quantity));
+                self.trackers_before.push(Tracker::new(track.quantity));
+            }
+            let tracker = &mut self.trackers[k];
+            tracker.quantity = track.quantity;
+            for (numbers, into) in lanes.iter().zip(tracker.numbers_mut()) {
+                gather::<L, T, P>(numbers, into);
+            }
         }
-        let begins = gathered::<L, T, P>(&begins).equals(<T::Over<P> as Real>::one());
-        self.attach = begins.any().then_some(begins);
+        if begins.contains(&true) {
+            self.attach = Some(lanes_of::<L, T, P>(&begins));
+        }
     }
 
     /// Writes drifts back into the seats of some lanes.
@@ -344,9 +361,8 @@ where
     fn write_tracks<L: Level>(trackers: &[Tracker<T::Over<P>>], crew: &mut Crew<T, S>) {
         let mut lanes = [(); 4].map(|()| vec![T::zero(); P::LANES as usize]);
         for (k, tracker) in trackers.iter().enumerate() {
-            let packs = [tracker.start, tracker.max, tracker.sizes, tracker.sum];
-            for (lanes, pack) in lanes.iter_mut().zip(packs) {
-                scatter::<L, T, P>(&pack, lanes);
+            for (lanes, pack) in lanes.iter_mut().zip(tracker.numbers()) {
+                scatter::<L, T, P>(pack, lanes);
             }
             crew.write_track(k, &lanes);
         }
@@ -367,11 +383,15 @@ where
         let lanes = P::LANES as usize;
         let mut before = vec![T::default(); self.rows.len()];
         store::<L, T, P, _>(&self.before, &mut before);
-        let mut shown = vec![T::default(); self.rows.len()];
-        store::<L, T, P, _>(&self.shown, &mut shown);
+        let (mut shown, size) = (Vec::new(), self.shown.point().q.len());
+        L::enter_at(Show::<'_, _, T, P> {
+            times: &self.times,
+            made: self.made + 1,
+            carried: &self.carried,
+            shown: &self.shown,
+            rows: &mut shown,
+        });
         store::<L, T, P, _>(&self.carried, &mut self.rows);
-        let mut times = vec![T::default(); lanes];
-        scatter::<L, T, P>(&self.shown.time(self.times.at(self.made + 1)), &mut times);
         Self::write_tracks::<L>(&self.trackers_before, crew);
         let bad: Vec<bool> = (0..P::LANES).map(|lane| !finite.lane(lane)).collect();
         if !self.watchers.is_empty() {
@@ -379,7 +399,6 @@ where
             self.show::<L>(scheme, self.made, (true, &bad), crew, host);
         }
         let bad = (0..lanes).filter(|lane| bad[*lane]);
-        let size = self.shown.point().q.len();
         for lane in bad {
             let column = |rows: &[T], c: usize| rows[c * lanes + lane];
             let Some((mut seat, careful)) = crew.take(lane) else {
@@ -395,7 +414,8 @@ where
             let point: Vec<f64> = (0..2 * size).map(|c| column(&shown, c).to_f64()).collect();
             let alone = (&seat.prepared, &seat.state, seat.step, seat.clock);
             let made = (seat.made, &*seat.words);
-            let error = explain(scheme, alone, made, &point, times[lane].to_f64());
+            let reached = column(&shown, 2 * size).to_f64();
+            let error = explain(scheme, alone, made, &point, reached);
             host.fail(&mut seat, error);
         }
     }
@@ -420,21 +440,26 @@ where
             });
         }
         if host.looks() {
-            let point = self.shown.point();
-            let mut numbers = vec![T::default(); lanes];
-            for c in 0..point.q.len() {
-                scatter::<L, T, P>(&point.q.component(c), &mut numbers);
-                crew.show(&numbers, |state| state.q.component_mut(c));
-                scatter::<L, T, P>(&point.p.component(c), &mut numbers);
-                crew.show(&numbers, |state| state.p.component_mut(c));
-            }
-            scatter::<L, T, P>(&self.shown.time(self.times.at(self.made)), &mut numbers);
-            crew.show(&numbers, |state| &mut state.t);
-            let durations = self.carried.duration(self.times.interval).map(|durations| {
-                scatter::<L, T, P>(&durations, &mut numbers);
-                numbers
+            let size = self.shown.point().q.len();
+            let carries_duration = L::enter_at(Show::<'_, _, T, P> {
+                times: &self.times,
+                made: self.made,
+                carried: &self.carried,
+                shown: &self.shown,
+                rows: &mut self.passing_rows,
             });
-            arrivals(scheme, crew, host, durations.as_deref());
+            let mut rows = self.passing_rows.chunks_exact(lanes);
+            for (c, row) in (0..size).zip(&mut rows) {
+                crew.show(row, |state| state.q.component_mut(c));
+            }
+            for (c, row) in (0..size).zip(&mut rows) {
+                crew.show(row, |state| state.p.component_mut(c));
+            }
+            for row in rows.by_ref().take(1) {
+                crew.show(row, |state| &mut state.t);
+            }
+            let durations = rows.next().filter(|_| carries_duration);
+            arrivals(scheme, crew, host, durations);
         } else {
             crew.for_each_due(|_, _| false);
         }
@@ -455,9 +480,13 @@ fn count<T: Real>(steps: u64) -> T {
     T::constant(steps as i64 as f64, 0.0)
 }
 
-/// Numbers of steps in lanes.
-#[inline(always)]
-fn counts<L: Level, T: Real, P: Pack>(steps: &[u64]) -> T::Over<P> {
-    let steps: Vec<T> = steps.iter().map(|n| count(*n)).collect();
-    gathered::<L, T, P>(&steps)
+/// Numbers of steps as scalars.
+fn counts<T: Real>(steps: &[u64]) -> Vec<T> {
+    steps.iter().map(|n| count(*n)).collect()
+}
+
+/// A copy, made out of line: a value in lanes is long, and many copies are made of the first.
+#[inline(never)]
+fn another<C: Clone>(of: &C) -> C {
+    of.clone()
 }

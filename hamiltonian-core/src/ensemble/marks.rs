@@ -27,9 +27,9 @@ pub(crate) struct Marks<C, M> {
 
 impl<C: Vector, M> Marks<C, M> {
     #[inline(always)]
-    pub(crate) fn new(carried: &C) -> Self {
+    pub(crate) fn new(ring: Three<C>) -> Self {
         Marks {
-            ring: [carried.clone(), carried.clone(), carried.clone()],
+            ring,
             turn: 0,
             steps: Vec::new(),
             states: Vec::new(),
@@ -63,7 +63,7 @@ impl<C: Vector, M> Marks<C, M> {
         }
     }
 
-    /// Marks the last step. Returns whether the block should end.
+    /// Marks the last step. Returns true if the block should end.
     #[inline(always)]
     pub(crate) fn mark(&mut self, step: u64, lanes: M) -> bool {
         let place = self.steps.len();

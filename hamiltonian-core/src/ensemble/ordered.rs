@@ -34,7 +34,7 @@ mod parallel {
         /// The number of results taken.
         taken: usize,
         done: BTreeMap<usize, B>,
-        /// Whether no more jobs are begun.
+        /// True if no more jobs are begun.
         stop: bool,
     }
 

@@ -20,7 +20,7 @@ pub struct End<'v, S: System<f64>, O> {
     pub observer: &'v O,
     /// The number of whole steps made.
     pub steps: u64,
-    /// Whether its observer has ended it.
+    /// True if its observer has ended it.
     pub stopped: bool,
     pub(crate) prepared: &'v S::Prepared,
 }
@@ -44,7 +44,7 @@ pub(crate) type Write<'a, S, O> = Box<dyn Fn(&End<'_, S, O>, &mut Vec<f64>) + Se
 /// The record of a sweep: its columns, and how they are written.
 pub struct Record<'a, S: System<f64>, O> {
     pub(crate) columns: Vec<String>,
-    /// Whether a member may have another number of rows than one.
+    /// True if a member may have another number of rows than one.
     pub(crate) several: bool,
     /// Times at which members are recorded; at their end if there are none.
     pub(crate) times: Option<Vec<f64>>,
@@ -125,7 +125,7 @@ pub(crate) struct Batch {
     pub(crate) columns: usize,
     pub(crate) outcomes: Vec<Outcome>,
     pub(crate) values: Vec<f64>,
-    /// Whether it was cancelled on the way, so that some are missing.
+    /// True if it was cancelled on the way, so that some are missing.
     pub(crate) cancelled: bool,
 }
 

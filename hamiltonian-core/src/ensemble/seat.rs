@@ -18,7 +18,7 @@ pub struct Seat<T: Real, S: System<T>> {
     pub(crate) key: usize,
     /// Its system.
     pub(crate) prepared: S::Prepared,
-    /// Whether the system is another one than the one before in this seat.
+    /// True if the system is another one than the one before in this seat.
     pub(crate) other: bool,
     /// Its step.
     pub(crate) step: T,
@@ -46,7 +46,7 @@ pub struct Seat<T: Real, S: System<T>> {
 pub trait Host<T: Real, S: System<T>> {
     /// Puts the next member into a seat, which may hold one that has left. Returns false if there is none.
     fn load(&mut self, seat: &mut Option<Seat<T, S>>) -> bool;
-    /// Receives a member's state at its stop. Returns whether the member stays, with its stop moved on. Lanes
+    /// Receives a member's state at its stop. Returns true if the member stays, with its stop moved on. Lanes
     /// follow from now on what is in `follows`.
     fn arrive(
         &mut self,
@@ -56,7 +56,7 @@ pub trait Host<T: Real, S: System<T>> {
         view: &View<'_, T, S>,
     ) -> bool;
     /// Shows the observer of a member a state on the way to its stop, see
-    /// [`Observer::pass`](crate::Observer::pass). Returns whether the member goes on.
+    /// [`Observer::pass`](crate::Observer::pass). Returns true if the member goes on.
     fn pass(&mut self, key: usize, view: &View<'_, T, S>, quiet: bool) -> bool;
     /// Takes the drifts of a member at its stop.
     fn follow(&mut self, key: usize, follows: &mut Follows<T>);
@@ -66,6 +66,6 @@ pub trait Host<T: Real, S: System<T>> {
     fn leave(&mut self, seat: &mut Seat<T, S>);
     /// Takes back a member whose next step failed; `words` are those before that step.
     fn fail(&mut self, seat: &mut Seat<T, S>, error: Error);
-    /// Whether it receives states; if not, members leave at their stops.
+    /// Returns true if it receives states; if not, members leave at their stops.
     fn looks(&self) -> bool;
 }

@@ -119,6 +119,34 @@ pub(crate) struct Tracker<U> {
 }
 
 impl<U: Real> Tracker<U> {
+    /// A drift whose numbers are yet to be written.
+    pub(crate) fn new(quantity: Quantity) -> Self {
+        Tracker {
+            quantity,
+            start: U::zero(),
+            max: U::zero(),
+            sizes: U::zero(),
+            sum: U::zero(),
+        }
+    }
+
+    /// Its numbers: the first value, the largest size, the sum of sizes, the sum.
+    #[inline(always)]
+    pub(crate) fn numbers(&self) -> [&U; 4] {
+        [&self.start, &self.max, &self.sizes, &self.sum]
+    }
+
+    /// Its numbers, to be written.
+    #[inline(always)]
+    pub(crate) fn numbers_mut(&mut self) -> [&mut U; 4] {
+        [
+            &mut self.start,
+            &mut self.max,
+            &mut self.sizes,
+            &mut self.sum,
+        ]
+    }
+
     /// Begins some lanes with their first value.
     #[inline(always)]
     pub(crate) fn begin(&mut self, lanes: U::Mask, value: U) {

@@ -53,16 +53,22 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> Watcher<U> {
-    /// From the value after the last step and the one before.
-    #[inline(always)]
-    pub(crate) fn new(quantity: Quantity, period: Option<U>, value: U, before: U) -> Self {
+    /// A function whose values are yet to be written.
+    pub(crate) fn new(quantity: Quantity, period: Option<U>) -> Self {
         Watcher {
             quantity,
             period,
-            values: [value, before],
+            values: [U::zero(); 2],
             turn: 0,
             is_far: false,
         }
+    }
+
+    /// The value after the last step and the one before, to be written.
+    #[inline(always)]
+    pub(crate) fn values_mut(&mut self) -> &mut [U; 2] {
+        self.turn = 0;
+        &mut self.values
     }
 
     /// The value after the last step.
@@ -73,8 +79,8 @@ impl<U: Real> Watcher<U> {
 
     /// The value after the last step, and the one before.
     #[inline(always)]
-    pub(crate) fn last(&self) -> [U; 2] {
-        [*self.value(), self.values[(self.turn + 1) & 1]]
+    pub(crate) fn last(&self) -> [&U; 2] {
+        [self.value(), &self.values[(self.turn + 1) & 1]]
     }
 
     /// Goes on to the value after the next step, if nothing can have happened in the lanes that are watched:
@@ -107,7 +113,7 @@ impl<U: Real> Watcher<U> {
     /// next.
     #[inline(always)]
     pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
-        let [from, before] = self.last();
+        let [&from, &before] = self.last();
         let changed = from - before;
         let (value, counted) = match self.period {
             None => (value, value),

@@ -380,32 +380,40 @@ macro_rules! level {
 
             #[inline(always)]
             fn enter<K: Kernel>(kernel: K) -> K::Output {
-                $(#[target_feature(enable = $features)])?
+                // rustc drops `inline(never)` where a function has features. This one has none, so what has
+                // them cannot be inlined into it.
                 #[inline(never)]
                 fn entry<K: Kernel>(kernel: K) -> K::Output {
-                    kernel.run::<$level>()
+                    $(#[target_feature(enable = $features)])?
+                    fn inside<K: Kernel>(kernel: K) -> K::Output {
+                        kernel.run::<$level>()
+                    }
+                    // SAFETY: `inside` asks for the features of the level alone. The level is private,
+                    // so this is called by `dispatch_at_most`, which has asked the CPU, or by a kernel
+                    // that runs on this level already.
+                    #[allow(unused_unsafe)]
+                    unsafe {
+                        inside(kernel)
+                    }
                 }
-                // SAFETY: `entry` asks for the features of the level alone. The level is private,
-                // so this is called by `dispatch_at_most`, which has asked the CPU, or by a kernel
-                // that runs on this level already.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    entry(kernel)
-                }
+                entry(kernel)
             }
 
             #[inline(always)]
             fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output {
-                $(#[target_feature(enable = $features)])?
                 #[inline(never)]
                 fn entry<K: KernelAt<$level>>(kernel: K) -> K::Output {
-                    kernel.run()
+                    $(#[target_feature(enable = $features)])?
+                    fn inside<K: KernelAt<$level>>(kernel: K) -> K::Output {
+                        kernel.run()
+                    }
+                    // SAFETY: as in `enter`: the caller has asked the CPU, or runs on this level already.
+                    #[allow(unused_unsafe)]
+                    unsafe {
+                        inside(kernel)
+                    }
                 }
-                // SAFETY: as in `enter`: the caller has asked the CPU, or runs on this level already.
-                #[allow(unused_unsafe)]
-                unsafe {
-                    entry(kernel)
-                }
+                entry(kernel)
             }
         }
     };

@@ -107,17 +107,21 @@ macro_rules! out_of_line {
     ($($features:literal)?) => {
         #[inline(always)]
         fn out_of_line<A>(f: impl FnOnce() -> A) -> A {
-            $(#[target_feature(enable = $features)])?
+            // As in `Level::enter`: `inline(never)` holds for functions without features alone.
             #[inline(never)]
             fn entry<A>(f: impl FnOnce() -> A) -> A {
-                f()
+                $(#[target_feature(enable = $features)])?
+                fn inside<A>(f: impl FnOnce() -> A) -> A {
+                    f()
+                }
+                // SAFETY: `inside` asks for features of the level that names the register, and that
+                // level is entered only on a CPU that has them (see the module).
+                #[allow(unused_unsafe)]
+                unsafe {
+                    inside(f)
+                }
             }
-            // SAFETY: `entry` asks for features of the level that names the register, and that
-            // level is entered only on a CPU that has them (see the module).
-            #[allow(unused_unsafe)]
-            unsafe {
-                entry(f)
-            }
+            entry(f)
         }
         #[inline(always)]
         fn rare<F, W, const N: usize, const M: usize, const K: usize>(

@@ -6,7 +6,7 @@
 //! its member and on the arithmetic of the pack alone.
 
 use super::alone::explain;
-use super::rows::{Prepare, gathered, load, scatter, store};
+use super::rows::{Begin, Prepare, gather, load, scatter, store};
 use super::{CarriedIn, InPack, MapIn};
 use crate::error::Error;
 use crate::flow::Scratch;
@@ -168,13 +168,8 @@ where
                 Some(lanes) => lanes.map = map,
                 None => {
                     let start = &members[crew[0]].start;
-                    let start = State {
-                        t: gathered::<L, T, P>(&[start.t]),
-                        q: start.q.zeros_over(),
-                        p: start.p.zeros_over(),
-                    };
-                    let h = gathered::<L, T, P>(&steps);
-                    let carried = Scheme::<T::Over<P>, S>::start(scheme, &prepared, &start, h);
+                    let begin = Begin::<T, S, P, M>::new(scheme, &prepared, start, &steps);
+                    let carried = L::enter_at(begin);
                     let zero = <T::Over<P> as Real>::zero();
                     let (n, size) = (all.count, carried.point().len());
                     *lanes = Some(Lanes {
@@ -182,7 +177,7 @@ where
                         work: Scratch::like(&carried),
                         clock: Clock {
                             start: zero,
-                            interval: gathered::<L, T, P>(&[all.interval]),
+                            interval: all.interval.spread::<P>(),
                         },
                         of: Vec::new(),
                         seats: Vec::new(),
@@ -206,7 +201,7 @@ where
         lanes.seats.resize(P::LANES as usize, None);
         lanes.lost = vec![None; P::LANES as usize];
         let starts: Vec<T> = crew.iter().map(|at| members[*at].start.t).collect();
-        lanes.clock.start = gathered::<L, T, P>(&starts);
+        gather::<L, T, P>(&starts, &mut lanes.clock.start);
         let last = crew[crew.len() - 1];
         for (d, carried) in lanes.carried.iter_mut().enumerate() {
             let mut row = lanes.rows.iter_mut();
@@ -326,7 +321,7 @@ where
     }
 
     /// Takes lost members out of the lanes, and puts another in their place, so that nothing harmful is
-    /// computed there. Returns whether any is left.
+    /// computed there. Returns true if any is left.
     #[cold]
     #[inline(never)]
     fn part_with<L: Level>(&mut self, is_careful: bool, suspects: &mut Vec<usize>) -> bool {
@@ -395,7 +390,7 @@ struct Round<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real> {
     clock: Clock<U>,
     made: u64,
     n: u64,
-    /// Whether deviations are made orthonormal after them, or of length 1.
+    /// True if deviations are made orthonormal after them, or of length 1.
     turns: bool,
     orthogonal: bool,
     /// The step at which they were so last.
@@ -416,7 +411,7 @@ where
     R: Map<Carried: Carried<Scalar = U>>,
     U: Real,
 {
-    /// Whether everything is finite; the time of the first deviation.
+    /// True if everything is finite; and the time of the first deviation.
     type Output = (bool, U);
 
     #[inline(always)]

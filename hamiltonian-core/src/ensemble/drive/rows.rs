@@ -3,31 +3,59 @@
 //! Input: numbers of members, or those of lanes. Output: the other. Invariant: this code is as long as a pack is
 //! wide, so that each function of it occurs once in a pack type, and is called.
 
-use crate::map::Step;
+use super::MaskIn;
+use crate::map::{Map, Step};
 use crate::scheme::Scheme;
+use crate::state::State;
 use crate::system::System;
 use crate::system::gather::{Gather, VectorOver};
 use crate::vector::Vector;
+use alloc::vec::Vec;
 use core::marker::PhantomData;
 use hamiltonian_lanes::{KernelAt, Level, Pack, Real};
 
-/// A number of each member in its lane.
+/// A number of each member, in its lane of a pack that has its place: returned, it would be copied register by
+/// register wherever this is called.
 #[inline(always)]
-pub(in crate::ensemble) fn gathered<L: Level, T: Real, P: Pack>(numbers: &[T]) -> T::Over<P> {
-    let pack = PhantomData::<P>;
-    L::enter_at(Gathered { numbers, pack })
+pub(in crate::ensemble) fn gather<L: Level, T: Real, P: Pack>(
+    numbers: &[T],
+    into: &mut T::Over<P>,
+) {
+    L::enter_at(Gathered::<T, P> { numbers, into });
 }
 
-struct Gathered<'a, T, P> {
+struct Gathered<'a, T: Real, P: Pack> {
     numbers: &'a [T],
-    pack: PhantomData<P>,
+    into: &'a mut T::Over<P>,
 }
 
 impl<L: Level, T: Real, P: Pack> KernelAt<L> for Gathered<'_, T, P> {
-    type Output = T::Over<P>;
+    type Output = ();
     #[inline(always)]
-    fn run(self) -> T::Over<P> {
-        T::gather::<P>(self.numbers)
+    fn run(self) {
+        *self.into = T::gather::<P>(self.numbers);
+    }
+}
+
+/// The lanes whose flag is set.
+#[inline(always)]
+pub(in crate::ensemble) fn lanes_of<L: Level, T: Real, P: Pack>(flags: &[bool]) -> MaskIn<T, P> {
+    let of = PhantomData::<(T, P)>;
+    L::enter_at(LanesOf { flags, of })
+}
+
+struct LanesOf<'a, T, P> {
+    flags: &'a [bool],
+    of: PhantomData<(T, P)>,
+}
+
+impl<L: Level, T: Real, P: Pack> KernelAt<L> for LanesOf<'_, T, P> {
+    type Output = MaskIn<T, P>;
+    #[inline(always)]
+    fn run(self) -> MaskIn<T, P> {
+        let number = |flag: &bool| if *flag { T::one() } else { T::zero() };
+        let numbers: Vec<T> = self.flags.iter().map(number).collect();
+        T::gather::<P>(&numbers).equals(<T::Over<P> as Real>::one())
     }
 }
 
@@ -62,7 +90,7 @@ where
     let mut rows = rows.chunks_exact(P::LANES as usize);
     for k in 0..V::PARTS {
         for (component, row) in to.part_mut(k).iter_mut().zip(&mut rows) {
-            *component = gathered::<L, T, P>(row);
+            gather::<L, T, P>(row, component);
         }
     }
 }
@@ -129,5 +157,59 @@ where
         let step = Step::of(T::gather::<P>(self.steps));
         let map = self.scheme.prepare(&prepared, step);
         (prepared, map)
+    }
+}
+
+/// What a scheme carries at a state, the same in all lanes.
+pub(in crate::ensemble) struct Begin<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> {
+    scheme: &'a M,
+    prepared: &'a <S as System<T::Over<P>>>::Prepared,
+    state: &'a State<<S as System<T>>::Vector>,
+    steps: &'a [T],
+}
+
+impl<'a, T: Real, S: System<T> + System<T::Over<P>>, P: Pack, M> Begin<'a, T, S, P, M> {
+    pub(in crate::ensemble) fn new(
+        scheme: &'a M,
+        prepared: &'a <S as System<T::Over<P>>>::Prepared,
+        state: &'a State<<S as System<T>>::Vector>,
+        steps: &'a [T],
+    ) -> Self {
+        Begin {
+            scheme,
+            prepared,
+            state,
+            steps,
+        }
+    }
+}
+
+impl<L, T, S, P, M> KernelAt<L> for Begin<'_, T, S, P, M>
+where
+    L: Level,
+    T: Real,
+    P: Pack,
+    S: System<T> + System<T::Over<P>, Vector = VectorOver<<S as System<T>>::Vector, P>>,
+    M: Scheme<T::Over<P>, S>,
+{
+    type Output = <M::Map as Map>::Carried;
+
+    #[inline(always)]
+    fn run(self) -> Self::Output {
+        let State { t, q, p } = self.state;
+        let mut start = State {
+            t: t.spread::<P>(),
+            q: q.zeros_over(),
+            p: p.zeros_over(),
+        };
+        for (to, from) in [(&mut start.q, q), (&mut start.p, p)] {
+            for k in 0..<S as System<T>>::Vector::PARTS {
+                for (to, from) in to.part_mut(k).iter_mut().zip(from.part(k)) {
+                    *to = from.spread::<P>();
+                }
+            }
+        }
+        let h = T::gather::<P>(self.steps);
+        Scheme::<T::Over<P>, S>::start(self.scheme, self.prepared, &start, h)
     }
 }

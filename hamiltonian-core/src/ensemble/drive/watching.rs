@@ -4,7 +4,7 @@
 //! with the two before. Invariant: they remember what they would remember had they seen every state.
 
 use super::alone::Passing;
-use super::rows::{gathered, scatter, store};
+use super::rows::{gather, lanes_of, scatter, store};
 use super::{Lanes, each};
 use crate::ensemble::close::Close;
 use crate::ensemble::crew::Crew;
@@ -33,12 +33,14 @@ where
     #[inline(always)]
     pub(super) fn watch<L: Level>(&mut self, seats: &[&Seat<T, S>]) {
         self.watchers.clear();
-        let watched = each(seats, |seat| match seat.follows.sections.is_empty() {
-            true => T::zero(),
-            false => T::one(),
-        });
-        self.watched = gathered::<L, T, P>(&watched).equals(<T::Over<P> as Real>::one());
+        self.watchers_before.clear();
+        let watched = seats.iter().map(|seat| !seat.follows.sections.is_empty());
+        let watched: Vec<bool> = watched.collect();
+        self.watched = lanes_of::<L, T, P>(&watched);
         self.functions.clear();
+        if !watched.contains(&true) {
+            return;
+        }
         for section in seats.iter().flat_map(|seat| &seat.follows.sections) {
             if !self.functions.iter().any(|other| other.is_of(section)) {
                 self.functions.push(*section);
@@ -51,12 +53,18 @@ where
                 own.map_or(T::zero(), number)
             };
             let in_lanes = |number: fn(&Section<T>) -> T| each(seats, |seat| of(seat, number));
-            self.watchers.push(Watcher::new(
-                function.quantity,
-                function.period.map(|period| gathered::<L, T, P>(&[period])),
-                gathered::<L, T, P>(&in_lanes(|section| section.value)),
-                gathered::<L, T, P>(&in_lanes(|section| section.value - section.change)),
-            ));
+            let period = function.period.map(T::spread::<P>);
+            self.watchers.push(Watcher::new(function.quantity, period));
+            self.watchers_before
+                .push(Watcher::new(function.quantity, period));
+            let numbers: [fn(&Section<T>) -> T; 2] = [
+                |section| section.value,
+                |section| section.value - section.change,
+            ];
+            let last = self.watchers.last_mut().map(Watcher::values_mut);
+            for (number, value) in numbers.into_iter().zip(last.into_iter().flatten()) {
+                gather::<L, T, P>(&in_lanes(number), value);
+            }
         }
     }
 
@@ -70,8 +78,8 @@ where
         let [mut values, mut before] = [(); 2].map(|()| vec![T::zero(); P::LANES as usize]);
         for (function, watcher) in self.functions.iter().zip(watchers) {
             let [last, one_before] = watcher.last();
-            scatter::<L, T, P>(&last, &mut values);
-            scatter::<L, T, P>(&one_before, &mut before);
+            scatter::<L, T, P>(last, &mut values);
+            scatter::<L, T, P>(one_before, &mut before);
             crew.for_each_watched(|lane, seat| {
                 let mut own = seat.follows.sections.iter_mut();
                 let own = own.find(|section| section.is_of(function));
@@ -128,7 +136,7 @@ where
         for (back, carried) in [2, 1, 0].into_iter().zip(&self.three) {
             let (carries_duration, _) = L::enter_at(Close::<'_, _, T, P> {
                 map: &self.map,
-                times: self.times,
+                times: &self.times,
                 made: step.wrapping_sub(back),
                 carried,
                 shown: &mut self.passing,

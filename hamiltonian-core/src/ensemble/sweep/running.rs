@@ -24,7 +24,7 @@ struct Under<O> {
     member: Member,
     observer: O,
     is_attached: bool,
-    /// Whether lanes follow all that its observer follows.
+    /// True if lanes follow all that its observer follows.
     is_followed: bool,
     /// Its end, if that is not the same for all.
     end: f64,
@@ -35,7 +35,7 @@ struct Under<O> {
     values: Vec<f64>,
 }
 
-/// Whether a member has come to its end: at which state, and whether its observer ended it.
+/// `Break` if a member has come to its end: its state there, and true if its observer ended it.
 type Seen<S> = ControlFlow<(State<<S as System<f64>>::Vector>, bool)>;
 
 /// The members.
@@ -50,7 +50,7 @@ pub(crate) struct Running<'r, 'a, S: System<f64>, O> {
     hashes: Vec<u64>,
     values: Vec<f64>,
     words: Vec<f64>,
-    /// Whether steps differ in time.
+    /// True if steps differ in time.
     varies: bool,
     cancelled: bool,
 }

@@ -14,6 +14,13 @@ hamiltonian! {
 }
 
 hamiltonian! {
+    /// Sites with neighbours as far away as slabs may share elements, and one site further.
+    pub struct Far { n: usize }
+    H(q[n]; p[n]) = sum(i in 0..n) { p[i]^2/2 } + sum(i in 0..n - 32) { exp(q[i] - q[i + 32])/(i + 1) }
+        + sum(i in 0..n - 33) { cos(q[i] - q[i + 33]) }
+}
+
+hamiltonian! {
     /// A field with a mass for each column, and two values at each site.
     pub struct Field { n: usize, m: usize, w: [m] }
     H(u[n][m][2]; p[n][m][2]) = sum(i in 0..n, j in 0..m) {
@@ -84,6 +91,7 @@ fn chains_have_the_bits_of_one_thread() {
     // Below two slabs, at two, and tails of slabs and of packs.
     for n in [40, 16_383, 16_384, 16_387, 24_577, 70_001] {
         check(&Chain::new(n).unwrap(), StormerVerlet::default());
+        check(&Far::new(n).unwrap(), StormerVerlet::default());
     }
     check(&Chain::new(33_333).unwrap(), Gauss::<4>::default());
 }

@@ -83,7 +83,7 @@ hamiltonian::hamiltonian! {
 trait Force<const N: usize>: Copy {
     /// The distances.
     const AT: [isize; N];
-    /// Whether the first site is a neighbour of the last.
+    /// True if the first site is a neighbour of the last.
     const IS_PERIODIC: bool = true;
     /// The force.
     fn force<T: Real>(self, own: T, at: [T; N]) -> T;

@@ -67,7 +67,7 @@ fn main() {
     }
 }
 
-/// Whether a workload ends where its twin does, at no more than 1.02 times the instructions.
+/// Returns true if a workload ends where its twin does, at no more than 1.02 times the instructions.
 fn passes(number: usize, workload: &workloads::Workload, counted: bool) -> bool {
     let (library, twin) = ((workload.library)(1000), (workload.twin)(1000));
     // Different roundings of the same 1000 steps of size 1e-3.

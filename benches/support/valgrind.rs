@@ -5,7 +5,7 @@ use std::ffi::OsStr;
 use std::path::Path;
 use std::process::Command;
 
-/// Whether valgrind is on this machine.
+/// Returns true if valgrind is on this machine.
 pub fn is_there() -> bool {
     Command::new("valgrind")
         .arg("--version")

@@ -87,7 +87,7 @@ fn lanes<P: Pack>(x: P) -> Vec<f64> {
     lanes
 }
 
-/// Whether `P` rounds `a·b + c` once.
+/// Returns true if `P` rounds `a·b + c` once.
 fn fuses<P: Pack>() -> bool {
     let x = P::constant(0.1, 0.0);
     x.fma(x, -(x * x)).lane(0) != 0.0

@@ -37,7 +37,7 @@ pub trait Rare<const N: usize, const M: usize> {
 pub trait Word: Real {
     /// The lanes' bits.
     type Bits: Bits;
-    /// Whether [`Real::fma`] rounds once.
+    /// True if [`Real::fma`] rounds once.
     const FUSED: bool;
 
     /// The lanes' bits.

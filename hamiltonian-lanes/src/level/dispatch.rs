@@ -41,7 +41,7 @@ pub enum Cpu {
     Avx512,
 }
 
-/// Whether this CPU has a feature. Without `std` nobody asks the CPU: it has what the crate was
+/// Returns true if this CPU has a feature. Without `std` nobody asks the CPU: it has what the crate was
 /// compiled for (`-C target-cpu`).
 #[cfg(target_arch = "x86_64")]
 macro_rules! has {

@@ -22,7 +22,7 @@ pub trait Register: Copy + Send + Sync + 'static {
         + for<'a> TryFrom<&'a [f64]>;
     /// The number of lanes.
     const LANES: u32;
-    /// Whether [`fma`](Self::fma) rounds once.
+    /// True if [`fma`](Self::fma) rounds once.
     const FUSED: bool;
 
     fn splat(value: f64) -> Self;
@@ -51,7 +51,7 @@ pub trait Register: Copy + Send + Sync + 'static {
     fn shl<const K: u32>(a: Self) -> Self;
     /// The bits moved down by `K < 64`.
     fn shr<const K: u32>(a: Self) -> Self;
-    /// Whether the lowest bit is set.
+    /// The lanes whose lowest bit is set.
     fn odd(a: Self) -> Self::Flags;
     /// [`Word::scaled`](hamiltonian_real::parts::Word::scaled), where there is an instruction for it.
     #[inline(always)]

@@ -15,7 +15,7 @@ use super::points::{ROWS, Row};
 /// Arguments a decade and sign.
 const EACH: usize = 24;
 
-/// Whether an operation of `f` had a subnormal operand, or a rounded result below the normal numbers.
+/// Returns true if an operation of `f` had a subnormal operand, or a rounded result below the normal numbers.
 fn meets_subnormal(f: impl FnOnce()) -> bool {
     const DENORMAL: u32 = 1 << 1;
     const UNDERFLOW: u32 = 1 << 4;
@@ -46,12 +46,12 @@ fn decade(k: i32) -> Vec<f64> {
 /// The arguments of a function of two numbers beside those of a decade.
 const SECOND: [f64; 3] = [1.0, 0.7, 300.0];
 
-/// Whether a value is below the normal numbers, or next to them, or leaves them: it has slow terms.
+/// Returns true if a value is below the normal numbers, or next to them, or leaves them: it has slow terms.
 fn is_out_of_range(value: f64) -> bool {
     value.abs() < 64.0 * f64::MIN_POSITIVE || !value.is_finite()
 }
 
-/// Whether lanes leave their common path, which then computes something else in passing. As the
+/// Returns true if lanes leave their common path, which then computes something else in passing. As the
 /// documentation of `Real` lists them.
 fn is_rare_in_lanes(name: &str, x: f64, y: f64) -> bool {
     let ((size, large), small) = ((x.abs(), x.abs().max(y)), x.abs().min(y));

@@ -16,7 +16,7 @@ use crate::word::{Bits, Rare, Word};
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
 
-/// Whether `x` is positive, normal and finite.
+/// Returns true if `x` is positive, normal and finite.
 #[inline(always)]
 fn is_plain<W: Word>(x: W) -> W::Mask {
     W::splat(f64::MIN_POSITIVE).le(x) & x.le(W::splat(f64::MAX))

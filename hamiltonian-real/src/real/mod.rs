@@ -34,9 +34,9 @@ pub trait Mask:
 {
     /// Every lane the same flag.
     fn splat(flag: bool) -> Self;
-    /// Whether every lane is set.
+    /// Returns true if every lane is set.
     fn all(self) -> bool;
-    /// Whether any lane is set.
+    /// Returns true if any lane is set.
     fn any(self) -> bool;
     /// The flag of lane `k`; `false` where there is no such lane.
     fn lane(self, k: u32) -> bool;
@@ -163,7 +163,7 @@ pub trait Real:
     /// This scalar with a value in each lane of `P`: `P` itself for `f64`, `Dual<P>` for `Dual<f64>`.
     /// Scalars that have no form in lanes ([`WIDENS`](Self::WIDENS) is `false`) name themselves.
     type Over<P: Pack>: Real;
-    /// Whether [`Over`](Self::Over) has a value in each lane of the pack.
+    /// True if [`Over`](Self::Over) has a value in each lane of the pack.
     const WIDENS: bool = false;
     /// Value k in lane k; the last value in the lanes that are left. Without a form in lanes, the first.
     ///
@@ -221,7 +221,7 @@ pub trait Real:
     /// assert!(!Dual::new(1.0, f64::INFINITY).finite().all());
     /// ```
     fn finite(self) -> Self::Mask;
-    /// Whether every component is finite.
+    /// Returns true if every component is finite.
     #[inline(always)]
     fn is_finite(self) -> bool {
         self.finite().all()

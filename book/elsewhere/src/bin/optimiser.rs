@@ -1,4 +1,4 @@
-//! A definition in an optimiser of another crate: where ions rest in a trap.
+//! A definition in an optimiser of another crate: the equilibrium of ions in a trap.
 
 use argmin::core::{CostFunction, Error, Executor, Gradient};
 use argmin::solver::{linesearch::MoreThuenteLineSearch, quasinewton::LBFGS};

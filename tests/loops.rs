@@ -4,11 +4,11 @@
 use crate::arrays;
 use crate::common::bits::check;
 use crate::common::derivatives::numbers;
-use crate::eval;
 use crate::symbolic;
 use hamiltonian::prelude::*;
 use hamiltonian::schemes::author::{Dynamics, VectorField};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::interpret;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
 use hamiltonian_symbolic::structure;
@@ -112,7 +112,7 @@ where
     let program = derive(&mut model, &purposes).expect("a program");
     let mut some = numbers(n as u64);
     let [q, p, vq, vp] = [(); 4].map(|()| some.by_ref().take(n).collect::<Vec<f64>>());
-    let mut point = eval::Point::<f64>::new();
+    let mut point = interpret::Point::<f64>::new();
     point.sizes = vec![n];
     point.scalars = vec![0.0; arrays.len()];
     for (number, values) in arrays.iter().enumerate() {
@@ -131,9 +131,9 @@ where
     }
     let outcome = |purpose| {
         let function = program.function(purpose).expect("it was asked for");
-        eval::run(&program, function, &point)
+        interpret::run(&program, function, &point)
     };
-    let column = |outcome: &eval::Outcome<f64>, side| {
+    let column = |outcome: &interpret::Outcome<f64>, side| {
         outcome.outputs[&Target::Phase(Column::first(side, 0))][0].clone()
     };
     let prepared = system.prepare();

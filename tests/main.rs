@@ -18,9 +18,6 @@ pub mod coordinates;
 mod counting;
 mod crates;
 pub mod dynamics;
-#[allow(dead_code)]
-#[path = "../hamiltonian-symbolic/tests/eval.rs"]
-mod eval;
 mod examples;
 pub mod flows;
 mod forces;

@@ -11,11 +11,11 @@
 //! runs a part; `HAMILTONIAN_HEAVY=1` runs 10⁵ expressions and 2·10⁴ Hessians.
 
 use crate::common;
-use crate::eval::{Point, run};
 use crate::tape::{self, Traced};
 use crate::tree::{PAIRS, PARAMETERS, Random, Region, TIME, Tree, VARIABLES, grow, region};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Side};
+use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::pipeline::{Refusal, derive};
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 

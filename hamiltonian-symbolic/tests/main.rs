@@ -5,7 +5,6 @@ mod bracket;
 mod common;
 mod derivatives;
 mod equations;
-mod eval;
 mod expressions;
 mod false_proofs;
 mod flows;

@@ -2,7 +2,6 @@
 //! and against the same system written out over scalar coordinates; the operations of the loops.
 
 use crate::common;
-use crate::eval::{Point, run};
 use crate::soundness;
 use crate::systems::{GRAVITY, Instance, Place, SQUARE_ROOT, SYSTEMS, System, TODA, at};
 use crate::tape;
@@ -10,6 +9,7 @@ use crate::tape::Traced;
 use crate::tree::Random;
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 use std::collections::HashMap;

@@ -2,10 +2,10 @@
 //! rules about domains.
 
 use crate::common;
-use crate::eval::{Point, run};
 use crate::soundness;
 use crate::tree::{Random, grow};
 use hamiltonian_symbolic::dag::{Array, Column, Side};
+use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::{Refusal, derive};

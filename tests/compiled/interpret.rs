@@ -1,9 +1,9 @@
 //! The same trees through the engine and its interpreter, as the macro's back end drives it.
 
 use super::{At, Outputs};
-use crate::eval::{Outcome, Point, run};
 use crate::tree::{PAIRS, PARAMETERS, Tree};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Parameter, Side};
+use hamiltonian_symbolic::interpret::{Outcome, Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};

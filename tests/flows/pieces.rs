@@ -1,13 +1,13 @@
 //! Tests that every exact flow passes as it is emitted.
 
 use crate::common::geometry::{defect, one_point};
-use crate::eval::{self, run};
 use crate::symbolic as text;
 use hamiltonian::{
     DoubleDouble, Dual, Real, Split, System, Vector,
     schemes::author::{Flow, Piece, Point, Scratch},
 };
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::interpret::{self, run};
 use hamiltonian_symbolic::model::{Group, Model, Shape};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
@@ -93,8 +93,8 @@ impl Equations {
             model,
         }
     }
-    fn at(&self, z: &[DoubleDouble], purpose: Purpose) -> eval::Outcome<DoubleDouble> {
-        let mut point = eval::Point::new();
+    fn at(&self, z: &[DoubleDouble], purpose: Purpose) -> interpret::Outcome<DoubleDouble> {
+        let mut point = interpret::Point::new();
         let n = z.len() / 2;
         let rows = |group: &Group| match &group.shape {
             Shape::Vector(rows) => rows.as_constant().expect("a number") as usize,

@@ -8,6 +8,7 @@ pub mod count;
 mod factor;
 pub mod forces;
 pub mod hold;
+pub mod interpret;
 mod listing;
 mod order;
 pub mod pipeline;

@@ -1,7 +1,7 @@
 //! The form between mathematics and Rust: scheduled instructions with loops, several functions
 //! over one set of prepared values.
 //!
-//! Input: made by `schedule`. Output: read by emission and by the interpreter of the tests. Invariant:
+//! Input: made by `schedule`. Output: read by emission and by the interpreter. Invariant:
 //! a value is computed once, before its uses, in the outermost block where it can be: work that
 //! depends on parameters alone in [`Program::prepare`], on parameters and the step coefficient in
 //! [`Function::coefficient`], the rest in [`Function::evaluation`].

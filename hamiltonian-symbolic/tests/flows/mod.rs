@@ -1,10 +1,10 @@
 //! Tests of every exact flow, by its values and tangents in 32 digits.
 
 use crate::common::{self, parse};
-use crate::eval::{Point, run};
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
+use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::program::{Program, Purpose};

@@ -11,12 +11,12 @@ mod orbit;
 mod random;
 
 use crate::common;
-use crate::eval::{Point, run, run_reversed};
 use crate::tree::Random;
 use field::{Field, Layout, World, extents};
 use hamiltonian_lanes::{DoubleDouble as D, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Parameter, Side};
 use hamiltonian_symbolic::index::Domain;
+use hamiltonian_symbolic::interpret::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::model::{ExactFlow, Piece};
 use hamiltonian_symbolic::pipeline::derive;

@@ -2,9 +2,9 @@
 
 use super::order::slope_of;
 use crate::common;
-use crate::eval::{Point, run, run_reversed};
 use hamiltonian_lanes::DoubleDouble;
 use hamiltonian_symbolic::dag::{Array, Column, Parameter, Side};
+use hamiltonian_symbolic::interpret::{Point, run, run_reversed};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};

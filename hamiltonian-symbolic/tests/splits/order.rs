@@ -2,9 +2,9 @@
 
 use super::table::{FOUND, Found};
 use crate::common;
-use crate::eval::{Point, run};
 use hamiltonian_lanes::{DoubleDouble, Real};
 use hamiltonian_symbolic::dag::{Column, Side};
+use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::{Purpose, Target};
 use hamiltonian_symbolic::split::find;

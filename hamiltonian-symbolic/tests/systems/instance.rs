@@ -2,12 +2,12 @@
 
 use super::System;
 use crate::common;
-use crate::eval::{Outcome, Point};
 use crate::sums::{Numbers, World, read};
 use crate::tree::Random;
 use hamiltonian_lanes::Real;
 use hamiltonian_symbolic::dag::{Array, Column, Node, Parameter, Side};
 use hamiltonian_symbolic::index::Affine;
+use hamiltonian_symbolic::interpret::{Outcome, Point};
 use hamiltonian_symbolic::model::{Group, Model, ParameterDeclaration, Shape};
 use hamiltonian_symbolic::program::Target;
 use std::collections::HashMap;

@@ -1,15 +1,44 @@
-//! The interpreter of scheduled programs, over any scalar: the oracle of the tests.
+//! The interpreter of programs, over any scalar: the reference of what emitted code computes.
 //!
-//! Input: a program and a point. Output: what a function returns and stores. Invariant: the same
-//! operations in the same order as the emitted code, so that over `f64` the bits agree.
+//! Input: a program and a point. Output: what a function returns and stores. Invariant: the same operations in
+//! the same order as emitted code, so that over `f64` the bits agree. Code for another target that computes what
+//! [`run`] computes is right: the values of `prepare`, of the step coefficient and of the evaluation, in order; loops
+//! in the order of their variables; sums of innermost loops of 32 iterations or more as eight strided partial sums
+//! and a tree, except in the flows of pieces, which read what they write.
+//!
+//! The kick of H = ½p² − cos q with the step coefficient ½: p − ½·sin q.
+//! ```
+//! use hamiltonian_symbolic::dag::{Array, Column, Side};
+//! use hamiltonian_symbolic::interpret::{Point, run};
+//! use hamiltonian_symbolic::model::{Group, Model};
+//! use hamiltonian_symbolic::op::Op;
+//! use hamiltonian_symbolic::pipeline::derive;
+//! use hamiltonian_symbolic::program::{Purpose, Target};
+//!
+//! let mut model = Model::default();
+//! model.groups.push(Group::scalar("q", "p"));
+//! let [q, p] = [Side::Q, Side::P].map(|side| model.scalar(side, 0));
+//! let (square, two) = (model.dag.powi(p, 2), model.dag.integer(2));
+//! let (kinetic, cosine) = (model.dag.div(square, two), model.dag.call(Op::Cos, &[q]));
+//! model.hamiltonian = Some(model.dag.sub(kinetic, cosine));
+//! let program = derive(&mut model, &[Purpose::Energy, Purpose::Kick]).expect("it is small");
+//!
+//! let [of_q, of_p] = [Side::Q, Side::P].map(|side| Column::first(side, 0));
+//! let mut point = Point::<f64>::new();
+//! point.c = 0.5;
+//! point.arrays.insert(Array::Phase(of_q), vec![vec![0.3]]);
+//! point.arrays.insert(Array::Phase(of_p), vec![vec![2.0]]);
+//! point.outputs.insert(Target::Phase(of_p), vec![vec![2.0]]);
+//! let of = |purpose| run(&program, program.function(purpose).expect("it was asked for"), &point);
+//! assert_eq!(of(Purpose::Energy).results, [2.0 - 0.3_f64.cos()]);
+//! assert_eq!(of(Purpose::Kick).outputs[&Target::Phase(of_p)], [[2.0 - 0.5 * 0.3_f64.sin()]]);
+//! ```
 
-use hamiltonian_lanes::Real;
-use hamiltonian_symbolic::PI_LOW;
-use hamiltonian_symbolic::dag::{Array, Map, Part, Relation};
-use hamiltonian_symbolic::index::{Affine, Domain, Index};
-use hamiltonian_symbolic::program::{
-    Function, Instruction, Program, Purpose, Step, Target, Update, Value,
-};
+use crate::PI_LOW;
+use crate::dag::{Array, Map, Part, Relation};
+use crate::index::{Affine, Domain, Index};
+use crate::program::{Function, Instruction, Program, Purpose, Step, Target, Update, Value};
+use hamiltonian_real::Real;
 
 /// A function written in Rust: the part asked for, at its arguments.
 pub type ExternalFunction<T> = fn(Part, &[T]) -> T;

@@ -99,6 +99,10 @@ macro_rules! __an_item_needs_pub_struct_Name_first {
 }
 
 /// The language of [`hamiltonian!`](crate::hamiltonian), construct by construct: a chapter of the book.
+///
+/// [Exact flows]: crate::Split
+/// [list of schemes]: crate::schemes
+///
 #[doc = include_str!("../book/src/language.md")]
 pub mod language {}
 

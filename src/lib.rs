@@ -175,6 +175,7 @@ mod book {
         BlackHole "tour/black-hole.md"
         Sphere "tour/sphere.md"
         Lagrangian "tour/lagrangian.md"
+        ManyPendulums "tour/sweep.md"
         Sensitivities "tour/sensitivities.md"
         Schemes "schemes.md"
         ExactFlows "exact-flows.md"

@@ -1,7 +1,7 @@
 //! The definition as it was written: statements over one arena of expressions.
 //!
-//! Input: none (built by `parse`). Output: [`Ast`], which `check` resolves into
-//! [`crate::checked::Checked`]; nothing else reads it. Invariants:
+//! Input: none (built by `parse`). Output: [`Ast`]. Only `check` reads it, and resolves it into
+//! [`crate::checked::Checked`]. Invariants:
 //!
 //! - A node's children, and the nodes its meaning depends on, have smaller indices than the node, so
 //!   that every pass over expressions is a forward loop and depth costs no stack. A
@@ -10,18 +10,19 @@
 //! - `%` occurs only as [`ExprKind::Index::modulo`]; `ds` was taken out of `dt = g*ds`.
 //! - No identifier is raw, `_`, or holds a `·`.
 //!
-//! The meaning of the language where its description leaves a choice:
+//! Decisions where the description of the language leaves a choice:
 //!
 //! - A `let` uses only names defined above it; `H` may be used below its definition, and anywhere in
 //!   invariants, monitors, events, forces and pieces, which may also precede it.
-//! - Arguments of a `let` function hide outer names and have the shape of what the call gives them,
-//!   so that `let d(i) = q[i + 1] - q[i]` works; a loop variable hides nothing.
+//! - Arguments of a `let` function hide outer names and have the shapes of the arguments of the
+//!   call, so that `let d(i) = q[i + 1] - q[i]` works; a loop variable hides nothing.
 //! - `invariant name = e on H = shell`; `#[assume]` and docs stand before a statement.
-//! - Under a Lagrangian the momentum of `x` is called `p_x`, unless something else is.
+//! - Under a Lagrangian the momentum of `x` is called `p_x`, unless the name is taken.
 //! - A force repeats the signature and has one component a group: one expression for one group,
 //!   `[f, g]` for more.
 //! - Observables have names of their own: a monitor may be called as a `let`, not as a method.
-//! - Prefix `+` is allowed; a default may have a sign; `%` must be the last thing done in an index.
+//! - Prefix `+` is allowed; a default may have a sign; `%` must be the outermost operation of an
+//!   index.
 //! - A number that would underflow f64 to 0 is refused like one that overflows.
 
 use crate::report::Spans;
@@ -37,7 +38,7 @@ pub const AXES: usize = 4;
 /// A whole definition.
 #[derive(Debug, Default)]
 pub struct Ast {
-    /// It began like an item.
+    /// True if it began like an item.
     pub is_item: bool,
     /// The header of item form, as soon as its name was read; `None` in expression form.
     pub item: Option<Item>,
@@ -257,22 +258,23 @@ pub struct ExprId(pub u32);
 /// An expression node.
 #[derive(Debug)]
 pub struct Expr {
-    /// The operation, with the nodes it is of.
+    /// The operation, with its operands.
     pub kind: ExprKind,
     /// From its first to its last token, parentheses around it included.
     pub spans: Spans,
-    /// The narrowest piece that stands for it: its operator, its name, its number.
+    /// The narrowest token that represents it: its operator, name or number.
     pub at: Spans,
 }
 
 /// The kind of an expression node.
 #[derive(Debug)]
 pub enum ExprKind {
-    /// Something an error was reported for, or that means nothing by itself; says nothing further.
+    /// An expression with a reported error, or one without a meaning of its own. It causes no
+    /// further error.
     Error,
     /// A number.
     Number(Rational),
-    /// A name and the innermost loop variable around it.
+    /// A name, with the innermost loop variable around it.
     Name(Symbol, Option<ScopeId>),
     /// `-a`, `!a`
     Unary(UnaryOp, ExprId),
@@ -396,7 +398,7 @@ pub struct Scope {
     pub parent: Option<ScopeId>,
     /// The loop variable.
     pub name: Ident,
-    /// The same, interned.
+    /// The loop variable, interned.
     pub symbol: Symbol,
 }
 
@@ -408,7 +410,7 @@ pub struct ScopeId(pub u32);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Symbol(pub u32);
 
-/// All names of a definition, those that are only declared too.
+/// All names of a definition, including those that are only declared.
 #[derive(Debug, Default)]
 pub struct Symbols {
     names: Vec<String>,
@@ -437,7 +439,7 @@ impl Symbols {
         &self.names[symbol.0 as usize]
     }
 
-    /// The number of symbols; each is smaller than it.
+    /// The number of symbols; each symbol is smaller.
     pub fn count(&self) -> usize {
         self.names.len()
     }

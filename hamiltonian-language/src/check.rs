@@ -1,8 +1,8 @@
 //! Statements as written → names resolved, shapes checked.
 //!
-//! Input: an [`Ast`] without parse errors. Output: [`Checked`], which means something only if
-//! nothing was reported. Invariants: a mistake is reported once, at the narrowest token; a
-//! value that depends on a mistake is `None` and silent; every pass over expressions is a forward
+//! Input: an [`Ast`] without parse errors. Output: [`Checked`], which is valid only if nothing was
+//! reported. Invariants: a mistake is reported once, at the narrowest token; a value that depends
+//! on a mistake is `None` and causes no further error; every pass over expressions is a forward
 //! loop.
 
 mod affine;
@@ -44,7 +44,7 @@ pub fn check(ast: &Ast, report: &mut Report) -> Checked {
     checker.out
 }
 
-/// The way out of too many loops.
+/// The remedy for too many loops.
 pub const SHARE_LOOPS: &str = "let several sums share a loop, or write a function with `let`";
 
 /// The most scalars and arrays of one sort: programs number them in 16 bits, groups in 15.
@@ -83,7 +83,7 @@ enum Position {
     Before,
     /// The right side of H or L.
     Within,
-    /// Anything that the definition does not depend on.
+    /// A statement that the definition does not depend on.
     After,
 }
 
@@ -93,7 +93,7 @@ struct Checker<'a> {
     out: Checked,
     /// By symbol.
     bindings: Vec<Option<Binding>>,
-    /// Symbols that only a later statement defines, by symbol.
+    /// Symbols that a later statement defines, by symbol.
     later: Vec<bool>,
     /// Symbols of loop variables, by symbol.
     loop_symbols: Vec<bool>,
@@ -101,7 +101,7 @@ struct Checker<'a> {
     unknown: Vec<bool>,
     /// Sizes that were reported as unknown.
     unknown_sizes: Vec<String>,
-    /// The statement that is being read defines this.
+    /// The symbol that the statement being read defines.
     defining: Option<Symbol>,
     place: Position,
     /// True if the statement that is being read is a `split`, which reads new coordinates too.
@@ -109,11 +109,11 @@ struct Checker<'a> {
     lets: Vec<LetFunction<'a>>,
     /// The affine form of nodes that have one, by node.
     affines: Vec<Option<Affine>>,
-    /// By scope: the loop it stands for at present.
+    /// The loop that each scope currently stands for.
     scope_loops: Vec<Option<Domain>>,
     /// The loops around the node that is being read, outermost first.
     active: Vec<Domain>,
-    /// By raw node: an error was reported for it.
+    /// True for each raw node for which an error was reported.
     reported: Vec<bool>,
     call_depth: u32,
     /// Nodes made by calls of `let` functions.
@@ -149,8 +149,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Returns true if a program can number so many scalars and arrays of one sort, the last of which stands
-    /// at a place; refuses them otherwise.
+    /// Returns true if programs can number `count` scalars or arrays of one sort. Otherwise reports
+    /// an error at the last of them.
     fn are_numbered(&mut self, count: usize, (sort, name): (&str, &str), last: Span) -> bool {
         if count > MOST {
             let message = format!("there are {count} {sort}, more than {MOST}");

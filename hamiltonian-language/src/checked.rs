@@ -1,14 +1,14 @@
 //! The definition as lowering reads it: names are resolved, every node has a type, every index is
 //! affine.
 //!
-//! Input: none (built by `check`). Output: [`Checked`]. Invariants lowering may rely on:
+//! Input: none (built by `check`). Output: [`Checked`]. Invariants that lowering relies on:
 //!
 //! - **Children precede parents** in [`Checked::nodes`]: one forward loop over the indices is a
-//!   bottom-up walk of everything, and no pass needs recursion. Some nodes may be reached from no
-//!   root; they cost nothing once lowered into a DAG.
-//! - There are no scopes, `let`s or functions left: a `let` value *is* its node, a `let` function
-//!   was instantiated with the nodes of its arguments at every call. Loop variables are leaves.
-//!   Only the names of the `let`s remain, in [`Checked::lets`].
+//!   bottom-up walk of all nodes, and no pass needs recursion. Some nodes may not be reachable from
+//!   a root; they cost nothing once lowered into a DAG.
+//! - Scopes, `let`s and functions are resolved: a `let` value is its node, and a `let` function is
+//!   instantiated at every call with the nodes of its arguments. Loop variables are leaves. Only
+//!   the names of the `let`s remain, in [`Checked::lets`].
 //! - Every node is well typed: the comments of [`Kind`] state operand and result types. [`Type`]
 //!   extents are equal exactly if they are the same size.
 //! - Every [`Affine`] mentions only sizes and the loops around it. A loop's bounds
@@ -16,9 +16,8 @@
 //!   upper bound not above its lower one is empty, its sum zero.
 //! - Loops are not shared between sums, so a loop variable stands for one loop only.
 //! - A [`Domain`] is an index into [`Checked::loops`], a [`Size`] one into [`Checked::sizes`].
-//! - An index is in range whatever the sizes are, where the loops around it run at all, or there is
-//!   a [`Reach`]: then the sizes decide, and a check is needed where they are known. None is
-//!   provably out of range.
+//! - Where the loops around it run, an index is in range for all sizes, or it has a [`Reach`]: then
+//!   the sizes decide, and it is checked once they are known. No index is provably out of range.
 //! - There is exactly one definition, and at least one group.
 
 use crate::ast::{AXES, BinaryOp, Function, Header, UnaryOp};
@@ -53,7 +52,7 @@ pub struct Checked {
     pub definition: Definition,
     /// Values named by `let`, in source order.
     pub lets: Vec<(Ident, NodeId)>,
-    /// Rust functions; those that are parameters are the first, with the docs of their fields.
+    /// Rust functions. Parameters come first, with the docs of their fields.
     pub functions: Vec<Function>,
     /// The docs of the functions that are parameters, each with its `#`.
     pub function_docs: Vec<Vec<TokenStream>>,
@@ -65,7 +64,7 @@ pub struct Checked {
     pub split_assumed: bool,
     /// `force(q; p) = …`: one value a group, of the group's type; empty without one.
     pub force: Vec<NodeId>,
-    /// The i of `force(q[i]; p[i]) = …`, of which `force` has the value at row i.
+    /// The i of `force(q[i]; p[i]) = …`; `force` is the value at row i.
     pub force_row: Option<Domain>,
     /// `dt = g*ds`: g, a scalar, with the first word of the statement.
     pub time_factor: Option<(NodeId, Span)>,
@@ -73,7 +72,7 @@ pub struct Checked {
     pub charts: Vec<Chart>,
     /// All loops of all sums.
     pub loops: Vec<Loop>,
-    /// Indices in range for some sizes only.
+    /// Indices that are in range for some sizes only.
     pub reaches: Vec<Reach>,
     /// All expressions, children before parents.
     pub nodes: Vec<Node>,
@@ -109,7 +108,7 @@ pub enum Field {
 pub struct SizeDeclaration {
     /// The name of the const generic or field.
     pub name: Ident,
-    /// A field that is set at run time; a const generic otherwise.
+    /// True if it is a field that is set at run time, false for a const generic.
     pub run_time: bool,
     /// Docs of a run-time size, each with its `#`.
     pub attributes: Vec<TokenStream>,
@@ -133,15 +132,15 @@ pub struct Parameter {
 pub struct Group {
     /// The name of the coordinate.
     pub coordinate: Ident,
-    /// The name of the conjugate momentum. Under a Lagrangian, which names none, it is
-    /// `p_` followed by the name of the coordinate.
+    /// The name of the conjugate momentum. Under a Lagrangian it is `p_` followed by the name of
+    /// the coordinate.
     pub momentum: Ident,
     /// The name of the velocity, under a Lagrangian.
     pub velocity: Option<Ident>,
-    /// The type of each of them.
+    /// The type of the coordinate, of the momentum and of the velocity.
     pub ty: Type,
-    /// True if it is an array of several axes stored row after row, which loops run through. The columns of
-    /// any other matrix are arrays of their own, and their number is literal.
+    /// True if it is an array of several axes that is stored row after row and read in loops. The
+    /// columns of any other matrix are separate arrays, and their number is literal.
     pub is_lattice: bool,
 }
 
@@ -152,14 +151,14 @@ impl Group {
     }
 }
 
-/// The variables of a group that expressions read.
+/// The kind of variables of a group.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Variable {
     /// The coordinates.
     Coordinate,
     /// The momenta.
     Momentum,
-    /// The coordinates that a chart of bodies puts in the place of the group, in a split.
+    /// The coordinates by which a chart of bodies replaces the group, in a split.
     NewCoordinate,
     /// The momenta of these.
     NewMomentum,
@@ -184,7 +183,7 @@ pub struct Observable {
     pub attributes: Vec<TokenStream>,
     /// One of the three.
     pub kind: ObservableKind,
-    /// The author's word that it is an invariant.
+    /// True if the author assumes it to be an invariant, without proof.
     pub assumed: bool,
     /// Its name, different from those of other observables.
     pub name: Ident,
@@ -197,7 +196,7 @@ pub struct Observable {
 /// A canonical change of coordinates.
 #[derive(Debug)]
 pub struct Chart {
-    /// The word, for errors.
+    /// The name of the chart, for errors.
     pub name: Ident,
     /// The change, with groups and parameters by their numbers here.
     pub kind: transform::Chart,
@@ -208,13 +207,13 @@ pub struct Chart {
 pub struct Loop {
     /// The loop variable.
     pub name: Ident,
-    /// The first value; where only sizes decide whether it is negative, there is a [`Reach`].
+    /// The first value. If the sizes decide whether it is negative, there is a [`Reach`].
     pub lower: Affine,
     /// One past the last value.
     pub upper: Affine,
 }
 
-/// An index of which the sizes decide whether it is in range, or the first value of such a range.
+/// An index, or the first value of a range, that is in range for some sizes only.
 #[derive(Debug, Clone)]
 pub struct Reach {
     /// The index or the range as it is written: `q[i + 1]`, `i in n - 3..n`.
@@ -223,9 +222,9 @@ pub struct Reach {
     pub span: Span,
     /// The loops it depends on, outermost first, each with its `[lower, upper]`.
     pub loops: Vec<(Domain, [Affine; 2])>,
-    /// The form that must be ≥ 0 in all of them.
+    /// The form that must be ≥ 0 in all iterations.
     pub form: Affine,
-    /// Its upper bound, excluded.
+    /// The upper bound of the form, excluded.
     pub extent: Option<Extent>,
 }
 
@@ -269,7 +268,7 @@ pub enum Type {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Axes {
     count: usize,
-    /// Those past `count` are 1.
+    /// The extents; those past `count` are 1.
     extents: [Extent; AXES],
 }
 
@@ -314,7 +313,7 @@ impl Type {
         let (rows, inner) = extents.split_first()?;
         Some((*rows, Type::of(inner)))
     }
-    /// The number of its elements; `None` where a coefficient overflows.
+    /// The number of its elements; `None` if a coefficient overflows.
     pub fn elements(self) -> Option<Affine> {
         let mut extents = self.extents().into_iter();
         extents.try_fold(Affine::constant(1), |product, extent| {
@@ -334,13 +333,13 @@ impl Type {
 /// An expression node.
 #[derive(Debug)]
 pub struct Node {
-    /// The operation, with the nodes it is of.
+    /// The operation, with its operands.
     pub kind: Kind,
     /// The type of its value.
     pub ty: Type,
     /// From its first to its last token.
     pub spans: Spans,
-    /// The narrowest piece that stands for it: its operator, its name, its number.
+    /// The narrowest token that represents it: its operator, name or number.
     pub at: Spans,
 }
 

@@ -16,9 +16,8 @@
 //! let h = model.hamiltonian.expect("it has an H");
 //! assert_eq!(print::text(&model, h), "p^2/2 + k*q^4");
 //!
-//! // What is wrong is said with the remedy, at the tokens it concerns.
-//! let (_, checked) = read("pub struct Wrong {} H(q; p) = p^2/2 + k*q^4".parse()?, &mut report);
-//! assert!(checked.is_none());
+//! // An error has a message with a remedy, at the tokens it concerns. let (_, checked) = read("pub
+//! struct Wrong {} H(q; p) = p^2/2 + k*q^4".parse()?, &mut report); assert!(checked.is_none());
 //! assert!(report.errors()[0].message.contains("`k`"));
 //! # Ok::<(), proc_macro2::LexError>(())
 //! ```
@@ -39,8 +38,8 @@ use proc_macro2::TokenStream;
 use report::Report;
 use tokens::Tokens;
 
-/// Tokens → tree → checked tree. The tree is there, as far as it was read, whatever was wrong; the
-/// checked one only if nothing was, and the errors are in the report.
+/// Parses and checks a definition. The tree contains everything that could be read. The checked
+/// definition is `None` if there are errors; these are in the report.
 pub fn read(definition: TokenStream, report: &mut Report) -> (Ast, Option<Checked>) {
     let tokens = Tokens::flatten(definition);
     let ast = parse::parse(&tokens, report);

@@ -1,15 +1,15 @@
 //! The words of the language: functions, constants, statement words.
 //!
-//! Input: a name. Output: its meaning, or the known name nearest to it. Invariant: every word stands
-//! here once, but for elementary functions, which stand in the engine's operation table; parser,
-//! checker and messages read these tables.
+//! Input: a name. Output: its meaning, or the known name nearest to it. Invariant: every word
+//! stands here once, except elementary functions, which are in the engine's operation table.
+//! Parser, checker and messages read these tables.
 
 use hamiltonian_symbolic::op::Op;
 
 /// A function of the language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Builtin {
-    /// Scalars → a scalar; its row in the operation table says the rest.
+    /// Scalars → a scalar, described by its row in the operation table.
     Elementary(Op),
     /// The Poisson bracket: scalars → a scalar.
     Bracket,
@@ -94,7 +94,7 @@ pub const STATEMENTS: &[&str] = &[
 /// Words inside expressions and statements that cannot name anything either.
 const RESERVED: &[&str] = &["ds", "sum", "if", "else", "in", "on"];
 
-/// Other names people know functions and constants by.
+/// Names of functions and constants in other languages.
 const SYNONYMS: &[(&str, &str)] = &[
     ("log", "ln"),
     ("log10", "ln(x)/ln(10)"),
@@ -135,7 +135,7 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("π", "pi"),
 ];
 
-/// Keywords of Rust, which can name neither fields nor variables of the code that is made.
+/// Keywords of Rust, which cannot be names of fields or variables in emitted code.
 #[rustfmt::skip]
 const RUST_KEYWORDS: &[&str] = &[
     "as", "async", "await", "break", "const", "continue", "crate", "dyn", "else", "enum", "extern", "false", "fn",
@@ -144,7 +144,7 @@ const RUST_KEYWORDS: &[&str] = &[
     "become", "box", "do", "final", "macro", "override", "priv", "try", "typeof", "unsized", "virtual", "yield",
 ];
 
-/// Methods every system has, which an observable would hide.
+/// Methods of every system, which an observable of the same name would hide.
 #[rustfmt::skip]
 const METHODS: &[&str] = &[
     "energy", "gradient", "prepare", "zeros", "new", "default", "with_defaults", "clone", "fmt", "velocity", "conjugate_momentum",
@@ -156,7 +156,7 @@ pub fn function(name: &str) -> Option<Entry> {
     functions().find(|entry| entry.name == name)
 }
 
-/// The meaning of a word that nothing else may be called.
+/// The meaning of a reserved word.
 pub fn meaning(name: &str) -> Option<&'static str> {
     if name == "H" {
         Some("the Hamiltonian")
@@ -165,7 +165,8 @@ pub fn meaning(name: &str) -> Option<&'static str> {
     } else if CONSTANTS.contains(&name) {
         Some("a constant of the language")
     } else if RESERVED.contains(&name) || is_statement_word(name) && name != "L" {
-        // Inductances and angular momenta are called L; a statement it begins has a signature.
+        // `L` may be a name, for example of an angular momentum: a statement that defines a
+        // Lagrangian has a signature.
         Some("a word of the language")
     } else {
         None
@@ -177,12 +178,12 @@ pub fn is_statement_word(name: &str) -> bool {
     STATEMENTS.contains(&name)
 }
 
-/// Returns true if a word is a keyword of Rust and none of the language.
+/// Returns true if a word is a keyword of Rust but not of the language.
 pub fn is_foreign(word: &str) -> bool {
     is_rust_keyword(word) && !is_statement_word(word) && !matches!(word, "if" | "else" | "in")
 }
 
-/// Returns true if Rust keeps a word to itself.
+/// Returns true if Rust reserves a word.
 pub fn is_rust_keyword(name: &str) -> bool {
     RUST_KEYWORDS.contains(&name)
 }
@@ -206,8 +207,8 @@ pub fn listed(names: impl IntoIterator<Item = impl ToString>) -> String {
     names.join(", ")
 }
 
-/// The candidate nearest to a name, if one is near: the same but for case, or at most one edit in
-/// three letters away. The first of several equally near.
+/// The candidate nearest to a name: equal except for case, or at most one edit per three letters
+/// away. The first of equally near ones.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let letters: Vec<char> = name.chars().collect();
     let allowed = if letters.len() < 2 {
@@ -236,7 +237,7 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
     best.map(|(_, candidate)| candidate)
 }
 
-/// Insertions, deletions, replacements and swaps of neighbours between two words.
+/// The number of insertions, deletions, replacements and swaps of neighbours between two words.
 fn edits(a: &[char], b: &[char]) -> usize {
     let mut before: Vec<usize> = Vec::new();
     let mut row: Vec<usize> = (0..=b.len()).collect();

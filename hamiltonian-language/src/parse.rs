@@ -1,9 +1,9 @@
 //! Tokens → statements and expressions as written.
 //!
 //! Input: [`Tokens`]. Output: [`Ast`]; everything read before an error is kept for the stub.
-//! Invariants: at most one error for one mistake; after an error that leaves a statement unreadable
-//! the next statement is read all the same; recursion is bounded by [`MAX_DEPTH`], and everything
-//! that can nest (groups, prefix operators, powers) counts.
+//! Invariants: at most one error for one mistake; after an error that makes a statement unreadable,
+//! the next statement is still read; [`MAX_DEPTH`] bounds recursion, and everything that nests
+//! (groups, prefix operators, powers) counts.
 
 mod block;
 mod expr;
@@ -21,7 +21,7 @@ use proc_macro2::{Delimiter, Ident, Span};
 /// The greatest depth of expressions.
 pub const MAX_DEPTH: u32 = 128;
 
-/// A statement that cannot be read further; the error has been reported.
+/// The statement cannot be read further; the error has been reported.
 #[derive(Debug)]
 pub(crate) struct Abort;
 
@@ -55,7 +55,7 @@ struct Parser<'a> {
     position: usize,
     /// One past the last token of the innermost group.
     limit: usize,
-    /// The same of the group the statements stand in.
+    /// One past the last token of the group that contains the statements.
     statement_limit: usize,
     /// The token before which a missing `;` was reported.
     separator_missing: Option<usize>,
@@ -68,7 +68,7 @@ struct Parser<'a> {
     pending: Vec<operator::Pending>,
     /// Nodes of `%` that are not yet the outermost of an index.
     remainders: Vec<ExprId>,
-    /// Words of the language that a statement wanted to declare.
+    /// Words of the language that a statement tried to declare.
     refused: Vec<&'a str>,
     ast: Ast,
     report: &'a mut Report,
@@ -140,7 +140,7 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// A lone `=`, not the beginning of `==`.
+    /// Returns true at a single `=`, which does not begin `==`.
     fn at_equals(&self, ahead: usize) -> bool {
         match self.kind_at(ahead) {
             Some(TokenKind::Punct('=', joint)) => {
@@ -234,13 +234,13 @@ impl<'a> Parser<'a> {
         Err(Abort)
     }
 
-    /// The end of a statement whose next token is another than expected.
+    /// Ends a statement whose next token is not the expected one.
     fn expected<T>(&mut self, expected: &str, help: impl Into<String>) -> Result<T> {
         let message = format!("expected {expected}, {}", self.found());
         self.abort(self.here(), message, help)
     }
 
-    /// One level deeper, or the end of the statement.
+    /// Enters one level, or ends the statement if it nests too deep.
     fn deeper(&mut self, span: Span) -> Result<()> {
         self.depth += 1;
         if self.depth > MAX_DEPTH {
@@ -253,8 +253,8 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    /// A name that is being declared: any that the language and Rust do not use themselves.
-    /// A forbidden one is reported and returned, so that reading goes on.
+    /// A name that is being declared. A word of the language or of Rust is reported and returned,
+    /// so that parsing continues.
     fn declared(&mut self, what: &str, help: &str) -> Result<Ident> {
         let Some(token) = self.peek().filter(|token| token.kind == TokenKind::Ident) else {
             return self.expected(what, help);

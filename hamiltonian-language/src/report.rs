@@ -1,8 +1,8 @@
 //! Diagnostics: faults with their places and remedies.
 //!
-//! Input: errors of one stage, in the order they are met. Output: `compile_error!` tokens, each
-//! placed on the tokens it speaks of. Invariant: a report never loses an error, and never says the
-//! same thing twice at the same place.
+//! Input: errors of one stage, in the order in which they are found. Output: `compile_error!`
+//! tokens, each at the tokens it concerns. Invariant: a report loses no error, and contains no
+//! error twice at the same place.
 
 use proc_macro2::{Delimiter, Group, Ident, Literal, Punct, Spacing, Span, TokenStream, TokenTree};
 
@@ -39,14 +39,14 @@ impl From<Span> for Spans {
 pub struct Diagnostic {
     /// The fault: one line, lower case, code in backticks.
     pub message: String,
-    /// The way to a definition without the error.
+    /// The remedy.
     pub help: String,
     /// The narrowest tokens that are wrong.
     pub spans: Spans,
 }
 
 impl Diagnostic {
-    /// The text rustc shows.
+    /// The text that rustc shows.
     pub fn text(&self) -> String {
         format!("{}\nhelp: {}", self.message, self.help)
     }
@@ -101,7 +101,7 @@ impl Report {
         });
     }
 
-    /// Adds a fault of ours, to be reported.
+    /// Adds an internal error, with the request to report it.
     pub fn internal(&mut self, spans: impl Into<Spans>, fault: &str) {
         self.error(
             spans,
@@ -110,17 +110,17 @@ impl Report {
         );
     }
 
-    /// No error so far.
+    /// Returns true if there is no error so far.
     pub fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }
 
-    /// The errors in the order they were met.
+    /// The errors in the order in which they were found.
     pub fn errors(&self) -> &[Diagnostic] {
         &self.errors
     }
 
-    /// The barrier between two stages: the result of a stage, if nothing went wrong in it.
+    /// The barrier between two stages: the result of a stage, if it reported no error.
     pub fn barrier<T>(&self, result: T) -> Option<T> {
         self.is_empty().then_some(result)
     }

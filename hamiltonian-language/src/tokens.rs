@@ -1,7 +1,7 @@
-//! Token trees laid flat, so that no later stage recurses over them.
+//! Flat token trees, so that no later stage recurses over them.
 //!
 //! Input: a token stream. Output: [`Tokens`], one entry a token and two a group. Invariants: the
-//! closing entry of a group is known from its opening one; groups without delimiters (fragments
+//! opening entry of a group has the index of the closing one; groups without delimiters (fragments
 //! of `macro_rules!`) of one token, and those that hold an attribute or a visibility, are replaced
 //! by their contents; the others stay, and the expression parser reads them as parentheses.
 
@@ -61,7 +61,7 @@ impl Token {
     }
 }
 
-/// A group that is being laid out.
+/// A group that is being flattened.
 struct Level {
     rest: token_stream::IntoIter,
     /// Its opening entry; `None` if it is replaced by its contents.
@@ -69,7 +69,7 @@ struct Level {
 }
 
 impl Tokens {
-    /// Lays a token stream flat.
+    /// Flattens a token stream.
     pub fn flatten(stream: TokenStream) -> Tokens {
         let mut list: Vec<Token> = Vec::new();
         let mut levels = vec![Level {

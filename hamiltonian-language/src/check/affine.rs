@@ -1,7 +1,7 @@
-//! Affine expressions, of which indices and ranges are made.
+//! Affine expressions: the values of indices and ranges.
 //!
-//! Input: nodes that are affine in sizes and loop variables. Output: their exact form. Invariant: a
-//! form whose coefficients would overflow is none.
+//! Input: nodes that are affine in sizes and loop variables. Output: their exact form. Invariant:
+//! if a coefficient would overflow, there is no form.
 
 use super::Checker;
 use super::expr::Frame;

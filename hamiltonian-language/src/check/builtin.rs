@@ -137,7 +137,7 @@ impl Checker<'_> {
         })
     }
 
-    /// A node for messages: its name if it is one.
+    /// A node as messages show it: its name, if it is a name.
     fn written(&self, raw: ExprId) -> String {
         match self.name_of(raw) {
             Some(name) => format!("`{name}`"),

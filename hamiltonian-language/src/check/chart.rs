@@ -1,7 +1,7 @@
 //! Canonical changes of coordinates.
 //!
-//! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: a chart replaces
-//! coordinates of the definition, each once, of the shape it is for.
+//! Input: `coordinates polar(x, y)`. Output: [`Chart`]. Invariant: a chart replaces coordinates of
+//! the definition that have the shape it requires, each coordinate once.
 
 use super::Checker;
 use crate::ast::StatementKind;
@@ -59,7 +59,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Notes that there is to be a body 0, to which the others are relative.
+    /// Records the condition that body 0 exists: the other bodies are relative to it.
     fn needs_first(&mut self, positions: &Ident, group: u16) {
         if let Some((bodies @ Extent::Size(_), _)) = self.out.groups[usize::from(group)].ty.rows() {
             self.note(Reach {
@@ -75,7 +75,7 @@ impl Checker<'_> {
     /// The chart that introduces a name, with the coordinates that it replaces.
     pub(super) fn introduced(&self, name: &str) -> Option<(String, String)> {
         let new = name.strip_prefix("p_").unwrap_or(name);
-        // Of a second chart with such a name it has a number.
+        // The names of a second chart of the kind have a number.
         let number = new.rsplit_once('_');
         let is_number = |text: &str| text.bytes().all(|c| c.is_ascii_digit());
         let new = number
@@ -95,7 +95,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The charts of bodies that are written, with the groups they replace.
+    /// The charts of bodies in the definition, with the groups they replace.
     fn charts_of_bodies(&self) -> impl Iterator<Item = (GroupId, String)> {
         self.ast.statements.iter().filter_map(|s| match &s.kind {
             StatementKind::Coordinates { chart, arguments } => {
@@ -109,7 +109,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The variable of a group of bodies in the coordinates of a chart, with the chart's word.
+    /// The variable of a group of bodies in the coordinates of a chart, with the name of the chart.
     pub(super) fn new_of_bodies(&self, name: &str) -> Option<(GroupId, Variable, String)> {
         self.charts_of_bodies().find_map(|(group, word)| {
             let variable = [Variable::NewCoordinate, Variable::NewMomentum]
@@ -119,7 +119,7 @@ impl Checker<'_> {
         })
     }
 
-    /// The name of a variable in the coordinates that a chart puts in the place of a group of bodies.
+    /// The name of a variable in the coordinates by which a chart replaces a group of bodies.
     pub(super) fn new_name(&self, group: GroupId, new: Variable) -> Option<String> {
         let (_, word) = self.charts_of_bodies().find(|(of, _)| *of == group)?;
         let group = &self.out.groups[group.0 as usize];
@@ -130,7 +130,7 @@ impl Checker<'_> {
         Some(format!("{old}_{word}"))
     }
 
-    /// D scalar coordinates, or one vector of extent D.
+    /// Reads D scalar coordinates, or one vector of extent D.
     fn cartesian<const D: usize>(
         &mut self,
         chart: &Ident,

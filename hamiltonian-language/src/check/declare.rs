@@ -1,4 +1,4 @@
-//! Declarations of the header: sizes and parameters, and that there is one definition.
+//! Declarations of the header: sizes and parameters. Exactly one definition is required.
 //!
 //! Input: the header and the definition statement. Output: sizes, parameters, groups, time, and
 //! the bindings of their names. Invariant: every name is declared once.
@@ -11,15 +11,15 @@ use crate::checked::{
 use hamiltonian_symbolic::index;
 use proc_macro2::{Ident, Span};
 
-/// The most numbers of an array of literal size. Such arrays live on the stack, a scheme holds tens of
-/// them, and a thread may have no more than 2 MB.
+/// The largest number of elements of an array of literal size. Such arrays are on the stack, a
+/// scheme has tens of them, and the stack of a thread may be as small as 2 MB.
 const LARGEST: u64 = 1 << 12;
 
 /// The default of a vector.
 const LIST: &str = "write one number for each component: `[1.0, 2.0]`";
 
 impl Checker<'_> {
-    /// Lets a name stand for something, unless it does already.
+    /// Binds a name, or reports an error if it is bound already.
     pub(super) fn declare(&mut self, name: &Ident, binding: Binding) {
         let Some(symbol) = self.symbol(name) else {
             return;
@@ -36,7 +36,7 @@ impl Checker<'_> {
         self.bindings[symbol.0 as usize] = Some(binding);
     }
 
-    /// The header of item form. Whether the statements are worth reading.
+    /// Declares the header of item form. Returns false if the statements cannot be checked.
     pub(super) fn header(&mut self) -> bool {
         let ast = self.ast;
         if let Some(item) = &ast.item {
@@ -230,7 +230,7 @@ impl Checker<'_> {
         Some(Type::of(&extents.into_iter().collect::<Option<Vec<_>>>()?))
     }
 
-    /// Exactly one H or L.
+    /// Finds the definition: exactly one H or L.
     fn one_definition(&mut self) -> bool {
         let mut first = None;
         for statement in &self.ast.statements {

@@ -1,8 +1,8 @@
 //! Expressions: the meaning and the shape of every node.
 //!
-//! Input: the nodes of one expression, in post-order. Output: nodes of [`Checked`]. Invariants:
-//! one forward loop; a node whose operands are erroneous is silently erroneous; a call of a `let`
-//! function is this pass over the function's body with the nodes of its arguments.
+//! Input: the nodes of one expression, in post-order. Output: nodes of [`Checked`]. Invariants: one
+//! forward loop; a node whose operands are erroneous is erroneous without a further error; a call
+//! of a `let` function is this pass over the function's body with the nodes of its arguments.
 //!
 //! [`Checked`]: crate::checked::Checked
 
@@ -13,7 +13,7 @@ use crate::parse::MAX_DEPTH;
 use crate::report::Spans;
 use hamiltonian_symbolic::index::Affine;
 
-/// The most nodes that calls of `let` functions make in all.
+/// The largest number of nodes that calls of `let` functions make in all.
 const MAX_INSTANTIATED: usize = 1 << 19;
 
 /// The values of the nodes of one expression.
@@ -54,7 +54,7 @@ impl Checker<'_> {
         })
     }
 
-    /// A right side that is a scalar; `help` says of a comparison what to write instead.
+    /// A right side that is a scalar; `help` is the remedy if it is a comparison.
     fn scalar_unless(
         &mut self,
         expression: &Expression,
@@ -82,7 +82,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The name that stands there, if nothing else does.
+    /// The name that is the whole expression, if it is one.
     pub(super) fn name_of(&self, raw: ExprId) -> Option<&str> {
         match self.ast.nodes[raw.0 as usize].kind {
             ExprKind::Name(symbol, _) => Some(self.ast.symbols.name(symbol)),
@@ -117,8 +117,7 @@ impl Checker<'_> {
         frame
     }
 
-    /// Reports an error at the token that stands for a node, once, however often its function is
-    /// called.
+    /// Reports an error at the token of a node, once even if its function is called several times.
     pub(super) fn error(
         &mut self,
         raw: ExprId,
@@ -153,7 +152,7 @@ impl Checker<'_> {
         }
     }
 
-    /// The end of a node that means nothing: [`Checker::error`].
+    /// Reports an error of a node and returns no value: [`Checker::error`].
     pub(super) fn refuse<T>(
         &mut self,
         raw: ExprId,
@@ -295,7 +294,7 @@ impl Checker<'_> {
         self.push_affine(raw, Kind::Binary(op, a, b), ty, affine)
     }
 
-    /// Refuses two operands that have shapes which the operator does not join.
+    /// Refuses two operands whose shapes the operator cannot combine.
     fn shapes_differ(
         &mut self,
         raw: ExprId,
@@ -371,7 +370,7 @@ impl Checker<'_> {
         Some((value, ty))
     }
 
-    /// Operands of one sort; `refused` has message and help for one of another type.
+    /// Operands of one sort; `refused` returns message and help for an operand of another type.
     pub(super) fn operands(
         &mut self,
         operands: &[ExprId],
@@ -548,7 +547,7 @@ impl Checker<'_> {
         function: usize,
         arguments: Vec<Option<NodeId>>,
     ) -> Option<NodeId> {
-        // Arguments that are erroneous say nothing about the body.
+        // Erroneous arguments are not errors of the body.
         if self.lets[function].erroneous || arguments.iter().any(Option::is_none) {
             return None;
         }
@@ -586,7 +585,7 @@ impl Checker<'_> {
     }
 }
 
-/// The remedy for a comparison in the place of a number.
+/// The remedy for a comparison where a number is required.
 fn choice(op: &str) -> String {
     format!("write `if a {op} b {{ … }} else {{ … }}`")
 }

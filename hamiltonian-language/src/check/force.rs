@@ -89,7 +89,8 @@ impl Checker<'_> {
         }
     }
 
-    /// The i of `force(q[i]; p[i])` where that is no size, with the number of rows and the type of one.
+    /// The i of `force(q[i]; p[i])`, if i is not a size, with the number of rows and the type of a
+    /// row.
     fn row(&self, signature: &Signature) -> Option<(Ident, Extent, Type)> {
         let [group] = &self.out.groups[..] else {
             return None;

@@ -11,7 +11,7 @@ use crate::names;
 use hamiltonian_symbolic::index::{Affine, Domain};
 use proc_macro2::Ident;
 
-/// A name with a meaning in the place it stands.
+/// A name that is known where it is used.
 pub(super) enum Found {
     /// A loop variable; `None` if its range is erroneous.
     Loop(Option<Domain>),
@@ -50,7 +50,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A name that stands for a value.
+    /// The node of a name that is used as a value.
     pub(super) fn name(
         &mut self,
         raw: ExprId,
@@ -122,7 +122,7 @@ impl Checker<'_> {
         }
     }
 
-    /// A name that nothing declares: a word of the language, a capture, or a mistake.
+    /// A name without a declaration: a word of the language, a capture, or a mistake.
     fn undeclared(&mut self, raw: ExprId, symbol: Symbol) -> Option<NodeId> {
         let ast = self.ast;
         let name = ast.symbols.name(symbol);
@@ -207,7 +207,7 @@ impl Checker<'_> {
         is_own || is_later
     }
 
-    /// The name that an unknown one should have been.
+    /// The known name that was probably meant.
     fn help_for_unknown(&self, name: &str) -> String {
         if let Some(known) = names::synonym(name) {
             return format!("write `{known}`");
@@ -252,7 +252,7 @@ impl Checker<'_> {
         }
     }
 
-    /// All names that are declared: functions, or values. In the order they were declared.
+    /// All declared names of functions, or of values, in the order of declaration.
     pub(super) fn known_names(&self, functions: bool) -> Vec<String> {
         let mut known = Vec::new();
         for (index, binding) in self.bindings.iter().enumerate() {
@@ -267,7 +267,7 @@ impl Checker<'_> {
         if functions {
             known.extend(names::functions().map(|entry| entry.name.to_owned()));
         } else {
-            // `q` and `p` of `H = …` are written nowhere.
+            // The `q` and `p` of `H = …` are implicit.
             for group in &self.out.groups {
                 for name in [&group.coordinate, group.partner()].map(Ident::to_string) {
                     if !known.contains(&name) {

@@ -1,7 +1,7 @@
 //! Loops: `i in lower..upper`.
 //!
-//! Input: a scope and its bounds. Output: the loop its variable stands for. Invariant: the name of
-//! the variable is new; `reach` looks at the range.
+//! Input: a scope and its bounds. Output: the loop of its variable. Invariant: the name of the
+//! variable is new; `reach` checks the range.
 
 use super::Checker;
 use super::expr::Frame;
@@ -11,7 +11,7 @@ use crate::checked::Loop;
 use hamiltonian_symbolic::index::Domain;
 
 impl Checker<'_> {
-    /// `i in lower..upper`: from here on the loop variable stands for a new loop.
+    /// Begins a loop, `i in lower..upper`, and binds its variable.
     pub(super) fn bind(
         &mut self,
         raw: ExprId,
@@ -23,7 +23,7 @@ impl Checker<'_> {
         let symbol = self.ast.scopes[scope.0 as usize].symbol;
         self.loop_name_is_new(raw, scope, symbol, frame);
         let bounds_known = (self.affine(bounds.0, frame), self.affine(bounds.1, frame));
-        // If that fails there is no loop to reason about, but the name is known.
+        // If the range is erroneous there is no loop, but the name is known.
         self.scope_loops[scope.0 as usize] = None;
         let (Some(lower), Some(upper)) = bounds_known else {
             return;

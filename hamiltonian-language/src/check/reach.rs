@@ -1,11 +1,11 @@
 //! Bounds of indices: in range, out of range, or in range for some sizes only.
 //!
-//! Input: indices and ranges as affine forms. Output: an error, or a [`Reach`] where only the sizes
-//! decide, which the emitted code asks once they are known. Invariants: an index is called out of
-//! range only if some iteration of its own loops that takes place, for sizes large enough, reaches
-//! out; it is called proven only if none does whatever the sizes are; of anything between there is a
-//! [`Reach`]. An index's own loops are those it is made of: emitted code reads an element wherever
-//! they run, even if a loop inside of them is empty.
+//! Input: indices and ranges as affine forms. Output: an error, or a [`Reach`] if the sizes decide;
+//! the emitted code checks it once they are known. Invariants: an index is out of range only if,
+//! for all sufficiently large sizes, an iteration of its own loops leaves the range. It is proven
+//! only if no iteration does, for any sizes. All other indices have a [`Reach`]. The own loops of
+//! an index are those whose variables it contains: emitted code reads an element wherever they run,
+//! even if a loop inside them is empty.
 
 use super::Checker;
 use super::expr::Frame;
@@ -51,7 +51,7 @@ impl Checker<'_> {
                 outer: None,
             };
             if !proven {
-                // Of the whole index nothing but the modulus matters, where it is computed at all.
+                // Only the modulus matters for the index, if the index is computed at all.
                 self.needs(base, raw.0, &index, last, extent);
             }
             return Some(index);
@@ -99,8 +99,8 @@ impl Checker<'_> {
         Some(index)
     }
 
-    /// Notes that `form` is to stay within the extent in the own loops of `index`, which is
-    /// written into the brackets after `base`.
+    /// Records the condition that `form` is within the extent in the own loops of `index`, which is
+    /// written in the brackets after `base`.
     fn needs(&mut self, base: NodeId, raw: ExprId, index: &Index, form: Affine, extent: Extent) {
         self.note(Reach {
             shown: format!("{}[{}]", self.base_shown(base), self.index_shown(index)),
@@ -118,7 +118,7 @@ impl Checker<'_> {
         ranges.collect()
     }
 
-    /// Notes a question, once.
+    /// Records a condition on the sizes, once.
     pub(super) fn note(&mut self, reach: Reach) {
         // The same index is often written many times; instances of a function have loops of their
         // own.
@@ -171,8 +171,8 @@ impl Checker<'_> {
         }
     }
 
-    /// `name in lower..upper`: a range that neither runs backwards nor begins below 0. `None` where its
-    /// values are no numbers of 64 bits.
+    /// `name in lower..upper`: a range that neither runs backwards nor begins below 0. `None` if
+    /// its values need more than 64 bits.
     pub(super) fn checked_range(
         &mut self,
         raw: ExprId,
@@ -190,7 +190,7 @@ impl Checker<'_> {
         Some(())
     }
 
-    /// Refuses a range that ends before its start whatever the sizes are. `0..0` is only empty.
+    /// Refuses a range that ends before its start for all sizes. `0..0` is empty and allowed.
     fn runs_forwards(
         &mut self,
         raw: ExprId,
@@ -211,7 +211,7 @@ impl Checker<'_> {
         false
     }
 
-    /// The first value is not to be negative, where the loops around it run.
+    /// Checks that the first value is not negative where the loops around it run.
     fn begins_at_0(
         &mut self,
         raw: ExprId,
@@ -262,8 +262,8 @@ impl Checker<'_> {
         })
     }
 
-    /// The loops an affine form is made of, with those that their ranges are made of, outermost
-    /// first.
+    /// The loops whose variables an affine form contains, with those that their ranges contain,
+    /// outermost first.
     fn own_loops(&self, form: &Affine) -> Vec<Domain> {
         let mut own: Vec<Domain> = Vec::new();
         let mut forms = vec![form];
@@ -307,7 +307,7 @@ impl Checker<'_> {
         Some([self.fitting(raw, least)?, self.fitting(raw, greatest)?])
     }
 
-    /// Refuses what needs coefficients of more than 64 bits.
+    /// Refuses a form that needs coefficients of more than 64 bits.
     fn fitting(&mut self, raw: ExprId, form: Option<Affine>) -> Option<Affine> {
         if form.is_none() {
             let message = "values of this index or range need more than 64 bits";
@@ -326,8 +326,8 @@ impl Checker<'_> {
         [lower, upper]
     }
 
-    /// Returns true if `loops` run at the end an index was followed to: an inner loop may be empty there
-    /// (`i in 0..n, j in i + 1..n` at `i = n - 1`).
+    /// Returns true if `loops` run where the index has its extreme value. An inner loop may be
+    /// empty there, for example `i in 0..n, j in i + 1..n` at `i = n - 1`.
     fn takes_place(&self, form: &Affine, end: End, loops: &[Domain]) -> bool {
         let mut chosen: Vec<(Domain, Affine)> = Vec::new();
         let followed = form.eliminate(|id, factor| {
@@ -341,7 +341,7 @@ impl Checker<'_> {
         };
         let runs = |id: &Domain| {
             let [lower, upper] = self.bounds(*id);
-            // Empty whatever the sizes are: upper − lower − 1 < 0.
+            // Empty for all sizes: upper − lower − 1 < 0.
             let last = upper
                 .checked_plus(-1, lower)
                 .and_then(|width| width.checked_plus(-1, &Affine::constant(1)));

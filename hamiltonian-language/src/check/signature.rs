@@ -15,11 +15,11 @@ use std::collections::HashMap;
 /// The largest last extent whose columns are written out, each an array of its own.
 const WRITTEN_OUT: u64 = 4;
 
-/// The most numbers of a lattice whose extents are numbers.
+/// The largest number of elements of a lattice with literal extents.
 const LARGEST: i64 = 1 << 32;
 
 impl Checker<'_> {
-    /// The signature of the definition. Whether its names are known.
+    /// Declares the signature of the definition. Returns true if its names are known.
     pub(super) fn signature(&mut self) -> bool {
         let ast = self.ast;
         for statement in &ast.statements {
@@ -85,7 +85,7 @@ impl Checker<'_> {
         match &velocity {
             Some(velocity) => {
                 self.declare(velocity, known(Binding::Phase(Variable::Velocity, id)));
-                // Not declared by its author: anything else of that name wins.
+                // The author did not declare it: any other meaning of the name takes precedence.
                 if let Some(symbol) = self.symbol(&momentum)
                     && self.bindings[symbol.0 as usize].is_none()
                 {
@@ -161,9 +161,9 @@ impl Checker<'_> {
         true
     }
 
-    /// Returns true if a momentum (velocity) stands among the coordinates, as in `H(x, p_x; y, p_y)`, or in
-    /// the place of another's, as in `H(x, y; p_y, p_x)`. A coordinate that has a momentum which is
-    /// named after it was meant.
+    /// Returns true if a momentum (velocity) stands among the coordinates, `H(x, p_x; y, p_y)`, or
+    /// in the place of another's, `H(x, y; p_y, p_x)`. A coordinate whose own momentum is named
+    /// after it is not such a case.
     fn is_misplaced(
         &mut self,
         coordinates: &[Declarator],
@@ -210,7 +210,7 @@ impl Checker<'_> {
         true
     }
 
-    /// Coordinates without momentum (velocity) or the other way round.
+    /// Reports coordinates without momentum (velocity), and the reverse.
     fn partner_missing(&mut self, signature: &Signature, word: &str, partner: &str, prefix: &str) {
         let (coordinates, others) = (&signature.sections[0], &signature.sections[1]);
         for coordinate in coordinates.iter().skip(others.len()) {
@@ -330,7 +330,7 @@ impl Checker<'_> {
     }
 }
 
-/// A signature that may have been meant.
+/// A signature that was probably meant.
 fn suggested(word: &str, prefix: &str, names: &[Declarator]) -> String {
     let partner = if word == "L" { "v" } else { "p" };
     match names {

@@ -1,8 +1,8 @@
 //! Statements: definitions, observables, forces and pieces.
 //!
 //! Input: the statements, after the declarations. Output: definition, observables, forces, pieces,
-//! charts. Invariant: `let`s and the definition are read in source order, before everything that
-//! may use all of them.
+//! charts. Invariant: `let`s and the definition are read in source order, before the statements
+//! that may use all of them.
 
 use super::{Binding, Checker, LetFunction, Position};
 use crate::ast::{Expression, Function, Statement, StatementKind};
@@ -12,7 +12,7 @@ use hamiltonian_symbolic::model::ObservableKind;
 use proc_macro2::Ident;
 
 impl<'a> Checker<'a> {
-    /// `let`, `fn`, H and L, in source order.
+    /// Reads `let`, `fn`, H and L, in source order.
     pub(super) fn values(&mut self) {
         let ast = self.ast;
         for statement in &ast.statements {
@@ -82,8 +82,8 @@ impl<'a> Checker<'a> {
             .iter()
             .filter_map(|name| self.symbol(name))
             .collect();
-        // Read once with arguments of which nothing is known, for the errors of the body itself;
-        // shapes are checked at the calls.
+        // The body is read once with unknown arguments, to find its own errors; shapes are checked
+        // at the calls.
         let unknown = symbols.iter().map(|symbol| (*symbol, None)).collect();
         let errors = self.report.errors().len();
         self.visit(value, unknown, None);
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
         self.out.functions.push(function.clone());
     }
 
-    /// Everything else.
+    /// Reads all other statements.
     pub(super) fn claims(&mut self) {
         let ast = self.ast;
         for statement in &ast.statements {

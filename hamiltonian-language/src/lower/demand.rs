@@ -2,7 +2,7 @@
 //! loop variables that are unrolled.
 //!
 //! Input: a demand on a node. Output: the demands it makes on its children. Invariant: `evaluate`
-//! asks for children in this same order.
+//! reads the children in the same order.
 
 use super::LARGEST;
 use super::loops::Loops;
@@ -14,16 +14,16 @@ use hamiltonian_symbolic::index::{Affine, Domain, Index};
 use hamiltonian_symbolic::set::Set;
 use std::iter;
 
-/// The length of the longest vector that has its sums over components unrolled.
+/// The length of the longest vector whose sums over components are unrolled.
 const LONGEST: i64 = 16;
 
 /// A demand on a node.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Demand {
-    /// The component: nothing of a scalar, the index in a vector, row and column in a matrix.
+    /// The component: empty for a scalar, the index in a vector, row and column in a matrix.
     pub indices: Vec<Index>,
-    /// The values of the loop variables that are unrolled and the node depends on, in order:
-    /// those of [`Loops::numbers`], by construction of the demands.
+    /// The values of the unrolled loop variables on which the node depends, in order: those of
+    /// [`Loops::numbers`], by construction of the demands.
     ///
     /// [`Loops::numbers`]: super::loops::Loops::numbers
     pub values: Vec<(Domain, i64)>,
@@ -38,7 +38,7 @@ impl Demand {
         }
     }
 
-    /// The value of a loop variable that is unrolled.
+    /// The value of an unrolled loop variable.
     pub fn value(&self, id: Domain) -> Option<i64> {
         self.values
             .iter()
@@ -69,7 +69,7 @@ impl Demand {
 /// Demands on children.
 pub type Children = Vec<(NodeId, Demand)>;
 
-/// Why a demand cannot be met: message and remedy.
+/// The reason why a demand cannot be met: message and remedy.
 pub type Refused = (String, &'static str);
 
 /// The way to run through the components of a vector.
@@ -101,7 +101,7 @@ pub struct Demands<'a> {
 }
 
 impl<'a> Demands<'a> {
-    /// Those of a definition.
+    /// Returns the demands of a definition.
     pub fn of(checked: &'a Checked) -> Demands<'a> {
         let mut uses = vec![0; checked.nodes.len()];
         for node in &checked.nodes {
@@ -182,10 +182,10 @@ impl<'a> Demands<'a> {
         }
     }
 
-    /// The values an unrolled sum runs through, innermost loop fastest.
+    /// The values of the loop variables of an unrolled sum, the innermost loop fastest.
     ///
     /// # Errors
-    /// A bound that is no number, more than [`LARGEST`] terms.
+    /// If a bound is not a number, or if there are more than [`LARGEST`] terms.
     pub fn unrolled_values(
         &self,
         dag: &mut Dag,
@@ -230,9 +230,8 @@ impl<'a> Demands<'a> {
         Ok(all)
     }
 
-    /// The terms of a sum in the order of the source, with their signs. Sums in front that nothing
-    /// else uses are part of it: `a + b - c` is one sum of three terms, and 50 000 terms are not as
-    /// many sums.
+    /// The terms of a sum in the order of the source, with their signs. A leading sum that is used
+    /// only here is part of it: `a + b - c` is one sum of three terms, so 50 000 terms are one sum.
     pub fn terms(&self, node: NodeId) -> Vec<(bool, NodeId)> {
         let mut terms = Vec::new();
         let mut at = node;
@@ -253,10 +252,11 @@ impl<'a> Demands<'a> {
         terms
     }
 
-    /// The demands a demand makes on the children of its node.
+    /// The demands on the children of a node that follow from a demand on the node.
     ///
     /// # Errors
-    /// A component of a sum that is chosen by a loop variable, and those of [`Demands::unrolled_values`].
+    /// If a loop variable chooses the component of a sum, and those of
+    /// [`Demands::unrolled_values`].
     pub fn children(
         &self,
         dag: &mut Dag,
@@ -267,7 +267,7 @@ impl<'a> Demands<'a> {
         let checked = self.checked;
         let this = checked.node(node);
         let is_scalar = |child: NodeId| matches!(checked.node(child).ty, Type::Scalar | Type::Bool);
-        // A scalar factor of a vector is asked for as it is, a vector for the same component.
+        // A scalar factor of a vector is demanded whole, a vector by the same component.
         let same = |child: NodeId| {
             if is_scalar(child) {
                 demand.scalar()
@@ -352,10 +352,10 @@ impl<'a> Demands<'a> {
                     (*otherwise, same(*otherwise)),
                 ]);
             }
-            // All others are leaves or made of scalars.
+            // All other nodes are leaves or have scalar children.
             kind => kind.for_each_child(|child| wanted.push((child, demand.scalar()))),
         }
-        // A value is the same whatever the loops are that it does not depend on.
+        // Loops on which a value does not depend do not belong to its demand.
         for (child, demand) in &mut wanted {
             let numbers = self.loops.numbers(*child);
             demand.values.retain(|(id, _)| numbers.has(*id));

@@ -1,8 +1,8 @@
-//! Functions of numbers that they are not defined for.
+//! Functions of numbers outside their domains.
 //!
-//! Input: a function and its arguments as nodes. Output: why the value is no real number, where the
-//! arguments are known numbers. Invariant: exact for rational arguments; others, such as `pi/2`,
-//! must lie outside by more than their bounded errors.
+//! Input: a function and its arguments as nodes. Output: the reason why the value is not a real
+//! number, if the arguments are known numbers. Invariant: exact for rational arguments; others,
+//! such as `pi/2`, must lie outside by more than their bounded errors.
 
 use hamiltonian_symbolic::Ball;
 use hamiltonian_symbolic::dag::{Dag, Kind, Node};

@@ -1,14 +1,15 @@
 //! The ends of arrays in the Hamiltonian of a Lagrangian.
 //!
 //! Input: the lowered definition, after everything that solves indices (brackets, proofs). Output:
-//! the same, safe to read. Momenta of a Lagrangian such as Σ vᵢ qᵢ₋₁ read a neighbour under a
-//! condition, and emitted code reads both branches. Invariant: other definitions stay as they are.
+//! the definition, with indices that are safe to read. Momenta of a Lagrangian such as Σ vᵢ qᵢ₋₁
+//! read a neighbour under a condition, and emitted code reads both branches. Invariant: other
+//! definitions stay as they are.
 
 use super::Lowered;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::loops::guarded;
 
-/// Makes all expressions safe to read; `None` where the momentum of an element has a loop that would
+/// Makes all expressions safe to read; `None` if the momentum of an element has a loop that would
 /// start below 0.
 pub fn guard(lowered: &mut Lowered) -> Option<()> {
     if lowered.legendre.is_none() {

@@ -28,28 +28,28 @@ const UNSOLVED: (&str, &str) = (
     "write the result of the bracket as an expression",
 );
 
-/// The nodes that were derived (brackets, momenta, velocities) from those that somebody wrote.
+/// The nodes that were derived (brackets, momenta, velocities) from written ones.
 #[derive(Debug, Default)]
 pub struct Derived {
     made: Vec<core::ops::Range<usize>>,
-    /// Nodes that somebody wrote after they were derived.
+    /// Derived nodes that the definition also contains as written.
     written: Map<Node, ()>,
 }
 
 impl Derived {
-    /// Notes that the nodes made since the arena had `before` of them were derived.
+    /// Records the nodes from number `before` on as derived.
     pub fn since(&mut self, before: usize, model: &Model) {
         self.made.push(before..model.dag.len());
     }
 
-    /// Notes a node that somebody wrote, whatever made it first.
+    /// Records a node as written, even if it was derived first.
     fn wrote(&mut self, node: Node) {
         if !self.is_written(node) {
             self.written.insert(node, ());
         }
     }
 
-    /// Notes a sum over a loop that somebody wrote. Parts that do not depend on the loop are factors.
+    /// Records a written sum over a loop. Its parts that do not depend on the loop are factors.
     fn wrote_sum(&mut self, dag: &Dag, sum: Node, domain: Domain) {
         let start = &dag.range(domain).start;
         let mut wrote = |node: Node| match dag.kind(node) {
@@ -62,7 +62,7 @@ impl Derived {
         }
     }
 
-    /// Returns true if somebody wrote it. Then its indices are in range wherever its loops run.
+    /// Returns true if the node was written. Then its indices are in range wherever its loops run.
     pub fn is_written(&self, node: Node) -> bool {
         let is_made = |made: &core::ops::Range<usize>| made.contains(&(node.0 as usize));
         !self.made.iter().any(is_made) || self.written.contains_key(&node)
@@ -79,9 +79,9 @@ pub struct Evaluator<'a> {
     refused: bool,
     /// True if a bracket was formed.
     has_brackets: bool,
-    /// Numbers that no `f64` is near.
+    /// Numbers outside the range of `f64`.
     pub(super) beyond: Beyond,
-    /// Nodes that nobody wrote.
+    /// Derived nodes.
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
     pub(super) velocities: Option<Vec<Component>>,
@@ -90,7 +90,7 @@ pub struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    /// An evaluator that has answered nothing.
+    /// Returns an evaluator without answers.
     pub fn new(checked: &'a Checked, report: &'a mut Report) -> Evaluator<'a> {
         Evaluator {
             checked,
@@ -111,7 +111,7 @@ impl<'a> Evaluator<'a> {
         self.report.error(spans, message, help);
     }
 
-    /// Reports a fault of ours; there will be no model, so the node is none that is read.
+    /// Reports an internal error. There will be no model, so the node is never read.
     fn fault(&mut self, node: NodeId, fault: &str) -> Node {
         self.refused = true;
         self.report.internal(self.checked.node(node).spans, fault);
@@ -330,8 +330,8 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Refuses functions of numbers that they are not defined for. In a loop that is unrolled a
-    /// condition may keep such a number away.
+    /// Refuses functions of numbers outside their domains. In an unrolled loop, a condition may
+    /// exclude such a number.
     fn refuse_outside(
         &mut self,
         model: &Model,
@@ -359,7 +359,7 @@ impl<'a> Evaluator<'a> {
         self.refuse(self.checked.node(argument).spans, &message, takes);
     }
 
-    /// {a, b}, velocities as the functions of momenta that they are.
+    /// {a, b}, with velocities as functions of momenta.
     fn bracket(&mut self, model: &mut Model, node: NodeId, a: Node, b: Node) -> Node {
         let spans = self.checked.node(node).spans;
         let is_lagrangian = matches!(self.checked.definition, Definition::Lagrangian(_));
@@ -380,7 +380,7 @@ impl<'a> Evaluator<'a> {
         let bracket = bracket(model, a, b);
         self.derived.since(before, model);
         bracket.unwrap_or_else(|| {
-            // Too many loops are reported when all is lowered.
+            // Too many loops are reported at the end of lowering.
             if !model.dag.has_too_many_loops() {
                 self.refuse(spans, UNSOLVED.0, UNSOLVED.1);
             }
@@ -388,7 +388,7 @@ impl<'a> Evaluator<'a> {
         })
     }
 
-    /// The value with velocities as the functions of (q, p, t) that they are.
+    /// The value with velocities as functions of (q, p, t).
     pub fn in_momenta(&mut self, model: &mut Model, spans: Spans, value: Node) -> Option<Node> {
         let Some(velocities) = &self.velocities else {
             return Some(value);
@@ -517,7 +517,7 @@ impl<'a> Evaluator<'a> {
                 sum
             })
         };
-        // Unrolled terms stand inside the loops that stay, where these are the same.
+        // Unrolled terms stand inside the remaining loops, if these are the same.
         if let Some((first, rest)) = nests.split_first()
             && rest.iter().all(|nest| nest == first)
         {

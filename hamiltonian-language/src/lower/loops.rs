@@ -1,10 +1,11 @@
-//! Loops of sums, and the row of a force: which expression depends on which, how they nest, and which are unrolled.
+//! Loops of sums, and the row of a force: their nesting, the expressions that depend on them, and
+//! the loops that are unrolled.
 //!
 //! Input: [`Checked`]. Output: [`Loops`]. Invariants: a loop is unrolled only where its variable
-//! chooses a component that exists by number alone (a column of `q[N][3]`, an entry of `[a, b, c]`);
-//! the loops that stay and an expression depends on lie on one path of parents, all of which stay;
-//! [`Loops::numbers`] of an expression has all numbers that are needed to say it: those of what it is
-//! made of are among them, but for those that a sum in it runs through.
+//! chooses a component that exists by number alone (a column of `q[N][3]`, an entry of `[a, b,
+//! c]`); the remaining loops on which an expression depends lie on one path of parents, all of
+//! which remain. [`Loops::numbers`] of an expression contains all unrolled loops whose values are
+//! necessary to evaluate it, including those of its operands, except the loops of its own sums.
 
 use crate::ast::{BinaryOp, UnaryOp};
 use crate::checked::{Checked, Extent, Kind, Node, NodeId, Type};
@@ -19,16 +20,17 @@ pub type Set = hamiltonian_symbolic::set::Set<Domain>;
 pub struct Loops {
     /// The loops each node depends on.
     free: Vec<Set>,
-    /// True if components of a node (of its rows, for matrices) exist by number only.
+    /// True if components of a node (of its rows, for matrices) can be chosen by literal numbers
+    /// only.
     by_number: Vec<bool>,
-    /// The loop around each loop that stays, as far as it matters.
+    /// The loop around each remaining loop, if the loop depends on it.
     parents: Vec<Option<Domain>>,
     /// The depth of each loop.
     depths: Vec<u32>,
-    /// Loops that are unrolled.
+    /// The unrolled loops.
     unrolled: Set,
-    /// The loops that are unrolled and each loop depends on: itself, or those that its bounds
-    /// and those of the loops around it mention.
+    /// The unrolled loops on which each loop depends: itself, or those that its bounds and the
+    /// bounds of the loops around it contain.
     numbers: Vec<Set>,
 }
 
@@ -141,19 +143,19 @@ impl Loops {
         self.free[node.0 as usize]
     }
 
-    /// The loops that are unrolled and a node depends on, by itself or by the range of a loop
-    /// that it depends on.
+    /// The unrolled loops on which a node depends, directly or by the range of a loop on which it
+    /// depends.
     pub fn numbers(&self, node: NodeId) -> Set {
         let free = self.free(node).members();
         free.fold(Set::default(), |set, id| set | self.numbers[id.0 as usize])
     }
 
-    /// Returns true if components of a vector exist by number only.
+    /// Returns true if components of a vector can be chosen by literal numbers only.
     pub fn by_number(&self, node: NodeId) -> bool {
         self.by_number[node.0 as usize]
     }
 
-    /// The loop around a loop, if both stay.
+    /// The loop around a loop, if neither is unrolled.
     pub fn parent(&self, id: Domain) -> Option<Domain> {
         self.parents[id.0 as usize]
     }

@@ -1,8 +1,8 @@
 //! Checked definition → model: names, types and vectors become scalar expressions of one arena.
 //!
-//! Input: [`Checked`]. Output: [`Lowered`]. Invariants: loops stay loops, but those that choose
-//! components by number; nothing recurses, whatever the depth of the source; the order of the
-//! source is the order of sums and products.
+//! Input: [`Checked`]. Output: [`Lowered`]. Invariants: loops stay loops, except those that choose
+//! components by number; nothing recurses, at any depth of the source; sums and products keep the
+//! order of the source.
 //!
 //! A vector is never built; parents demand components of it. `demand` passes these demands from the
 //! roots down to the leaves, `evaluate` answers them from the leaves up.
@@ -31,8 +31,8 @@ use hamiltonian_symbolic::rational::Rational;
 use proc_macro2::Span;
 use scope::{axes, group_shape, shape};
 
-/// Past this many nodes an expression is given up: its program would be past the cap many times
-/// over.
+/// The number of nodes at which an expression is refused: its program would exceed the cap many
+/// times over.
 const LARGEST: usize = 1 << 18;
 
 /// Expressions with their coefficients.
@@ -50,13 +50,14 @@ pub struct Lowered {
     pub in_velocities: Vec<Node>,
     /// The Legendre transform that made H of a Lagrangian.
     pub legendre: Option<Legendre>,
-    /// The expressions that no `f64` is near, or that have such a coefficient, innermost first.
+    /// The expressions outside the range of `f64`, or with a coefficient outside it, innermost
+    /// first.
     pub beyond: Beyond,
-    /// The expressions that are written nowhere.
+    /// The expressions that were derived.
     derived: Derived,
 }
 
-/// The mathematics of a definition, if it could be made; faults go into the report.
+/// Lowers a definition, unless there are errors; these are in the report.
 pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let Some(mut model) = declarations(checked) else {
         report.internal(
@@ -114,7 +115,7 @@ pub fn lower(checked: &Checked, report: &mut Report) -> Option<Lowered> {
     let factor = whole(checked.time_factor.map(|(g, _)| g));
     model.factor = evaluator.values(&mut model, &factor)?.first().copied();
     model.force = evaluator.force(&mut model)?;
-    // Proofs and derivatives from here on would be of other loops.
+    // Proofs and derivatives after this point would contain other loops.
     if model.dag.has_too_many_loops() {
         let message = format!("this system needs more than {LOOPS} loops");
         let at = checked.node(h).spans;
@@ -146,7 +147,8 @@ pub fn constants(
     Some((model.dag, values))
 }
 
-/// H in the place of L, which has momenta in the place of velocities; p(q, v) and v(q, p) become vector functions.
+/// Replaces L, which has momenta in the place of velocities, by H; p(q, v) and v(q, p) become
+/// vector functions.
 fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
@@ -169,7 +171,7 @@ fn whole(roots: impl IntoIterator<Item = NodeId>) -> Vec<(NodeId, Demand)> {
 }
 
 impl Evaluator<'_> {
-    /// Refuses a definition that depends on no momentum, or on no velocity, or in which they cancel.
+    /// Refuses a definition that depends on no momentum or no velocity, also if these cancel.
     fn refuse_motionless(&mut self, root: NodeId) {
         let (word, of, example) = match self.checked.definition {
             Definition::Hamiltonian(_) => ("H", "momentum", "p^2/2"),
@@ -212,8 +214,8 @@ impl Evaluator<'_> {
         for (group, root) in self.checked.force.iter().enumerate() {
             let shape = model.groups[group].shape.clone();
             let (rows, columns) = (shape.rows().cloned(), shape.columns());
-            // Into other coordinates a force is carried element by element, and of some vectors the
-            // components are there by number only.
+            // A force is transformed element by element to other coordinates, and the components of
+            // some vectors can be chosen by number only.
             let at_row = self.checked.force_row;
             let by_number = !self.checked.charts.is_empty()
                 || match at_row {

@@ -25,8 +25,8 @@ pub fn axes(group: &Group) -> Vec<Affine> {
     }
 }
 
-/// The shape of a group of coordinates: a lattice is a vector of its elements, the columns of another
-/// matrix are literal. `None` where they are not, which check refuses.
+/// The shape of a group of coordinates: a lattice is a vector of its elements, the columns of
+/// another matrix are literal. `None` if they are not; `check` refuses that.
 pub fn group_shape(group: &Group) -> Option<Shape<u16>> {
     if group.is_lattice {
         return Some(Shape::Vector(group.ty.elements()?));

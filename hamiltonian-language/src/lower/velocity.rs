@@ -1,7 +1,7 @@
 //! Velocities: variables of a Lagrangian, and functions of (q, p, t) everywhere else.
 //!
 //! Input: expressions of velocities. Output: expressions with momenta in their place, for the
-//! Legendre transform, or with the functions of (q, p, t) that it made of them.
+//! Legendre transform, or with the functions of (q, p, t) that the transform computed.
 
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
@@ -14,8 +14,8 @@ pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
     dag.substitute(root, Dag::momentum_in_place)
 }
 
-/// The expression with velocities as functions of (q, p, t); `None` where one stands at an index
-/// that wraps around and is a function of its own index, which is no number there.
+/// The expression with velocities as functions of (q, p, t); `None` if a velocity depends on its
+/// own index and stands at an index that wraps around, which is not a number.
 pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
     let root = peeled(model, root, velocities)?;
     let dag = &mut model.dag;
@@ -50,8 +50,7 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
     whole.then_some(image)
 }
 
-/// The expression unrolled where a loop reads velocities that the transform had to unroll,
-/// because they are coupled.
+/// The expression, with loops unrolled that read coupled velocities, which the transform unrolled.
 fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
     let dag = &model.dag;
     let is_written_out = |wanted: u16| {
@@ -74,8 +73,8 @@ fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Nod
     }
 }
 
-/// An expression of the loop variable `k` at an index with a modulus; `None` where it does more with
-/// `k` than index.
+/// An expression of the loop variable `k` at an index with a modulus; `None` if `k` also stands
+/// outside indices.
 fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
     let modulo = at.modulo.clone()?;
     let mut whole = true;

@@ -1,6 +1,6 @@
 //! Contents of brackets: groups, lists, the branches of an `if`, the body of a `sum`.
 //!
-//! Input: the cursor at the opening, or at the word before it. Output: the root of what is inside,
+//! Input: the cursor at the opening, or at the word before it. Output: the root of the contents,
 //! the cursor after the closing. Invariant: every group counts towards [`super::MAX_DEPTH`] while
 //! it is read.
 
@@ -11,7 +11,7 @@ use crate::tokens::{Token, TokenKind};
 use proc_macro2::Delimiter;
 
 impl Parser<'_> {
-    /// A whole group that holds one thing, the cursor at its opening.
+    /// A whole group that contains one expression, the cursor at its opening.
     pub(super) fn group<T>(
         &mut self,
         what: &str,

@@ -3,8 +3,8 @@
 //! Input: the cursor at an expression. Output: its root; its nodes are appended in post-order.
 //! Invariants: only groups recurse, and they count towards [`super::MAX_DEPTH`] as prefix operators
 //! and powers do; chains of left-associative operators of any length cost neither stack nor depth.
-//! A mistake that leaves the meaning clear (`2q`, `**`, a missing `*`) is reported and read in that
-//! meaning, so that the errors after it are found too.
+//! A mistake with a clear meaning (`2q`, `**`, a missing `*`) is reported and read with that
+//! meaning, so that later errors are found too.
 
 use super::operator::{Pending, begins_operand, ends_operand, left_binding};
 use super::{Parser, Result};
@@ -58,7 +58,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Gives the innermost waiting operator its right operand.
+    /// Applies the innermost pending operator to its right operand.
     fn reduce(&mut self, operand: ExprId) -> ExprId {
         let right = self.spans(operand);
         match self.pending.pop() {
@@ -84,7 +84,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Prefix operators; a plus sign means nothing.
+    /// Reads prefix operators; a plus sign has no effect.
     fn prefixes(&mut self) -> Result<()> {
         while let Some(token) = self.peek() {
             let op = match token.kind {
@@ -94,7 +94,7 @@ impl Parser<'_> {
                 }
                 TokenKind::Punct('-', _) => UnaryOp::Neg,
                 TokenKind::Punct('!', _) => UnaryOp::Not,
-                // `not(…)` may be a function of the user's.
+                // `not(…)` may be a user's function.
                 TokenKind::Ident
                     if token.text == "not"
                         && matches!(
@@ -266,7 +266,8 @@ impl Parser<'_> {
         Ok(self.push(ExprKind::Call(symbol, self.scope, arguments), spans, span))
     }
 
-    /// A keyword of Rust inside an expression. What follows `for` and the like is not read.
+    /// A keyword of Rust inside an expression. The tokens after `for` and similar keywords are not
+    /// read.
     pub(super) fn keyword(&mut self, token: &Token, what: &str) -> Result<()> {
         let name = &token.text;
         let (help, is_clause) = match name.as_str() {
@@ -382,7 +383,7 @@ impl Parser<'_> {
             match node.kind {
                 ExprKind::Binary(BinaryOp::Rem, left, right) if id == root => {
                     (index, modulo) = (left, Some(right));
-                    // Taken apart: the remainder itself is not a value.
+                    // The operands are separated: the remainder itself is not a value.
                     self.ast.nodes[id.0 as usize].kind = ExprKind::Error;
                 }
                 _ => self.report.error(

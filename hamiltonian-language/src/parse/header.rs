@@ -1,7 +1,7 @@
 //! The header of item form: attributes, visibility, `struct Name<const N: usize> { parameters }`.
 //!
-//! Input: the cursor at the beginning of the definition. Output: [`Item`]; it is in the tree if its
-//! name was read, so that the stub knows the name whatever follows. Invariant: a bad
+//! Input: the cursor at the beginning of the definition. Output: [`Item`]. It is in the tree as
+//! soon as its name was read, so that the stub has the name even after an error. Invariant: a bad
 //! parameter does not hide the next one.
 
 use super::{Parser, Result};

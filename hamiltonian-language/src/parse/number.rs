@@ -1,7 +1,7 @@
 //! Numbers: plain decimals, exactly.
 //!
-//! Input: a literal token. Output: a node with the exact number. Invariant: anything
-//! but a plain decimal number that f64 can hold is reported and reads as [`ExprKind::Error`].
+//! Input: a literal token. Output: a node with the exact number. Invariant: a literal that is not a
+//! plain decimal number in the range of f64 is reported and becomes [`ExprKind::Error`].
 
 use super::Parser;
 use crate::ast::{ExprId, ExprKind};
@@ -16,7 +16,7 @@ const TYPES: &[&str] = &[
     "u64", "u128", "usize",
 ];
 
-/// The most digits of a number. The longest exact decimal of an f64 has 767.
+/// The largest number of digits. The longest exact decimal of an f64 has 767.
 const MOST_DIGITS: usize = 1000;
 
 impl Parser<'_> {

@@ -1,8 +1,8 @@
 //! Operators between operands, and their binding.
 //!
-//! Input: the cursor after an operand. Output: the operator, or none where the expression ends.
-//! Invariant: a sign that means an operator without being one (`**`, nothing at all) is reported and
-//! read as that operator.
+//! Input: the cursor after an operand. Output: the operator, or none if the expression ends.
+//! Invariant: a wrong or missing sign (`**`, nothing at all) is reported and read as the operator
+//! that is meant.
 //!
 //! Binding, from loose to tight: `||`, `&&`, comparisons (not associative), `+ -`, `* / %`, prefix
 //! `- !`, `^` (right-associative, takes a prefix operator on its right), calls and indices.
@@ -59,7 +59,7 @@ pub(super) fn left_binding(op: BinaryOp) -> u8 {
 }
 
 impl Parser<'_> {
-    /// The operator at the cursor, which it moves past; `None` where the expression ends.
+    /// Reads the operator at the cursor; `None` if the expression ends.
     pub(super) fn infix(&mut self) -> Result<Option<(BinaryOp, Spans)>> {
         let Some(token) = self.peek() else {
             return Ok(None);

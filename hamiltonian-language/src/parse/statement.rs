@@ -94,7 +94,7 @@ impl Parser<'_> {
         self.separator(closed)
     }
 
-    /// Returns true if `#[assume]` stands before an invariant or a split; it stands nowhere else.
+    /// Returns true if `#[assume]` stands before an invariant or a split; reports it elsewhere.
     fn assumed(&mut self, attributes: &[Attribute], word: &str) -> bool {
         let mut assumed = false;
         for attribute in attributes {
@@ -159,7 +159,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Returns true if the cursor is at the beginning of a statement, where an operator could stand too.
+    /// Returns true if the cursor is at the beginning of a statement. An operator would be allowed
+    /// there too.
     pub(super) fn begins_statement(&self) -> bool {
         let Some(token) = self.peek() else {
             return false;
@@ -189,7 +190,7 @@ impl Parser<'_> {
         }
         let name = token.text.as_str();
         let span = token.span;
-        // The one-letter words are near to every short name: only their other case is meant.
+        // The one-letter words are near to every short name, so only a difference in case counts.
         let words = names::STATEMENTS.iter().copied();
         let word = match name {
             "h" | "Ham" | "Hamiltonian" | "hamiltonian" => Some("H"),
@@ -341,7 +342,7 @@ impl Parser<'_> {
         })
     }
 
-    /// `(q; p) = value`, the cursor after the word; `missing` is the error where there is no
+    /// `(q; p) = value`, the cursor after the word; `missing` is the error if there is no
     /// parenthesis.
     fn of_signature(
         &mut self,
@@ -508,7 +509,7 @@ impl Parser<'_> {
         if path.is_empty() {
             return self.expected("the path of a Rust function", form);
         }
-        // Code that rustc could not read would take the whole definition with it.
+        // Code that rustc cannot parse would make the whole output unusable.
         if let Err(error) = syn::parse2::<syn::ExprPath>(path.clone()) {
             let message = format!("`{path}` is not the path of a Rust function");
             return self.abort(error.span(), message, form);

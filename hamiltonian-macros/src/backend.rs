@@ -21,7 +21,7 @@ use hamiltonian_symbolic::dag::{Kind as NodeKind, Node};
 use hamiltonian_symbolic::index::LOOPS;
 use hamiltonian_symbolic::legendre::Readable;
 use hamiltonian_symbolic::model::Model;
-use hamiltonian_symbolic::pipeline::{self, CAP, Refusal};
+use hamiltonian_symbolic::pipeline::{self, CAP, NoProgram};
 use hamiltonian_symbolic::program::{Program, Purpose};
 use hamiltonian_symbolic::structure;
 use proc_macro2::{Ident, TokenStream};
@@ -211,7 +211,7 @@ fn derive(
     loop {
         match pipeline::derive(model, &wanted) {
             Ok(program) => return Some(program),
-            Err(Refusal::ThirdDerivative { purpose, function }) => {
+            Err(NoProgram::ThirdDerivative { purpose, function }) => {
                 wanted.retain(|other| *other != purpose);
                 if purpose != Purpose::HessianVector {
                     let asked = (purpose, function.as_str());
@@ -219,14 +219,14 @@ fn derive(
                 }
                 continue;
             }
-            Err(Refusal::TooLarge { operations }) => too_large(checked, operations, report),
-            Err(Refusal::TooManyLoops) => report.error(
+            Err(NoProgram::TooLarge { operations }) => too_large(checked, operations, report),
+            Err(NoProgram::TooManyLoops) => report.error(
                 definition(checked),
                 format!("derivatives of this system need more than {LOOPS} loops"),
                 SHARE_LOOPS,
             ),
-            Err(Refusal::Internal { fault }) => report.internal(definition(checked), &fault),
-            Err(Refusal::OutOfRange { number }) => {
+            Err(NoProgram::Internal { fault }) => report.internal(definition(checked), &fault),
+            Err(NoProgram::OutOfRange { number }) => {
                 blame::number(checked, number.as_ref(), frame.beyond, report);
             }
         }

@@ -16,7 +16,7 @@ use crate::tree::{PAIRS, PARAMETERS, Random, Region, TIME, Tree, VARIABLES, grow
 use hamiltonian_lanes::{DoubleDouble, Dual, Real};
 use hamiltonian_symbolic::dag::{Array, Column, Side};
 use hamiltonian_symbolic::interpret::{Point, run};
-use hamiltonian_symbolic::pipeline::{Refusal, derive};
+use hamiltonian_symbolic::pipeline::{NoProgram, derive};
 use hamiltonian_symbolic::program::{Program, Purpose, Target};
 
 const FIRST: [Purpose; 10] = [
@@ -349,7 +349,7 @@ fn campaign(seed: u64, count: usize, wanted: &[Purpose]) -> (Tally, usize) {
         edges += usize::from(case.region == Region::Edge);
         let mut model = tree.model();
         let program = match derive(&mut model, wanted) {
-            Err(Refusal::OutOfRange { .. }) => {
+            Err(NoProgram::OutOfRange { .. }) => {
                 too_large += 1;
                 continue;
             }

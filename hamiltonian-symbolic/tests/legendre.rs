@@ -4,7 +4,7 @@ use crate::common::{model, parse};
 use hamiltonian_symbolic::dag::{Array, Column, Dependence, Kind, Node, Side};
 use hamiltonian_symbolic::diff;
 use hamiltonian_symbolic::index::Affine;
-use hamiltonian_symbolic::legendre::{Component, Legendre, transform};
+use hamiltonian_symbolic::legendre::{ElementMap, Legendre, transform};
 use hamiltonian_symbolic::loops::unroll_nodes;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
@@ -397,7 +397,7 @@ fn check_looped(m: &mut Model, legendre: &Legendre, l: Node) {
     let columns = (images.len() / 4) / 4;
     let images: Vec<Node> = images.collect();
     for (at, pair) in images.chunks_exact(2).enumerate() {
-        let component = Component {
+        let component = ElementMap {
             element: pair[0],
             domain: None,
             value: pair[1],

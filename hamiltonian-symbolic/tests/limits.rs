@@ -8,7 +8,7 @@ use hamiltonian_symbolic::legendre::transform;
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::op::Op;
-use hamiltonian_symbolic::pipeline::{Refusal, derive};
+use hamiltonian_symbolic::pipeline::{NoProgram, derive};
 use hamiltonian_symbolic::print::{Notation, hamilton_equations, latex, text};
 use hamiltonian_symbolic::program::{Purpose, Step};
 use hamiltonian_symbolic::rational::Rational;
@@ -164,7 +164,7 @@ fn as_many_loops_as_there_are_numbers_for() {
     }
     starts.sort_unstable();
     assert_eq!(starts, (0..LOOPS as i64).collect::<Vec<_>>());
-    assert_eq!(derived(LOOPS + 1), Err(Refusal::TooManyLoops));
+    assert_eq!(derived(LOOPS + 1), Err(NoProgram::TooManyLoops));
 
     // Of more nothing is said: the last loops would be taken for others.
     let mut more = many_loops(LOOPS + 1);

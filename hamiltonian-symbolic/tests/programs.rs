@@ -8,7 +8,7 @@ use hamiltonian_symbolic::dag::{Array, Column, Side};
 use hamiltonian_symbolic::interpret::{Point, run};
 use hamiltonian_symbolic::model::Model;
 use hamiltonian_symbolic::op::Op;
-use hamiltonian_symbolic::pipeline::{Refusal, derive};
+use hamiltonian_symbolic::pipeline::{NoProgram, derive};
 use hamiltonian_symbolic::program::{Function, Instruction, Program, Purpose};
 
 const ALL: [Purpose; 11] = [
@@ -65,7 +65,7 @@ fn simplification_adds_no_operation() {
     for _ in 0..count {
         let (tree, _) = grow(&mut random);
         let program = match derive(&mut tree.model(), &[Purpose::Energy]) {
-            Err(Refusal::OutOfRange { .. }) => continue,
+            Err(NoProgram::OutOfRange { .. }) => continue,
             result => result.unwrap(),
         };
         let (before, after) = (tree.operations(), work(&program, &program.functions[0]));

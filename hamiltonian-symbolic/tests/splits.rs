@@ -12,7 +12,7 @@ use hamiltonian_symbolic::op::Op;
 use hamiltonian_symbolic::pipeline::derive;
 use hamiltonian_symbolic::program::Purpose;
 use hamiltonian_symbolic::rational::Rational;
-use hamiltonian_symbolic::split::{Limit, NODES, Refusal, declared, find};
+use hamiltonian_symbolic::split::{Limit, NODES, NoFlow, declared, find};
 use hamiltonian_symbolic::transform::check_split;
 use table::{FOUND, REFUSED};
 
@@ -45,7 +45,7 @@ fn what_has_no_flow_is_refused_by_its_term() {
     for refused in REFUSED {
         let mut model = common::system(refused.signature, "", refused.parameters, refused.h);
         match find(&mut model) {
-            Err(Refusal { text, .. }) if text == refused.term => {}
+            Err(NoFlow { text, .. }) if text == refused.term => {}
             other => others.push((refused.h, other)),
         }
     }

@@ -11,7 +11,7 @@ use hamiltonian_symbolic::model::{Model, Observable, ObservableKind, VectorEntry
 use hamiltonian_symbolic::normal_form::{Proof, is_zero};
 use hamiltonian_symbolic::print;
 use hamiltonian_symbolic::structure;
-use hamiltonian_symbolic::transform::{Bodies, Chart, Component, Refusal, Transformed, apply};
+use hamiltonian_symbolic::transform::{Bodies, Chart, Component, NoTransform, Transformed, apply};
 
 fn scalar(group: u16) -> Component {
     Component { group, row: None }
@@ -411,24 +411,27 @@ fn charts_that_do_not_fit_are_refused() {
         taken("p_phi").to_string(),
         "`polar` introduces `p_phi`, which is declared already"
     );
-    assert!(matches!(taken("r"), Refusal::NameTaken { .. }));
+    assert!(matches!(taken("r"), NoTransform::NameTaken { .. }));
     // The name of a coordinate that goes is free.
     let model = system("r, y; p_r, p_y", "", "", "p_r^2");
     assert!(apply(&model, &[POLAR]).is_ok());
     let model = system("x, y, r; p_x, p_y, p_z", "", "", "p_x^2");
     assert!(matches!(
         apply(&model, &[POLAR]),
-        Err(Refusal::NameTaken { .. })
+        Err(NoTransform::NameTaken { .. })
     ));
     // Twice.
     let model = system("x, y; p_x, p_y", "", "", "p_x^2");
     let twice = [POLAR, POLAR];
-    assert!(matches!(apply(&model, &twice), Err(Refusal::Twice { .. })));
+    assert!(matches!(
+        apply(&model, &twice),
+        Err(NoTransform::Twice { .. })
+    ));
     // Bodies of a number that is not literal.
     let model = system("q[n]; p[n]", "n", "m[n]", "sum(i in 0..n) { p[i]^2 }");
     assert!(matches!(
         apply(&model, &[Chart::Jacobi(bodies())]),
-        Err(Refusal::Number { .. })
+        Err(NoTransform::Number { .. })
     ));
     // A loop of a length that is not known over a replaced coordinate.
     let model = system(
@@ -443,7 +446,7 @@ fn charts_that_do_not_fit_are_refused() {
     }));
     assert!(matches!(
         apply(&model, &[whole]),
-        Err(Refusal::Loops { .. })
+        Err(NoTransform::Loops { .. })
     ));
 }
 
@@ -496,6 +499,6 @@ fn loops_over_bodies_of_any_number_begin_at_the_second() {
     );
     assert!(matches!(
         apply(&model, &chart),
-        Err(Refusal::Wrapped { .. })
+        Err(NoTransform::Wrapped { .. })
     ));
 }

@@ -85,7 +85,7 @@ impl Run {
     fn indices(&self) -> Vec<Index> {
         match self {
             Run::Numbers(length) => (0..*length).map(Index::constant).collect(),
-            Run::Loop(domain) => vec![Index::plain(Affine::variable(*domain))],
+            Run::Loop(domain) => vec![Index::of_loop(*domain)],
         }
     }
 }

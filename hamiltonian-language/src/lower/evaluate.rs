@@ -14,7 +14,7 @@ use crate::report::{Report, Spans};
 use hamiltonian_symbolic::bracket::bracket;
 use hamiltonian_symbolic::dag::{self, Array, Column, Dag, Map, Node, Parameter, Part, Side};
 use hamiltonian_symbolic::index::{Domain, Index};
-use hamiltonian_symbolic::legendre::Component;
+use hamiltonian_symbolic::legendre::ElementMap;
 use hamiltonian_symbolic::loops::guarded;
 use hamiltonian_symbolic::model::REPLACING;
 use hamiltonian_symbolic::model::{Model, Shape};
@@ -84,7 +84,7 @@ pub struct Evaluator<'a> {
     /// Derived nodes.
     pub(super) derived: Derived,
     /// The velocities of a Lagrangian as functions of (q, p, t), once they are known.
-    pub(super) velocities: Option<Vec<Component>>,
+    pub(super) velocities: Option<Vec<ElementMap>>,
     /// The answers to demands.
     answers: Map<(u32, Demand), Node>,
 }

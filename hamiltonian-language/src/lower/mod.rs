@@ -22,7 +22,7 @@ use demand::Demand;
 use evaluate::{Derived, Evaluator};
 use hamiltonian_symbolic::dag::{Column, Dag, Dependence, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index, LOOPS};
-use hamiltonian_symbolic::legendre::{Legendre, Refusal};
+use hamiltonian_symbolic::legendre::{Legendre, NoHamiltonian};
 use hamiltonian_symbolic::model::{
     External, Group, Model, Observable, ParameterDeclaration, Shape, VectorEntry, VectorFunction,
     VectorUse,
@@ -149,7 +149,7 @@ pub fn constants(
 
 /// Replaces L, which has momenta in the place of velocities, by H; p(q, v) and v(q, p) become
 /// vector functions.
-fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
+fn legendre(model: &mut Model, lagrangian: Node) -> Result<Legendre, NoHamiltonian> {
     let legendre = hamiltonian_symbolic::legendre::transform(model, lagrangian)?;
     model.hamiltonian = Some(legendre.hamiltonian);
     for (usage, components, side) in [
@@ -230,7 +230,7 @@ impl Evaluator<'_> {
                     Some(count) => (0..count).map(Index::constant).collect(),
                     None => {
                         let domain = model.dag.domain(None, Affine::constant(0), rows);
-                        vec![Index::plain(Affine::variable(domain))]
+                        vec![Index::of_loop(domain)]
                     }
                 },
             };
@@ -274,7 +274,7 @@ fn sites(dag: &mut Dag, axes: &[Affine]) -> Vec<Index> {
     let site = axes.iter().fold(None, |row: Option<Index>, extent| {
         let domain = dag.domain(parent, Affine::constant(0), extent.clone());
         parent = Some(domain);
-        let index = Index::plain(Affine::variable(domain));
+        let index = Index::of_loop(domain);
         Some(match row {
             Some(row) => row.row_of(extent.clone(), index),
             None => index,

@@ -5,7 +5,7 @@
 
 use hamiltonian_symbolic::dag::{Array, Column, Dag, Kind, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Domain, Index};
-use hamiltonian_symbolic::legendre::Component;
+use hamiltonian_symbolic::legendre::ElementMap;
 use hamiltonian_symbolic::loops::unrolled;
 use hamiltonian_symbolic::model::{Model, VectorEntry};
 
@@ -16,7 +16,7 @@ pub fn as_momenta(dag: &mut Dag, root: Node) -> Node {
 
 /// The expression with velocities as functions of (q, p, t); `None` if a velocity depends on its
 /// own index and stands at an index that wraps around, which is not a number.
-pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
+pub fn as_functions(model: &mut Model, root: Node, velocities: &[ElementMap]) -> Option<Node> {
     let root = peeled(model, root, velocities)?;
     let dag = &mut model.dag;
     let mut whole = true;
@@ -51,7 +51,7 @@ pub fn as_functions(model: &mut Model, root: Node, velocities: &[Component]) -> 
 }
 
 /// The expression, with loops unrolled that read coupled velocities, which the transform unrolled.
-fn peeled(model: &mut Model, root: Node, velocities: &[Component]) -> Option<Node> {
+fn peeled(model: &mut Model, root: Node, velocities: &[ElementMap]) -> Option<Node> {
     let dag = &model.dag;
     let is_written_out = |wanted: u16| {
         velocities.iter().any(|component| {
@@ -115,8 +115,8 @@ fn wrapped(dag: &mut Dag, root: Node, k: Domain, at: &Index) -> Option<Node> {
 }
 
 /// The components as entries of a vector on one side.
-pub fn entries(dag: &Dag, components: &[Component], side: Side) -> Vec<VectorEntry> {
-    let entry = |component: &Component| {
+pub fn entries(dag: &Dag, components: &[ElementMap], side: Side) -> Vec<VectorEntry> {
+    let entry = |component: &ElementMap| {
         let (column, row) = dag.phase_place(component.element)?;
         Some(VectorEntry {
             at: column.on(side),

@@ -10,7 +10,7 @@ use hamiltonian_language::checked::{self, Checked, Kind, Variable};
 use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::Node;
 use hamiltonian_symbolic::model::{Model, Piece};
-use hamiltonian_symbolic::split::{self, MOST, Refusal, Splitting};
+use hamiltonian_symbolic::split::{self, MOST, NoFlow, Splitting};
 use hamiltonian_symbolic::structure::Structure;
 
 /// The text on a splitting.
@@ -126,7 +126,7 @@ pub fn decide(
 }
 
 /// A piece of a split by itself: one flow.
-fn alone(model: &mut Model) -> Result<Splitting, (usize, Refusal)> {
+fn alone(model: &mut Model) -> Result<Splitting, (usize, NoFlow)> {
     let h = model.h();
     let name = hamiltonian_symbolic::print::text(model, h);
     split::declared(model, &[(name, h)])

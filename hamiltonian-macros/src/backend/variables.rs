@@ -14,7 +14,7 @@ use hamiltonian_language::report::Report;
 use hamiltonian_symbolic::dag::{Column, Node, Side};
 use hamiltonian_symbolic::index::{Affine, Index};
 use hamiltonian_symbolic::model::{Model, ObservableKind, VectorEntry, VectorFunction, VectorUse};
-use hamiltonian_symbolic::transform::{self, Chart, Placement, Refusal};
+use hamiltonian_symbolic::transform::{self, Chart, NoTransform, Placement};
 use proc_macro2::Ident;
 
 /// A definition in its final variables.
@@ -117,7 +117,7 @@ impl System {
         Some(())
     }
 
-    fn time(&mut self) -> Result<(), Refusal> {
+    fn time(&mut self) -> Result<(), NoTransform> {
         let whole = |group: u16| Placement {
             old: (group, None),
             new: group,
@@ -155,29 +155,29 @@ impl System {
 }
 
 /// The help of an error: the way to a definition that is not refused.
-fn remedy(reason: &Refusal) -> &'static str {
+fn remedy(reason: &NoTransform) -> &'static str {
     match reason {
-        Refusal::NameTaken { .. } => "rename the parameter or coordinate of that name",
-        Refusal::Number { .. } => {
+        NoTransform::NameTaken { .. } => "rename the parameter or coordinate of that name",
+        NoTransform::Number { .. } => {
             "declare them as `q[4][3]` with masses `m: [4]`; `heliocentric` takes any number"
         }
-        Refusal::Wrapped { .. } => {
+        NoTransform::Wrapped { .. } => {
             "write the term that closes the ring by itself, or declare a literal number of bodies"
         }
-        Refusal::Twice { .. } => "replace each coordinate once",
-        Refusal::Loops { .. } => "give the loop literal bounds, so that it can be unrolled",
-        Refusal::TooManyLoops => "let several sums share a loop",
-        Refusal::TooLong => {
+        NoTransform::Twice { .. } => "replace each coordinate once",
+        NoTransform::Loops { .. } => "give the loop literal bounds, so that it can be unrolled",
+        NoTransform::TooManyLoops => "let several sums share a loop",
+        NoTransform::TooLong => {
             "bodies are written out one by one: take fewer, or `heliocentric`, which keeps loops"
         }
-        Refusal::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
-        Refusal::Power { .. } => {
+        NoTransform::Factor { .. } => "write `dt = g(q, p)*ds` with g > 0",
+        NoTransform::Power { .. } => {
             "write the sums of H over `p[i]` with the loop variable alone as the index"
         }
-        Refusal::Uncompared { .. } => {
+        NoTransform::Uncompared { .. } => {
             "check where roots and logarithms in H are defined, and that literal indices and sizes fit together; units in which coordinates are of size 1 help"
         }
-        Refusal::Unverified { .. } => {
+        NoTransform::Unverified { .. } => {
             "this is a fault of the transformation: please report it with the definition"
         }
     }
@@ -203,7 +203,7 @@ fn identity(model: &mut Model, side: Side, wanted: &dyn Fn(u16) -> bool) -> Vec<
             None => Index::constant(0),
             Some(rows) => {
                 let domain = model.dag.domain(None, Affine::constant(0), rows);
-                Index::plain(Affine::variable(domain))
+                Index::of_loop(domain)
             }
         };
         for column in 0..columns {

@@ -159,10 +159,10 @@ impl Kind {
     }
 }
 
-/// Nodes that are seen but not visited: a bit for each.
-pub(crate) struct Ahead(Vec<u64>);
+/// Nodes that are still to be visited: a bit for each.
+pub(crate) struct Worklist(Vec<u64>);
 
-impl Ahead {
+impl Worklist {
     /// The node is visited too.
     pub(crate) fn add(&mut self, node: Node) {
         self.0[node.0 as usize / 64] |= 1 << (node.0 % 64);
@@ -229,7 +229,7 @@ pub enum Stage {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Facts {
+struct Properties {
     dependence: Dependence,
     variables: Loops,
     sign: Sign,
@@ -253,7 +253,7 @@ pub struct Range {
 #[derive(Default, Debug, Clone)]
 pub struct Dag {
     kinds: Vec<Kind>,
-    facts: Vec<Facts>,
+    facts: Vec<Properties>,
     known: Map<Kind, Node>,
     ranges: Vec<Range>,
     known_ranges: Map<Range, Domain>,
@@ -408,8 +408,8 @@ impl Dag {
     /// All nodes the roots need, children before parents.
     #[must_use]
     pub fn reachable(&self, roots: &[Node]) -> Vec<Node> {
-        self.reached(roots, |node, ahead| {
-            self.for_children(node, |child| ahead.add(child));
+        self.reached(roots, |node, worklist| {
+            self.for_children(node, |child| worklist.add(child));
         })
     }
     /// Returns true if the roots need a node of a kind.
@@ -426,22 +426,22 @@ impl Dag {
     pub(crate) fn reached(
         &self,
         roots: &[Node],
-        mut next: impl FnMut(Node, &mut Ahead),
+        mut next: impl FnMut(Node, &mut Worklist),
     ) -> Vec<Node> {
         let Some(top) = roots.iter().max() else {
             return Vec::new();
         };
         // Parents have larger numbers.
-        let mut ahead = Ahead(vec![0; top.0 as usize / 64 + 1]);
+        let mut worklist = Worklist(vec![0; top.0 as usize / 64 + 1]);
         let mut order = Vec::new();
-        roots.iter().for_each(|root| ahead.add(*root));
-        for word in (0..ahead.0.len()).rev() {
-            while ahead.0[word] != 0 {
-                let bit = 63 - ahead.0[word].leading_zeros();
-                ahead.0[word] ^= 1 << bit;
+        roots.iter().for_each(|root| worklist.add(*root));
+        for word in (0..worklist.0.len()).rev() {
+            while worklist.0[word] != 0 {
+                let bit = 63 - worklist.0[word].leading_zeros();
+                worklist.0[word] ^= 1 << bit;
                 let node = Node(word as u32 * 64 + bit);
                 order.push(node);
-                next(node, &mut ahead);
+                next(node, &mut worklist);
             }
         }
         order.reverse();
@@ -468,7 +468,7 @@ impl Dag {
             return node;
         }
         let node = Node(self.kinds.len() as u32);
-        let facts = self.facts_of(&kind);
+        let facts = self.properties_of(&kind);
         self.kinds.push(kind);
         self.facts.push(facts);
         self.known.insert(key, node);
@@ -480,7 +480,7 @@ impl Dag {
         self.known.get(sorted).copied()
     }
 
-    fn facts_of(&self, kind: &Kind) -> Facts {
+    fn properties_of(&self, kind: &Kind) -> Properties {
         let mut dependence = Dependence::default();
         let mut variables = Loops::default();
         let mut height = 0;
@@ -543,7 +543,7 @@ impl Dag {
             }
             _ => {}
         }
-        Facts {
+        Properties {
             dependence,
             variables,
             sign,

@@ -278,6 +278,19 @@ impl Index {
             outer: None,
         }
     }
+    /// The variable of a loop by itself.
+    #[must_use]
+    pub fn of_loop(domain: Domain) -> Index {
+        Index::plain(Affine::variable(domain))
+    }
+    /// The loop whose variable the index is.
+    #[must_use]
+    pub fn as_loop(&self) -> Option<Domain> {
+        let &[(domain, 1)] = self.affine.loops.as_slice() else {
+            return None;
+        };
+        (*self == Index::of_loop(domain)).then_some(domain)
+    }
     /// `affine % modulo`, with multiples of the modulus taken out.
     #[must_use]
     pub fn wrapped(affine: Affine, modulo: Affine) -> Index {

@@ -7,6 +7,7 @@ pub(crate) mod ball;
 mod closed;
 pub mod dag;
 pub mod diff;
+pub(crate) mod factors;
 pub(crate) mod formula;
 pub mod index;
 pub mod loops;

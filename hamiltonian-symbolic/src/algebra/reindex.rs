@@ -8,7 +8,7 @@ use crate::dag::{Dag, Kind, Map, Node};
 use crate::index::{Affine, Domain, Index, Loops};
 
 /// The images of loops that have moved.
-type Moved = Map<Domain, Domain>;
+type LoopImages = Map<Domain, Domain>;
 
 impl Dag {
     /// The expression with a loop variable replaced by an affine index.
@@ -25,7 +25,7 @@ impl Dag {
             return self.at_site(root, variable, by);
         }
         // All in one pass: a loop that moves may be one of `by`.
-        let mut moved = Moved::default();
+        let mut moved = LoopImages::default();
         let inside = self.inside(variable);
         let nodes = self.reachable(&[root]);
         let new = self.try_map(nodes, |dag, node, new| {
@@ -66,7 +66,7 @@ impl Dag {
     /// The expression with a loop variable, the number of an element, replaced by the index of several axes
     /// that has this number.
     fn at_site(&mut self, root: Node, variable: Domain, by: &Index) -> Option<Node> {
-        let own = Index::plain(Affine::variable(variable));
+        let own = Index::of_loop(variable);
         let inside = self.inside(variable);
         let nodes = self.reachable(&[root]);
         let new = self.try_map(nodes, |dag, node, new| {
@@ -100,7 +100,7 @@ impl Dag {
         index: Index,
         variable: Domain,
         by: &Index,
-        moved: &mut Moved,
+        moved: &mut LoopImages,
     ) -> Option<Index> {
         index.try_map(&mut |axis| self.axis_at(axis, variable, by, moved))
     }
@@ -111,7 +111,7 @@ impl Dag {
         index: &Index,
         variable: Domain,
         by: &Index,
-        moved: &mut Moved,
+        moved: &mut LoopImages,
     ) -> Option<Index> {
         let image = index.substitute(|d| match d == variable {
             true => by.affine.clone(),
@@ -195,7 +195,7 @@ impl Dag {
         domain: Domain,
         variable: Domain,
         by: &Affine,
-        moved: &mut Moved,
+        moved: &mut LoopImages,
     ) -> Domain {
         if !self.path(Some(domain)).contains(&variable) || domain == variable {
             return domain;

@@ -7,6 +7,7 @@
 
 mod conditions;
 
+use crate::algebra::factors::{Factors, multiply};
 use crate::dag::{Array, Column, Dag, Kind, Map, Node, Parameter, Part, Side};
 use crate::index::{Affine, Domain, Index, Size};
 use crate::op::{Op, Parity};
@@ -122,7 +123,7 @@ impl Dag {
         }
     }
 
-    fn bare_product(&mut self, k: Rational, factors: Vec<(Node, i32)>) -> Node {
+    fn bare_product(&mut self, k: Rational, factors: Factors) -> Node {
         match factors.as_slice() {
             [] => self.constant(k),
             [(node, 1)] if k.is_one() => *node,
@@ -314,7 +315,7 @@ impl Dag {
 
     /// Powers of √x with x ≥ 0 known: x·√x is (√x)³, and an even power of √x is a power of x;
     /// |x| to an even power is x to that power.
-    fn collect_roots(&mut self, factors: &mut Vec<(Node, i32)>) {
+    fn collect_roots(&mut self, factors: &mut Factors) {
         for at in 0..factors.len() {
             let (node, n) = factors[at];
             let Kind::Call(op, arguments) = self.kind(node) else {
@@ -323,7 +324,7 @@ impl Dag {
             let inner = arguments[0];
             if *op == Op::Abs && n % 2 == 0 {
                 factors[at].1 = 0;
-                merge_factor(factors, inner, n);
+                multiply(factors, inner, n);
             } else if *op == Op::Sqrt && self.is_nonnegative(inner) {
                 let whole = match factors.iter().position(|(other, _)| *other == inner) {
                     Some(other) => core::mem::replace(&mut factors[other].1, 0),
@@ -336,12 +337,12 @@ impl Dag {
                         // Only a bare product of powers may be taken apart without a constant.
                         if c.is_one() {
                             for (part, m) in parts.clone() {
-                                merge_factor(factors, part, m * (total / 2));
+                                multiply(factors, part, m * (total / 2));
                             }
                             continue;
                         }
                     }
-                    merge_factor(factors, inner, total / 2);
+                    multiply(factors, inner, total / 2);
                 } else {
                     factors[at].1 = total;
                 }
@@ -519,7 +520,7 @@ fn multiplied(k: &Rational, value: &Rational, n: i32) -> Option<Rational> {
 /// The factors of a product in the making, each once.
 #[derive(Default)]
 struct ProductBuilder {
-    list: Vec<(Node, i32)>,
+    list: Factors,
     places: Places,
 }
 
@@ -585,12 +586,5 @@ impl Places {
         }
         self.nodes.push(node);
         None
-    }
-}
-
-fn merge_factor(factors: &mut Vec<(Node, i32)>, node: Node, n: i32) {
-    match factors.iter_mut().find(|(other, _)| *other == node) {
-        Some(entry) => entry.1 += n,
-        None => factors.push((node, n)),
     }
 }

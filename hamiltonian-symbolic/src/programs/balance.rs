@@ -4,6 +4,7 @@
 //! are not prepared is a tree. Invariant: a gradient through a tree costs two multiplications a
 //! factor (Speelpenning 1980), and so does every later pass; the factors keep their order.
 
+use crate::algebra::factors::Factors;
 use crate::algebra::simplify::SHORT;
 use crate::dag::{Dag, Kind, Node};
 use crate::programs::factor::is_prepared;
@@ -30,7 +31,7 @@ pub fn balance(dag: &mut Dag, roots: &mut [Node]) {
 }
 
 /// `k·Π node^n`: prepared factors as they are, those above and those below the line as a tree each.
-fn balanced(dag: &mut Dag, k: &Rational, factors: Vec<(Node, i32)>) -> Node {
+fn balanced(dag: &mut Dag, k: &Rational, factors: Factors) -> Node {
     let (mut all, rest): (Vec<_>, Vec<_>) = factors
         .into_iter()
         .partition(|(node, _)| is_prepared(dag, *node));

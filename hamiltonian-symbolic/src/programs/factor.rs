@@ -4,6 +4,7 @@
 //! Invariant: a term used elsewhere too is left whole, so that factoring never undoes sharing;
 //! sums are regrouped by common factors only, which cannot introduce cancellation.
 
+use crate::algebra::factors::{self, Factors};
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::index::Domain;
 use crate::rational::Rational;
@@ -39,7 +40,7 @@ const ABSORBING: usize = 16;
 struct Summand {
     k: Rational,
     p: Node,
-    factors: Vec<(Node, i32)>,
+    factors: Factors,
 }
 
 impl Summand {
@@ -56,19 +57,12 @@ impl Summand {
     }
     /// The power of a base, if it has that sign.
     fn power(&self, base: Node, sign: i32) -> Option<i32> {
-        let mut powers = self.factors.iter().filter(|(n, _)| *n == base);
-        powers
-            .next()
-            .map(|(_, n)| *n)
-            .filter(|n| n.signum() == sign)
+        let power = factors::power(&self.factors, &base);
+        (power.signum() == sign).then_some(power)
     }
     fn without(&self, base: Node, power: i32) -> Summand {
         let mut rest = self.clone();
-        for factor in &mut rest.factors {
-            if factor.0 == base {
-                factor.1 -= power;
-            }
-        }
+        factors::multiply(&mut rest.factors, base, -power);
         rest.factors.retain(|(_, n)| *n != 0);
         rest
     }
@@ -125,7 +119,7 @@ fn gathered(
         {
             return None;
         }
-        let mut all: Vec<(Node, i32)> = others().copied().collect();
+        let mut all: Factors = others().copied().collect();
         match dag.kind(body) {
             Kind::Product(c, inner) if c.is_one() => all.extend(inner),
             _ => all.push((body, 1)),
@@ -145,7 +139,7 @@ fn gathered(
 fn factored_product(
     dag: &mut Dag,
     k: Rational,
-    factors: Vec<(Node, i32)>,
+    factors: Factors,
     uses: &Numbers,
     new: &Map<Node, Node>,
 ) -> Node {

@@ -5,6 +5,7 @@
 //! from an array that preparation fills. Invariant: an element is computed as it would have been
 //! in the loop, from the same row.
 
+use crate::algebra::factors::Factors;
 use crate::dag::{Array, Dag, Kind, Map, Node, Stage};
 use crate::index::{Affine, Domain, Index, LOOPS};
 use crate::model::{ParameterDeclaration, Shape};
@@ -21,9 +22,6 @@ pub struct Held {
     /// The element, in terms of the loop.
     pub value: Node,
 }
-
-/// Nodes with their powers.
-type Factors = Vec<(Node, i32)>;
 
 /// An index, and how many rows the arrays have that it is of.
 type Access = (Index, Affine);
@@ -118,7 +116,7 @@ impl Arrays {
             return value;
         }
         let domain = dag.domain(None, Affine::constant(0), rows.clone());
-        let own = Index::plain(Affine::variable(domain));
+        let own = Index::of_loop(domain);
         let value = dag.substitute(value, |dag, node| match *dag.kind(node) {
             Kind::Element(array, ref at, None) if at == row => {
                 Some(dag.element(array, own.clone(), None))

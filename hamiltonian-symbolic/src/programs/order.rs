@@ -40,7 +40,7 @@ struct Bundle {
 }
 
 /// A value of the line, or the state of an output between two updates.
-struct Made {
+struct LineValue {
     by: usize,
     readers: Vec<usize>,
     /// The number of readers that are not done.
@@ -51,7 +51,7 @@ struct Made {
 #[derive(Default)]
 struct Graph {
     units: Vec<Bundle>,
-    values: Vec<Made>,
+    values: Vec<LineValue>,
     order: Vec<usize>,
 }
 
@@ -110,7 +110,7 @@ impl Graph {
     fn make(&mut self, by: usize) -> usize {
         let value = self.values.len();
         self.units[by].makes.push(value);
-        self.values.push(Made {
+        self.values.push(LineValue {
             by,
             readers: Vec::new(),
             waiting: 0,
@@ -118,7 +118,8 @@ impl Graph {
         value
     }
 
-    /// Does a unit all of whose values are there, and whatever then pays for itself.
+    /// Performs a unit whose operands are computed, and then each that ends as many values as it
+    /// makes.
     fn perform(&mut self, first: usize) {
         let mut candidates = vec![first];
         while let Some(unit) = candidates.pop() {

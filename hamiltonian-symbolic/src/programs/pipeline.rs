@@ -23,7 +23,7 @@ pub const CAP: usize = 1 << 15;
 
 /// Why there is no program.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum Refusal {
+pub enum NoProgram {
     /// A function needs more than [`CAP`] operations.
     TooLarge {
         /// The number of operations.
@@ -51,7 +51,7 @@ pub enum Refusal {
 }
 
 /// H → requests → arrays held → factored → shared → scheduled.
-pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal> {
+pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, NoProgram> {
     let mut all = model.roots();
     balance(&mut model.dag, &mut all);
     model.set_roots(&all);
@@ -70,7 +70,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         requests.push(request);
     }
     if model.dag.has_too_many_loops() {
-        return Err(Refusal::TooManyLoops);
+        return Err(NoProgram::TooManyLoops);
     }
     let (wanted, images) = preparation(&mut model.dag, &mut requests);
     let program = schedule(&model.dag, &requests, (&wanted, &images), arrays.held);
@@ -81,7 +81,7 @@ pub fn derive(model: &mut Model, wanted: &[Purpose]) -> Result<Program, Refusal>
         }
         let operations = program.operations(function).total();
         if operations > CAP {
-            return Err(Refusal::TooLarge { operations });
+            return Err(NoProgram::TooLarge { operations });
         }
     }
     Ok(program)
@@ -119,8 +119,8 @@ fn shared_preparation(dag: &mut Dag, wanted: &[Node]) -> Vec<Node> {
     }
 }
 
-fn internal(fault: String) -> Refusal {
-    Refusal::Internal { fault }
+fn internal(fault: String) -> NoProgram {
+    NoProgram::Internal { fault }
 }
 
 /// The number of updates of outputs.
@@ -134,9 +134,9 @@ fn stores(steps: &[Step]) -> usize {
 }
 
 /// Refuses numbers that emitted code could not hold.
-fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), Refusal> {
+fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), NoProgram> {
     let refused = |number: Option<&Rational>| {
-        Err(Refusal::OutOfRange {
+        Err(NoProgram::OutOfRange {
             number: number.cloned(),
         })
     };
@@ -158,13 +158,13 @@ fn in_range(dag: &Dag, roots: &[Node]) -> Result<(), Refusal> {
     Ok(())
 }
 
-fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), Refusal> {
+fn refuse(model: &Model, purpose: Purpose, roots: &[Node]) -> Result<(), NoProgram> {
     if model.dag.has_too_many_loops() {
-        return Err(Refusal::TooManyLoops);
+        return Err(NoProgram::TooManyLoops);
     }
     for node in model.dag.reachable(roots) {
         if let Kind::External(function, Part::Higher { .. }, _) = model.dag.kind(node) {
-            return Err(Refusal::ThirdDerivative {
+            return Err(NoProgram::ThirdDerivative {
                 purpose,
                 function: model.externals[*function as usize].name.clone(),
             });
@@ -179,7 +179,7 @@ fn request(
     model: &mut Model,
     purpose: Purpose,
     gradient: &mut Option<Vec<VectorEntry>>,
-) -> Result<Request, Refusal> {
+) -> Result<Request, NoProgram> {
     let h = model.h();
     let mut request = Request {
         purpose,

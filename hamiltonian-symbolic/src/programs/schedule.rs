@@ -9,7 +9,7 @@ mod instruct;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Numbers, Stage};
 use crate::hold::Held;
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Domain, Index};
 use crate::op::Op;
 use crate::program::{Function, Instruction, Loop, Program, Purpose, Step, Target, Update, Value};
 use crate::programs::factor::count_uses;
@@ -96,7 +96,7 @@ pub fn schedule(
     let nothing = Numbers::new(dag);
     let fill = |(held, number): (&Held, u16)| Store {
         target: Target::Held(number),
-        row: Index::plain(Affine::variable(held.domain)),
+        row: Index::of_loop(held.domain),
         column: None,
         value: held.value,
         add: false,

@@ -46,7 +46,7 @@ fn at_site(dag: &mut Dag, store: &Store) -> Option<Store> {
             return None;
         }
         known |= Loops::of(domain);
-        let own = Index::plain(Affine::variable(domain));
+        let own = Index::of_loop(domain);
         let shift = axis.affine.plus(-1, &own.affine);
         match &axis.modulo {
             None if shift == Affine::default() => {}

@@ -20,7 +20,7 @@ mod pairs;
 pub use domain::conditions;
 
 use crate::dag::{Dag, Dependence, Kind, Map, Node, Sign};
-use crate::op::{At, Break, Far, Op, Range};
+use crate::op::{At, Break, Far, Op, ValueSign};
 use leaves::{have_nothing_in_common, is_moving_leaf, is_solved_beside, varies};
 use pairs::{difference, is_pair};
 
@@ -74,7 +74,7 @@ impl Regular {
         has_no_zero: false,
         has_no_moving_zero: false,
     };
-    /// What is neutral among the properties that all of some nodes have.
+    /// The neutral element of the conjunction of properties over several nodes.
     const ALL: Regular = Regular {
         has_no_zero: true,
         ..Regular::STILL
@@ -434,7 +434,7 @@ impl Facts {
             // x^y, of finite x and y
             Op::Pow => first.has_no_zero && all.is_continuous,
             Op::Cosh => true,
-            _ => regularity.range == Range::Positive && all.is_continuous,
+            _ => regularity.range == ValueSign::Positive && all.is_continuous,
         };
         let has_no_moving_zero =
             matches!(op, Op::Sqrt | Op::Abs | Op::Cbrt) && first.has_no_moving_zero;

@@ -3,10 +3,10 @@
 use super::{bodies, polar};
 use crate::common::{parse, system};
 use hamiltonian_symbolic::model::{Observable, ObservableKind};
-use hamiltonian_symbolic::transform::{Chart, Refusal, Transformed, apply, check};
+use hamiltonian_symbolic::transform::{Chart, NoTransform, Transformed, apply, check};
 
 /// The verdict on the same H with a term that it does not have.
-fn with_term(mut new: Transformed, term: &str) -> Result<usize, Refusal> {
+fn with_term(mut new: Transformed, term: &str) -> Result<usize, NoTransform> {
     let (h, term) = (new.model.h(), parse(&mut new.model, term));
     new.model.hamiltonian = Some(new.model.dag.add(&[h, term]));
     check(&new)
@@ -18,7 +18,7 @@ fn the_check_sees_a_wrong_hamiltonian() {
     assert_eq!(check(&new), Ok(3));
     new.model.hamiltonian = Some(parse(&mut new.model, "p_r^2/2 + r^2*sin(phi)*cos(phi)"));
     match check(&new) {
-        Err(Refusal::Unverified { point, old, new }) => {
+        Err(NoTransform::Unverified { point, old, new }) => {
             assert!(!point.is_empty() && old != new);
         }
         other => panic!("{other:?}"),
@@ -39,7 +39,7 @@ fn the_check_compares_at_negative_parameters_too() {
         ("sqrt(a)*x*y + p_x^2/2 + sqrt(b)", "r/64"),
     ] {
         assert!(
-            matches!(of(h, slip), Err(Refusal::Unverified { .. })),
+            matches!(of(h, slip), Err(NoTransform::Unverified { .. })),
             "{h}"
         );
     }
@@ -62,7 +62,7 @@ fn the_check_compares_where_every_index_is_in_range() {
         let new = apply(&system("q[n]; p[n]", sizes, "m[n]", &h), &chart).unwrap();
         assert!(check(&new).unwrap() > 0, "{h}");
         let wrong = with_term(new, "p_heliocentric[n - 1]/64");
-        assert!(matches!(wrong, Err(Refusal::Unverified { .. })));
+        assert!(matches!(wrong, Err(NoTransform::Unverified { .. })));
     }
     // Nowhere a value, or no sizes that fit: nothing is compared, nor called checked.
     for (sizes, h, why) in [
@@ -72,7 +72,7 @@ fn the_check_compares_where_every_index_is_in_range() {
     ] {
         let model = system("q[n]; p[n]", sizes, "m[n]", h);
         match apply(&model, &chart) {
-            Err(Refusal::Uncompared { reason }) => assert!(reason.contains(why), "{reason}"),
+            Err(NoTransform::Uncompared { reason }) => assert!(reason.contains(why), "{reason}"),
             other => panic!("{h}: {other:?}"),
         }
     }
@@ -86,7 +86,7 @@ fn the_check_compares_where_every_index_is_in_range() {
     });
     assert!(matches!(
         apply(&model, &chart),
-        Err(Refusal::Uncompared { .. })
+        Err(NoTransform::Uncompared { .. })
     ));
 }
 
@@ -94,11 +94,11 @@ fn the_check_compares_where_every_index_is_in_range() {
 fn the_check_asks_for_eight_digits_where_there_are_as_many() {
     // A slip of 1e-7 beside numbers whose rounding is far below it.
     let wrong = with_term(polar("p_x^2/2 + 1/(x^2 + y^2)^3", ""), "1/10000000");
-    assert!(matches!(wrong, Err(Refusal::Unverified { .. })));
+    assert!(matches!(wrong, Err(NoTransform::Unverified { .. })));
     // Rounding that leaves fewer is not a slip.
     let new = polar("(x*10^9 + 1)^2 - x^2*10^18 - 2*x*10^9 + p_x", "");
     assert!(check(&new).is_ok());
     // But the digits left must agree.
     let wrong = with_term(new, "10^15*r^2");
-    assert!(matches!(wrong, Err(Refusal::Unverified { .. })));
+    assert!(matches!(wrong, Err(NoTransform::Unverified { .. })));
 }

@@ -19,13 +19,10 @@ impl Dag {
         let (mut loops, mut total) = (Loops::default(), Affine::constant(1));
         let mut innermost = None;
         for axis in row.axes() {
-            let [(domain, 1)] = *axis.affine.loops.as_slice() else {
-                return None;
-            };
+            let domain = axis.as_loop()?;
             let range = self.range(domain);
             let is_new = !loops.has(domain);
-            let is_plain = axis == Index::plain(Affine::variable(domain));
-            if !(is_new && is_plain && range.start == Affine::constant(0)) {
+            if !(is_new && range.start == Affine::constant(0)) {
                 return None;
             }
             loops |= Loops::of(domain);

@@ -22,7 +22,7 @@ pub enum Parity {
 
 /// The sign of a function's values, wherever it has one.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Range {
+pub enum ValueSign {
     /// Either sign.
     Any,
     /// f ≥ 0.
@@ -97,7 +97,7 @@ pub struct Regularity {
     /// Its domain.
     pub domain: NaturalDomain,
     /// The sign of its values.
-    pub range: Range,
+    pub range: ValueSign,
     /// The set at which it is not analytic.
     pub breaks: Break,
     /// The finite arguments at which |f| → ∞.
@@ -113,7 +113,7 @@ type Partials = fn(&mut Dag, &[Node], Node) -> Vec<Node>;
 
 /// A row of the table.
 #[derive(Debug)]
-pub struct Row {
+pub struct Operation {
     /// The name in the language, which is also the method of `Real`.
     pub name: &'static str,
     /// Its arguments as they are written: `atan2(y, x)`.
@@ -140,7 +140,7 @@ macro_rules! operations {
         }
 
         /// All rows, in the order of [`Op`].
-        pub static TABLE: &[Row] = &[$(Row {
+        pub static TABLE: &[Operation] = &[$(Operation {
             name: stringify!($name),
             arguments: &[$(stringify!($arg)),+],
             parity: Parity::$parity,
@@ -166,7 +166,7 @@ macro_rules! operations {
     (@regularity $domain:ident $(($from:expr))?, $range:ident, $breaks:ident $(($at:ident))?, $pole:ident $(($of:ident))?, $far:ident, $kind:ident) => {
         Regularity {
             domain: NaturalDomain::$domain $(($from))?,
-            range: Range::$range,
+            range: ValueSign::$range,
             breaks: Break::$breaks $((At::$at))?,
             pole: $pole $((At::$of))?,
             far: Far::$far,
@@ -327,7 +327,7 @@ fn bell(dag: &mut Dag, x: Node, k: i64) -> Node {
 impl Op {
     /// The function's row.
     #[must_use]
-    pub fn row(self) -> &'static Row {
+    pub fn row(self) -> &'static Operation {
         &TABLE[self as usize]
     }
     /// The function of that name.

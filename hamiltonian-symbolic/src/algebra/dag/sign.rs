@@ -3,7 +3,7 @@
 //! Input: signs of what a value is made of. Output: its own. Invariant: a value that exists has one of the
 //! signs in the set; the set is never empty.
 
-use super::op::{Op, Range};
+use super::op::{Op, ValueSign};
 use crate::rational::Rational;
 
 /// The signs that a value may have: a set of − (1), 0 (2) and + (4).
@@ -44,11 +44,11 @@ impl Sign {
     /// Of a function, by the sign of its first argument.
     pub(crate) fn of_call(op: Op, first: Sign) -> Sign {
         match op.row().regularity.range {
-            Range::Positive => Sign::POSITIVE,
-            Range::NonNegative if op == Op::Sqrt => first.root(),
-            Range::NonNegative => Sign::NONNEGATIVE,
-            Range::OfBase if first.is_nonnegative() => Sign::NONNEGATIVE,
-            Range::OfBase | Range::Any => Sign::UNKNOWN,
+            ValueSign::Positive => Sign::POSITIVE,
+            ValueSign::NonNegative if op == Op::Sqrt => first.root(),
+            ValueSign::NonNegative => Sign::NONNEGATIVE,
+            ValueSign::OfBase if first.is_nonnegative() => Sign::NONNEGATIVE,
+            ValueSign::OfBase | ValueSign::Any => Sign::UNKNOWN,
         }
     }
     /// Of a square root.

@@ -158,7 +158,7 @@ fn gather(
 /// number k of the element; `None` where it reads more than elements at that site: the number says no
 /// index of an axis without a division.
 fn at_number(dag: &mut Dag, site: &Index, loops: Loops, value: Node, k: Domain) -> Option<Node> {
-    let number = Index::plain(Affine::variable(k));
+    let number = Index::of_loop(k);
     let nodes = dag.reachable(&[value]);
     let new = dag.try_map(nodes, |dag, node, new| match dag.kind(node).clone() {
         _ if !dag.variables(node).meets(loops) => Some(node),

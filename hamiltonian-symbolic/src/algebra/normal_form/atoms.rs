@@ -109,10 +109,10 @@ pub(crate) struct Algebra {
     pub(super) arguments: Vec<(Poly, bool)>,
     /// How often an atom was redefined.
     pub(super) redefined: usize,
-    /// True if a condition stands before a fraction, which may then have no value where it is 0.
+    /// True if a condition guards a fraction, which may be undefined where the condition is false.
     pub(super) any_guarded: bool,
-    /// True if something is read that need not have a value for the statement to have one, or, in
-    /// statements about all points, that tells single points apart.
+    /// True if an expression is read that may be undefined where the statement is not or, in statements about
+    /// all points, that distinguishes single points.
     pub(super) has_conditions: bool,
     /// The points at which statements are to hold.
     pub(super) scope: Scope,

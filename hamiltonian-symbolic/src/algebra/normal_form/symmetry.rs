@@ -16,7 +16,7 @@ pub(super) const MOST: usize = 64;
 
 /// A sum: its loops, outermost first, and its body.
 #[derive(Clone, PartialEq, Debug)]
-struct Nest {
+struct LoopSum {
     loops: Vec<Domain>,
     body: Node,
 }
@@ -120,7 +120,7 @@ fn first_form(algebra: &mut Algebra, dag: &mut Dag, atom: Atom) -> Result<Poly, 
 
 /// The loops of a sum of a sum; `None` where sums are multiplied inside, or stand inside
 /// functions.
-fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
+fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<LoopSum> {
     let mut loops = Vec::new();
     let mut body = Monomial::atom(atom, 1);
     loop {
@@ -144,12 +144,12 @@ fn flattened(algebra: &Algebra, dag: &mut Dag, atom: Atom) -> Option<Nest> {
     }
     let body = algebra.node(dag, &Poly::term(Rational::ONE, body));
     let is_loop = |kind: &Kind| matches!(kind, Kind::Reduce(..) | Kind::Count(_));
-    (!dag.has(&[body], is_loop)).then_some(Nest { loops, body })
+    (!dag.has(&[body], is_loop)).then_some(LoopSum { loops, body })
 }
 
 /// All re-indexings of a nest in which each loop that may be shifted has an element at its bare index:
 /// they are the same ones whichever of them the nest is. False if there are more.
-fn images(dag: &mut Dag, nest: Nest) -> (Vec<Nest>, bool) {
+fn images(dag: &mut Dag, nest: LoopSum) -> (Vec<LoopSum>, bool) {
     let nest = lower(dag, &nest).unwrap_or(nest);
     let nest = from_zero(dag, nest);
     let mut found = vec![nest];
@@ -171,7 +171,7 @@ fn images(dag: &mut Dag, nest: Nest) -> (Vec<Nest>, bool) {
 }
 
 /// Returns true if each loop over 0..N that is read modulo N is read bare, too.
-fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
+fn is_anchored(dag: &Dag, nest: &LoopSum) -> bool {
     let nodes = dag.reachable(&[nest.body]);
     let indices: Vec<Index> = nodes
         .iter()
@@ -192,7 +192,7 @@ fn is_anchored(dag: &Dag, nest: &Nest) -> bool {
 }
 
 /// Σ_i Σ_{j>i} f(i, j) as Σ_i Σ_{j<i} f(j, i).
-fn lower(dag: &mut Dag, nest: &Nest) -> Option<Nest> {
+fn lower(dag: &mut Dag, nest: &LoopSum) -> Option<LoopSum> {
     let [i, j] = *nest.loops.as_slice() else {
         return None;
     };
@@ -205,14 +205,14 @@ fn lower(dag: &mut Dag, nest: &Nest) -> Option<Nest> {
     let above = dag.domain(Some(below), after(below), outer.end);
     let body = dag.replace(nest.body, i, &Affine::variable(below));
     let body = dag.replace(body, above, &Affine::variable(i));
-    Some(Nest {
+    Some(LoopSum {
         loops: vec![i, below],
         body,
     })
 }
 
 /// Loops that start elsewhere, whatever the loops around, as loops that start at 0.
-fn from_zero(dag: &mut Dag, nest: Nest) -> Nest {
+fn from_zero(dag: &mut Dag, nest: LoopSum) -> LoopSum {
     let mut loops: Vec<Domain> = Vec::with_capacity(nest.loops.len());
     let mut shifted: Vec<(Domain, Affine)> = Vec::new();
     for &domain in &nest.loops {
@@ -244,11 +244,11 @@ fn from_zero(dag: &mut Dag, nest: Nest) -> Nest {
             body = dag.replace(body, *domain, by);
         }
     }
-    Nest { loops, body }
+    LoopSum { loops, body }
 }
 
 /// Each loop over 0..N shifted so that one of the elements modulo N has the bare index.
-fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
+fn shifts(dag: &mut Dag, nest: &LoopSum) -> Vec<LoopSum> {
     let mut found = Vec::new();
     for &domain in &nest.loops {
         let range = dag.range(domain).clone();
@@ -276,7 +276,7 @@ fn shifts(dag: &mut Dag, nest: &Nest) -> Vec<Nest> {
                 range.end.clone(),
             );
             if let Some(body) = dag.reindexed(nest.body, domain, &by) {
-                found.push(Nest {
+                found.push(LoopSum {
                     loops: nest.loops.clone(),
                     body,
                 });

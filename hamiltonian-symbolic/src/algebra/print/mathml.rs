@@ -23,7 +23,7 @@ const DEPTH: usize = 64;
 /// ```
 #[must_use]
 pub fn mathml(latex: &str) -> Option<String> {
-    let mut reader = Reader {
+    let mut reader = TexReader {
         rest: latex,
         depth: 0,
     };
@@ -40,14 +40,14 @@ enum Token<'t> {
     End,
 }
 
-struct Reader<'t> {
+struct TexReader<'t> {
     rest: &'t str,
     depth: usize,
 }
 
 /// What an element is, for its scripts and for the space before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Base {
+enum ScriptBase {
     /// A sign or a space.
     Sign,
     /// A letter, a number, a fraction or parentheses.
@@ -60,20 +60,23 @@ enum Base {
     Function,
 }
 
-impl Base {
+impl ScriptBase {
     /// Returns true if a thin space stands between two elements: before a function, as in TeX, and beside a
     /// word, which would run into its neighbour.
-    fn is_apart_from(self, next: Base) -> bool {
+    fn is_apart_from(self, next: ScriptBase) -> bool {
         matches!(
             (self, next),
-            (Base::Plain | Base::Word, Base::Function | Base::Word) | (Base::Word, Base::Plain)
+            (
+                ScriptBase::Plain | ScriptBase::Word,
+                ScriptBase::Function | ScriptBase::Word
+            ) | (ScriptBase::Word, ScriptBase::Plain)
         )
     }
 }
 
 const THIN_SPACE: &str = "<mspace width=\"0.17em\"></mspace>";
 
-impl<'t> Reader<'t> {
+impl<'t> TexReader<'t> {
     fn token(&mut self) -> Token<'t> {
         self.rest = self.rest.trim_start();
         let mut chars = self.rest.chars();
@@ -104,7 +107,7 @@ impl<'t> Reader<'t> {
     }
 
     fn peek(&self) -> Token<'t> {
-        Reader { ..*self }.token()
+        TexReader { ..*self }.token()
     }
 
     fn expect(&mut self, token: Token<'_>) -> Option<()> {
@@ -122,7 +125,7 @@ impl<'t> Reader<'t> {
             return None;
         }
         self.depth += 1;
-        let (mut row, mut before) = (Vec::new(), Base::Sign);
+        let (mut row, mut before) = (Vec::new(), ScriptBase::Sign);
         let end = loop {
             let token = self.token();
             if ends.contains(&token) {
@@ -134,7 +137,7 @@ impl<'t> Reader<'t> {
             }
             before = base;
             row.push(self.scripts(element, base)?);
-            if base == Base::Function {
+            if base == ScriptBase::Function {
                 row.push("<mo>\u{2061}</mo>".to_owned());
             }
         };
@@ -157,7 +160,7 @@ impl<'t> Reader<'t> {
     }
 
     /// An element with what stands below and above it.
-    fn scripts(&mut self, element: String, base: Base) -> Option<String> {
+    fn scripts(&mut self, element: String, base: ScriptBase) -> Option<String> {
         let (mut below, mut above) = (None, None);
         loop {
             match self.peek() {
@@ -181,7 +184,7 @@ impl<'t> Reader<'t> {
             }
         }
         let tags = match base {
-            Base::Sum => ["munder", "mover", "munderover"],
+            ScriptBase::Sum => ["munder", "mover", "munderover"],
             _ => ["msub", "msup", "msubsup"],
         };
         let (tag, scripts) = match (below, above) {
@@ -193,25 +196,26 @@ impl<'t> Reader<'t> {
         Some(format!("<{tag}>{element}{scripts}</{tag}>"))
     }
 
-    fn element(&mut self, token: Token<'t>) -> Option<(String, Base)> {
-        let plain = |element: String| Some((element, Base::Plain));
+    fn element(&mut self, token: Token<'t>) -> Option<(String, ScriptBase)> {
+        let plain = |element: String| Some((element, ScriptBase::Plain));
         match token {
             Token::Digits(digits) => plain(format!("<mn>{digits}</mn>")),
             Token::Char('{') => plain(one(self.row(Token::Char('}'))?)),
-            Token::Char('-') => Some(("<mo>−</mo>".to_owned(), Base::Sign)),
+            Token::Char('-') => Some(("<mo>−</mo>".to_owned(), ScriptBase::Sign)),
             Token::Char(c) if c.is_alphabetic() => plain(format!("<mi>{c}</mi>")),
             // A row of their own: parentheses stretch to what is in their row.
             Token::Char('(') => plain(fenced('(', &self.row(Token::Char(')'))?, ')')),
             Token::Char('[') => plain(fenced('[', &self.row(Token::Char(']'))?, ']')),
-            Token::Char(c) if "+=/,|!<>:;".contains(c) => {
-                Some((format!("<mo>{}</mo>", escaped(&c.to_string())), Base::Sign))
-            }
+            Token::Char(c) if "+=/,|!<>:;".contains(c) => Some((
+                format!("<mo>{}</mo>", escaped(&c.to_string())),
+                ScriptBase::Sign,
+            )),
             Token::Command(name) => self.command(name),
             Token::Char(_) | Token::End => None,
         }
     }
 
-    fn command(&mut self, name: &str) -> Option<(String, Base)> {
+    fn command(&mut self, name: &str) -> Option<(String, ScriptBase)> {
         let element = match name {
             "frac" => {
                 let (above, below) = (self.group()?, self.group()?);
@@ -237,34 +241,39 @@ impl<'t> Reader<'t> {
             "mathrm" => {
                 let word = escaped(&self.words()?.replace('\\', ""));
                 let base = match word.chars().nth(1) {
-                    Some(_) => Base::Word,
-                    None => Base::Plain,
+                    Some(_) => ScriptBase::Word,
+                    None => ScriptBase::Plain,
                 };
                 return Some((format!("<mi mathvariant=\"normal\">{word}</mi>"), base));
             }
             "text" => {
                 let text = escaped(self.words()?).replace(' ', "\u{a0}");
-                return Some((format!("<mtext>{text}</mtext>"), Base::Sign));
+                return Some((format!("<mtext>{text}</mtext>"), ScriptBase::Sign));
             }
             "operatorname" => {
                 let word = escaped(self.words()?);
-                return Some((format!("<mi>{word}</mi>"), Base::Function));
+                return Some((format!("<mi>{word}</mi>"), ScriptBase::Function));
             }
-            "sum" => return Some(("<mo>∑</mo>".to_owned(), Base::Sum)),
-            "," => return Some((THIN_SPACE.to_owned(), Base::Sign)),
-            "quad" => return Some(("<mspace width=\"1em\"></mspace>".to_owned(), Base::Sign)),
+            "sum" => return Some(("<mo>∑</mo>".to_owned(), ScriptBase::Sum)),
+            "," => return Some((THIN_SPACE.to_owned(), ScriptBase::Sign)),
+            "quad" => {
+                return Some((
+                    "<mspace width=\"1em\"></mspace>".to_owned(),
+                    ScriptBase::Sign,
+                ));
+            }
             _ if FUNCTIONS.contains(&name) => {
-                return Some((format!("<mi>{name}</mi>"), Base::Function));
+                return Some((format!("<mi>{name}</mi>"), ScriptBase::Function));
             }
             _ => match SIGNS.iter().find(|(known, _)| *known == name) {
-                Some((_, sign)) => return Some((format!("<mo>{sign}</mo>"), Base::Sign)),
+                Some((_, sign)) => return Some((format!("<mo>{sign}</mo>"), ScriptBase::Sign)),
                 None => {
                     let (_, letter) = LETTERS.iter().find(|(known, _)| *known == name)?;
                     format!("<mi>{letter}</mi>")
                 }
             },
         };
-        Some((element, Base::Plain))
+        Some((element, ScriptBase::Plain))
     }
 
     /// A table of values and conditions.

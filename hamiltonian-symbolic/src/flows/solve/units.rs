@@ -22,7 +22,7 @@ pub(crate) struct Unit {
     /// The term as it was written, which it is, or is a part of.
     pub(crate) source: Node,
     /// True if a conjugate pair meets in it.
-    pub(crate) is_hard: bool,
+    pub(crate) is_coupled: bool,
 }
 
 /// H by terms.
@@ -44,7 +44,7 @@ pub(crate) fn levels(space: &mut Space, h: Node) -> Vec<Units> {
     let mut second = first.clone();
     let c = space.dag().coefficient();
     for unit in &written.units {
-        if !unit.is_hard {
+        if !unit.is_coupled {
             first.units.push(*unit);
             second.units.push(*unit);
             continue;
@@ -76,11 +76,11 @@ fn append(space: &mut Space, units: &mut Units, nodes: &[Node], source: Node) {
         match space.set(node).is_empty() {
             true => units.constant.push(node),
             false => {
-                let is_hard = !space.active(node).is_empty();
+                let is_coupled = !space.active(node).is_empty();
                 units.units.push(Unit {
                     node,
                     source,
-                    is_hard,
+                    is_coupled,
                 });
             }
         }
@@ -124,7 +124,7 @@ fn written(space: &mut Space, h: Node) -> Units {
 
 /// A term of H: a summand and its loops.
 #[derive(Clone, Debug)]
-pub(crate) struct Term {
+pub(crate) struct LoopedTerm {
     /// The loops around it, outermost first.
     pub(crate) chain: Vec<Domain>,
     pub(crate) body: Node,
@@ -133,16 +133,16 @@ pub(crate) struct Term {
 }
 
 /// H by terms: through sums, loops and factors that do not move.
-pub(crate) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
+pub(crate) fn terms(dag: &mut Dag, h: Node) -> Vec<LoopedTerm> {
     let mut found = Vec::new();
-    let mut left = vec![Term {
+    let mut left = vec![LoopedTerm {
         chain: Vec::new(),
         body: h,
         source: h,
     }];
     while let Some(term) = left.pop() {
         let (factor, inner) = opened(dag, term.body);
-        let with = |body: Node| Term {
+        let with = |body: Node| LoopedTerm {
             source: if term.chain.is_empty() {
                 body
             } else {
@@ -159,7 +159,7 @@ pub(crate) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
             Kind::Reduce(domain, body) => {
                 let mut chain = term.chain.clone();
                 chain.push(domain);
-                left.push(Term {
+                left.push(LoopedTerm {
                     chain,
                     body: dag.mul(&[factor, body]),
                     source: term.source,
@@ -172,7 +172,7 @@ pub(crate) fn terms(dag: &mut Dag, h: Node) -> Vec<Term> {
 }
 
 /// A term without the inner loops whose variables it does not read: it stands there as often as they run.
-fn counted(dag: &mut Dag, mut term: Term) -> Term {
+fn counted(dag: &mut Dag, mut term: LoopedTerm) -> LoopedTerm {
     while let Some(&innermost) = term.chain.last()
         && !dag.variables(term.body).has(innermost)
     {
@@ -272,7 +272,7 @@ fn loss(space: &mut Space, parts: &[Node], whole: Node) -> f64 {
         }
         let whole = space.value_at(whole, &point);
         let loss = sum / whole.value.abs();
-        // A whole that rounding hides says nothing.
+        // If rounding hides the whole, the ratio has no meaning.
         losses.extend((whole.is_nonzero() && loss.is_finite()).then_some(loss));
     }
     losses.sort_by(f64::total_cmp);

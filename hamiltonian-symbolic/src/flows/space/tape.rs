@@ -32,7 +32,9 @@ pub(crate) struct Tape {
 }
 
 impl Tape {
-    /// The tape of some nodes, each of which is written with a set of variables; what is `given` has a number. `None` where something has none.
+    /// The tape of some nodes. `variables` are those that a node depends on, `given` the values of parameters
+    /// and sizes. `None` if a node is no operation on numbers, such as
+    /// a loop or a Rust function.
     pub(crate) fn of(
         dag: &Dag,
         roots: &[Node],

@@ -11,7 +11,7 @@ use crate::flows::space::{COUPLED, Limit, SUMS, Space, TERMS, Variable, Variable
 use crate::model::Flow;
 use crate::set::{Member, Set};
 
-/// The most ways to cover the hard units.
+/// The most ways to cover the coupled units. It limits the choice alone: if there is a way, the first is found.
 const COVERS: usize = 60;
 
 /// A unit by its place in the list of all.
@@ -107,16 +107,16 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         blocks: Vec::new(),
         limit: None,
     };
-    let hard = search.mask(|_, unit| unit.is_hard);
+    let coupled = search.mask(|_, unit| unit.is_coupled);
     let all: Mask = (0..units.units.len()).map(At).collect();
     if let Some(whole) = search.block(all) {
         return Ok(vec![vec![whole]]);
     }
-    hard_blocks(&mut search, hard, all.without(hard));
-    let covers = covers(&search.blocks, hard);
+    coupled_blocks(&mut search, coupled, all.without(coupled));
+    let covers = covers(&search.blocks, coupled);
     if covers.is_empty() {
         let bad = units.units.iter().enumerate().find(|(at, unit)| {
-            unit.is_hard && !search.blocks.iter().any(|block| block.units.has(At(*at)))
+            unit.is_coupled && !search.blocks.iter().any(|block| block.units.has(At(*at)))
         });
         let bad = bad.map_or(units.units[0], |(_, unit)| *unit).source;
         if let Some(limit) = search.limit {
@@ -124,11 +124,11 @@ pub(crate) fn candidates(space: &mut Space, units: &Units) -> Result<Vec<Vec<Blo
         }
         return Err(bad);
     }
-    let easy = easy_blocks(&mut search, all.without(hard));
+    let uncoupled = uncoupled_blocks(&mut search, all.without(coupled));
     let mut found = Vec::new();
     for cover in &covers {
         let used = union(cover);
-        let more = easy.iter().filter(|block| !block.units.meets(used));
+        let more = uncoupled.iter().filter(|block| !block.units.meets(used));
         for extra in std::iter::once(None).chain(more.map(Some)) {
             let mut pieces = cover.clone();
             pieces.extend(extra.cloned());
@@ -147,20 +147,20 @@ fn union(blocks: &[Block]) -> Mask {
     units.fold(Mask::default(), |all, units| all | units)
 }
 
-/// Blocks with hard units, by themselves and with easy ones.
-fn hard_blocks(search: &mut Search, hard: Mask, easy: Mask) {
+/// Blocks of coupled units, without and with uncoupled ones.
+fn coupled_blocks(search: &mut Search, coupled: Mask, uncoupled: Mask) {
     let pool = |search: &mut Search, sides: (bool, bool)| {
-        search.mask(|space, unit| !unit.is_hard && space.set(unit.node).sides() == sides)
+        search.mask(|space, unit| !unit.is_coupled && space.set(unit.node).sides() == sides)
     };
     let (v, t, mixed) = (
         pool(search, (true, false)),
         pool(search, (false, true)),
         pool(search, (true, true)),
     );
-    let mut offers: Vec<Mask> = vec![v, t, mixed, v | mixed, t | mixed, easy];
-    offers.extend(easy.members().map(Mask::of));
-    let numbers: Vec<At> = hard.members().collect();
-    let mut subsets: Vec<Mask> = hard.members().map(Mask::of).collect();
+    let mut offers: Vec<Mask> = vec![v, t, mixed, v | mixed, t | mixed, uncoupled];
+    offers.extend(uncoupled.members().map(Mask::of));
+    let numbers: Vec<At> = coupled.members().collect();
+    let mut subsets: Vec<Mask> = coupled.members().map(Mask::of).collect();
     if numbers.len() <= COUPLED {
         let chosen = |choice: usize| {
             let all = numbers.iter().enumerate();
@@ -180,7 +180,7 @@ fn hard_blocks(search: &mut Search, hard: Mask, easy: Mask) {
                     .map(|b| Mask::of(*a) | Mask::of(*b)),
             );
         }
-        subsets.push(hard);
+        subsets.push(coupled);
     }
     // Alone first, so that the limit meets refinements.
     for &subset in &subsets {
@@ -193,8 +193,8 @@ fn hard_blocks(search: &mut Search, hard: Mask, easy: Mask) {
     }
 }
 
-/// Disjoint blocks that hold all hard units.
-fn covers(blocks: &[Block], hard: Mask) -> Vec<Vec<Block>> {
+/// Disjoint blocks that hold all coupled units.
+fn covers(blocks: &[Block], coupled: Mask) -> Vec<Vec<Block>> {
     fn extend(
         blocks: &[Block],
         left: Mask,
@@ -224,26 +224,26 @@ fn covers(blocks: &[Block], hard: Mask) -> Vec<Vec<Block>> {
         }
     }
     let mut all = Vec::new();
-    extend(blocks, hard, Mask::default(), &mut Vec::new(), &mut all);
+    extend(blocks, coupled, Mask::default(), &mut Vec::new(), &mut all);
     all
 }
 
-/// Blocks of easy units that a row takes together: quadratic forms, of all pairs and of one;
+/// Blocks of uncoupled units that a row takes together: quadratic forms, of all pairs and of one;
 /// p² with all that is divided by r².
-fn easy_blocks(search: &mut Search, easy: Mask) -> Vec<Block> {
+fn uncoupled_blocks(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
     let mut masks = Vec::new();
-    let quadratic = search.mask(|space, unit| !unit.is_hard && is_quadratic(space, unit.node));
+    let quadratic = search.mask(|space, unit| !unit.is_coupled && is_quadratic(space, unit.node));
     masks.push(quadratic);
     for pair in 0..search.space.pairs.len() {
         let [coordinate, momentum] = Variable::pair(pair).map(Variables::of);
         let own = coordinate | momentum;
         let here = search.mask(|space, unit| space.set(unit.node).is_within(own));
         masks.push(here & quadratic);
-        masks.push(here & easy);
+        masks.push(here & uncoupled);
         let (r, _) = search.space.pairs[pair];
         let flight = search.mask(|space, unit| {
             let set = space.set(unit.node);
-            if unit.is_hard || set == momentum {
+            if unit.is_coupled || set == momentum {
                 return set == momentum;
             }
             if set & own != coordinate {
@@ -269,9 +269,9 @@ fn easy_blocks(search: &mut Search, easy: Mask) -> Vec<Block> {
     found
 }
 
-/// Easy units as few pieces in which no conjugate pair meets.
-fn linear_pieces(search: &mut Search, easy: Mask) -> Vec<Block> {
-    let mut numbers: Vec<At> = easy.members().collect();
+/// Uncoupled units as few pieces in which no conjugate pair meets.
+fn linear_pieces(search: &mut Search, uncoupled: Mask) -> Vec<Block> {
+    let mut numbers: Vec<At> = uncoupled.members().collect();
     let order = |set: Variables| match set.sides() {
         (false, _) => 0,
         (_, false) => 1,

@@ -44,7 +44,7 @@ pub struct Reasons {
 
 /// The term of H that no row takes.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Refusal {
+pub struct NoFlow {
     /// The term, as it was written.
     pub node: Node,
     /// The same as text.
@@ -53,10 +53,10 @@ pub struct Refusal {
     pub limit: Option<Limit>,
 }
 
-impl Refusal {
-    fn of(model: &Model, node: Node, limit: Option<Limit>) -> Refusal {
+impl NoFlow {
+    fn of(model: &Model, node: Node, limit: Option<Limit>) -> NoFlow {
         let text = print::text(model, node);
-        Refusal { node, text, limit }
+        NoFlow { node, text, limit }
     }
 }
 
@@ -128,15 +128,15 @@ struct Parts {
 /// in common are split apart.
 ///
 /// # Errors
-/// [`Refusal`] with the term that no row takes.
-pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
+/// [`NoFlow`] with the term that no row takes.
+pub fn find(model: &mut Model) -> Result<Splitting, NoFlow> {
     let h = model.h();
     let groups = join::groups(model, h);
     let whole = Space::new(model, &[h]);
     let has_loops = join::has_loops(&model.dag, h);
     let parts = match whole {
         Err(limit) if has_loops || groups.len() < 2 => {
-            return over_loops(model, h).map_err(|refusal| Refusal {
+            return over_loops(model, h).map_err(|refusal| NoFlow {
                 limit: refusal.limit.or(limit),
                 ..refusal
             });
@@ -157,7 +157,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
                     let mut found = Vec::with_capacity(groups.len());
                     for group in groups {
                         let mut space = Space::new(model, &[group])
-                            .map_err(|limit| Refusal::of(model, group, limit))?;
+                            .map_err(|limit| NoFlow::of(model, group, limit))?;
                         found.push(searched(model, &mut space, group)?);
                     }
                     join::parts(model, h, found)
@@ -166,7 +166,7 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
         }
     };
     if parts.flows.len() > MOST {
-        return Err(Refusal::of(model, h, Some(Limit::Pieces)));
+        return Err(NoFlow::of(model, h, Some(Limit::Pieces)));
     }
     let pieces = parts.flows.into_iter().map(|(node, flow)| Piece {
         h: node,
@@ -180,14 +180,14 @@ pub fn find(model: &mut Model) -> Result<Splitting, Refusal> {
 }
 
 /// A splitting into loops of flows.
-fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Refusal> {
-    let pieces = sweep::find(model, h).map_err(|(term, limit)| Refusal::of(model, term, limit))?;
+fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, NoFlow> {
+    let pieces = sweep::find(model, h).map_err(|(term, limit)| NoFlow::of(model, term, limit))?;
     let parts: Vec<Node> = pieces.iter().map(|piece| piece.h).collect();
     if pieces.len() > MOST {
-        return Err(Refusal::of(model, h, Some(Limit::Pieces)));
+        return Err(NoFlow::of(model, h, Some(Limit::Pieces)));
     }
     if pieces.is_empty() || check_split(model, &parts).is_err() {
-        return Err(Refusal::of(model, h, None));
+        return Err(NoFlow::of(model, h, None));
     }
     Ok(Splitting {
         pieces,
@@ -196,10 +196,10 @@ fn over_loops(model: &mut Model, h: Node) -> Result<Splitting, Refusal> {
 }
 
 /// The splitting of an expression in its space, whose arena becomes the model's.
-fn searched(model: &mut Model, space: &mut Space, h: Node) -> Result<Parts, Refusal> {
+fn searched(model: &mut Model, space: &mut Space, h: Node) -> Result<Parts, NoFlow> {
     let found = search(space, h).map_err(|node| (node, space.limit(node)));
     model.dag = std::mem::take(&mut space.model.dag);
-    found.map_err(|(node, limit)| Refusal::of(model, node, limit))
+    found.map_err(|(node, limit)| NoFlow::of(model, node, limit))
 }
 
 fn search(space: &mut Space, h: Node) -> Result<Parts, Node> {
@@ -286,17 +286,14 @@ fn summands(dag: &mut Dag, h: Node, k: Rational) -> Vec<(Rational, Node)> {
 ///
 /// # Errors
 /// The number of the first part without a flow, with the first term of it that no row takes.
-pub fn declared(
-    model: &mut Model,
-    parts: &[(String, Node)],
-) -> Result<Splitting, (usize, Refusal)> {
+pub fn declared(model: &mut Model, parts: &[(String, Node)]) -> Result<Splitting, (usize, NoFlow)> {
     let mut pieces = Vec::with_capacity(parts.len());
     for (at, (name, h)) in parts.iter().enumerate() {
         let flow = match flow_of(model, *h) {
             Ok(flow) => flow,
             Err(limit) => {
                 let node = blamed(model, *h);
-                return Err((at, Refusal::of(model, node, limit)));
+                return Err((at, NoFlow::of(model, node, limit)));
             }
         };
         pieces.push(Piece {

@@ -8,7 +8,7 @@
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
-use crate::flows::solve::units::{Term, terms};
+use crate::flows::solve::units::{LoopedTerm, terms};
 use crate::flows::space::{Limit, ROWS, Space};
 use crate::index::{Affine, Domain, Index};
 use crate::model::Flow;
@@ -20,13 +20,13 @@ use crate::rational::Rational;
 struct Site {
     chain: Vec<Domain>,
     rows: Vec<Index>,
-    terms: Vec<Term>,
+    terms: Vec<LoopedTerm>,
 }
 
 /// The pieces of H, or its first term without a flow, and the limit at which the search for one ended.
 pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Option<Limit>)> {
     let terms = terms(&mut model.dag, h);
-    let mut easy = [Vec::new(), Vec::new()];
+    let mut one_sided = [Vec::new(), Vec::new()];
     let mut sites: Vec<Site> = Vec::new();
     let mut constants = Vec::new();
     for term in terms {
@@ -56,15 +56,15 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
                 continue;
             }
         }
-        let mut hard = Vec::new();
+        let mut mixed = Vec::new();
         for term in &site.terms {
             match side(&model.dag, term.body) {
-                Some(side) => easy[usize::from(side == Side::P)].push(term.clone()),
-                None => hard.push(term.clone()),
+                Some(side) => one_sided[usize::from(side == Side::P)].push(term.clone()),
+                None => mixed.push(term.clone()),
             }
         }
-        if let Some(first) = hard.first() {
-            let (first, bodies) = (first.clone(), hard.iter().map(|term| term.body));
+        if let Some(first) = mixed.first() {
+            let (first, bodies) = (first.clone(), mixed.iter().map(|term| term.body));
             let bodies: Vec<Node> = bodies.collect();
             let body = model.dag.add(&bodies);
             let limit = match solved(model, &site, body, true) {
@@ -74,20 +74,20 @@ pub(super) fn find(model: &mut Model, h: Node) -> Result<Vec<Piece>, (Node, Opti
                 }
                 Err(limit) => limit,
             };
-            let is_linear = |term: &Term| is_linear(&columns(&model.dag, term.body));
-            if !hard.iter().all(is_linear) {
+            let is_linear = |term: &LoopedTerm| is_linear(&columns(&model.dag, term.body));
+            if !mixed.iter().all(is_linear) {
                 return Err((first.source, limit));
             }
-            linear.extend(hard);
+            linear.extend(mixed);
         }
     }
     // A term of parameters alone moves nothing; it joins the piece that moves least.
-    let [mut potential, kinetic] = easy;
+    let [mut potential, kinetic] = one_sided;
     potential.extend(constants);
     let mut parts = vec![kinetic, potential];
     for term in linear {
         let own = columns(&model.dag, term.body);
-        let fits = |part: &&mut Vec<Term>| {
+        let fits = |part: &&mut Vec<LoopedTerm>| {
             let others = part
                 .iter()
                 .flat_map(|other| columns(&model.dag, other.body));
@@ -194,7 +194,7 @@ fn both_sides(dag: &Dag, bodies: &[Node]) -> bool {
     on(Dependence::Q) && on(Dependence::P)
 }
 
-fn summed(dag: &mut Dag, terms: &[Term]) -> Node {
+fn summed(dag: &mut Dag, terms: &[LoopedTerm]) -> Node {
     let mut parts = Vec::new();
     for term in terms {
         parts.push((Rational::ONE, around(dag, &term.chain, term.body)));

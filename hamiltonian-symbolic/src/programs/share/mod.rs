@@ -9,6 +9,7 @@
 mod products;
 mod sums;
 
+use crate::algebra::factors::Factors;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::programs::factor::{count_uses, is_known};
 use crate::rational::Rational;
@@ -206,7 +207,7 @@ impl Build<'_> {
 
     fn list(&mut self, dag: &mut Dag, at: usize) -> Node {
         let list = &self.plan.lists[at];
-        let mut factors: Vec<(Node, i32)> = Vec::with_capacity(list.items.len());
+        let mut factors: Factors = Vec::with_capacity(list.items.len());
         for &(item, n) in &list.items {
             let node = self.item(dag, item);
             match factors

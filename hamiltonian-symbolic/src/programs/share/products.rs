@@ -4,6 +4,7 @@
 //! quotients and reciprocals are items of their own. Invariant: every list stands for the product
 //! it was made from; a made item names earlier items only.
 
+use crate::algebra::factors;
 use crate::dag::{Dag, Kind, Map, Node, Numbers, Stage};
 use crate::op::Op;
 use crate::programs::factor::is_known;
@@ -49,21 +50,13 @@ impl SignedProduct {
         }
     }
     fn power(&self, item: Item) -> i32 {
-        let found = self.items.iter().find(|(i, _)| *i == item);
-        found.map_or(0, |(_, n)| *n)
-    }
-    /// Multiplies by a power, which stands at `place` if it is new.
-    fn multiply(&mut self, place: usize, item: Item, n: i32) {
-        match self.items.iter_mut().find(|(i, _)| *i == item) {
-            Some(entry) => entry.1 += n,
-            None => self.items.insert(place, (item, n)),
-        }
+        factors::power(&self.items, &item)
     }
     /// Puts the power of one item in place of that of another.
     fn replace(&mut self, old: Item, new: Item, n: i32) {
         if let Some(place) = self.items.iter().position(|(i, _)| *i == old) {
             self.items.remove(place);
-            self.multiply(place, new, n);
+            factors::multiply_at(&mut self.items, place, new, n);
         }
     }
     fn divisors(&self) -> impl Iterator<Item = (Item, i32)> {
@@ -331,7 +324,7 @@ fn share_invariant_factors(dag: &Dag, pool: &mut FactorPool, lists: &mut [Signed
         }
         list.items = inner;
         if let Some(product) = product {
-            list.multiply(0, product, 1);
+            factors::multiply_at(&mut list.items, 0, product, 1);
         }
     }
 }
@@ -473,7 +466,12 @@ fn share_pairs(dag: &Dag, pool: &mut FactorPool, lists: &mut [SignedProduct]) {
                     held.push(at);
                 }
             }
-            list.multiply(place.expect("it has the couple"), made, times);
+            factors::multiply_at(
+                &mut list.items,
+                place.expect("it has the couple"),
+                made,
+                times,
+            );
             list.items.retain(|(_, n)| *n != 0);
             counts.tally(list, 1, changes);
         }

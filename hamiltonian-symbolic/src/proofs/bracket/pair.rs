@@ -119,8 +119,7 @@ fn is_plain(dag: &Dag, scatter: &Scatter, rows: &Affine) -> bool {
     let rest = scatter.row.affine.plus(-1, &Affine::variable(*domain));
     dag.runs_over(*domain, rows)
         && rest.loops.is_empty()
-        && (scatter.row.modulo.as_ref() == Some(rows)
-            || scatter.row == Index::plain(Affine::variable(*domain)))
+        && (scatter.row.modulo.as_ref() == Some(rows) || scatter.row == Index::of_loop(*domain))
 }
 
 fn gathered(dag: &mut Dag, x: &[Scatter], y: &[Scatter], rows: &Affine) -> Option<Vec<Node>> {

@@ -1,7 +1,7 @@
 //! Differences of two leaves, at whose one meeting place a summand is infinite.
 
 use crate::dag::{Array, Dag, Kind, Node};
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Affine, Domain};
 use crate::op::Op;
 
 /// The leaves of which a node is the difference, up to a number, an absolute value and a root.
@@ -25,12 +25,7 @@ pub fn difference(dag: &Dag, mut node: Node) -> Option<(Node, Node)> {
 /// below the other: no two iterations have the same pair.
 pub fn is_pair(dag: &Dag, (a, b): (Node, Node)) -> bool {
     let variable = |leaf: Node| match dag.kind(leaf) {
-        Kind::Element(array, row, None) => match row.affine.loops.as_slice() {
-            [(domain, 1)] if *row == Index::plain(Affine::variable(*domain)) => {
-                Some((*array, *domain))
-            }
-            _ => None,
-        },
+        Kind::Element(array, row, None) => Some((*array, row.as_loop()?)),
         _ => None,
     };
     let (Some((one, i)), Some((other, j))) = (variable(a), variable(b)) else {

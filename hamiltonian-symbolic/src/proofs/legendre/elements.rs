@@ -18,7 +18,7 @@ const LARGEST: i64 = 64;
 
 /// Under a condition `index = k`, elements of these arrays at `index` are written as their elements k.
 pub(super) fn at_own_index(dag: &mut Dag, root: Node, k: Domain, arrays: &[Array]) -> Node {
-    let own = Index::plain(Affine::variable(k));
+    let own = Index::of_loop(k);
     dag.substitute(root, |dag, node| {
         let Kind::Select(condition, then, otherwise) = *dag.kind(node) else {
             return None;
@@ -158,7 +158,7 @@ fn is_the_same_for_all(dag: &Dag, root: Node, k: Domain) -> bool {
     if !dag.variables(root).has(k) {
         return true;
     }
-    let own = Index::plain(Affine::variable(k));
+    let own = Index::of_loop(k);
     let mut reads: Map<Array, bool> = Map::default();
     for node in dag.reachable(&[root]) {
         let is_same = match dag.kind(node) {

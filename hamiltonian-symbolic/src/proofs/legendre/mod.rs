@@ -17,7 +17,7 @@ pub use readable::Readable;
 
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
-use crate::index::{Affine, Domain, Index};
+use crate::index::{Domain, Index};
 use crate::loops::{field, unrolled};
 use crate::model::{Model, Shape};
 use crate::normal_form::{Proof, is_zero};
@@ -36,7 +36,7 @@ const LONGEST: i64 = 16;
 
 /// The momentum or velocity of one coordinate, or of each element of a column.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct Component {
+pub struct ElementMap {
     /// The element it belongs to, among momenta; in the loop `domain` where it is one of many.
     pub element: Node,
     /// The loop over elements, for arrays.
@@ -51,9 +51,9 @@ pub struct Legendre {
     /// H(q, p, t): momentum elements are momenta.
     pub hamiltonian: Node,
     /// p(q, v, t): momentum elements stand for velocities.
-    pub momenta: Vec<Component>,
+    pub momenta: Vec<ElementMap>,
     /// v(q, p, t): momentum elements are momenta.
-    pub velocities: Vec<Component>,
+    pub velocities: Vec<ElementMap>,
     /// L(q, v, t) as it was solved: with its loops unrolled where that was needed.
     pub lagrangian: Node,
     /// The kinetic parts of H, as they are read, not computed.
@@ -81,7 +81,7 @@ pub struct Mass {
 
 /// Why a Lagrangian has no Hamiltonian.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Refusal {
+pub struct NoHamiltonian {
     /// No velocities, not quadratic in them, elements coupled with each other, singular mass
     /// matrix: a sentence without a full stop.
     pub reason: String,
@@ -92,9 +92,9 @@ pub struct Refusal {
 /// The Legendre transform of a Lagrangian in the model's arena.
 ///
 /// # Errors
-/// [`Refusal`]
-pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusal> {
-    let refusal = |reason: String| Refusal {
+/// [`NoHamiltonian`]
+pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, NoHamiltonian> {
+    let refusal = |reason: String| NoHamiltonian {
         reason,
         help: "L must be quadratic in the velocities, with an invertible mass matrix; else give H(q; p)",
     };
@@ -110,7 +110,7 @@ pub fn transform(model: &mut Model, lagrangian: Node) -> Result<Legendre, Refusa
             Some((written, block)) => transform.solve(written, &[block]),
             None => {
                 let has_axes = transform.model.groups.iter().any(|g| !g.axes.is_empty());
-                return Err(Refusal {
+                return Err(NoHamiltonian {
                     reason,
                     help: if has_axes { LATTICE } else { COUPLED },
                 });
@@ -193,7 +193,7 @@ impl Transform<'_> {
                     group: of,
                     column,
                 };
-                let element = dag.phase(at_column, Index::plain(Affine::variable(k)));
+                let element = dag.phase(at_column, Index::of_loop(k));
                 arrays[at].elements.push(element);
                 let momentum = field::field(dag, &leaves, Array::Phase(at_column), rows);
                 arrays[at].momenta.push(momentum.ok_or_else(|| format!("no element of `{name}` has a momentum of its own: its indices cannot be solved"))?);
@@ -309,7 +309,7 @@ impl Transform<'_> {
                 None => solved.energy,
             });
             for (at, &element) in block.elements.iter().enumerate() {
-                let component = |value| Component {
+                let component = |value| ElementMap {
                     element,
                     domain: block.domain,
                     value,

@@ -7,6 +7,7 @@
 //! computed with.
 
 use super::{Legendre, Mass};
+use crate::algebra::factors::{self, Factors};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
 use crate::diff;
 use crate::model::{Model, ParameterDeclaration, Shape};
@@ -17,7 +18,7 @@ use crate::rational::Rational;
 
 /// The form of the equations of motion.
 #[derive(Debug)]
-enum Motion {
+enum EquationForm {
     /// q̇ and ṗ of each coordinate, where ∂H/∂q would read worse than ∂L/∂q.
     Lagrange(Vec<(Node, Node)>),
     /// From H with its abbreviations.
@@ -35,7 +36,7 @@ pub struct Readable {
     names: Vec<(Node, Node)>,
     /// H.
     hamiltonian: Node,
-    motion: Motion,
+    motion: EquationForm,
 }
 
 impl Readable {
@@ -46,7 +47,7 @@ impl Readable {
             model: model.clone(),
             names: Vec::new(),
             hamiltonian: legendre.hamiltonian,
-            motion: Motion::Computed,
+            motion: EquationForm::Computed,
         };
         let (mut kinetic, mut rates) = (Vec::new(), Map::default());
         for mass in &legendre.masses {
@@ -72,11 +73,11 @@ impl Readable {
             None
         };
         readable.motion = match lagrange {
-            Some(motion) => Motion::Lagrange(motion),
-            None if hides => Motion::Computed,
+            Some(motion) => EquationForm::Lagrange(motion),
+            None if hides => EquationForm::Computed,
             None => {
                 readable.model.hamiltonian = Some(readable.hamiltonian);
-                Motion::Hamilton(Box::new(hamilton_equations(&readable.model)))
+                EquationForm::Hamilton(Box::new(hamilton_equations(&readable.model)))
             }
         };
         readable
@@ -128,12 +129,12 @@ impl Readable {
     pub fn equations(&self, notation: Notation) -> Option<Vec<String>> {
         let line = |(left, right): (String, String)| format!("{left} = {right}");
         let motion = match &self.motion {
-            Motion::Lagrange(motion) => motion,
-            Motion::Hamilton(equations) => {
+            EquationForm::Lagrange(motion) => motion,
+            EquationForm::Hamilton(equations) => {
                 let lines = equations.written(notation).into_iter().map(line);
                 return Some(lines.chain(self.shown(notation)).collect());
             }
-            Motion::Computed => return None,
+            EquationForm::Computed => return None,
         };
         let mut lines = Vec::new();
         let scalar =
@@ -417,7 +418,7 @@ fn quotient(dag: &mut Dag, k: &Rational, above: Node, below: Node) -> Node {
 }
 
 /// A node as k·Π·rest: a sum with the factors and denominators that its terms share taken out.
-fn content(dag: &mut Dag, node: Node) -> (Rational, Vec<(Node, i32)>, Node) {
+fn content(dag: &mut Dag, node: Node) -> (Rational, Factors, Node) {
     let factored = |dag: &Dag, node: Node| match dag.kind(node) {
         Kind::Product(k, factors) => (k.clone(), factors.clone()),
         Kind::Constant(value) => (value.clone(), Vec::new()),
@@ -427,7 +428,7 @@ fn content(dag: &mut Dag, node: Node) -> (Rational, Vec<(Node, i32)>, Node) {
         let (k, factors) = factored(dag, node);
         return (k, factors, dag.integer(1));
     };
-    let mut parts: Vec<(Rational, Vec<(Node, i32)>)> = Vec::new();
+    let mut parts: Vec<(Rational, Factors)> = Vec::new();
     for (k, term) in terms {
         let (own, factors) = factored(dag, term);
         parts.push((k.mul(&own), factors));
@@ -435,15 +436,12 @@ fn content(dag: &mut Dag, node: Node) -> (Rational, Vec<(Node, i32)>, Node) {
     if !constant.is_zero() {
         parts.push((constant, Vec::new()));
     }
-    let mut shared: Vec<(Node, i32)> = Vec::new();
+    let mut shared: Factors = Vec::new();
     for (factor, _) in parts.iter().flat_map(|(_, factors)| factors) {
         if shared.iter().any(|(known, _)| known == factor) {
             continue;
         }
-        let power = |(_, factors): &(Rational, Vec<(Node, i32)>)| {
-            let found = factors.iter().find(|(other, _)| other == factor);
-            found.map_or(0, |(_, n)| *n)
-        };
+        let power = |(_, factors): &(Rational, Factors)| factors::power(factors, factor);
         let least = parts.iter().map(power).min().unwrap_or(0);
         shared.push((*factor, least));
     }

@@ -3,6 +3,7 @@
 //! Input: a node. Output: [`Term`]s that add up to it. Invariant: terms stand in order of first
 //! appearance, factors in the order they were written in; like terms are one.
 
+use crate::algebra::factors::{Factors, product};
 use crate::dag::{Dag, Kind, Map, Node};
 use crate::normal_form;
 use crate::rational::Rational;
@@ -17,7 +18,7 @@ pub struct Term {
     /// k.
     pub coefficient: Rational,
     /// The factors, none of them a sum unless below a fraction line or inside a function.
-    pub factors: Vec<(Node, i32)>,
+    pub factors: Factors,
 }
 
 impl Term {
@@ -141,19 +142,6 @@ fn spine(dag: &Dag, root: Node) -> Vec<Node> {
     })
 }
 
-/// Multiplies by powers, those of the same node as one; `None` where an exponent is too large.
-pub(crate) fn times(factors: &[(Node, i32)], powers: &[(Node, i32)]) -> Option<Vec<(Node, i32)>> {
-    let mut product = factors.to_vec();
-    for &(node, n) in powers {
-        match product.iter_mut().find(|(other, _)| *other == node) {
-            Some(entry) => entry.1 = entry.1.checked_add(n)?,
-            None => product.push((node, n)),
-        }
-    }
-    product.retain(|(_, n)| *n != 0);
-    Some(product)
-}
-
 /// A bound of the number of terms of the n-th power of a sum.
 fn terms_of_power(terms: &[Term], n: i32) -> usize {
     let mut ranges: Map<Node, (i64, i64)> = Map::default();
@@ -176,7 +164,7 @@ fn multiply(a: &[Term], b: &[Term], most: usize) -> Option<Vec<Term>> {
         for y in b {
             sum.add(Term {
                 coefficient: x.coefficient.mul(&y.coefficient),
-                factors: times(&x.factors, &y.factors)?,
+                factors: product(&x.factors, &y.factors)?,
             });
         }
     }
@@ -188,7 +176,7 @@ fn multiply(a: &[Term], b: &[Term], most: usize) -> Option<Vec<Term>> {
 #[derive(Default)]
 pub(crate) struct Collected {
     terms: Vec<Term>,
-    place: Map<Vec<(Node, i32)>, usize>,
+    place: Map<Factors, usize>,
 }
 
 impl Collected {

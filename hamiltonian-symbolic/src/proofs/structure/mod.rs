@@ -11,7 +11,7 @@ mod quadratic;
 mod separate;
 
 pub(crate) use components::components;
-pub(crate) use expand::{Collected, expand_within, times};
+pub(crate) use expand::{Collected, expand_within};
 pub use expand::{Term, expand};
 pub(crate) use quadratic::degrees;
 pub use quadratic::kick_beside;

@@ -37,13 +37,13 @@ pub(super) fn split(model: &mut Model, h: Node) -> Result<Split, Coupling> {
 
 /// T, V and what is neither: they add up to the whole.
 #[derive(Clone, Copy)]
-struct Parts {
+struct Separated {
     kinetic: Node,
     potential: Node,
     coupling: Node,
 }
 
-impl Parts {
+impl Separated {
     fn split(self, as_written: bool) -> Split {
         Split {
             as_written,
@@ -53,8 +53,8 @@ impl Parts {
     }
 
     /// The same for each part.
-    fn map(self, mut f: impl FnMut(Node) -> Node) -> Parts {
-        Parts {
+    fn map(self, mut f: impl FnMut(Node) -> Node) -> Separated {
+        Separated {
             kinetic: f(self.kinetic),
             potential: f(self.potential),
             coupling: f(self.coupling),
@@ -65,7 +65,7 @@ impl Parts {
 /// The parts with what couples resolved, or the first term that couples all the same and the limit that
 /// left it undecided. Each group of terms that have no degree of freedom in common with the others has
 /// limits of its own.
-fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, (Node, Option<String>)> {
+fn resolved(model: &mut Model, parts: Separated) -> Result<Separated, (Node, Option<String>)> {
     let terms = match model.dag.kind(parts.coupling).clone() {
         Kind::Sum(_, terms) => {
             let terms = terms.iter().map(|(k, term)| model.dag.scale(k, *term));
@@ -73,7 +73,7 @@ fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, (Node, Option<Stri
         }
         _ => vec![parts.coupling],
     };
-    let mut found = vec![Parts {
+    let mut found = vec![Separated {
         coupling: model.dag.integer(0),
         ..parts
     }];
@@ -88,7 +88,7 @@ fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, (Node, Option<Stri
     }
     let kinetic: Vec<Node> = found.iter().map(|part| part.kinetic).collect();
     let potential: Vec<Node> = found.iter().map(|part| part.potential).collect();
-    Ok(Parts {
+    Ok(Separated {
         kinetic: model.dag.add(&kinetic),
         potential: model.dag.add(&potential),
         coupling: model.dag.integer(0),
@@ -96,7 +96,10 @@ fn resolved(model: &mut Model, parts: Parts) -> Result<Parts, (Node, Option<Stri
 }
 
 /// A coupling multiplied out, and what still couples related: parts that add up to it.
-fn resolved_group(model: &mut Model, coupling: Node) -> Result<Vec<Parts>, (Node, Option<String>)> {
+fn resolved_group(
+    model: &mut Model,
+    coupling: Node,
+) -> Result<Vec<Separated>, (Node, Option<String>)> {
     let zero = model.dag.integer(0);
     let mut found = Vec::new();
     match expand(&mut model.dag, coupling) {
@@ -107,7 +110,7 @@ fn resolved_group(model: &mut Model, coupling: Node) -> Result<Vec<Parts>, (Node
                 found.push(apart(model, term));
             }
         }
-        None => found.push(Parts {
+        None => found.push(Separated {
             kinetic: zero,
             potential: zero,
             coupling,
@@ -121,7 +124,7 @@ fn resolved_group(model: &mut Model, coupling: Node) -> Result<Vec<Parts>, (Node
         for part in &mut found {
             part.coupling = zero;
         }
-        found.push(Parts {
+        found.push(Separated {
             kinetic,
             potential,
             coupling: zero,
@@ -131,23 +134,23 @@ fn resolved_group(model: &mut Model, coupling: Node) -> Result<Vec<Parts>, (Node
 }
 
 /// The parts of a node by its own sums, each as it was written.
-fn apart(model: &mut Model, root: Node) -> Parts {
+fn apart(model: &mut Model, root: Node) -> Separated {
     let zero = model.dag.integer(0);
-    let nothing = Parts {
+    let nothing = Separated {
         kinetic: zero,
         potential: zero,
         coupling: zero,
     };
-    let mut parts: Map<Node, Parts> = Map::default();
+    let mut parts: Map<Node, Separated> = Map::default();
     for node in spine(&model.dag, root) {
         if !couples(&model.dag, node) {
             let one_sided = if model.dag.dependence(node).on(Dependence::P) {
-                Parts {
+                Separated {
                     kinetic: node,
                     ..nothing
                 }
             } else {
-                Parts {
+                Separated {
                     potential: node,
                     ..nothing
                 }
@@ -155,18 +158,18 @@ fn apart(model: &mut Model, root: Node) -> Parts {
             parts.insert(node, one_sided);
             continue;
         }
-        let whole = Parts {
+        let whole = Separated {
             coupling: node,
             ..nothing
         };
         let found = match model.dag.kind(node).clone() {
             Kind::Sum(c, terms) => {
-                let mut sum = |constant: &Rational, part: fn(&Parts) -> Node| {
+                let mut sum = |constant: &Rational, part: fn(&Separated) -> Node| {
                     let terms = terms.iter().map(|(k, n)| (k.clone(), part(&parts[n])));
                     let terms: Vec<(Rational, Node)> = terms.collect();
                     model.dag.linear(constant, &terms)
                 };
-                Parts {
+                Separated {
                     kinetic: sum(&Rational::ZERO, |part| part.kinetic),
                     potential: sum(&c, |part| part.potential),
                     coupling: sum(&Rational::ZERO, |part| part.coupling),
@@ -189,7 +192,7 @@ fn apart(model: &mut Model, root: Node) -> Parts {
             Kind::Reduce(domain, body) => parts[&body].map(|part| model.dag.reduce(domain, part)),
             Kind::Select(condition, yes, no) if !model.dag.dependence(condition).on(BOTH) => {
                 let (yes, no) = (parts[&yes], parts[&no]);
-                Parts {
+                Separated {
                     kinetic: model.dag.select(condition, yes.kinetic, no.kinetic),
                     potential: model.dag.select(condition, yes.potential, no.potential),
                     coupling: model.dag.select(condition, yes.coupling, no.coupling),

@@ -182,7 +182,7 @@ impl Bodies {
     /// A force on all rows as one on row 0 and one on the others.
     pub(super) fn apart(&self, dag: &mut Dag, force: &VectorEntry) -> Vec<VectorEntry> {
         let all = self.all(dag);
-        if force.at.group != self.old || force.row != Index::plain(Affine::variable(all)) {
+        if force.at.group != self.old || force.row != Index::of_loop(all) {
             return vec![force.clone()];
         }
         let others = Affine::variable(self.others(dag));

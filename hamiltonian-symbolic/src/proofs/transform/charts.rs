@@ -91,7 +91,7 @@ impl Chart {
 
 /// Coordinates and their conjugate momenta.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Variables {
+pub(super) struct PhaseNodes {
     pub(super) q: Vec<Node>,
     pub(super) p: Vec<Node>,
 }
@@ -156,7 +156,7 @@ static SPHERICAL: Formulas = Formulas {
 
 impl Formulas {
     /// The old variables from the new ones; the rules of the chart are added.
-    pub(super) fn to_old(&self, dag: &mut Dag, new: &Variables, rules: &mut Rules) -> Variables {
+    pub(super) fn to_old(&self, dag: &mut Dag, new: &PhaseNodes, rules: &mut Rules) -> PhaseNodes {
         let names = named(dag, self.new, new, self.to_old);
         let angles = self.angles.iter();
         rules
@@ -169,14 +169,14 @@ impl Formulas {
         variables(&names, self.old)
     }
     /// The new variables from the old ones.
-    pub(super) fn to_new(&self, dag: &mut Dag, old: &Variables) -> Variables {
+    pub(super) fn to_new(&self, dag: &mut Dag, old: &PhaseNodes) -> PhaseNodes {
         let names = named(dag, self.old, old, self.to_new);
         variables(&names, self.new)
     }
 }
 
 /// The nodes of formulas over some coordinates.
-fn named(dag: &mut Dag, from: &[&str], given: &Variables, formulas: &str) -> Names {
+fn named(dag: &mut Dag, from: &[&str], given: &PhaseNodes, formulas: &str) -> Names {
     let mut names = Names::default();
     for (at, name) in from.iter().enumerate() {
         names.set(name, given.q[at]);
@@ -192,8 +192,8 @@ fn node(names: &Names, name: &str) -> Node {
     names.get(name).expect("the formulas of a chart name it")
 }
 
-fn variables(names: &Names, to: &[&str]) -> Variables {
-    Variables {
+fn variables(names: &Names, to: &[&str]) -> PhaseNodes {
+    PhaseNodes {
         q: to.iter().map(|name| node(names, name)).collect(),
         p: to
             .iter()
@@ -204,10 +204,10 @@ fn variables(names: &Names, to: &[&str]) -> Variables {
 
 /// One component of the positions of all bodies from their Jacobi coordinates:
 /// q_i = Q_0 + Q_i − Σ_{j≥i} (m_j/M_j) Q_j, for i = 0 without Q_i and from j = 1.
-pub(super) fn jacobi_to_old(dag: &mut Dag, new: &Variables, masses: &Masses) -> Variables {
+pub(super) fn jacobi_to_old(dag: &mut Dag, new: &PhaseNodes, masses: &Masses) -> PhaseNodes {
     let n = new.q.len();
     let (m, sums) = (&masses.each, &masses.sums);
-    let mut old = Variables::default();
+    let mut old = PhaseNodes::default();
     for i in 0..n {
         let mut q = vec![(Rational::ONE, new.q[0])];
         let mut p = vec![times(
@@ -246,12 +246,12 @@ pub(super) fn jacobi_rules(masses: &Masses, rules: &mut Rules) {
 
 /// One component of the Jacobi coordinates of all bodies: Q_0 = Σ m_k q_k/M,
 /// Q_i = q_i − Σ_{k<i} m_k q_k/M_{i−1}; P_0 = Σ p_k, P_i = (M_{i−1} p_i − m_i Σ_{k<i} p_k)/M_i.
-pub(super) fn jacobi_to_new(dag: &mut Dag, old: &Variables, masses: &Masses) -> Variables {
+pub(super) fn jacobi_to_new(dag: &mut Dag, old: &PhaseNodes, masses: &Masses) -> PhaseNodes {
     let n = old.q.len();
     let (m, sums) = (&masses.each, &masses.sums);
     let moments: Vec<Node> = (0..n).map(|k| dag.mul(&[m[k], old.q[k]])).collect();
     let moment = dag.add(&moments);
-    let mut new = Variables {
+    let mut new = PhaseNodes {
         q: vec![dag.div(moment, sums[n - 1])],
         p: vec![dag.add(&old.p)],
     };
@@ -270,10 +270,10 @@ pub(super) fn jacobi_to_new(dag: &mut Dag, old: &Variables, masses: &Masses) -> 
 }
 
 /// One component of all bodies: q_0 = Q_0, q_i = Q_0 + Q_i; p_0 = P_0 − Σ_{i≥1} P_i, p_i = P_i.
-pub(super) fn heliocentric_to_old(dag: &mut Dag, new: &Variables) -> Variables {
+pub(super) fn heliocentric_to_old(dag: &mut Dag, new: &PhaseNodes) -> PhaseNodes {
     let mut first = vec![(Rational::ONE, new.p[0])];
     first.extend(new.p[1..].iter().map(|p| (Rational::MINUS_ONE, *p)));
-    let mut old = Variables {
+    let mut old = PhaseNodes {
         q: vec![new.q[0]],
         p: vec![total(dag, &first)],
     };
@@ -285,8 +285,8 @@ pub(super) fn heliocentric_to_old(dag: &mut Dag, new: &Variables) -> Variables {
 }
 
 /// One component of all bodies: Q_0 = q_0, Q_i = q_i − q_0; P_0 = Σ p_k, P_i = p_i.
-pub(super) fn heliocentric_to_new(dag: &mut Dag, old: &Variables) -> Variables {
-    let mut new = Variables {
+pub(super) fn heliocentric_to_new(dag: &mut Dag, old: &PhaseNodes) -> PhaseNodes {
+    let mut new = PhaseNodes {
         q: vec![old.q[0]],
         p: vec![dag.add(&old.p)],
     };

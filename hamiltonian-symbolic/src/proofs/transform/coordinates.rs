@@ -4,9 +4,9 @@
 //! the model in the new ones, K(Q, P, t) = H(q(Q), p(Q, P), t), and both maps as nodes. Invariant:
 //! the new groups of a chart stand where its first old group stood.
 
-use super::Refusal;
+use super::NoTransform;
 use super::bodies::{Below, Bodies};
-use super::charts::{self, Chart, Masses, Replaced, Variables};
+use super::charts::{self, Chart, Masses, PhaseNodes, Replaced};
 use super::layout::{Layout, Placement, Slot, coordinate, placements};
 use super::peel::peel;
 use super::reduce::{self, Rules};
@@ -40,8 +40,8 @@ impl Transformed {
     /// The system in the coordinates of the charts, which replace different coordinates.
     ///
     /// # Errors
-    /// [`Refusal`]
-    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
+    /// [`NoTransform`]
+    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Transformed, NoTransform> {
         let layout = Layout::new(model, charts)?;
         let mut source = model.clone();
         let bodies = bodies(&mut source, charts, &layout);
@@ -81,7 +81,7 @@ impl Transformed {
         }
         let images =
             images(&mut new.dag, &roots, &inverse, &kept, &bodies, &below).map_err(|old| {
-                Refusal::Wrapped {
+                NoTransform::Wrapped {
                     coordinate: coordinate(model, old),
                 }
             })?;
@@ -90,7 +90,7 @@ impl Transformed {
             inverse.extend(of.inverse(&mut new.dag));
         }
         let roots = reduce::substitute(&mut new.dag, &roots, &images, &rules);
-        let roots = roots.ok_or(Refusal::TooLong)?;
+        let roots = roots.ok_or(NoTransform::TooLong)?;
         new.set_roots(&roots);
         let mut places: Vec<Placement> = charts
             .iter()
@@ -116,7 +116,7 @@ impl Transformed {
             .iter()
             .any(|model| model.dag.has_too_many_loops())
         {
-            return Err(Refusal::TooManyLoops);
+            return Err(NoTransform::TooManyLoops);
         }
         transformed.force(force);
         Ok(transformed)
@@ -220,7 +220,7 @@ impl Transformed {
 
 fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> Masses {
     let shape = &model.parameters[usize::from(parameter.0)].shape;
-    // Jacobi's are for a literal number of bodies ([`Refusal::Number`]).
+    // Jacobi's are for a literal number of bodies ([`NoTransform::Number`]).
     let rows = shape.rows().and_then(Affine::as_constant);
     let each = (0..rows.into_iter().sum())
         .map(|row| dag.element(Array::Parameter(parameter), Index::constant(row), None))
@@ -228,7 +228,7 @@ fn masses_of(model: &Model, dag: &mut Dag, parameter: crate::dag::Parameter) -> 
     Masses::new(dag, each)
 }
 
-fn to_new(chart: &Chart, model: &Model, dag: &mut Dag, old: &Variables) -> Variables {
+fn to_new(chart: &Chart, model: &Model, dag: &mut Dag, old: &PhaseNodes) -> PhaseNodes {
     match (chart.replaced(), chart) {
         (Replaced::Scalars(formulas, _), _) => formulas.to_new(dag, old),
         (Replaced::Bodies(bodies), Chart::Jacobi(_)) => {
@@ -243,9 +243,9 @@ fn to_old(
     chart: &Chart,
     model: &Model,
     dag: &mut Dag,
-    new: &Variables,
+    new: &PhaseNodes,
     rules: &mut Rules,
-) -> Variables {
+) -> PhaseNodes {
     match (chart.replaced(), chart) {
         (Replaced::Scalars(formulas, _), _) => formulas.to_old(dag, new, rules),
         (Replaced::Bodies(bodies), Chart::Jacobi(_)) => {
@@ -256,7 +256,10 @@ fn to_old(
     }
 }
 
-fn entries<'a>(slots: &'a [Slot], values: &'a Variables) -> impl Iterator<Item = VectorEntry> + 'a {
+fn entries<'a>(
+    slots: &'a [Slot],
+    values: &'a PhaseNodes,
+) -> impl Iterator<Item = VectorEntry> + 'a {
     [(Side::Q, &values.q), (Side::P, &values.p)]
         .into_iter()
         .flat_map(move |(side, values)| {
@@ -288,7 +291,7 @@ fn written_out(
     model: &Model,
     layout: &Layout,
     bodies: &[Bodies],
-) -> Result<(Model, Vec<Node>), Refusal> {
+) -> Result<(Model, Vec<Node>), NoTransform> {
     let roots = model.roots();
     let is_looped = |group: &u16| !bodies.iter().any(|b| b.old == *group);
     let written: Vec<u16> = layout.replaced.iter().copied().filter(is_looped).collect();
@@ -309,7 +312,7 @@ fn written_out(
         let Some(group) = looped else {
             return Ok((model.clone(), roots));
         };
-        let refused = |reason: String| Refusal::Loops {
+        let refused = |reason: String| NoTransform::Loops {
             coordinate: coordinate(model, group),
             reason,
         };

@@ -3,8 +3,8 @@
 //! Input: a model and charts, each of coordinates of the shape it is for. Output: [`Layout`], or why the charts do not fit. Invariant: the new
 //! groups of a chart stand where its first old group stood; names are told apart.
 
-use super::Refusal;
-use super::charts::{Chart, Component, Replaced, Variables};
+use super::NoTransform;
+use super::charts::{Chart, Component, PhaseNodes, Replaced};
 use crate::dag::{Column, Dag, Node, Side};
 use crate::index::Index;
 use crate::model::{Group, Model, Shape};
@@ -47,14 +47,14 @@ impl Slot {
 }
 
 /// One set of variables that a chart maps as a whole: bodies are mapped component by component.
-pub(super) struct Block {
+pub(super) struct ChartVariables {
     pub(super) old: Vec<Slot>,
     pub(super) new: Vec<Slot>,
 }
 
-impl Block {
-    pub(super) fn variables(&self, dag: &mut Dag, old: bool) -> Variables {
-        let mut variables = Variables::default();
+impl ChartVariables {
+    pub(super) fn variables(&self, dag: &mut Dag, old: bool) -> PhaseNodes {
+        let mut variables = PhaseNodes::default();
         for slot in if old { &self.old } else { &self.new } {
             variables.q.push(slot.node(dag, Side::Q));
             variables.p.push(slot.node(dag, Side::P));
@@ -65,7 +65,7 @@ impl Block {
 
 /// The variables that a chart maps.
 pub(super) struct Mapped {
-    pub(super) blocks: Vec<Block>,
+    pub(super) blocks: Vec<ChartVariables>,
     /// The first new group.
     pub(super) first: u16,
 }
@@ -79,7 +79,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Layout, Refusal> {
+    pub(super) fn new(model: &Model, charts: &[Chart]) -> Result<Layout, NoTransform> {
         let mut replaced: Vec<u16> = Vec::new();
         for chart in charts {
             if let Chart::Jacobi(bodies) = chart
@@ -88,13 +88,13 @@ impl Layout {
                     .literal()
                     .is_none()
             {
-                return Err(Refusal::Number {
+                return Err(NoTransform::Number {
                     coordinate: coordinate(model, bodies.group),
                 });
             }
             for group in members(chart) {
                 if replaced.contains(&group) {
-                    return Err(Refusal::Twice {
+                    return Err(NoTransform::Twice {
                         coordinate: coordinate(model, group),
                     });
                 }
@@ -129,7 +129,7 @@ impl Layout {
             for group in own {
                 for name in [&group.coordinate, &group.momentum] {
                     if left.declares(name) {
-                        return Err(Refusal::NameTaken {
+                        return Err(NoTransform::NameTaken {
                             name: name.clone(),
                             by: chart.word(),
                         });
@@ -205,7 +205,7 @@ fn new_groups(model: &Model, charts: &[Chart]) -> Vec<Vec<Group>> {
 }
 
 /// The sets of variables of a chart whose first new group has the given number.
-fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
+fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<ChartVariables> {
     let slot = |group, row, column| Slot { group, row, column };
     match chart.replaced() {
         Replaced::Scalars(_, components) => {
@@ -215,7 +215,7 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
             let new = (first..)
                 .take(components.len())
                 .map(|group| slot(group, 0, 0));
-            vec![Block {
+            vec![ChartVariables {
                 old: old.collect(),
                 new: new.collect(),
             }]
@@ -227,7 +227,7 @@ fn blocks(model: &Model, chart: &Chart, first: u16) -> Vec<Block> {
                 return Vec::new();
             };
             let slots = |group, column| (0..rows as u32).map(move |row| slot(group, row, column));
-            let block = |column| Block {
+            let block = |column| ChartVariables {
                 old: slots(bodies.group, column).collect(),
                 new: slots(first, column).collect(),
             };

@@ -35,8 +35,8 @@ use std::fmt;
 /// for heliocentric coordinates of any number of bodies.
 ///
 /// # Errors
-/// [`Refusal`]; also where [`check`] finds that H in the new coordinates is not H in the old ones.
-pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
+/// [`NoTransform`]; also where [`check`] finds that H in the new coordinates is not H in the old ones.
+pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, NoTransform> {
     let transformed = Transformed::new(model, charts)?;
     check(&transformed)?;
     Ok(transformed)
@@ -44,7 +44,7 @@ pub fn apply(model: &Model, charts: &[Chart]) -> Result<Transformed, Refusal> {
 
 /// Why a transformation is refused.
 #[derive(Clone, PartialEq, Debug)]
-pub enum Refusal {
+pub enum NoTransform {
     /// A name that the transformation introduces is declared already.
     NameTaken {
         /// The name that is there twice.
@@ -104,36 +104,36 @@ pub enum Refusal {
     },
 }
 
-impl fmt::Display for Refusal {
+impl fmt::Display for NoTransform {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Refusal::NameTaken { name, by } => {
+            NoTransform::NameTaken { name, by } => {
                 write!(f, "`{by}` introduces `{name}`, which is declared already")
             }
-            Refusal::Twice { coordinate } => write!(f, "`{coordinate}` is replaced twice"),
-            Refusal::Number { coordinate } => {
+            NoTransform::Twice { coordinate } => write!(f, "`{coordinate}` is replaced twice"),
+            NoTransform::Number { coordinate } => {
                 write!(f, "the number of bodies `{coordinate}` is not a literal")
             }
-            Refusal::Wrapped { coordinate } => write!(
+            NoTransform::Wrapped { coordinate } => write!(
                 f,
                 "`{coordinate}`, or its momentum, is read at an index with `%`, which may be row 0 or another"
             ),
-            Refusal::Loops { coordinate, reason } => write!(
+            NoTransform::Loops { coordinate, reason } => write!(
                 f,
                 "`{coordinate}` is read in a loop that cannot be unrolled: {reason}"
             ),
-            Refusal::TooManyLoops => write!(f, "it takes more than {LOOPS} loops"),
-            Refusal::TooLong => write!(f, "H has more than {OPERATIONS} operations in them"),
-            Refusal::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
-            Refusal::Power { momentum } => write!(
+            NoTransform::TooManyLoops => write!(f, "it takes more than {LOOPS} loops"),
+            NoTransform::TooLong => write!(f, "H has more than {OPERATIONS} operations in them"),
+            NoTransform::Factor { reason } => write!(f, "the factor of `dt = …*ds` {reason}"),
+            NoTransform::Power { momentum } => write!(
                 f,
                 "the work of the force on `{momentum}` needs ∂H/∂{momentum} row by row, and an index of H cannot be solved for the row"
             ),
-            Refusal::Uncompared { reason } => write!(
+            NoTransform::Uncompared { reason } => write!(
                 f,
                 "H in the old and in the new ones could not be compared: {reason}"
             ),
-            Refusal::Unverified { old, new, .. } => write!(
+            NoTransform::Unverified { old, new, .. } => write!(
                 f,
                 "H is {old} in the old coordinates and {new} in the new ones at the same point"
             ),
@@ -141,4 +141,4 @@ impl fmt::Display for Refusal {
     }
 }
 
-impl std::error::Error for Refusal {}
+impl std::error::Error for NoTransform {}

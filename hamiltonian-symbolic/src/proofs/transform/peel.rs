@@ -5,7 +5,7 @@
 //! begin at row 1 wherever that can be said. Invariant: values are the same for every size that
 //! leaves a group of bodies at least one row; other sizes may be 0.
 
-use super::Refusal;
+use super::NoTransform;
 use super::bodies::{Below, Bodies};
 use super::layout::coordinate;
 use crate::dag::{Dag, Kind, Node};
@@ -26,13 +26,13 @@ enum Change {
 /// The roots with the loops peeled. `written` are the groups that are replaced row by row.
 ///
 /// # Errors
-/// [`Refusal::Loops`]
+/// [`NoTransform::Loops`]
 pub(super) fn peel(
     model: &mut Model,
     roots: &[Node],
     written: &[u16],
     bodies: &[Bodies],
-) -> Result<Vec<Node>, Refusal> {
+) -> Result<Vec<Node>, NoTransform> {
     let below = Below::new(model, bodies);
     let mut roots = roots.to_vec();
     while let Some((node, step)) = candidate(&model.dag, &roots, written, bodies, &below) {
@@ -58,11 +58,11 @@ pub(super) fn peel(
             }
         };
         if dag.has_too_many_loops() {
-            return Err(Refusal::TooManyLoops);
+            return Err(NoTransform::TooManyLoops);
         }
         if dag.len() > LARGEST {
             let group = written.first().copied().or(bodies.first().map(|b| b.old));
-            return Err(Refusal::Loops {
+            return Err(NoTransform::Loops {
                 coordinate: coordinate(model, group.unwrap_or(0)),
                 reason: "it is too long".to_owned(),
             });
@@ -77,7 +77,7 @@ pub(super) fn peel(
             && written.contains(&group)
             && row.as_constant().is_none()
         {
-            return Err(Refusal::Loops {
+            return Err(NoTransform::Loops {
                 coordinate: coordinate(model, group),
                 reason: "its length is not a literal".to_owned(),
             });

@@ -6,10 +6,11 @@
 //! function or below a fraction line that is known to be ≥ 0 stays known to be so, because a
 //! distance must not be computed by cancellation.
 
+use crate::algebra::factors::{Factors, product};
 use crate::dag::{Dag, Kind, Map, Node, Sign, Stage, work};
 use crate::op::Op;
 use crate::rational::Rational;
-use crate::structure::{Collected, Term, expand_within, times};
+use crate::structure::{Collected, Term, expand_within};
 
 /// The most terms of all sums together that are multiplied out: of more operations a system is refused.
 const BUDGET: usize = 1 << 14;
@@ -17,8 +18,6 @@ const BUDGET: usize = 1 << 14;
 const LONGEST: usize = 1 << 12;
 /// The largest power that is rewritten.
 const HIGHEST: i32 = 16;
-
-type Factors = Vec<(Node, i32)>;
 
 /// Identities that hold on the charts.
 #[derive(Clone, Debug, Default)]
@@ -305,7 +304,7 @@ fn rewrite(term: &Term, rules: &Rules, keeps_sines: bool, into: &mut Collected) 
 fn exchange(
     terms: &mut Vec<Term>,
     (gone, step): (Node, i32),
-    powers: impl Fn(i32, i32) -> Vec<(Node, i32)>,
+    powers: impl Fn(i32, i32) -> Factors,
 ) -> bool {
     let mut rewritten = false;
     for term in std::mem::take(terms) {
@@ -323,7 +322,7 @@ fn exchange(
             powers.push((gone, -step * n));
             terms.push(Term {
                 coefficient: term.coefficient.mul(&binomial),
-                factors: times(&term.factors, &powers)
+                factors: product(&term.factors, &powers)
                     .expect("powers that are rewritten are small"),
             });
             let next = Rational::new(i64::from(k - n), i64::from(k + 1));

@@ -14,7 +14,7 @@
 //! Numerical Integration, 2nd ed. 2006, §VIII.2 for the extended Hamiltonian (there with −p_t).
 //! Invariant: no node of the new model is the time leaf, and the time group comes last.
 
-use super::Refusal;
+use super::NoTransform;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Node, Side};
 use crate::diff;
 use crate::index::Index;
@@ -45,32 +45,32 @@ pub struct Retimed {
 /// taken, a number follows.
 ///
 /// # Errors
-/// [`Refusal::Factor`] if there is no g, or g is 0 or depends on something other than coordinates,
-/// momenta, time and parameters. [`Refusal::Power`] where ∂H/∂p of an array on which a force acts is
+/// [`NoTransform::Factor`] if there is no g, or g is 0 or depends on something other than coordinates,
+/// momenta, time and parameters. [`NoTransform::Power`] where ∂H/∂p of an array on which a force acts is
 /// not known element by element.
-pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
+pub fn retime(model: &Model) -> Result<Retimed, NoTransform> {
     let Some(g) = model.factor else {
-        return Err(Refusal::Factor {
+        return Err(NoTransform::Factor {
             reason: "is missing",
         });
     };
     if model.dag.is_zero(g) {
-        return Err(Refusal::Factor { reason: "is 0" });
+        return Err(NoTransform::Factor { reason: "is 0" });
     }
     if model.dag.sign(g).is_nonpositive() {
-        return Err(Refusal::Factor {
+        return Err(NoTransform::Factor {
             reason: "is never positive, so that time runs backwards or stands still",
         });
     }
     let known = Dependence(Dependence::MOVING.0 | Dependence::PARAMETER.0);
     let strange = Dependence(!known.0);
     if model.dag.dependence(g).on(strange) {
-        return Err(Refusal::Factor {
+        return Err(NoTransform::Factor {
             reason: "is no function of coordinates, momenta, time and parameters",
         });
     }
     if !model.dag.variables(g).is_empty() {
-        return Err(Refusal::Factor {
+        return Err(NoTransform::Factor {
             reason: "depends on a loop variable",
         });
     }
@@ -114,7 +114,7 @@ pub fn retime(model: &Model) -> Result<Retimed, Refusal> {
 }
 
 /// g times the force, and its work on p_t.
-fn force(model: &mut Model, factor: Node, energy: Node, group: u16) -> Result<(), Refusal> {
+fn force(model: &mut Model, factor: Node, energy: Node, group: u16) -> Result<(), NoTransform> {
     let leaves = diff::gradient(&mut model.dag, energy, Dependence::P);
     let mut force = std::mem::take(&mut model.force);
     let mut work = Vec::new();
@@ -143,7 +143,7 @@ fn velocity(
     model: &mut Model,
     leaves: &[(Node, Node)],
     entry: &VectorEntry,
-) -> Result<Node, Refusal> {
+) -> Result<Node, NoTransform> {
     let at = entry.at.on(Side::P);
     let group = usize::from(at.group);
     let Some(rows) = model.groups[group].shape.rows().cloned() else {
@@ -155,11 +155,11 @@ fn velocity(
     let found = field(&mut model.dag, leaves, Array::Phase(at), &rows);
     let found = found.and_then(|found| guarded(model, found, &|_| false));
     if model.dag.has_too_many_loops() {
-        return Err(Refusal::TooManyLoops);
+        return Err(NoTransform::TooManyLoops);
     }
     let own = elements(&mut model.dag, &rows);
     let found = found.and_then(|found| model.dag.reindexed(found, own, &entry.row));
-    found.ok_or_else(|| Refusal::Power {
+    found.ok_or_else(|| NoTransform::Power {
         momentum: model.groups[group].momentum.clone(),
     })
 }

@@ -4,7 +4,7 @@
 //! are the same on every machine; agreement at points is no proof. The check looks for a slip
 //! of the engine, which any point shows.
 
-use super::Refusal;
+use super::NoTransform;
 use super::coordinates::Transformed;
 use super::layout::Slot;
 use crate::algebra::ball::Ball;
@@ -30,9 +30,9 @@ const CLOSE: f64 = 1e-8;
 /// was compared is the answer.
 ///
 /// # Errors
-/// [`Refusal::Unverified`] with the first point where they differ; [`Refusal::Uncompared`] where
+/// [`NoTransform::Unverified`] with the first point where they differ; [`NoTransform::Uncompared`] where
 /// there is no point to compare at.
-pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
+pub fn check(transformed: &Transformed) -> Result<usize, NoTransform> {
     let old = &transformed.source;
     let old_roots = old.functions();
     let fitting = trials(old, &old_roots).into_iter();
@@ -48,7 +48,7 @@ pub fn check(transformed: &Transformed) -> Result<usize, Refusal> {
         Some(0) => "H has no value at any of the points tried, which are up to 9000 from 0",
         None => "no sizes were found at which every index is in range",
     };
-    Err(Refusal::Uncompared { reason })
+    Err(NoTransform::Uncompared { reason })
 }
 
 /// The number of points that were compared at these sizes.
@@ -56,7 +56,7 @@ fn check_at(
     transformed: &Transformed,
     old_roots: &[Node],
     sizes: &[i64],
-) -> Result<usize, Refusal> {
+) -> Result<usize, NoTransform> {
     let mut old = transformed.source.clone();
     let mut new = transformed.model.clone();
     let inverse = at_sizes(&mut new, &transformed.inverse, sizes);
@@ -138,7 +138,7 @@ fn check_at(
             }
             // A value that is none is not the same.
             if !b.is_defined() || a.differs(*b) {
-                return Err(Refusal::Unverified {
+                return Err(NoTransform::Unverified {
                     point,
                     old: a.value,
                     new: b.value,

@@ -135,7 +135,7 @@ fn at_zero(space: &mut Space, node: Node, x: Node) -> Option<Node> {
     space.value(there).is_defined().then_some(there)
 }
 
-/// κ with φ‴ = κφ′, and its sign, or that of what is not 0 of it.
+/// κ with φ‴ = κφ′, and its sign, 0 for κ = 0. `None` if there is no such κ or its sign is unknown.
 fn constant(space: &mut Space, f: Node, [f1, f3]: [Node; 2], x: Node) -> Option<(Node, i32)> {
     if space.is_zero(f3) {
         return Some((space.dag().integer(0), 0));

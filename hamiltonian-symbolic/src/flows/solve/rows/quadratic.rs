@@ -72,7 +72,7 @@ fn is_steeper(space: &mut Space, h: Node) -> bool {
     (d + three * b).differs(a + three * c)
 }
 
-/// A and g, if h is the form they make with a constant.
+/// A and g, if h = ½·zᵀAz + gᵀz + constant.
 fn coefficients(
     space: &mut Space,
     h: Node,
@@ -156,11 +156,11 @@ fn multiple(space: &mut Space, a: &Matrix, b: &Matrix) -> Option<Node> {
 }
 
 /// Weights with the powers of M they stand at.
-type Parts = Vec<(Node, Matrix)>;
+type Weights = Vec<(Node, Matrix)>;
 
 /// e^{sM} − 1, and the integral of e^{sM}, which stands at b. With 1 in it a rounded matrix would make every
 /// step longer or shorter by the same ε: cos² + sin² is not 1.
-fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Parts, Parts)> {
+fn exponential(space: &mut Space, m: &Matrix, b: &[Node], s: Node) -> Option<(Weights, Weights)> {
     let n = m.len();
     let (zero, one) = (space.dag().integer(0), space.dag().integer(1));
     let unit: Matrix = (0..n)

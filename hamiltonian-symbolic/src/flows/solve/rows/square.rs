@@ -12,7 +12,7 @@ use crate::flows::space::{Space, Variables};
 use crate::rational::Rational;
 
 /// A chart: u, u′, the way back from u₁ (with the range of u₁ that is > 0), u′ there.
-struct Chart {
+struct Substitution {
     u: &'static str,
     slope: &'static str,
     back: &'static str,
@@ -20,22 +20,22 @@ struct Chart {
     slope_there: &'static str,
 }
 
-const CHARTS: &[Chart] = &[
-    Chart {
+const CHARTS: &[Substitution] = &[
+    Substitution {
         u: "x",
         slope: "1",
         back: "u1",
         range: "",
         slope_there: "1",
     },
-    Chart {
+    Substitution {
         u: "x^2",
         slope: "2*x",
         back: "pick(0 < x, sqrt(u1), 0 - sqrt(u1))",
         range: "u1",
         slope_there: "2*x1",
     },
-    Chart {
+    Substitution {
         u: "1/x",
         slope: "0 - 1/x^2",
         back: "1/u1",
@@ -62,7 +62,7 @@ pub(super) fn solve(space: &mut Space, axes: Axes, k: Node, s: Node) -> Option<M
 
 fn in_chart(
     space: &mut Space,
-    chart: &Chart,
+    chart: &Substitution,
     axes: Axes,
     (y, f, s): (Node, Node, Node),
     x_set: Variables,

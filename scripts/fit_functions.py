@@ -175,9 +175,9 @@ def cube_root_offset():
 def main():
     print("""//! Constants and coefficients of the elementary functions.
 //!
-//! Input: nothing. Output: tables, the lowest power first; each says the formula that it serves
-//! and the largest error of that formula relative to the function. Invariant: written by
-//! `scripts/fit_functions.py` and by nothing else.
+//! Input: nothing. Output: tables, the lowest power first, each with its formula and the largest
+//! error of that formula relative to the function. Invariant: only `scripts/fit_functions.py`
+//! writes this file.
 
 #![allow(
     clippy::approx_constant,

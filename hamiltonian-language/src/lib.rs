@@ -16,8 +16,9 @@
 //! let h = model.hamiltonian.expect("it has an H");
 //! assert_eq!(print::text(&model, h), "p^2/2 + k*q^4");
 //!
-//! // An error has a message with a remedy, at the tokens it concerns. let (_, checked) = read("pub
-//! struct Wrong {} H(q; p) = p^2/2 + k*q^4".parse()?, &mut report); assert!(checked.is_none());
+//! // An error has a message with a remedy, at the tokens it concerns.
+//! let (_, checked) = read("pub struct Wrong {} H(q; p) = p^2/2 + k*q^4".parse()?, &mut report);
+//! assert!(checked.is_none());
 //! assert!(report.errors()[0].message.contains("`k`"));
 //! # Ok::<(), proc_macro2::LexError>(())
 //! ```

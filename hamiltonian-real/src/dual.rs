@@ -10,7 +10,7 @@ use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAss
 
 use crate::real::{Mask, Pack, Real, kepler};
 
-/// The most lanes of a pack over which dual numbers are gathered.
+/// The largest number of lanes of a pack over which dual numbers are gathered.
 const MOST: usize = 128;
 /// As many take less memory.
 const FEW: usize = 8;
@@ -30,10 +30,10 @@ const FEW: usize = 8;
 /// - `x^y`: ∂/∂x is `y·x^(y−1)`, and 0 where `y = 0`; ∂/∂y is `x^y·ln x`, left out altogether
 ///   where the exponent's derivative part is 0 (so integer powers of negative bases have
 ///   derivatives), and 0 at `x = 0 < y`.
-/// - `min`, `max`: the derivative of the operand returned; of the first where they are equal.
+/// - `min`, `max`: the derivative of the returned operand; of the first if they are equal.
 /// - Outside the domain the value is NaN; the derivative part is the formula's value.
 ///
-/// In each case an operand whose derivative part is exactly 0 adds exactly 0.
+/// In each case an operand whose derivative part is exactly 0 contributes exactly 0.
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -47,7 +47,7 @@ const FEW: usize = 8;
 /// let x = Dual::new(Dual::variable(2.0), Dual::fixed(1.0));
 /// assert_eq!((x * x * x).eps.eps, 12.0);
 ///
-/// // A constant 0 does not spoil what it is part of.
+/// // The root of a constant 0 has the derivative 0, the root of a variable an infinite one.
 /// assert_eq!(Dual::fixed(0.0).sqrt().eps, 0.0);
 /// assert_eq!(Dual::variable(0.0).sqrt().eps, f64::INFINITY);
 /// ```
@@ -55,7 +55,7 @@ const FEW: usize = 8;
 pub struct Dual<T> {
     /// The value.
     pub re: T,
-    /// The derivative along the direction the variables were given.
+    /// The derivative along the direction of the variables.
     pub eps: T,
 }
 
@@ -284,7 +284,7 @@ impl<T: Real> Real for Dual<T> {
     #[inline(always)]
     fn magnitude(self) -> f64 {
         let (re, eps) = (self.re.magnitude(), self.eps.magnitude());
-        // `!(re < eps)` keeps a NaN in `re`; one in `eps` is asked for.
+        // `!(re < eps)` keeps a NaN in `re`; a NaN in `eps` is tested.
         if re < eps || eps.is_nan() { eps } else { re }
     }
     #[inline(always)]
@@ -494,7 +494,7 @@ impl<T: Real> Real for Dual<T> {
     }
     #[inline(always)]
     fn universal_anomaly(self, b: Self, c: Self) -> Self {
-        // Of the equation itself: 0 = F′·dy + ∂F.
+        // The derivative of the equation: 0 = F′·dy + ∂F.
         let y = self.re.universal_anomaly(b.re, c.re);
         let (f, slope, _) = kepler::equation(self, b, c, Self::fixed(y));
         Self {
@@ -516,5 +516,5 @@ fn bell<T: Real>(x: T) -> T {
     T::constant(FRAC_2_SQRT_PI, FRAC_2_SQRT_PI_LOW) * (-(x * x)).exp()
 }
 
-/// 2/√π less its double.
+/// 2/√π minus its rounded value.
 const FRAC_2_SQRT_PI_LOW: f64 = 1.533545961316588e-17;

@@ -123,7 +123,7 @@ macro_rules! float {
                 } else if self < 0.0 {
                     -1.0
                 } else {
-                    // 0 and NaN are their own sign.
+                    // The sign of 0 is 0, and that of NaN is NaN.
                     self
                 }
             }
@@ -174,7 +174,8 @@ float! { f64 {
 
 float! { f32 {
     itself_in_lanes! {}
-    // Twice the digits and two more: the root of an f32 rounds twice to what it rounds to once.
+    // An f64 has more than twice the digits of an f32 and two, so rounding the root twice equals
+    // rounding it once.
     rounded! { sqrt sin cos tan asin acos atan sinh cosh tanh asinh acosh atanh exp exp_m1 ln ln_1p
         cbrt erf erfc; pow hypot atan2 }
     #[inline(always)]

@@ -1,12 +1,12 @@
 //! The scalars of `hamiltonian`, with which schemes and emitted programs compute.
 //!
-//! Input: numbers of the caller. Output: [`Real`], the arithmetic everything is generic over, for
-//! `f64`, `f32` and [`Dual`] numbers (exact derivatives, nested for higher orders), and the
-//! elementary functions, written once for numbers and for lanes. Invariant: a scalar is a value of
-//! fixed size without heap memory, and every operation is total: NaN and infinities, never a panic.
+//! Input: numbers of the caller. Output: [`Real`], the arithmetic of all generic code, for `f64`,
+//! `f32` and [`Dual`] numbers (exact derivatives, nested for higher orders), and the elementary
+//! functions, written once for numbers and for lanes. Invariant: a scalar is a value of fixed size
+//! without heap memory, and every operation is total: NaN and infinities, never a panic.
 //!
-//! Packs of lanes, the levels of CPUs and double-doubles are in `hamiltonian-lanes`, which is made
-//! from the [`parts`] of this crate and re-exports its scalars.
+//! Packs of lanes, the levels of CPUs and double-doubles are in `hamiltonian-lanes`, which uses the
+//! [`parts`] of this crate and re-exports its scalars.
 //!
 //! ```
 //! use hamiltonian::prelude::*;
@@ -41,7 +41,7 @@ mod lift;
 pub use dual::Dual;
 pub use real::{Lift, Mask, Pack, Real};
 
-/// What other scalars are made from, for crates that add some.
+/// The parts for crates that define further scalars.
 ///
 /// A type that implements [`Word`](parts::Word) gets the elementary functions of `f64`, with the same
 /// bits where it does not fuse, from the macro `elementary!` inside its implementation of [`Real`].

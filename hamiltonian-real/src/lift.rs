@@ -1,8 +1,8 @@
 //! Conversions of values to scalars.
 //!
-//! Input: floats, duals, integers. Output: [`Lift`] between them. Invariant: every
-//! scalar lifts from itself and from `f64`; a value too wide for the scalar is rounded to nearest,
-//! ties to even; a value lifted into a dual is constant (its derivative part is 0).
+//! Input: floats, duals, integers. Output: [`Lift`] between them. Invariant: every scalar lifts
+//! from itself and from `f64`; a value with more digits than the scalar is rounded to nearest, ties
+//! to even; a value lifted into a dual is constant (its derivative part is 0).
 
 use crate::dual::Dual;
 use crate::real::{Lift, Real};
@@ -33,7 +33,7 @@ macro_rules! lift_float {
     };
 }
 
-/// Integers, in two words where one does not hold them.
+/// Integers, in two words if one does not suffice.
 macro_rules! lift_integer {
     ($($integer:ident)*) => {
         $(

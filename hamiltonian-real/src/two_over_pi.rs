@@ -1,8 +1,8 @@
-//! The bits of 2/π, and where an angle's multiple of π/2 is found in them.
+//! The bits of 2/π, and the window of them that reduces an angle modulo π/2.
 //!
-//! Input: the exponent of an angle. Output: those bits of 2/π whose products with it are neither multiples of
-//! a turn nor below the wanted precision. Invariant: a table for packs has what the function for single
-//! numbers computes.
+//! Input: the exponent of an angle. Output: the bits of 2/π whose products with the angle are
+//! neither multiples of a turn nor below the required precision. Invariant: the table for packs
+//! equals the function for single numbers.
 
 /// 64 bits before the point and 1536 bits of 2/π, the most significant first.
 #[rustfmt::skip]
@@ -37,7 +37,7 @@ pub(crate) const fn two_over_pi(field: u64) -> [f64; 4] {
     // The bit worth 2 comes first.
     let start = field as usize + 62 - 1075;
     let (a, b, c) = (window(start), window(start + 64), window(start + 128));
-    // Each word is rounded to nearest: what is left has a sign.
+    // Each word is rounded to nearest, so the remainder has a sign.
     let first = a.wrapping_add(1 << 11) as i64 >> 12;
     let rest = (a << 52) as i64 >> 52;
     let second = (rest << 38) + (b >> 26) as i64 + (b >> 25 & 1) as i64;

@@ -1,9 +1,9 @@
-//! The operations that elementary functions are written over.
+//! The operations from which elementary functions are built.
 //!
-//! Input: [`Real`]. Output: [`Word`], lanes of `f64` whose bits can be computed with; implemented
-//! for `f64` here and for every pack beside it. Invariant: a lane's result depends on that lane's
-//! operands alone, so a function written over `Word` gives the same bits in a scalar and in a lane
-//! of every type that fuses alike.
+//! Input: [`Real`]. Output: [`Word`], lanes of `f64` with operations on their bits; implemented
+//! here for `f64`, and beside each pack for the pack. Invariant: a lane's result depends on that
+//! lane's operands alone, so a function written over `Word` gives the same bits in a scalar and in
+//! a lane of every type that fuses alike.
 
 use core::ops::{BitAnd, BitOr, BitXor};
 
@@ -32,8 +32,8 @@ pub trait Rare<const N: usize, const M: usize> {
     fn of<W: Word>(x: [W; N]) -> [W; M];
 }
 
-/// One `f64` a lane, with its bits. Operators are rounded one by one; [`Real::fma`] is fused where
-/// [`Word::FUSED`] says so and is `self * b + c` elsewhere.
+/// One `f64` a lane, with its bits. Each operator rounds; [`Real::fma`] is fused if [`Word::FUSED`]
+/// is true, otherwise it is `self * b + c`.
 pub trait Word: Real {
     /// The lanes' bits.
     type Bits: Bits;
@@ -42,9 +42,9 @@ pub trait Word: Real {
 
     /// The lanes' bits.
     fn bits(self) -> Self::Bits;
-    /// The lanes of which these are the bits.
+    /// The lanes with these bits.
     fn from_bits(bits: Self::Bits) -> Self;
-    /// Set where the lowest bit is.
+    /// The mask of the lanes whose lowest bit is set.
     fn odd(bits: Self::Bits) -> Self::Mask;
     /// The number whose last `K` bits are 0 instead.
     #[inline(always)]
@@ -60,14 +60,14 @@ pub trait Word: Real {
         let x = x - Self::splat(TWO_TO_52);
         x.fma(Self::splat(1.0 / 3.0), Self::splat(TWO_TO_52)).bits()
     }
-    /// `self·2^k` rounded once, for `0 < self ≤ 2` and an integer `k`, infinity or NaN, on levels that
-    /// have an instruction for it; where `k` is not between −1100 and 1100, anything else serves for
-    /// `self`.
+    /// `self·2^k` rounded once, for `0 < self ≤ 2` and an integer `k`, infinity or NaN, on levels
+    /// that have an instruction for it. If `k` is not between −1100 and 1100, the result does not
+    /// depend on `self`.
     #[inline(always)]
     fn scaled(self, _k: Self) -> Option<Self> {
         None
     }
-    /// `F::of(x)`, out of line: a function of each level, which the places where rare arguments are met share.
+    /// `F::of(x)`, out of line: one function of each level for all calls with rare arguments.
     #[inline(always)]
     fn rare<F: Rare<N, M>, const N: usize, const M: usize>(x: [Self; N]) -> [Self; M] {
         let [values] = Self::rare_of_each::<F, N, M, 1>([x], true);
@@ -78,16 +78,16 @@ pub trait Word: Real {
         x: [[Self; N]; K],
         fusing: bool,
     ) -> [[Self; M]; K];
-    /// Four words whose sum is 2^(e − 52)·2/π modulo 4, for the exponents e of numbers with these bits; anything for
-    /// numbers below 2.
+    /// Four words whose sum is 2^(e − 52)·2/π modulo 4, for the exponents e of numbers with these
+    /// bits; undefined for numbers below 2.
     fn two_over_pi(bits: Self::Bits) -> [Self; 4];
     /// `f(x)` in the lanes where the mask is set, `self` elsewhere: rare arguments, lane by lane.
-    /// To be called where some lane is set, and never inlined (`#[cold]`).
+    /// Callers call it only if a lane is set, and from a function that is not inlined (`#[cold]`).
     fn replace(self, mask: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self;
     /// [`Word::replace`] for functions of two arguments.
     fn replace2(self, mask: Self::Mask, x: Self, y: Self, f: fn(f64, f64) -> f64) -> Self;
 
-    /// `self` where `plain` is set and `f(x)` elsewhere: on the common path one test.
+    /// `self` where `plain` is set and `f(x)` elsewhere, with one test on the common path.
     #[inline(always)]
     fn or_rare(self, plain: Self::Mask, x: Self, f: fn(f64) -> f64) -> Self {
         let rare = !plain;
@@ -154,7 +154,7 @@ impl Word for f64 {
     }
     #[inline(always)]
     fn third(bits: u64) -> u64 {
-        // Without the way through a float and back.
+        // This avoids a conversion to a float and back.
         (bits + 1) / 3
     }
     #[inline(always)]
@@ -175,7 +175,7 @@ impl Word for f64 {
         if cfg!(feature = "std") {
             TWO_OVER_PI_MODULO_4[field as usize & 1023]
         } else {
-            // Without the memory of a table.
+            // This needs no memory for a table.
             two_over_pi((field & 2047).max(1024))
         }
     }

@@ -2,9 +2,9 @@
 //!
 //! Input: normalised pairs of words. Output: the same, with the relative errors stated at each
 //! operation (u = 2⁻⁵³; measured bounds are in the tests). Invariant: a sum or product that is
-//! infinite, NaN or −0 in `f64` is the same here: error terms of the form ∞ − ∞ never show.
-//! Sums, products and quotients are calls, which cost 3 to 10 % of a run: written out, a step of order 8
-//! is half a megabyte of code.
+//! infinite, NaN or −0 in `f64` is the same here: error terms of the form ∞ − ∞ are discarded.
+//! Sums, products and quotients are calls, which cost 3 to 10 % of a run: inlined, a step of order
+//! 8 would be half a megabyte of code.
 
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -26,21 +26,21 @@ pub(super) fn significand(x: f64) -> f64 {
 
 impl DoubleDouble {
     /// The result `(hi, lo)` of an operation whose `f64` counterpart on the leading words is
-    /// `plain`: that one stands where it is infinite, NaN or a signed zero.
+    /// `plain`: `plain` is the result if it is infinite, NaN or a signed zero.
     #[inline(always)]
     pub(super) const fn finish(plain: f64, hi: f64, lo: f64) -> Self {
         let size = hi.abs();
         if size > 0.0 && size <= f64::MAX {
             Self { hi, lo }
         } else if size == 0.0 && plain.abs() > 0.0 && plain.abs() <= f64::MAX {
-            // The leading words left something that the trailing words cancelled.
+            // The trailing words cancelled the sum of the leading words.
             Self { hi: 0.0, lo: 0.0 }
         } else {
             Self { hi: plain, lo: 0.0 }
         }
     }
 
-    /// `self·factor` for a power of two: exact, short of the subnormal range.
+    /// `self·factor` for a power of two: exact, except in the subnormal range.
     #[inline(always)]
     pub(super) fn scale(self, factor: f64) -> Self {
         Self {

@@ -1,8 +1,8 @@
 //! Unsigned integers of 2 560 bits, on the stack.
 //!
 //! Input: small integers, products, shifts. Output: exact integers, and integers rounded to a
-//! double-double. Invariant: the caller keeps results below 2^2560; that holds every finite
-//! double-double in units of 2⁻¹⁰⁷⁴, and 80 digits times any power of ten in range.
+//! double-double. Invariant: callers keep results below 2^2560, which suffices for every finite
+//! double-double in units of 2⁻¹⁰⁷⁴, and for 80 digits times any power of ten in range.
 
 use super::DoubleDouble;
 
@@ -52,7 +52,7 @@ impl Big {
         self
     }
 
-    /// `⌊self/10^power⌋` and whether that is exact.
+    /// `⌊self/10^power⌋`, and true if the quotient is exact.
     pub(super) fn div_power_of_ten(mut self, mut power: u32) -> (Self, bool) {
         let mut exact = true;
         while power > 0 {
@@ -128,7 +128,7 @@ impl Big {
         leading.map_or(0, |i| 64 * (i as u32 + 1) - self.0[i].leading_zeros())
     }
 
-    /// The integer, where it is below 2¹²⁸.
+    /// The integer, if it is below 2¹²⁸.
     pub(super) fn low(&self) -> u128 {
         u128::from(self.0[1]) << 64 | u128::from(self.0[0])
     }
@@ -143,7 +143,7 @@ impl Big {
         self.0.iter().rev().cmp(half.0.iter().rev())
     }
 
-    /// Sets the last bit, for a rest that has been cut off: what was above a tie stays above it.
+    /// Sets the last bit in place of a truncated rest, so that a number above a tie stays above it.
     pub(super) fn with_rest(mut self, exact: bool) -> Self {
         self.0[0] |= u64::from(!exact);
         self
@@ -158,7 +158,7 @@ impl Big {
         if above { hi - lo } else { hi + lo }
     }
 
-    /// 53 bits rounded to nearest, their shift, the distance from `self` to them, and whether they
+    /// 53 bits rounded to nearest, their shift, the distance from `self` to them, and true if they
     /// are above it.
     fn leading_word(self) -> (f64, u32, Self, bool) {
         let shift = self.length().saturating_sub(53);

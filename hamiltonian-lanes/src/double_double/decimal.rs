@@ -12,11 +12,11 @@ use core::str::FromStr;
 use super::DoubleDouble;
 use super::big::Big;
 
-/// Digits [`Display`](fmt::Display) writes.
+/// The number of digits that [`Display`](fmt::Display) writes.
 const DIGITS: u32 = 32;
-/// Digits that are computed at most: as many as fit in 128 bits.
+/// The largest number of digits that are computed: as many as fit in 128 bits.
 const MOST_DIGITS: u32 = 38;
-/// Digits that are read; later ones only round.
+/// The number of digits that are read; later ones affect the rounding only.
 const MOST_DIGITS_READ: u32 = 80;
 
 /// The text is not a decimal number.
@@ -244,7 +244,7 @@ impl Text {
     }
 }
 
-/// Writes what has no digits: NaN, infinities and zero.
+/// Writes numbers without digits: NaN, infinities and zero.
 fn write_special(x: DoubleDouble, zero: &str, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let text = if x.hi.is_nan() {
         "NaN"
@@ -256,8 +256,8 @@ fn write_special(x: DoubleDouble, zero: &str, f: &mut fmt::Formatter<'_>) -> fmt
     f.pad_integral(x.hi.is_sign_positive(), "", text)
 }
 
-/// 32 significant digits, correctly rounded, without trailing zeros; in scientific form below
-/// 10⁻⁵ and from 10³² on. Width and sign are as for `f64`; a precision is not looked at (see
+/// 32 significant digits, correctly rounded, without trailing zeros; in scientific form below 10⁻⁵
+/// and from 10³² on. Width and sign are as for `f64`; a precision is ignored (see
 /// [`LowerExp`](fmt::LowerExp)).
 ///
 /// ```

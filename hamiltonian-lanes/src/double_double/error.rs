@@ -22,9 +22,9 @@ const FRAC_1_SQRT_PI: DoubleDouble = DoubleDouble {
     lo: 7.66772980658294e-18,
 };
 
-/// Beyond, the continued fraction serves.
+/// The argument beyond which the continued fraction is used.
 const SERIES_END: f64 = 1.0;
-/// Beyond, erfc is 0 to the last bit of the smallest number.
+/// The argument beyond which erfc is 0 to the last bit of the smallest number.
 const END: f64 = 28.0;
 
 impl DoubleDouble {

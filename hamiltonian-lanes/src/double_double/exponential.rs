@@ -27,9 +27,9 @@ const INFINITY: DoubleDouble = DoubleDouble {
     lo: 0.0,
 };
 
-/// From here on `exp(−2x)` is below half a unit of the last place.
+/// The argument from which `exp(−2x)` is below half a unit of the last place.
 const LARGE_EXPONENT: f64 = 40.0;
-/// From here on `1/x²` is.
+/// The argument from which `1/x²` is below half a unit of the last place.
 const LARGE_ARGUMENT: f64 = 1e17;
 
 impl DoubleDouble {

@@ -22,7 +22,7 @@ macro_rules! lift_float {
     };
 }
 
-/// Integers, in two words where one does not hold them.
+/// Integers, in two words if one does not suffice.
 macro_rules! lift_integer {
     ($($integer:ident)*) => {
         $(

@@ -22,8 +22,8 @@ use hamiltonian_real::parts::exact::two_sum;
 
 pub use decimal::ParseDoubleDoubleError;
 
-/// `hi + lo`, two `f64` read as one number of about 106 bits (32 decimal digits): what orders and
-/// invariants are measured with where `f64` ends.
+/// `hi + lo`, two `f64` as one number of about 106 bits (32 decimal digits), to measure orders and
+/// invariants below the precision of `f64`.
 ///
 /// The arithmetic is Dekker's (*Numer. Math.* 18, 224, 1971, doi:10.1007/BF01397083) in the
 /// variants whose bounds Joldes, Muller and Popescu proved (*ACM Trans. Math. Softw.* 44, 15,

@@ -1,8 +1,8 @@
 //! Square root, cube root, hypotenuse; and the sum of a power series.
 //!
 //! Input: double-doubles. Output: the function's value, relative error as measured in
-//! `tests/double_double.rs`. Invariant: nothing overflows or loses accuracy on the way that is in
-//! range at the end.
+//! `tests/double_double.rs`. Invariant: no intermediate result overflows or loses accuracy if the
+//! final one is in range.
 
 use super::DoubleDouble;
 use super::arithmetic::exponent;
@@ -86,7 +86,7 @@ impl DoubleDouble {
     }
 
     /// `Σ c_k self^k` over the coefficients of `head`, then of `tail`, by Horner's rule. The tail
-    /// is summed in `f64`: it is there for terms below 2⁻⁵³ of the sum.
+    /// is summed in `f64`: its terms are below 2⁻⁵³ of the sum.
     #[inline]
     pub(super) fn series(self, head: &[(f64, f64)], tail: &[f64]) -> Self {
         let rest = tail.iter().rev().fold(0.0, |sum, c| sum * self.hi + c);

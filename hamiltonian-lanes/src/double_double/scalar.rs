@@ -1,4 +1,4 @@
-//! [`Real`] for double-doubles: which function of this folder is which operation.
+//! [`Real`] for double-doubles, by the functions of this folder.
 //!
 //! Input: the functions beside this file. Output: the trait. Invariant: comparisons order by the
 //! leading word, then by the trailing one; NaN compares false.

@@ -4,9 +4,9 @@
 //! `tests/double_double.rs`. Invariant: odd functions keep the sign of zero; outside the domain
 //! and at infinity the result is NaN.
 //!
-//! The angle is reduced to |r| ≤ π/4 (`reduction`), then Taylor series, whose late terms one word
-//! serves. The inverses are one Newton step of [`DoubleDouble`] from the `f64` angle, as in
-//! Y. Hida, X. S. Li, D. H. Bailey, *Proc. 15th IEEE Symp. Computer Arithmetic*, 155, 2001,
+//! The angle is reduced to |r| ≤ π/4 (`reduction`), then Taylor series, whose late terms need one
+//! word only. The inverses are one Newton step of [`DoubleDouble`] from the `f64` angle, as in Y.
+//! Hida, X. S. Li, D. H. Bailey, *Proc. 15th IEEE Symp. Computer Arithmetic*, 155, 2001,
 //! doi:10.1109/ARITH.2001.930115; taking it on the circle serves all quadrants alike.
 
 use super::DoubleDouble;
@@ -107,8 +107,7 @@ fn sine_cosine_series(x: DoubleDouble) -> (DoubleDouble, DoubleDouble) {
     (sin, cos)
 }
 
-/// The angle of a point whose coordinates are both not ordinary numbers, at least one being 0 or
-/// infinite: a multiple of π/4.
+/// The angle of a point with a coordinate that is 0 or infinite: a multiple of π/4.
 fn axis_angle(y: f64, x: f64) -> DoubleDouble {
     let zero = DoubleDouble::from(0.0);
     let size = if y == 0.0 || x.is_infinite() && !y.is_infinite() {

@@ -1,7 +1,7 @@
 //! AVX2 with FMA: four lanes, and one.
 //!
-//! Input: registers. Output: [`Register`] for `__m256d` and for [`One`]. Invariant: a lane's flag is
-//! its sign bit; the others say nothing.
+//! Input: registers. Output: [`Register`] for `__m256d` and for [`One`]. Invariant: a lane's flag
+//! is its sign bit; its other bits are undefined.
 
 use core::arch::x86_64::*;
 
@@ -78,7 +78,7 @@ impl Register for __m256d {
     }
 }
 
-/// One number, whose products with a sum are fused.
+/// One number, with fused products and sums.
 #[derive(Clone, Copy)]
 pub struct One([f64; 1]);
 

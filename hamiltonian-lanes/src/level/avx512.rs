@@ -47,7 +47,7 @@ impl Register for __m512d {
             _mm512_test_epi64_mask(_mm512_castpd_si512(a), _mm512_set1_epi64(1))
         }
         fn scaled(a: Self, k: Self) -> Option<Self> {
-            // The smaller size of the two, positive: 2 where `a` is no number.
+            // The smaller size of the two, positive: 2 where `a` is NaN.
             let a = _mm512_range_pd::<0b10_10>(a, _mm512_set1_pd(2.0));
             Some(_mm512_scalef_pd(a, k))
         }
@@ -70,7 +70,7 @@ impl Register for __m512d {
                 rows[k] = _mm256_loadu_pd(table[bits[k].to_bits() as usize & 1023].as_ptr());
                 k += 1;
             }
-            // Rows k and k + 2, of which the pairs of neighbours lie in order.
+            // Rows k and k + 2, whose pairs of neighbours are in order.
             let mut pairs = [Self::splat(0.0); 4];
             let mut k = 0;
             while k < 4 {

@@ -41,8 +41,8 @@ pub enum Cpu {
     Avx512,
 }
 
-/// Returns true if this CPU has a feature. Without `std` nobody asks the CPU: it has what the crate was
-/// compiled for (`-C target-cpu`).
+/// Returns true if this CPU has a feature. Without `std` the CPU is not queried: it has the
+/// features for which the crate was compiled (`-C target-cpu`).
 #[cfg(target_arch = "x86_64")]
 macro_rules! has {
     ($($feature:tt)*) => {{
@@ -54,7 +54,8 @@ macro_rules! has {
     }};
 }
 
-/// The highest level that [`Cpu::best`] returns, as a number; those above do not exist for the process.
+/// The highest level that [`Cpu::best`] returns, as a number; levels above it are hidden from the
+/// process.
 static LIMIT: AtomicU8 = AtomicU8::new(Cpu::Avx512 as u8);
 
 impl Cpu {
@@ -73,8 +74,8 @@ impl Cpu {
         }
     }
 
-    /// Hides the levels above `limit` from the whole process: runs compute what they would on a CPU
-    /// without them. For tests and measurements; runs under way are not changed.
+    /// Hides the levels above `limit` from the whole process: runs compute as on a CPU without
+    /// them. For tests and measurements; current runs do not change.
     ///
     /// ```
     /// use hamiltonian::lanes::Cpu;
@@ -146,9 +147,9 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     /// Four numbers on every level, in the fastest registers for them: four lanes take half the time of eight
     /// where numbers are divided, and one chain of operations is as long in both.
     type Four: Base;
-    /// Eight numbers, on every level: what is summed in lanes is summed in one order.
+    /// Eight numbers, on every level, so that sums in lanes have the same order on all levels.
     type Eight: Base;
-    /// The level this is.
+    /// The level as a value.
     const CPU: Cpu;
     /// True if its packs round a product and a sum together, once.
     const FUSES: bool;
@@ -158,7 +159,7 @@ pub trait Level: sealed::Sealed + Copy + Debug + Default + Send + Sync + 'static
     /// inlined.
     fn enter<K: Kernel>(kernel: K) -> K::Output;
 
-    /// [`enter`](Level::enter) for work that is written for this level.
+    /// [`enter`](Level::enter) for work that is written for one level.
     fn enter_at<K: KernelAt<Self>>(kernel: K) -> K::Output;
 }
 
@@ -262,8 +263,8 @@ on_every_level!(
 
 /// Work written once for every level.
 ///
-/// `run` and all that it calls in a loop must be `#[inline(always)]`: what is inlined into the
-/// level's entry is compiled with its instructions, a call left in a lane loop costs a factor of a
+/// `run` and all that it calls in a loop must be `#[inline(always)]`: code that is inlined into the
+/// level's entry is compiled with its instructions, and a call in a lane loop costs a factor of a
 /// hundred.
 ///
 /// ```
@@ -380,17 +381,17 @@ macro_rules! level {
 
             #[inline(always)]
             fn enter<K: Kernel>(kernel: K) -> K::Output {
-                // rustc drops `inline(never)` where a function has features. This one has none, so what has
-                // them cannot be inlined into it.
+                // rustc ignores `inline(never)` on a function with features. This function has
+                // none, so a function with features cannot be inlined into it.
                 #[inline(never)]
                 fn entry<K: Kernel>(kernel: K) -> K::Output {
                     $(#[target_feature(enable = $features)])?
                     fn inside<K: Kernel>(kernel: K) -> K::Output {
                         kernel.run::<$level>()
                     }
-                    // SAFETY: `inside` asks for the features of the level alone. The level is private,
-                    // so this is called by `dispatch_at_most`, which has asked the CPU, or by a kernel
-                    // that runs on this level already.
+                    // SAFETY: `inside` asks for the features of the level alone. The level is
+                    // private, so this is called by `dispatch_at_most`, which has queried the CPU,
+                    // or by a kernel that already runs on this level.
                     #[allow(unused_unsafe)]
                     unsafe {
                         inside(kernel)
@@ -407,7 +408,8 @@ macro_rules! level {
                     fn inside<K: KernelAt<$level>>(kernel: K) -> K::Output {
                         kernel.run()
                     }
-                    // SAFETY: as in `enter`: the caller has asked the CPU, or runs on this level already.
+                    // SAFETY: as in `enter`: the caller has queried the CPU, or already runs on
+                    // this level.
                     #[allow(unused_unsafe)]
                     unsafe {
                         inside(kernel)

@@ -6,17 +6,17 @@
 //! [`Cpu::best`] has found the CPU to have them.
 //!
 //! # Why this is sound
-//! A register type (such as `__m512d`) does its arithmetic by instructions that only some CPUs have;
-//! to run them on another is undefined behaviour. The functions of [`Register`] are nevertheless
-//! safe to call, because nobody can name a register type before the CPU was asked:
+//! A register type (such as `__m512d`) does its arithmetic by instructions that only some CPUs
+//! have; to run them on another is undefined behaviour. The functions of [`Register`] are
+//! nevertheless safe to call, because no code can name a register type before the CPU was queried:
 //!
 //! - [`Register`], the register types behind packs, and the types that implement [`Level`] are in
 //!   private modules and no signature of this crate gives one of them away: outside, a pack is
 //!   always `L::Pack`, `L::Wide` or `L::Scalar` of some `L: Level`, and [`Level`] is sealed.
-//! - `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU. Generic
-//!   code over a level is made by rustc for every level, and runs for the chosen one alone.
-//! - What a kernel hands out of its run (a boxed pack, a pointer to one of its functions) stays in
-//!   this process, on this CPU.
+//! - `L` is chosen in one place, [`dispatch_at_most`], from the capabilities found in the CPU.
+//!   rustc compiles generic code over a level for every level, and only the chosen one runs.
+//! - Values that a kernel returns (a boxed pack, a pointer to one of its functions) stay in this
+//!   process, on this CPU.
 //!
 //! Every `unsafe` block of this module names its part of that argument.
 

@@ -66,13 +66,13 @@ impl Register for float64x2_t {
     }
 }
 
-/// One number, whose products with a sum are fused.
+/// One number, with fused products and sums.
 #[derive(Clone, Copy)]
 pub struct One([f64; 1]);
 
 #[inline(always)]
 fn once_rounded(a: f64, b: f64, c: f64) -> f64 {
-    // SAFETY: NEON is among the features every aarch64 program is compiled for.
+    // SAFETY: every aarch64 program is compiled with NEON.
     #[allow(unused_unsafe)]
     unsafe {
         vget_lane_f64::<0>(vfma_f64(vdup_n_f64(c), vdup_n_f64(a), vdup_n_f64(b)))

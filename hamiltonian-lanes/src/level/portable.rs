@@ -2,7 +2,7 @@
 //!
 //! Input: one or two numbers. Output: [`Register`] for [`Two`], and [`plain!`] that makes it.
 //! Invariant: straight-line code without loops, which compilers turn into packed instructions where
-//! there are any; nothing fuses but what the given `fma` does.
+//! there are any; only the given `fma` may fuse.
 
 use super::register::Register;
 

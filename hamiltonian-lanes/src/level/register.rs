@@ -1,4 +1,4 @@
-//! Operations of a register of numbers: the table every pack is made from.
+//! Operations of a register of numbers, from which every pack is built.
 //!
 //! Input: nothing. Output: [`Register`], and [`intrinsics!`] for its functions. Invariant:
 //! lane by lane each function gives the bits of the same operation on `f64`, but for
@@ -71,7 +71,7 @@ pub trait Register: Copy + Send + Sync + 'static {
     /// Bit k is the flag of lane k; the bits above the last lane are 0.
     fn bits(a: Self::Flags) -> u32;
 
-    /// `f()` out of line, compiled with the instructions of the register.
+    /// Calls `f()` out of line, compiled with the instructions of the register.
     fn out_of_line<A>(f: impl FnOnce() -> A) -> A;
     /// `F::of` of each, likewise. `F` has no closure, which would be compiled without those instructions.
     fn rare<F: Rare<N, M>, W: Word, const N: usize, const M: usize, const K: usize>(

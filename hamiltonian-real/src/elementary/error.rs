@@ -1,9 +1,9 @@
 //! The error function and its complement.
 //!
-//! Input: any double. Output: the function's value. Invariant:
-//! erfc x = exp(−x²)·P(t)/(1 + 2x) with t = (x − 4)/(x + 4) (M. M. Shepherd and J. G. Laframboise,
-//! *Math. Comp.* 36, 249, 1981, doi:10.2307/2007741), of which every factor keeps its second word;
-//! erf is 1 less that, and near 0 both are one polynomial.
+//! Input: any double. Output: the function's value. Invariant: erfc x = exp(−x²)·P(t)/(1 + 2x) with
+//! t = (x − 4)/(x + 4) (M. M. Shepherd and J. G. Laframboise, *Math. Comp.* 36, 249, 1981,
+//! doi:10.2307/2007741), in which every factor keeps its second word; erf is 1 − erfc, and near 0
+//! both use one polynomial.
 
 use super::coefficients::*;
 use super::exponential::{exp_parts, scale_any, scale_normal};
@@ -14,10 +14,11 @@ use super::pairs::{
 use crate::real::Mask;
 use crate::word::Word;
 
-/// From here on erfc lies near or below the smallest normal number.
+/// The argument from which erfc lies near or below the smallest normal number.
 const LARGE: f64 = 26.0;
 
-/// Up to here erf is a polynomial. At 0 the quotient's slope would double its rounding.
+/// The argument up to which erf is a polynomial. Near 0 the slope of the quotient would double its
+/// rounding error.
 const NEAR: f64 = 0.625;
 
 /// erfc of `NEAR ≤ x ≤ 28` as `(power, high, low)`: 2^power·(high + low).

@@ -1,7 +1,7 @@
 //! Sums and products of two `f64` with their rounding errors.
 //!
 //! Input: two numbers. Output: `(result, error)`. Invariant: result and error together are exact,
-//! short of overflow and of subnormal errors, with and without fused instructions.
+//! except for overflow and subnormal errors, with and without fused instructions.
 
 /// `a + b = s + e` exactly, `s` rounded to nearest (D. E. Knuth, *The Art of Computer Programming*
 /// 2, §4.2.2, theorem B, 1969).
@@ -19,7 +19,7 @@ pub const fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
     (s, b - (s - a))
 }
 
-/// `a·b = p + e` exactly, save where `e` is subnormal (Dekker 1971; G. W. Veltkamp's splitting).
+/// `a·b = p + e` exactly, except if `e` is subnormal (Dekker 1971; G. W. Veltkamp's splitting).
 #[inline(always)]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let p = a * b;

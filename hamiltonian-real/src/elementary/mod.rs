@@ -1,11 +1,10 @@
 //! Elementary functions: the same bits in a single run, in a lane and on every machine.
 //!
 //! Input: a [`Word`](crate::word::Word), that is `f64` or a pack of them. Output: the function's
-//! value. Invariant: nothing but the operations of `Word` is used, which IEEE 754 defines to the
-//! last bit, and a table of 2/π for large angles. Arguments that need more than the common path are
-//! computed by cold functions: large angles, points and powers in lanes ([`Rare`](crate::word::Rare)), others
-//! lane by lane.
-//! `f32` rounds the values of `f64`.
+//! value. Invariant: the functions use only the operations of `Word`, which IEEE 754 defines to the
+//! last bit, and a table of 2/π for large angles. Cold functions compute arguments outside the
+//! common path: large angles, points and powers in lanes ([`Rare`](crate::word::Rare)), others lane
+//! by lane. `f32` rounds the values of `f64`.
 
 pub mod angle;
 pub mod arc;

@@ -35,7 +35,7 @@ pub(super) fn two_product<W: Word>(a: W, b: W) -> (W, W) {
     }
 }
 
-/// `a² = p + e`, as [`two_product`] has it, by fewer operations.
+/// `a² = p + e`, as in [`two_product`], with fewer operations.
 #[inline(always)]
 pub(super) fn two_square<W: Word>(a: W) -> (W, W) {
     let p = a * a;
@@ -75,21 +75,21 @@ pub(super) fn quotient<W: Word>(a: (W, W), b: (W, W)) -> (W, W) {
     (q, (remainder(a.0, q, b.0) + (a.1 - q * b.1)) * inverse)
 }
 
-/// The square root of a pair, of its high word `root` and the rest; 0 where that is 0.
+/// The square root of a pair, given the root of its high word; 0 if that is 0.
 #[inline(always)]
 pub(super) fn square_root<W: Word>(a: (W, W)) -> (W, W) {
     let root = a.0.sqrt();
-    // Divides while the root is taken. Where that is 0 so is the rest: any divisor but 0 serves, and
-    // others do not change.
+    // The division runs in parallel with the root. If the root is 0, the rest is 0 too, so any
+    // divisor except 0 is correct, and other lanes do not change.
     let half_inverse = W::splat(0.5) / (a.0 + W::splat(f64::MIN_POSITIVE)) * root;
     (root, (remainder(a.0, root, root) + a.1) * half_inverse)
 }
 
-/// The polynomial with the given coefficients, the lowest first, which rounds twice beside the first
-/// coefficient. Pairs of terms make fours and these eights (G. Estrin, *Proc. Western Joint Computer
-/// Conf.*, 33, 1960, doi:10.1145/1460361.1460365), a chain of dependent operations of a third to a
-/// half of Horner's; the lowest pair comes last. Types that fuse, which are lanes, sum pairs by
-/// Horner's scheme in z², which is longer by less and saves z⁴.
+/// The polynomial with the given coefficients, the lowest first, which rounds twice beside the
+/// first coefficient. Pairs of terms make fours and these eights (G. Estrin, *Proc. Western Joint
+/// Computer Conf.*, 33, 1960, doi:10.1145/1460361.1460365), a chain of dependent operations of a
+/// third to a half of Horner's; the lowest pair comes last. Types that fuse, which are lanes, sum
+/// pairs by Horner's scheme in z²: the chain is only slightly longer, and z⁴ is not needed.
 #[inline(always)]
 pub(super) fn polynomial<W: Word, const N: usize>(z: W, coefficients: &[f64; N]) -> W {
     let square = z * z;
@@ -171,15 +171,15 @@ pub(super) fn flip<W: Word>(x: W, signs: W::Bits) -> W {
     W::from_bits(x.bits() ^ signs)
 }
 
-/// Added to a number below 2⁵¹ it rounds it to an integer, which the lowest bits then hold.
+/// A number below 2⁵¹ plus this constant is rounded to an integer, which is in the lowest bits.
 pub(super) const ROUNDER: f64 = 1.5 * (1u64 << 52) as f64;
 
-/// Below it a function that is `x·(1 + c·x + …)` or `1 + c·x` at 0, with |c| ≤ ½, is its first term to
-/// the last bit.
+/// The argument below which a function that is `x·(1 + c·x + …)` or `1 + c·x` at 0, with |c| ≤ ½,
+/// equals its first term to the last bit.
 const TINY: f64 = 1.0 / (1u64 << 60) as f64;
 
-/// Where `size ≥ 0` is tiny. Its square and higher powers, which no sum is changed by, are subnormal
-/// somewhere below: on many CPUs an operation on such a number takes a hundred times as long.
+/// The mask of tiny `size ≥ 0`. Their squares and higher powers change no sum but may be subnormal:
+/// on many CPUs an operation on a subnormal number takes a hundred times as long.
 #[inline(always)]
 pub(super) fn is_tiny<W: Word>(size: W) -> W::Mask {
     size.lt(W::splat(TINY))

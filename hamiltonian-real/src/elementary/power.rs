@@ -30,7 +30,7 @@ fn exponent<W: Word>(x: W, y: W, shift: W) -> (W, W) {
     (product, y.fma(low, cut))
 }
 
-/// Below it an exponent is as good as 0.
+/// The exponent below which a power is 1 to the last bit.
 const TINY_EXPONENT: f64 = 1.0 / (1u128 << 70) as f64;
 
 /// `x^y`.
@@ -90,7 +90,7 @@ impl Rare<2, 1> for Power {
     }
 }
 
-/// Where a number that is not NaN is an integer or infinite, and where an odd one.
+/// The masks of numbers, not NaN, that are integers or infinite, and that are odd integers.
 #[inline(always)]
 fn parity<W: Word>(y: W) -> (W::Mask, W::Mask) {
     let size = y.abs();
@@ -117,7 +117,7 @@ fn guess_inverse_cube_root<W: Word>(x: W) -> W {
 fn cube_root<W: Word>(x: W) -> W {
     let (a1, a2) = (W::splat(1.0 / 3.0), W::splat(2.0 / 9.0));
     let (a3, a4) = (W::splat(14.0 / 81.0), W::splat(35.0 / 243.0));
-    // Long done when it is needed.
+    // This is computed early, in parallel with the rest.
     let inverse = W::one() / x;
     let y = guess_inverse_cube_root(x);
     let e = W::one() - (x * y) * (y * y);
@@ -130,7 +130,8 @@ fn cube_root<W: Word>(x: W) -> W {
     (c * d).fma((d * d).fma(a3, d.fma(a2, a1)), c)
 }
 
-/// Between its inverse and this every term of the cube root is normal: 2⁹⁶⁰, the cube of 2³²⁰.
+/// For numbers between the inverse of this and this, every term of the cube root is normal: 2⁹⁶⁰,
+/// the cube of 2³²⁰.
 const CUBABLE: f64 = f64::from_bits((1023 + 960) << 52);
 const CUBABLE_ROOT: f64 = f64::from_bits((1023 + 320) << 52);
 
@@ -173,13 +174,14 @@ fn cbrt_of_rare(x: f64) -> f64 {
     flip(root, sign_bit(x))
 }
 
-/// Between its inverse and this, squares neither overflow nor lose what they cut off.
+/// Squares of numbers between the inverse of this and this neither overflow nor lose their rounding
+/// errors.
 const SQUARABLE: f64 = (1u128 << 127) as f64 * (1u128 << 127) as f64 * (1u128 << 127) as f64;
 
 /// A power of two that makes every other number squarable.
 const SCALE: f64 = 2.0 * SQUARABLE * SQUARABLE;
 
-/// Beside every number that is squarable, a smaller one is as good as 0.
+/// A number below this does not change the distance, beside any number that is squarable.
 const NEGLIGIBLE: f64 = 1.0 / SQUARABLE / (1u128 << 69) as f64;
 
 /// `√(large² + small²)` for 0 ≤ small ≤ large within `SQUARABLE`.
@@ -209,7 +211,8 @@ pub fn hypot<W: Word>(x: W, y: W) -> W {
     if plain.all() {
         return distance(large, small);
     }
-    // Scaled by a power of two, where one word of a square would be lost; what is negligible first.
+    // Numbers of which a word of the square would be lost are scaled by a power of two; negligible
+    // ones come first.
     let one = W::one();
     let (above, below) = (
         W::splat(SQUARABLE).lt(large),

@@ -26,7 +26,7 @@ pub fn reduce(high: f64, low: f64) -> (u64, (f64, f64)) {
     if high.abs() <= 0.785 {
         return (0, (high, low));
     }
-    // Half a turn of a quadrant is added, so that cutting off the fraction rounds to nearest.
+    // Half a quadrant is added, so that truncation rounds to nearest.
     let mut turns = [0; WORDS];
     turns[WORDS - 1] = 1 << 61;
     add_turns(&mut turns, high);
@@ -44,8 +44,9 @@ pub fn reduce(high: f64, low: f64) -> (u64, (f64, f64)) {
     (quadrant, times_half_pi(to_pair(&turns), negative))
 }
 
-/// [`reduce`] for finite angles of one word from 2²⁰ on, of either sign, with a relative error of about 2⁻⁶⁴; NaN
-/// where they are not finite, anything below 2²⁰. Every operation rounds alike on both sides of 0.
+/// [`reduce`] for finite angles of one word from 2²⁰ on, of either sign, with a relative error of
+/// about 2⁻⁶⁴; NaN if they are not finite; undefined below 2²⁰. Every operation rounds alike on
+/// both sides of 0.
 ///
 /// The angle is a whole number of 53 bits times a power of two, whose product with 2/π, modulo 4, is a sum of
 /// four words ([`Word::two_over_pi`]). The first product is exact; so is its remainder modulo 8, to which the
@@ -88,7 +89,7 @@ pub(super) fn reduce_large<W: Word>(angle: W) -> (W::Bits, W, W) {
 
 const TWO_TO_52: f64 = (1u64 << 52) as f64;
 
-/// Added to a number up to 2⁵⁴ and taken off again it rounds it to a multiple of 8.
+/// Adding and subtracting it rounds a number up to 2⁵⁴ to a multiple of 8.
 const EIGHTS: f64 = 1.5 * (1u64 << 55) as f64;
 
 /// `a·b = p + e` exactly, for words of whole numbers below 2⁵³ and up to 2⁵², times powers of two, and to a unit

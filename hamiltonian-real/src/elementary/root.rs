@@ -1,4 +1,4 @@
-//! The square root of one double, rounded to nearest.
+//! The square root of a double, rounded to nearest.
 //!
 //! Input: any double. Output: its root. Invariant: with and without the standard library the same
 //! bits; without it by integers, since `core` has no root of a float.
@@ -16,8 +16,8 @@ pub(crate) fn sqrt(x: f64) -> f64 {
     by_integers(x)
 }
 
-/// With `|x| = m·2^(2e)` and 2¹⁰⁶ ≤ m < 2¹⁰⁸, the root is ⌊√m⌋·2^e of 54 bits, whose last decides
-/// the rounding together with whether a remainder is left.
+/// With `|x| = m·2^(2e)` and 2¹⁰⁶ ≤ m < 2¹⁰⁸, the root is ⌊√m⌋·2^e of 54 bits. The last bit and the
+/// presence of a remainder decide the rounding.
 #[cfg(any(test, not(feature = "std")))]
 fn by_integers(x: f64) -> f64 {
     if x == 0.0 || x.is_nan() || x == f64::INFINITY {

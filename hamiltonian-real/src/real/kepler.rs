@@ -1,13 +1,14 @@
 //! Kepler's equation in universal variables, for every conic and both signs of time.
 //!
 //! Input: the equation in units of the distance and of the time. Output: the universal anomaly, and
-//! Stumpff's functions. Invariant: a lane that has converged is not touched any more, so its bits
-//! depend on nothing in the other lanes; a lane that does not converge is NaN.
+//! Stumpff's functions. Invariant: a converged lane does not change any more, so its bits do not
+//! depend on the other lanes; a lane that does not converge is NaN.
 
 use super::series::{COS, COS_TAIL, SIN, SIN_TAIL};
 use super::{Mask, Real};
 
-/// The most steps of an iteration. Past [`PATIENCE`] every other one halves the bracket.
+/// The largest number of steps of an iteration. Beyond [`PATIENCE`] every other step halves the
+/// bracket.
 const STEPS: u32 = 128;
 const PATIENCE: u32 = 12;
 
@@ -26,7 +27,7 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
         return (two, three);
     }
     let half = T::constant(0.5, 0.0);
-    // An unwanted value in a lane is the function of a harmless number.
+    // A lane whose value is not used computes the function of a harmless number.
     let turns = one.le(psi);
     let angle = T::select(turns, psi, one).sqrt();
     let (sin, cos) = (half * angle).sin_cos();
@@ -55,7 +56,7 @@ pub(crate) fn stumpff<T: Real>(psi: T) -> (T, T) {
     )
 }
 
-/// Σ (−ψ)ʲ·cⱼ for |ψ| ≤ 1, as far as this scalar tells: even and odd powers side by side.
+/// Σ (−ψ)ʲ·cⱼ for |ψ| ≤ 1, to the precision of this scalar: even and odd powers in parallel.
 #[inline(always)]
 fn alternating<T: Real, const N: usize, const M: usize>(
     psi: T,
@@ -97,9 +98,9 @@ pub(crate) fn equation<T: Real>(a: T, b: T, c: T, y: T) -> (T, T, T) {
 
 /// The solution y of [`equation`].
 ///
-/// F rises: F′ is the ratio of the distances, so that there is one solution, between 0 and, for
-/// c > 0, the mean motion's c/b and 2/√c more. Laguerre's steps (B. A. Conway, *Celest. Mech.* 39,
-/// 199, 1986, doi:10.1007/BF01230852), kept inside what brackets the solution, and one of Newton's.
+/// F rises: F′ is the ratio of the distances, so that there is one solution, between 0 and, for c >
+/// 0, the mean motion's c/b and 2/√c more. Laguerre's steps (B. A. Conway, *Celest. Mech.* 39, 199,
+/// 1986, doi:10.1007/BF01230852), kept inside the bracket of the solution, and one of Newton's.
 #[inline(always)]
 pub(crate) fn anomaly<T: Real>(a: T, b: T, c: T) -> T {
     let (zero, one) = (T::zero(), T::one());
@@ -150,7 +151,8 @@ pub(crate) fn anomaly<T: Real>(a: T, b: T, c: T) -> T {
         next = T::select(steps, next, middle);
         let change = (next - y).abs();
         y = T::select(solved, y, next);
-        // Half of a bracket says nothing before the bracket is a rounding.
+        // The half of a bracket gives no information until the bracket is as small as a rounding
+        // error.
         let near = T::select(steps, tolerance, rounding);
         solved = solved | change.le(near * next);
         k += 1;

@@ -1,4 +1,4 @@
-//! The scalar every scheme and every emitted program is generic over.
+//! The scalar of all generic code: schemes and emitted programs.
 //!
 //! Input: nothing. Output: [`Real`], [`Mask`], [`Lift`]. Invariant: a `Real` is a value of fixed
 //! size without heap memory; all its operations are total (NaN and infinities instead of panics).
@@ -38,15 +38,15 @@ pub trait Mask:
     fn all(self) -> bool;
     /// Returns true if any lane is set.
     fn any(self) -> bool;
-    /// The flag of lane `k`; `false` where there is no such lane.
+    /// The flag of lane `k`; `false` if there is no such lane.
     fn lane(self, k: u32) -> bool;
     /// The first lane that is set.
     fn first(self) -> Option<u32>;
 }
 
-/// A scalar made from a value of type `P` without loss of what `P` says: parameters of type `P`
-/// serve every state scalar they lift to. A scalar narrower than `P` rounds to nearest (`f32`
-/// from `f64`); a dual number lifts as a constant.
+/// A scalar made from a value of type `P` without loss: parameters of type `P` serve every scalar
+/// of a state to which they lift. A scalar narrower than `P` rounds to nearest (`f32` from `f64`);
+/// a dual number lifts as a constant.
 ///
 /// ```
 /// use hamiltonian::lanes::Lift;
@@ -73,16 +73,16 @@ pub trait Lift<P> {
 /// Real arithmetic: `f64`, `f32`, dual numbers, double-double and packs of lanes.
 ///
 /// Values, domains and special cases are those of IEEE 754 and of the C library: a point outside
-/// the domain gives NaN, a pole an infinity, odd functions keep the sign of zero,
-/// `atan2(±0, −0) = ±π`, `hypot(∞, NaN) = ∞`, `pow(x, 0) = pow(1, y) = 1`. The errors of double-doubles
-/// are listed at their type, in `hamiltonian-lanes`. Where derivatives do not exist,
-/// [`Dual`](crate::Dual) states what stands in for them.
+/// the domain gives NaN, a pole an infinity, odd functions keep the sign of zero, `atan2(±0, −0) =
+/// ±π`, `hypot(∞, NaN) = ∞`, `pow(x, 0) = pow(1, y) = 1`. The errors of double-doubles are listed
+/// at their type, in `hamiltonian-lanes`. If a derivative does not exist, [`Dual`](crate::Dual)
+/// states the convention.
 ///
 /// # Accuracy of `f64` and of packs
-/// The elementary functions are this crate's own, the same operations in a single number and in a
-/// lane: the same bits on every machine and at every level that does not fuse, and the same bounds
-/// where one does. Largest errors in units in the last place, beside the bounds that the tests
-/// assert, over 10⁷ points a function on all of its range (angles to 1.8e308 and next to
+/// The elementary functions belong to this crate, with the same operations for a single number and
+/// for a lane: the same bits on every machine and at every level that does not fuse, and the same
+/// bounds at levels that fuse. Largest errors in units in the last place, beside the bounds that
+/// the tests assert, over 10⁷ points a function on all of its range (angles to 1.8e308 and next to
 /// multiples of π/2, subnormal numbers, the surroundings of 1 and of each seam):
 ///
 /// | | bound | unfused | fused | | bound | unfused | fused |
@@ -160,12 +160,14 @@ pub trait Real:
     /// The number of independent numbers in a value: 1 for scalars.
     const LANES: u32;
 
-    /// This scalar with a value in each lane of `P`: `P` itself for `f64`, `Dual<P>` for `Dual<f64>`.
-    /// Scalars that have no form in lanes ([`WIDENS`](Self::WIDENS) is `false`) name themselves.
+    /// This scalar with a value in each lane of `P`: `P` itself for `f64`, `Dual<P>` for
+    /// `Dual<f64>`. For scalars without a form in lanes ([`WIDENS`](Self::WIDENS) is `false`) it is
+    /// the scalar itself.
     type Over<P: Pack>: Real;
     /// True if [`Over`](Self::Over) has a value in each lane of the pack.
     const WIDENS: bool = false;
-    /// Value k in lane k; the last value in the lanes that are left. Without a form in lanes, the first.
+    /// Puts value k into lane k, and the last value into the remaining lanes. Without a form in
+    /// lanes, returns the first value.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -186,15 +188,15 @@ pub trait Real:
     fn constant(hi: f64, lo: f64) -> Self;
     /// `self·b + c`, fused where this type fuses; for `f64` it is `self * b + c`.
     fn fma(self, b: Self, c: Self) -> Self;
-    /// `yes` where the mask is set, `no` elsewhere; the value not taken never shows.
+    /// `yes` where the mask is set, `no` elsewhere; the value not taken has no effect.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-    /// `self·factor`, where a factor of exactly 0 gives 0 even if `self` is infinite or NaN: how a
-    /// slope meets a derivative part, so that what does not vary adds nothing.
+    /// `self·factor`, where a factor of exactly 0 gives 0 even if `self` is infinite or NaN. It
+    /// multiplies a slope by a derivative part, so that a constant contributes nothing.
     #[inline(always)]
     fn mul_absorbing(self, factor: Self) -> Self {
         Self::select(factor.equals(Self::zero()), factor, self * factor)
     }
-    /// `self < other`, by value (derivative parts do not take part).
+    /// `self < other`, by value, without derivative parts.
     fn lt(self, other: Self) -> Self::Mask;
     /// `self ≤ other`.
     fn le(self, other: Self) -> Self::Mask;
@@ -226,7 +228,7 @@ pub trait Real:
     fn is_finite(self) -> bool {
         self.finite().all()
     }
-    /// The value in lane `k` rounded to `f64` (derivative parts dropped); NaN where there is no such
+    /// The value in lane `k` rounded to `f64` (derivative parts dropped); NaN if there is no such
     /// lane.
     fn lane(self, k: u32) -> f64;
     /// The value of the first lane rounded to `f64` (derivative parts dropped).
@@ -257,14 +259,14 @@ pub trait Real:
     }
     /// The spacing of this type's numbers at 1.
     fn epsilon() -> f64;
-    /// Hands out the value as `f64`s that make up all its bits (words, derivative parts, lanes): how
-    /// runs are saved.
+    /// Writes the value as `f64`s that contain all its bits (words, derivative parts, lanes), to
+    /// save runs.
     fn write_words(self, to: &mut dyn FnMut(f64)) {
         for k in 0..Self::LANES {
             to(self.lane(k));
         }
     }
-    /// The value whose words are handed in, in the same order.
+    /// Reads a value from its words, in the same order.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -276,8 +278,8 @@ pub trait Real:
     /// ```
     fn read_words(next: &mut dyn FnMut() -> f64) -> Self;
 
-    /// The numbers that a table holds for the point `at`: each lane reads those of its own values. They do
-    /// not vary with the point, so a dual number has them without derivative parts.
+    /// The numbers of a table at the point `at`: each lane reads those of its own values. They are
+    /// constants, so dual numbers have them without derivative parts.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -313,9 +315,9 @@ pub trait Real:
         found
     }
 
-    /// `f()` in a function of its own, compiled with the instructions of this scalar. For parts of a
-    /// body that is too long to be one function; whatever is left a plain call would lose the level of
-    /// a pack (`Level` in `hamiltonian-lanes`).
+    /// `f()` in a function of its own, compiled with the instructions of this scalar. For parts of
+    /// a body that is too long for one function: a plain call would lose the level of a pack
+    /// (`Level` in `hamiltonian-lanes`).
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -483,7 +485,7 @@ pub trait Real:
 /// assert_eq!(numbers, [1.0, 2.0, 3.0]);
 /// ```
 pub trait Pack: Real<Size = Self> {
-    /// Lane k is number k of `from`, or `missing` where there is none.
+    /// Lane k is number k of `from`, or `missing` if there is none.
     fn load(from: &[f64], missing: f64) -> Self;
     /// Writes lane k to number k of `into`; lanes for which there is no place are left out.
     fn store(self, into: &mut [f64]);

@@ -1,4 +1,4 @@
-//! Packs from the numbers a parameter may be.
+//! Packs from all types of numbers that a parameter may have.
 //!
 //! Input: floats, integers. Output: [`Lift`] for packs, [`LiftEvery`]. Invariant: every lane is the
 //! number as `f64`.
@@ -33,7 +33,7 @@ macro_rules! lift_pack {
     };
 }
 
-/// Lifting from every number a parameter may be.
+/// Lifting from all types of numbers that a parameter may have.
 macro_rules! lift_every {
     ($($number:ident)*) => {
         /// A scalar that lifts from every kind of number.

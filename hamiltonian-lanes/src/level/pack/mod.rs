@@ -1,8 +1,8 @@
 //! Packs: several `f64` as one scalar.
 //!
-//! Input: registers of a level, or `f64`. Output: each [`Pack`], with one register ([`V`]), several in
-//! lock-step ([`W`]) and any of them unfused ([`Nf`]). Invariant: a lane's result depends on that
-//! lane's operands alone, and is what `f64` gives in every pack that does not fuse.
+//! Input: registers of a level, or `f64`. Output: each [`Pack`], with one register ([`V`]), several
+//! in lock-step ([`W`]) and any of them unfused ([`Nf`]). Invariant: a lane's result depends on
+//! that lane's operands alone, and equals that of `f64` in every pack that does not fuse.
 
 mod lift;
 mod register;
@@ -18,11 +18,11 @@ use hamiltonian_real::parts::Word;
 
 use lift::LiftEvery;
 
-/// A pack that [`W`] and [`Nf`] make packs of, and that lifts from every kind of number.
+/// A pack from which [`W`] and [`Nf`] make packs, and which lifts from every type of number.
 pub trait Base: Pack + Word + LiftEvery {}
 impl<P: Pack + Word + LiftEvery> Base for P {}
 
-/// `x += y` and its kin from `x + y`, for a generic type.
+/// `x += y` and the other assignments from `x + y`, for a generic type.
 macro_rules! assigning {
     (@one [$($generics:tt)*] $Type:ty, $Trait:ident $method:ident $operator:tt) => {
         impl<$($generics)*> core::ops::$Trait for $Type {

@@ -290,7 +290,7 @@ impl<R: Register> Real for V<R> {
     }
     #[inline(always)]
     fn sign(self) -> Self {
-        // 0 and NaN are their own sign.
+        // The sign of 0 is 0, and that of NaN is NaN.
         let one = R::or(R::and(self.0, signs()), R::splat(1.0));
         let zero = Self::zero();
         Self::select(self.lt(zero) | zero.lt(self), Self(one), self)
@@ -324,7 +324,8 @@ impl<R: Register> Word for V<R> {
         fusing: bool,
     ) -> [[Self; M]; K] {
         let mut values = [[Self::default(); M]; K];
-        // Copies: an argument given by reference is in memory wherever it is used.
+        // These are copies, because an argument that is passed by reference is in memory at each
+        // use.
         if fusing || !R::FUSED {
             let mut copies = [[Self::default(); N]; K];
             for (copies, x) in copies.iter_mut().zip(&x) {

@@ -11,7 +11,7 @@ use hamiltonian_real::parts::{Rare, Word};
 use hamiltonian_real::{Lift, Pack, Real, itself_in_lanes};
 
 /// A pack whose [`fma`](Real::fma) rounds twice, as that of `f64` does: the bits of single runs on
-/// every CPU, for a fifth to a half more time on levels that fuse.
+/// every CPU, for 20 to 50 % more time on levels that fuse.
 ///
 /// ```
 /// use hamiltonian::lanes::{Kernel, Level, Nf, dispatch};

@@ -53,7 +53,7 @@ pub fn warnings(ast: &Ast, definition: TokenStream) -> TokenStream {
     }
 }
 
-/// Those of the attributes that are `#[allow(…)]`.
+/// The attributes that are `#[allow(…)]`.
 fn allowances(attributes: &[TokenStream]) -> impl Iterator<Item = &TokenStream> {
     let attributes = attributes.iter();
     attributes.filter(|attribute| is_attribute(attribute, "allow"))

@@ -107,8 +107,8 @@ fn events(checked: &Checked, lowered: &Lowered, report: &mut Report) {
     }
 }
 
-/// That pieces add up to H: of a definition in other coordinates in these, where loops are taken apart
-/// as the coordinates need.
+/// Proves that the pieces add up to H. A definition in other coordinates is compared in these, with its
+/// loops taken apart as the coordinates need.
 pub fn split(checked: &Checked, model: &mut Model, report: &mut Report) {
     let Some((first, _)) = checked.split.first() else {
         return;

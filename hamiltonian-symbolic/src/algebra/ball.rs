@@ -114,7 +114,7 @@ impl Ball {
         if count <= 1.0 || short && size < SHORT {
             return Ball { value, error };
         }
-        // Of n terms each operation is off by at most a unit, and so are the sums of errors and sizes.
+        // Each operation on n terms is off by at most a unit, and so are the sums of errors and sizes.
         let slack = 1.0 + 4.0 * count * UNIT;
         Ball {
             value,
@@ -300,7 +300,7 @@ impl Ball {
         }
     }
 
-    /// What a node that is no leaf has for a value, from those of its children; `None` for leaves and loops.
+    /// The value of a node that is no leaf, from the values of its children; `None` for leaves and loops.
     pub(crate) fn of(dag: &Dag, node: Node, child: &dyn Fn(Node) -> Ball) -> Option<Ball> {
         let truth = |flag: bool| Ball::exact(f64::from(u8::from(flag)));
         Some(match dag.kind(node) {

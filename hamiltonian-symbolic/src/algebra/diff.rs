@@ -120,7 +120,7 @@ struct Branches {
 }
 
 impl Branches {
-    /// Those of a condition, of a minimum or of a maximum.
+    /// The branches of a condition, of a minimum or of a maximum.
     fn of(dag: &mut Dag, node: Node) -> Branches {
         let (condition, yes, no) = match *dag.kind(node) {
             Kind::Select(condition, yes, no) => (condition, yes, no),

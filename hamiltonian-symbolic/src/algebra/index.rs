@@ -179,7 +179,7 @@ impl Affine {
     pub fn factor_of_size(&self, size: Size) -> i64 {
         factor(&self.sizes, size)
     }
-    /// The same with each loop variable replaced.
+    /// The form with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Affine {
         let rest = Affine {
@@ -390,7 +390,7 @@ impl Index {
             None => last,
         }
     }
-    /// The same with each loop variable replaced.
+    /// The form with each loop variable replaced.
     #[must_use]
     pub fn substitute(&self, mut replace: impl FnMut(Domain) -> Affine) -> Index {
         self.substituted(&mut replace)

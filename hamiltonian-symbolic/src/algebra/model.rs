@@ -34,7 +34,7 @@ impl<C> Shape<C> {
             Shape::Vector(rows) | Shape::Matrix(rows, _) => Some(rows),
         }
     }
-    /// The same, to be changed.
+    /// The number of rows, mutable.
     pub fn rows_mut(&mut self) -> Option<&mut Affine> {
         match self {
             Shape::Scalar => None,
@@ -66,7 +66,7 @@ impl Shape<u16> {
         let rows = self.rows().map_or(Some(1), Affine::as_constant)?;
         Some((rows, self.columns()))
     }
-    /// The same as a shape that a parameter may have.
+    /// The shape as one that a parameter may have.
     #[must_use]
     pub fn of_parameter(&self) -> Shape {
         match self {

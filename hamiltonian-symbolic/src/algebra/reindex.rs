@@ -105,7 +105,7 @@ impl Dag {
         index.try_map(&mut |axis| self.axis_at(axis, variable, by, moved))
     }
 
-    /// The same of one axis.
+    /// The index of one axis with a loop variable replaced.
     fn axis_at(
         &mut self,
         index: &Index,

@@ -7,7 +7,7 @@ use crate::dag::{Dag, Kind, Map, Node, Numbers};
 use crate::index::{Affine, Domain};
 
 impl Dag {
-    /// The same node over other children; the node itself where none is another.
+    /// The node over other children; the node itself if no child differs.
     pub fn rebuild(&mut self, node: Node, new: &impl Fn(Node) -> Node) -> Node {
         let mut is_changed = false;
         self.for_children(node, |child| is_changed |= new(child) != child);
@@ -87,7 +87,7 @@ impl Dag {
         images.expect("every node has an image")
     }
 
-    /// The same where a node may have no image: then none has.
+    /// Maps nodes like [`map`](Dag::map); `None` if a node has no image.
     pub(crate) fn try_map(
         &mut self,
         nodes: Vec<Node>,
@@ -109,7 +109,7 @@ impl Dag {
         })[&root]
     }
 
-    /// The same expression with its sums inside the loop `here`, each in the sum it stands in: the
+    /// The expression with its sums inside the loop `here`, each in the sum it stands in: the
     /// loops lie on one path, and none of them is open twice.
     pub(crate) fn nested(&mut self, root: Node, here: Option<Domain>) -> Node {
         if here.is_none() || !self.has_loops(&[root]) {

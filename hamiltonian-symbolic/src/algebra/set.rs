@@ -9,7 +9,7 @@ use std::ops::{BitAnd, BitOr, BitOrAssign};
 /// The most members of a set.
 pub const MEMBERS: usize = u64::BITS as usize;
 
-/// What a set can have: something with a number below [`MEMBERS`].
+/// A possible member of a set: a value with a number below [`MEMBERS`].
 pub trait Member: Copy {
     /// Its number.
     fn number(self) -> u32;

@@ -555,7 +555,7 @@ impl ProductBuilder {
 #[derive(Default)]
 struct Places {
     nodes: Vec<Node>,
-    /// The same, once there are many: looking through few is quicker.
+    /// The places by node, once there are many: a few are searched faster in order.
     many: Map<Node, usize>,
 }
 

@@ -62,31 +62,31 @@ pub(crate) const ROWS: usize = 4;
 /// in common with the others is searched by itself.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Limit {
-    /// Of questions whether two expressions are equal.
+    /// The number of comparisons of two expressions.
     Comparisons,
-    /// Of products of terms in the normal forms of all questions.
+    /// The number of products of terms in the normal forms of all questions.
     Products,
-    /// Of new expressions.
+    /// The number of new expressions.
     Expressions,
-    /// Of terms of H.
+    /// The number of terms of H.
     Terms,
-    /// Of degrees of freedom that terms of H join.
+    /// The number of degrees of freedom that terms of H join.
     Pairs,
-    /// Of pieces.
+    /// The number of pieces.
     Pieces,
-    /// Of terms of a sum that are parted into commuting parts.
+    /// The number of terms of a sum that are parted into commuting parts.
     Commuting,
-    /// Of such parts.
+    /// The number of commuting parts.
     Parts,
-    /// Of sums of terms of which a flow is sought.
+    /// The number of sums of terms of which a flow is sought.
     Sums,
-    /// Of coupled terms all of whose sums are tried.
+    /// The number of coupled terms all of whose sums are tried.
     Coupled,
-    /// Of rows of arrays that the body of a loop names.
+    /// The number of rows of arrays that the body of a loop names.
     Rows,
-    /// Of products of terms in the normal form of one question.
+    /// The number of products of terms in the normal form of one question.
     Question,
-    /// Of coordinates and momenta of a point whose quadratic forms are exponentiated.
+    /// The number of coordinates and momenta of a point whose quadratic forms are exponentiated.
     Components,
 }
 
@@ -188,7 +188,7 @@ pub(crate) struct Space {
     pub(crate) model: Model,
     /// Coordinates with their momenta, in the order of their labels.
     pub(crate) pairs: Vec<(Node, Node)>,
-    /// Of every node so far, the variables it is written with.
+    /// The variables of every node so far.
     sets: Vec<Variables>,
     derivatives: Map<Node, Map<Node, Node>>,
     zeros: Map<Node, bool>,
@@ -198,7 +198,7 @@ pub(crate) struct Space {
     points: Map<Vec<[u64; 2]>, Values>,
     /// The flows that were sought, by the Hamiltonian and the time it acts for.
     pub(crate) flows: Map<(Node, Node), Option<Flow>>,
-    /// The same of one pair alone.
+    /// The flows of atoms of one pair.
     pub(crate) atoms: Map<(Node, Node), Option<Flow>>,
     /// True if a piece may be a matrix exponential: the point has few components, all of them given.
     pub(crate) has_exponentials: bool,
@@ -547,7 +547,7 @@ impl Space {
         let start = |bit: usize| Ball::exact(0.90625 + ((bit * 5 + 3) % 7) as f64 / 16.0);
         (0..2 * self.pairs.len()).map(start).collect()
     }
-    /// The same with some variables moved by steps.
+    /// The sample point with some variables moved by steps.
     pub(crate) fn point_off(&self, moved: &[(Variables, f64)]) -> Vec<Ball> {
         let mut point = self.point();
         for (set, step) in moved {

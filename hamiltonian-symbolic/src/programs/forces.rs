@@ -176,7 +176,7 @@ pub fn beside(model: &mut Model) -> Vec<VectorEntry> {
 /// The kick of the model: of its H, which is separable, and its force, or of the force alone.
 ///
 /// # Errors
-/// Those of [`kick`].
+/// As for [`kick`].
 pub fn kick_of(model: &mut Model) -> Result<Kick, Box<VectorEntry>> {
     let gradient = beside(model);
     kick(model, &gradient)

@@ -102,10 +102,10 @@ pub fn run<T: Real>(program: &Program, function: &Function, point: &Point<T>) ->
     run_in_order(program, function, point, false)
 }
 
-/// The same with the last iteration of every loop of the evaluation first.
+/// Runs a program with the iterations of every loop of the evaluation in reverse order.
 ///
 /// # Panics
-/// Those of [`run`].
+/// As for [`run`].
 #[must_use]
 pub fn run_reversed<T: Real>(
     program: &Program,

@@ -231,7 +231,7 @@ pub enum Purpose {
     Push,
     /// `into_p += c·(f − ∂V/∂q)`; beside pieces of H `into_p += c·f`.
     Rates,
-    /// Of a force f = A(q, t)·p + b(q, t) whose momenta push each other: `into_p += c·A·p`.
+    /// `into_p += c·A·p`, for a force f = A(q, t)·p + b(q, t) that couples momenta.
     Linear,
     /// `into_p −= c·∂H/∂q`; of a forced system the part of the kick that reads no momenta.
     Kick,

@@ -87,7 +87,7 @@ fn is_cheap(dag: &Dag, value: Node) -> bool {
         Kind::Product(_, factors) => factors.iter().all(|(_, n)| *n > 0),
         _ => false,
     };
-    // What is the same at all sites is computed once.
+    // Values that are the same at all sites are computed once.
     let varying = dag.reached(&[value], |node, ahead| {
         if !dag.variables(node).is_empty() {
             dag.for_children(node, |child| ahead.add(child));

@@ -27,7 +27,7 @@ use pairs::{difference, is_pair};
 /// The regularity of a node.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Regular {
-    /// The same at every point of an orbit.
+    /// True if it has one value along each orbit.
     pub is_still: bool,
     /// Analytic, with a value at every point.
     pub is_analytic: bool,
@@ -142,7 +142,7 @@ enum Points {
     Most,
 }
 
-/// What is known of nodes beforehand.
+/// Assumptions about nodes.
 #[derive(Clone, Default, Debug)]
 pub struct Given {
     /// Conditions whose branches agree where the two sides compared are equal.
@@ -426,7 +426,7 @@ impl Facts {
             Far::Nothing => false,
         };
         let is_limited = is_closed && regularity.far == Far::Limits || is_decaying;
-        // Of x^y the base may be infinite, the exponent not.
+        // In x^y the base may be infinite, the exponent not.
         let is_bounded = op != Op::Pow || self.get(y).is_continuous;
         let has_no_zero = match op {
             Op::Sqrt | Op::Abs | Op::Cbrt => first.has_no_zero,

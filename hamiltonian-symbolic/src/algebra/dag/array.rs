@@ -48,12 +48,12 @@ impl Column {
             column,
         }
     }
-    /// The same component of the other side.
+    /// The conjugate component.
     #[must_use]
     pub fn conjugate(self) -> Column {
         self.on(self.side.other())
     }
-    /// The same component on a side.
+    /// This component of coordinates or of momenta.
     #[must_use]
     pub fn on(self, side: Side) -> Column {
         Column { side, ..self }
@@ -65,7 +65,7 @@ impl Column {
 pub enum Array {
     /// A column of the coordinates or momenta.
     Phase(Column),
-    /// The same of the direction a Hessian is multiplied with.
+    /// A component of the direction that a Hessian is multiplied with.
     Direction(Column),
     /// A parameter array; rank 2 is indexed by row and column.
     Parameter(Parameter),

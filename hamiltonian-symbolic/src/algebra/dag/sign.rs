@@ -17,7 +17,7 @@ impl Sign {
     pub(crate) const NONNEGATIVE: Sign = Sign(6);
     pub(crate) const UNKNOWN: Sign = Sign(7);
 
-    /// Of a number.
+    /// The sign of a number.
     pub(crate) fn of(k: &Rational) -> Sign {
         match k.is_negative() {
             true => Sign::NEGATIVE,
@@ -25,7 +25,7 @@ impl Sign {
             false => Sign::POSITIVE,
         }
     }
-    /// Of a product `k·Π xⁿ`.
+    /// The sign of a product `k·Π xⁿ`.
     pub(crate) fn of_product(k: &Rational, factors: impl Iterator<Item = (Sign, i32)>) -> Sign {
         let mut product = Sign::of(k);
         for (sign, n) in factors {
@@ -41,7 +41,7 @@ impl Sign {
         }
         product
     }
-    /// Of a function, by the sign of its first argument.
+    /// The sign of a function, by the sign of its first argument.
     pub(crate) fn of_call(op: Op, first: Sign) -> Sign {
         match op.row().regularity.range {
             ValueSign::Positive => Sign::POSITIVE,
@@ -51,18 +51,18 @@ impl Sign {
             ValueSign::OfBase | ValueSign::Any => Sign::UNKNOWN,
         }
     }
-    /// Of a square root.
+    /// The sign of the square root.
     pub(crate) fn root(self) -> Sign {
         match self {
             Sign::POSITIVE => self,
             _ => Sign::NONNEGATIVE,
         }
     }
-    /// Of one of two values.
+    /// The signs of either of two values.
     pub(crate) fn or(self, other: Sign) -> Sign {
         Sign(self.0 | other.0)
     }
-    /// Of a sum.
+    /// The sign of a sum.
     pub(crate) fn plus(self, other: Sign) -> Sign {
         match (self.0 | other.0) & !Sign::ZERO.0 {
             // − and +
@@ -70,7 +70,7 @@ impl Sign {
             either => Sign(either | self.0 & other.0 & Sign::ZERO.0),
         }
     }
-    /// Of a product.
+    /// The sign of a product.
     pub(crate) fn times(self, other: Sign) -> Sign {
         let zero = (self.0 | other.0) & Sign::ZERO.0;
         let same = if self.is_nonpositive() { 0 } else { other.0 };

@@ -1,4 +1,4 @@
-//! What expressions cost.
+//! The cost of expressions.
 //!
 //! Input: expressions. Output: a number of operations. Invariant: what they share is counted once.
 

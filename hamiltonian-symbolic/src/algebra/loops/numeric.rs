@@ -91,7 +91,7 @@ impl Values {
         let known = Vec::new();
         Values { how, known }
     }
-    /// The same where some leaves have given values.
+    /// The values of nodes for given values of some leaves.
     pub(crate) fn with(
         dag: &Dag,
         how: Sample,

@@ -27,7 +27,7 @@ pub enum ExactFlow {
     Exponential,
     /// The motion in the time of the step coefficient, and the names of the rows it is made of.
     Closed(Motion, Vec<&'static str>),
-    /// The same in every iteration of a loop, one after the other.
+    /// A flow in every iteration of a loop, one after the other.
     Loop {
         /// The motion of one iteration.
         motion: Motion,
@@ -80,7 +80,7 @@ impl Flow {
         let rows = vec![row];
         Flow { motion, rows }
     }
-    /// The same with further rows.
+    /// The flow with further rows noted.
     pub(crate) fn noted(mut self, rows: &[&'static str]) -> Flow {
         for row in rows {
             if !self.rows.contains(row) {
@@ -193,7 +193,7 @@ impl Motion {
         self
     }
 
-    /// The same motion in other variables.
+    /// The motion in other variables.
     pub(crate) fn map(mut self, mut image: impl FnMut(Node) -> Node) -> Motion {
         for m in &mut self.moves {
             (m.leaf, m.value) = (image(m.leaf), image(m.value));

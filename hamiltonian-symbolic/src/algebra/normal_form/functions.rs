@@ -460,7 +460,7 @@ impl Algebra {
                     continue;
                 }
                 let factor = match entry.key.clone() {
-                    // Of a sign, and of its powers.
+                    // A sign and its powers.
                     Key::Sign(_) | Key::Function(Op::Pow, _) => Poly::atom(atom, power),
                     Key::Divisor(x) => self.sign_atom(&x, power),
                     Key::Root(_, x) => {

@@ -112,7 +112,7 @@ impl Monomial {
             .find(|(a, _)| *a == atom)
             .map_or(0, |entry| entry.1)
     }
-    /// The same without an atom.
+    /// The monomial without an atom.
     pub(crate) fn without(&self, atom: Atom) -> Monomial {
         Monomial(self.0.iter().filter(|(a, _)| *a != atom).copied().collect())
     }

@@ -45,7 +45,7 @@ struct TexReader<'t> {
     depth: usize,
 }
 
-/// What an element is, for its scripts and for the space before it.
+/// The kind of an element, which decides the place of its scripts and the space before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum ScriptBase {
     /// A sign or a space.

@@ -52,7 +52,7 @@ pub(super) fn flows(dag: &mut Dag, flows: &[Flow]) -> Option<Flow> {
 /// joined with kicks.
 pub(super) fn parts(model: &mut Model, h: Node, mut groups: Vec<Parts>) -> Parts {
     let choice = choice(&groups);
-    // Of groups with as many parts the first comes first.
+    // Groups with equally many parts keep their order.
     groups.sort_by_key(|group| std::cmp::Reverse(group.flows.len()));
     let written = units::terms(&mut model.dag, h);
     let written: Vec<Node> = written.into_iter().map(|term| term.body).collect();

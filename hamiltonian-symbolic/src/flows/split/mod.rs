@@ -47,7 +47,7 @@ pub struct Reasons {
 pub struct NoFlow {
     /// The term, as it was written.
     pub node: Node,
-    /// The same as text.
+    /// The text of the term.
     pub text: String,
     /// The limit at which the search ended, so that nothing is said of the term.
     pub limit: Option<Limit>,
@@ -65,7 +65,7 @@ pub fn exact_flow(model: &mut Model, h: Node) -> Option<ExactFlow> {
     flow_of(model, h).ok()
 }
 
-/// The same, or the limit at which the search ended.
+/// The exact flow of one expression, or the limit at which the search ended.
 fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     let mut space = match Space::new(model, &[h]) {
         Ok(space) => space,
@@ -80,7 +80,7 @@ fn flow_of(model: &mut Model, h: Node) -> Result<ExactFlow, Option<Limit>> {
     if let Some(flow) = found {
         return Ok(flow.into());
     }
-    // What is apart has a budget of its own.
+    // Groups without a common degree of freedom have budgets of their own.
     let groups = join::groups(model, h);
     if groups.len() > 1 {
         let mut flows = Vec::with_capacity(groups.len());

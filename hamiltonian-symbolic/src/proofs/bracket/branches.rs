@@ -53,8 +53,8 @@ fn agree(dag: &mut Dag, (a, b): (Node, Node), yes: Node, no: Node) -> bool {
         })
 }
 
-/// What follows from x = value: for each of the cases, nodes with what they are equal to. `None`
-/// where nothing that moves is solved for.
+/// Consequences of x = value: for each case, nodes with the nodes they are equal to. `None` if the
+/// equation is solved for nothing that moves.
 fn solutions(dag: &mut Dag, x: Node, value: Node) -> Option<Vec<Vec<(Node, Node)>>> {
     let mut done = Vec::new();
     let mut left = vec![(Vec::new(), x, value)];

@@ -22,7 +22,7 @@ const BOTH_SIDES: &str = "may jump, which no derivative shows; no rule says that
 pub(super) struct Obstacle {
     /// The part that stands in the way, as text.
     pub(super) part: String,
-    /// What it may do, and the rule that is missing: a predicate of the part.
+    /// The possible behaviour, and the rule that is missing: a predicate of the part.
     pub(super) why: String,
 }
 

@@ -119,7 +119,7 @@ fn coordinate(dag: &mut Dag, velocity: Node) -> Option<Node> {
 fn determinant(dag: &mut Dag, matrix: &[Vec<Node>]) -> Node {
     let size = matrix.len();
     let one = dag.integer(1);
-    // Of the rows seen so far, and the columns in the set.
+    // Minors of the rows seen so far and the columns in the set.
     let mut minors: Map<u32, Node> = Map::default();
     minors.insert(0, one);
     for row in matrix.iter().rev() {

@@ -49,7 +49,7 @@ pub enum Verdict {
     Jumps {
         /// The part of the statement, of H or of the force that may jump, as text.
         part: String,
-        /// What it may do, where, and what does not decide it: a predicate of the part.
+        /// The possible behaviour, its place, and the rule that does not decide it: a predicate of the part.
         why: String,
     },
     /// The statement is about a shell that orbits leave.
@@ -91,7 +91,7 @@ fn left(model: &Model, shell: Node) -> Option<Verdict> {
     }
 }
 
-/// The same for a model that a Lagrangian became. `in_velocities` is the expression as it was
+/// Decides an invariant of a model that a Lagrangian became. `in_velocities` is the expression as it was
 /// before velocities became functions of momenta: proofs
 /// in them need no inverse of the mass matrix.
 #[must_use]
@@ -292,7 +292,7 @@ fn decide(
 /// left of it.
 fn readable(model: &mut Model, residual: Node) -> Option<String> {
     let plain = print::text(model, residual);
-    // Of more terms the text is longer.
+    // More terms make a longer text.
     let most = plain.len() / 2 + 1;
     let Some(terms) = expand_within(&mut model.dag, residual, most) else {
         return Some(plain);

@@ -69,7 +69,7 @@ fn is_never_zero(algebra: &mut Algebra, poly: &Poly, written: &Poly) -> Result<b
         return Ok(false);
     }
     for &atom in &below {
-        // What H divides by, and a power of it in the normal form.
+        // A divisor of H, and a power of it in the normal form.
         let entry = algebra.entry(atom);
         let relation = entry.relation.as_ref().map(|(_, power)| power.as_ref());
         let factor = match &entry.key {
@@ -140,7 +140,7 @@ pub(super) fn witness(
     sides.find_map(|side| solved(model, residual, shell, others, &of_side(side)))
 }
 
-/// The same, of points where the shell is solved for one of some variables.
+/// A witness among points at which the shell is solved for one of some variables.
 fn solved(
     model: &Model,
     residual: Node,

@@ -1,5 +1,5 @@
-//! What expressions read of the coordinates, momenta and the time: whether they vary with these, and
-//! where they are 0 together.
+//! Dependence of expressions on coordinates, momenta and time: which of them they vary with, and where
+//! they vanish together.
 
 use crate::dag::{Array, Dag, Dependence, Kind, Node};
 

@@ -114,7 +114,7 @@ pub(super) fn zero_at(model: &Model, entry: Node, k: Domain) -> Option<Affine> {
     let reach = largest_number(&model.dag, entry);
     let edge = 2 * reach + 4;
     let rows = model.dag.range(k).end.clone();
-    // Of either parity, where there are sizes that nobody knows.
+    // Both parities, if sizes are unknown.
     let sizes: &[i64] = match model.sizes.is_empty() {
         true => &[0],
         false => &[2 * reach + 5, 2 * reach + 6],

@@ -52,7 +52,7 @@ impl Separated {
         }
     }
 
-    /// The same for each part.
+    /// The image of each part.
     fn map(self, mut f: impl FnMut(Node) -> Node) -> Separated {
         Separated {
             kinetic: f(self.kinetic),

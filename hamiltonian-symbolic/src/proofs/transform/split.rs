@@ -18,7 +18,7 @@ use crate::structure::expand;
 pub struct Difference {
     /// H − Σ pieces, multiplied out.
     pub node: Node,
-    /// The same as text.
+    /// The text of the term.
     pub text: String,
     /// A point where it is not 0, and its value there; `None` where no point was found, so that
     /// the question is undecided.

@@ -54,7 +54,7 @@ fn along(space: &mut Space, pair: usize, h: Node, s: Node) -> Option<Motion> {
     Some(motion)
 }
 
-/// The same where Λ may be below 0: r₁² = X² + Λ(2as/r)², and the orbit ends at the centre.
+/// The flow for Λ of either sign: r₁² = X² + Λ(2as/r)², and the orbit ends at the centre.
 fn of_either_sign(
     space: &mut Space,
     (r, p): (Node, Node),

@@ -74,13 +74,13 @@ pub(crate) struct Moved {
 /// The solver of a row.
 #[derive(Clone, Copy)]
 pub(crate) enum Solve {
-    /// Of K(x, y) of one pair and parameters.
+    /// Solves K(x, y) of one pair and parameters.
     Pair(fn(&mut Space, Axes, Node, Node) -> Option<Moved>),
-    /// Of a piece over a whole point, by a matrix at run time.
+    /// Solves a piece over a whole point, by a matrix at run time.
     Exponential,
-    /// Of any h.
+    /// Solves any h.
     Whole(fn(&mut Space, Node, Node) -> Option<Motion>),
-    /// Of any h that is no function of an expression with a flow: as a function it needs fewer divisions.
+    /// Solves any h that is no function of an expression with a flow: as a function it needs fewer divisions.
     Bare(fn(&mut Space, Node, Node) -> Option<Motion>),
 }
 

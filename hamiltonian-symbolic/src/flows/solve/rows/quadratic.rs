@@ -103,7 +103,7 @@ fn coefficients(
             .collect();
         let linear = space.dag().add(&products);
         let rest = space.dag().sub(slope, linear);
-        // What cancels is 0, and is not computed.
+        // A difference that cancels is 0, and is not computed.
         let rest = match space.section(rest, set) {
             rest if space.is_zero(rest) => space.dag().integer(0),
             rest => rest,

@@ -117,7 +117,7 @@ fn component(space: &mut Space, axes: Axes, k: Node, s: Node, is_squared: bool) 
     scales.find_map(|scale| scaled(space, axes, k, s, is_squared, &scale))
 }
 
-/// The same where the angle is scaled by a number.
+/// The flow of a spin whose angle is scaled by a number.
 fn scaled(
     space: &mut Space,
     axes: Axes,

@@ -1,4 +1,4 @@
-//! What orbits do not cross: zeros of constants of the motion, and places where H is infinite.
+//! Sets that no orbit crosses: zeros of constants of the motion, and points where H is infinite.
 //!
 //! Input: a statement and what is known so far. Output: more of it, in [`Given`]. Invariant: what is
 //! said to be constant is proven to be so by the rules of [`Claim`]; what is said not to be 0 is
@@ -20,7 +20,7 @@ const ENERGY: Parameter = Parameter(u16::MAX);
 /// The most expressions that are looked at.
 const MOST: usize = 64;
 
-/// What [`learn`] found.
+/// The findings of [`learn`].
 #[derive(Clone, Copy, Default)]
 pub(super) struct Learnt {
     /// True if there was anything.
@@ -55,7 +55,7 @@ pub(super) fn learn(model: &mut Model, claim: &Claim, given: &mut Given) -> Lear
         learnt.anything = true;
         given.constant.insert(claim.h, ());
     }
-    // What is constant uncovers other places, those of functions of it.
+    // Functions of a constant are constant too, which reveals further sets.
     loop {
         let facts = Facts::of(&model.dag, &[claim.expression], given);
         let mut found = false;

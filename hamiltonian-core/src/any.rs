@@ -1,7 +1,7 @@
 //! Runs of different systems side by side.
 //!
-//! Input: a run of any type. Output: [`AnyRun`], the part of a run that does not depend on its type.
-//! Invariant: numbers are `f64`, the first lane of each.
+//! Input: a run of any type. Output: [`AnyRun`], the part of a run that does not depend on its
+//! type. Invariant: numbers are `f64`: of a pack, the first lane.
 
 use crate::error::Error;
 use crate::integrator::{Integrator, MapOf};
@@ -43,9 +43,9 @@ pub trait AnyRun {
     fn steps(&self) -> u64;
     /// Returns true if an observer has ended the run.
     fn has_ended(&self) -> bool;
-    /// The present time.
+    /// The current time.
     fn time(&self) -> f64;
-    /// The declared H at the present state.
+    /// The declared H at the current state.
     fn energy(&self) -> f64;
     /// The names of the coordinates, then of the momenta, in declaration order.
     fn names(&self) -> Vec<String>;

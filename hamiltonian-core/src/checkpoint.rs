@@ -1,7 +1,8 @@
 //! Saved runs.
 //!
-//! Input: a run. Output: a [`Checkpoint`], and a file. Invariants: a run that goes on from one is the
-//! same run bit for bit; a file holds who wrote it and a checksum, and appears whole or not at all.
+//! Input: a run. Output: a [`Checkpoint`], and a file. Invariants: a run that continues from a
+//! checkpoint has the bits of the uninterrupted run; a file contains its origin and a checksum, and
+//! is written atomically.
 //!
 //! # The file
 //! `HAMILTON`, the version of the format, then words of eight bytes, little-endian: texts (their length
@@ -48,8 +49,8 @@ pub struct Checkpoint {
     pub(crate) scheme: String,
     /// The type of the numbers.
     pub(crate) scalar: String,
-    /// Steps, the step at which the clock began, whether an observer ended the run (1) with how it is
-    /// computed: fused (2), without lanes (4).
+    /// Steps, the step at which the clock began, and flags: ended by an observer (1), fused (2),
+    /// without lanes (4).
     pub(crate) counts: [u64; 3],
     /// The time at which the clock began, the step, then all that is carried.
     pub(crate) numbers: Memory,
@@ -58,8 +59,8 @@ pub struct Checkpoint {
 }
 
 const MAGIC: &[u8; 8] = b"HAMILTON";
-/// 2: implicit schemes with stages add them up in another order, sums of 32 terms or more are trees, and a
-/// run says how it is computed.
+/// Version 2: implicit schemes add their stages in another order, sums of 32 terms or more are
+/// trees, and a run has flags for its arithmetic.
 const VERSION: u64 = 2;
 
 impl Checkpoint {
@@ -68,7 +69,7 @@ impl Checkpoint {
         self.counts[0]
     }
 
-    /// The bytes of its file.
+    /// Returns the bytes of the file.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut memory = Memory::default();
         for text in [&self.system, &self.parameters, &self.scheme, &self.scalar] {
@@ -92,7 +93,7 @@ impl Checkpoint {
         bytes
     }
 
-    /// From the bytes of its file.
+    /// Reads a checkpoint from the bytes of a file.
     ///
     /// # Errors
     /// [`CheckpointError::Foreign`], [`CheckpointError::Newer`], [`CheckpointError::Older`],
@@ -150,9 +151,9 @@ impl Checkpoint {
         }
     }
 
-    /// Writes its file: beside the place first, then renamed, so that whatever happens meanwhile the
-    /// old file or the new one is there, whole. A process that is killed while it writes leaves what it
-    /// wrote, `….<number of the process>.part`, which may be deleted.
+    /// Writes the file: first under another name, then renamed, so that at any moment either the
+    /// old or the new file exists, complete. A process that is killed while it writes leaves the
+    /// temporary file, `….<number of the process>.part`, which may be deleted.
     ///
     /// # Errors
     /// [`CheckpointError::File`].
@@ -170,7 +171,8 @@ impl Checkpoint {
             std::fs::rename(&beside, path)
         };
         write().map_err(|error| {
-            // The file written beside is of no use; that it cannot be removed says nothing new.
+            // The temporary file is of no use. An error of its removal would add nothing to this
+            // error.
             let _ = std::fs::remove_file(&beside);
             file_error(path, &error)
         })
@@ -187,7 +189,7 @@ impl Checkpoint {
         Checkpoint::from_bytes(&bytes)
     }
 
-    /// An error where a part is another one than in the program that goes on, with the first lines
+    /// Returns an error if a part differs from that of the resuming program, with the first lines
     /// that differ.
     pub(crate) fn same(what: &'static str, saved: &str, given: &str) -> Result<(), Error> {
         let Some((saved, given)) = differing(saved, given) else {
@@ -202,7 +204,7 @@ impl Checkpoint {
     }
 }
 
-/// The first line that differs, of each text; None where they are the same.
+/// The first line that differs, of each text; `None` if they are equal.
 pub(crate) fn differing<'a>(saved: &'a str, given: &'a str) -> Option<(&'a str, &'a str)> {
     let (mut saved, mut given) = (saved.lines(), given.lines());
     loop {
@@ -240,7 +242,7 @@ pub struct Memory {
 }
 
 impl Memory {
-    /// Begins the part of one observer, with the name of its type.
+    /// Begins the data of one observer, with the name of its type.
     pub fn begin(&mut self, name: &str) {
         self.text(name);
     }
@@ -248,16 +250,16 @@ impl Memory {
     /// Reads that name.
     ///
     /// # Errors
-    /// [`CheckpointError::Other`] if it is another one, or no observer more was saved.
+    /// [`CheckpointError::Other`] if it is another one, or if no further observer was saved.
     pub fn expect(&mut self, name: &str) -> Result<(), Error> {
-        // Fewer observers were saved if nothing is left.
+        // If nothing is left, fewer observers were saved.
         match self.is_empty() {
             true => Checkpoint::same("observer", "", name),
             false => self.expect_text("observer", name),
         }
     }
 
-    /// Refuses what no observer has read: one that was saved is missing.
+    /// Refuses data that no observer has read: a saved observer is missing.
     pub(crate) fn refuse_rest(&self) -> Result<(), Error> {
         if self.is_empty() {
             return Ok(());
@@ -313,7 +315,7 @@ impl Memory {
         }
     }
 
-    /// Writes whether there is a state, and it.
+    /// Writes a state, if there is one, after a flag.
     pub(crate) fn option<V: Vector>(&mut self, state: Option<&State<V>>) {
         self.count(u64::from(state.is_some()));
         state.into_iter().for_each(|state| self.state(state));

@@ -35,7 +35,8 @@ use nalgebra::{DefaultAllocator, Dim, OMatrix};
 /// Source: Wisdom & Holman, AJ 102, 1528 (1991), doi:10.1086/115978.
 ///
 /// # Errors
-/// [`Error::Shape`] where there are not as many masses as rows, or no rows; [`Error::Masses`].
+/// [`Error::Shape`] if the numbers of masses and rows differ, or if there are no rows;
+/// [`Error::Masses`].
 pub fn to_jacobi<T, R, C, P>(
     state: &State<OMatrix<T, R, C>>,
     masses: &[P],
@@ -102,8 +103,8 @@ where
 }
 
 /// Canonical heliocentric coordinates: row 0 is the position of body 0 and the total momentum, row
-/// i ≥ 1 is Q_i = q_i − q_0 and P_i = p_i, barycentric where the total momentum is 0. No masses
-/// are needed.
+/// i ≥ 1 is Q_i = q_i − q_0 and P_i = p_i, barycentric if the total momentum is 0. No masses are
+/// needed.
 ///
 /// Source: Laskar & Robutel, Celest. Mech. Dyn. Astron. 62, 193 (1995), doi:10.1007/BF00692088
 /// (Poincaré's variables).
@@ -146,7 +147,7 @@ where
     old
 }
 
-/// The masses of so many bodies, and their partial sums.
+/// The masses of all bodies, and their partial sums.
 fn summed<T: Real + Lift<P>, P: Copy>(
     bodies: usize,
     masses: &[P],

@@ -1,12 +1,12 @@
-//! Derivatives supplied by hand, held against dual numbers.
+//! Derivatives supplied by hand, compared with dual numbers.
 //!
 //! Input: a function over dual numbers, the functions that are to be its partial derivatives, a
-//! point. Output: [`WrongDerivative`] for the first that differs. Invariant: no step size; what is
-//! compared is exact but for rounding.
+//! point. Output: [`WrongDerivative`] for the first that differs. Invariant: no step size; both
+//! sides are exact except for rounding.
 
 use hamiltonian_lanes::Dual;
 
-/// A partial derivative that is not the one supplied.
+/// A partial derivative that differs from the supplied one.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
     "the derivative by argument {argument} is {expected} there, but the function supplied gives {found}"
@@ -23,8 +23,8 @@ pub struct WrongDerivative {
 /// Checks `partials[i] = ∂f/∂xᵢ` at a point: the functions that `fn f(x, y) = f, (f_x, f_y);`
 /// supplies to a definition. Second derivatives are checked as the derivatives of first ones.
 ///
-/// A difference counts where it is larger than `tolerance·(1 + |∂f/∂xᵢ|)`, or where only one of the
-/// two is NaN. Derivatives are exact ([`Dual`]), so `1e-12` serves unless `f` loses digits.
+/// A difference counts if it is larger than `tolerance·(1 + |∂f/∂xᵢ|)`, or if only one of the two
+/// is NaN. Derivatives are exact ([`Dual`]), so `1e-12` suffices unless `f` loses digits.
 ///
 /// # Errors
 /// [`WrongDerivative`] with the argument and both values, for the first derivative that differs.

@@ -222,8 +222,10 @@ impl<V: Vector> Events<V> {
     ) -> Result<(), Error> {
         let time = view.between.between(before.t, view.state.t);
         let (zero, one) = (V::Scalar::zero(), V::Scalar::one());
-        // Parts of a step start anew. What a scheme carries besides the state is lost in them, so that the
-        // whole step misses the end; only rounding does elsewhere. In proportion, it ends there.
+        // A part of a step starts anew, without the values that a scheme carries besides the state,
+        // so the part for the whole step misses the end of the step; other schemes miss it by
+        // rounding only. The difference is distributed in proportion, so that the whole step ends
+        // at its end.
         let missed = OnceCell::new();
         let part = |theta: V::Scalar| -> Result<State<V>, Error> {
             let mut state = view.between.part(before, theta * time)?;

@@ -20,7 +20,8 @@ use hamiltonian_lanes::{Mask, Real};
 /// ```
 ///
 /// Source: scaling and squaring, C. Moler, C. Van Loan, SIAM Review 45 (2003) 3, method 3,
-/// doi:10.1137/S00361445024180; of the exponential less 1, as N. J. Higham, Functions of Matrices, 2008, §10.5.
+/// doi:10.1137/S00361445024180; of the exponential minus 1, as in N. J. Higham, Functions of
+/// Matrices, 2008, §10.5.
 #[derive(Debug, Clone)]
 pub struct Exponential<F, T, const N: usize> {
     /// e^{cM} − 1
@@ -30,10 +31,11 @@ pub struct Exponential<F, T, const N: usize> {
     of: PhantomData<fn() -> F>,
 }
 
-/// The most terms of the series: (½)ᵏ/k! is below ε of a double-double number at k = 23.
+/// The largest number of terms of the series: (½)ᵏ/k! is below ε of a double-double number at k =
+/// 23.
 const TERMS: u32 = 40;
 
-/// The most squarings: a matrix of more than 2⁶⁰ overflows.
+/// The largest number of squarings: a matrix of more than 2⁶⁰ overflows.
 const SQUARINGS: usize = 64;
 
 /// The coefficient of the rates in units of the step's. Beside c·Mz of this size, the z that the rates add
@@ -43,14 +45,15 @@ const RAISED: f64 = (1u64 << 40) as f64;
 type Square<T, const N: usize> = [[T; N]; N];
 
 impl<F, T: Real, const N: usize> Exponential<F, T, N> {
-    /// The coefficient that the rates are made with, of that of the step.
+    /// The coefficient of the rates, given that of the step.
     #[must_use]
     #[inline(always)]
     pub fn raised(c: T) -> T {
         c * T::constant(RAISED, 0.0)
     }
 
-    /// From the map z ↦ z + C·(Mz + b) with C of [`raised`](Self::raised), and a zero point.
+    /// Makes the flow from the map z ↦ z + C·(Mz + b), with C of [`raised`](Self::raised), and a
+    /// zero point.
     #[must_use]
     pub fn new<V: Vector<Scalar = T>>(rates: &F, zero: &Point<V>) -> Self
     where
@@ -80,8 +83,8 @@ impl<F, T: Real, const N: usize> Exponential<F, T, N> {
         }
         let lowered = T::constant(1.0 / RAISED, 0.0);
         scale(&mut matrix, &mut shift, lowered);
-        // Lanes are halved, summed and squared each as often as it needs by itself, so that its bits
-        // do not depend on its neighbours.
+        // Each lane is halved, summed and squared as often as it requires, so that its bits do not
+        // depend on its neighbours.
         let (one, half) = (T::one(), T::constant(0.5, 0.0));
         let limit = T::Size::constant(0.5, 0.0);
         let mut halved = [T::Mask::splat(false); SQUARINGS];

@@ -1,14 +1,14 @@
-//! The place of a failed step, which with its cause is an error.
+//! The place of a failed step. With its cause it is an error.
 
 use crate::error::Error;
 use crate::map::Cause;
 use alloc::vec::Vec;
 
-/// The place of a step that failed: all of an error but its cause.
+/// The place of a failed step: an error without its cause.
 pub(crate) struct Failed {
     /// The number of the step, counted from 1.
     pub(crate) step: u64,
-    /// The first lane in which it failed, where the scalar has several.
+    /// The first lane in which it failed, if the scalar has several.
     pub(crate) lane: Option<u32>,
     /// The name of the run's time.
     pub(crate) clock: &'static str,

@@ -8,16 +8,16 @@ use crate::vector::Vector;
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
-/// `c·J∇H`, and `c` times the force where the system has one, accumulating.
+/// `c·J∇H`, and `c` times the force if the system has one, accumulating.
 pub trait VectorField<V: Vector>: Clone + Debug {
     /// `into_q += c·∂H/∂p(q, p, t)`, `into_p += c·(f(q, p, t) − ∂H/∂q(q, p, t))`.
     fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V);
 }
 
-/// Memory in which a flow or a map of `X` computes and whose contents never matter: `()`, an `X`, or a
-/// struct of such.
+/// Scratch memory of a flow or a map of `X`; its contents never matter: `()`, an `X`, or a struct
+/// of such.
 pub trait Scratch<X> {
-    /// Of the shape of `x`. This may allocate.
+    /// Makes scratch of the shape of `x`. This may allocate.
     fn like(x: &X) -> Self;
 }
 
@@ -41,9 +41,9 @@ impl<X, A: Scratch<X>, B: Scratch<X>> Scratch<X> for (A, B) {
 
 /// The exact map of a piece of H over a fixed duration, with t frozen.
 ///
-/// `X` is the space it acts on: a [`Point`](crate::schemes::author::Point) of phase space, or whatever a scheme
-/// carries. Outside its domain a flow writes NaN into every component it moves; the check of the
-/// block finds that.
+/// `X` is the space on which it acts: a [`Point`](crate::schemes::author::Point) of phase space, or
+/// the value that a scheme carries. Outside its domain, a flow writes NaN into every component that
+/// it moves, and the check of the block detects them.
 pub trait Flow<X: Vector>: Clone + Debug {
     /// The piece in the author's notation.
     const NAME: &'static str;
@@ -56,14 +56,14 @@ pub trait Flow<X: Vector>: Clone + Debug {
     /// The scalar it computes in.
     type Work: Scratch<X>;
 
-    /// Moves the point; the first term of a loop first.
+    /// Moves the point, by the terms of a loop in order.
     fn apply(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work);
-    /// The same with the terms of a loop in the opposite order.
+    /// Moves the point, by the terms of a loop in reverse order.
     #[inline(always)]
     fn apply_reversed(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) {
         self.apply(t, x, work);
     }
-    /// Moves the point, and says which piece made it leave the numbers, if one did.
+    /// Moves the point, and returns the piece that made it not finite, if one did.
     #[cold]
     fn blame(&self, t: X::Scalar, x: &mut X, work: &mut Self::Work) -> Option<&'static str> {
         self.apply(t, x, work);
@@ -71,7 +71,7 @@ pub trait Flow<X: Vector>: Clone + Debug {
     }
 }
 
-/// A piece of H, as a value: a unit struct, or one with a choice in it.
+/// A piece of H as a value: a unit struct, or a struct with a setting.
 pub trait Piece<T: Real, P>: Copy + Debug + Send + Sync + 'static {
     /// The space its flow acts on.
     type Point: Vector<Scalar = T>;
@@ -152,7 +152,7 @@ impl<X: Vector, F: Flow<X>> Flow<X> for Turn<F> {
     }
 }
 
-/// A piece around those further in: down, the inside, up.
+/// A piece around the inner pieces: down, the inner pieces, up.
 #[derive(Debug, Clone)]
 pub struct Sandwich<F, I> {
     down: F,

@@ -1,8 +1,8 @@
-//! A run: a system, a scheme, a start and a step under way.
+//! A run: a system, a scheme, a start and a step.
 //!
-//! Input: those four. Output: states, and the results of observers. Invariants: time is
-//! t₀ + k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that
-//! is not finite is never shown, but found, located and reported.
+//! Input: these four. Output: states, and the results of observers. Invariants: time is t₀ +
+//! k·interval; the bits of a trajectory depend on neither blocks nor observers; a state that is not
+//! finite is never returned, but detected, located and reported.
 
 mod advance;
 mod checks;
@@ -35,7 +35,7 @@ use hamiltonian_lanes::Real;
 #[cfg(feature = "rayon")]
 use threads::Threads;
 
-/// A run: a system, a scheme, a step and the present state.
+/// A run: a system, a scheme, a step and the current state.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]
@@ -58,8 +58,8 @@ use threads::Threads;
 /// that step. No observer receives a state that is not finite.
 ///
 /// # Type
-/// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme itself as
-/// the parameter a wrong pairing would be reported once for every place the type appears.)
+/// `R` is the scheme's map; [`Run`] names the type by the scheme. (With the scheme as the
+/// parameter, rustc would report a wrong pairing at every use of the type.)
 pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     pub(crate) prepared: S::Prepared,
     pub(crate) recipe: Arc<dyn Recipe<T, S, R>>,
@@ -67,9 +67,9 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     map: R,
     work: R::Work,
     pub(crate) carried: R::Carried,
-    /// The carried value at the beginning of the present block.
+    /// The carried value at the beginning of the current block.
     snapshot: R::Carried,
-    /// A copy with its closing piece: the state that is seen.
+    /// A copy with its closing piece: the observed state.
     shown: R::Carried,
     pub(crate) clock: Clock<T>,
     pub(crate) step: T,
@@ -80,9 +80,10 @@ pub struct Integrator<T: Real, S: System<T>, R: MapOf<T, S>, O = ()> {
     pub(crate) ended: bool,
     /// The memory of the observers of a saved run, until they are attached.
     pub(crate) memory: Memory,
-    /// Why no step can be made: an attached observer is not the one that was saved, or cannot go on.
+    /// The error that prevents further steps: an attached observer is not the saved one, or cannot
+    /// continue.
     pub(crate) refused: Option<Error>,
-    /// Where the run is saved, and every how many steps.
+    /// The file of checkpoints, and the number of steps between them.
     #[cfg(feature = "std")]
     pub(crate) saving: Option<(u64, std::path::PathBuf)>,
     /// The parameters with their values, by which a saved run is recognised.
@@ -142,7 +143,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
         Ok(Self::begin(system, prepared, scheme, start, step))
     }
 
-    /// The run, everything checked.
+    /// Makes the run after all checks.
     pub(crate) fn begin<M: Scheme<T, S, Map = R>>(
         system: &S,
         prepared: S::Prepared,
@@ -184,14 +185,15 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The same run with an observer, which is shown the present state at once and from then on
-    /// every state whose step number is a multiple of its [interval](Observer::interval), on
-    /// every path: [`advance`](Integrator::advance), [`advance_to`](Integrator::advance_to),
+    /// Attaches an observer. It receives the current state at once, and then every state whose step
+    /// number is a multiple of its [interval](Observer::interval), for all ways of making steps:
+    /// [`advance`](Integrator::advance), [`advance_to`](Integrator::advance_to),
     /// [`states`](Integrator::states).
     ///
-    /// Call it once. To attach several observers, pass a tuple,
-    /// `.observe((EnergyDrift::new(), Recorder::new()))`; [`watch`](Integrator::watch) comes after it. An
-    /// observer is given away and got back by [`observer`](Integrator::observer), or lent as `&mut`.
+    /// Call it once. To attach several observers, pass a tuple, `.observe((EnergyDrift::new(),
+    /// Recorder::new()))`; [`watch`](Integrator::watch) comes after it. The run owns the observer,
+    /// and [`observer`](Integrator::observer) returns a reference to it; `&mut O` is an observer
+    /// too.
     pub fn observe<N: Observer<T, S>>(mut self, mut observer: N) -> Integrator<T, S, R, N>
     where
         O: Unobserved,
@@ -202,8 +204,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// The same run with a closure besides its observer, shown the present state at once and from
-    /// then on every state whose step number is a multiple of `steps` (0 counts as 1).
+    /// Attaches a closure besides the observer. It receives the current state at once, and then
+    /// every state whose step number is a multiple of `steps` (0 counts as 1).
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -230,8 +232,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// Goes on from here with another step: the scheme starts anew at the present state. Whatever it
-    /// carries besides is made again, and (25), (26), (33) make their second point again.
+    /// Continues with another step: the scheme starts anew at the current state and makes the other
+    /// carried values again, for example the second point of (25), (26) and (33).
     ///
     /// # Errors
     /// [`Error::Step`] for a zero, NaN or infinite step.
@@ -245,14 +247,15 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         };
         self.step = step;
         self.began = self.steps;
-        // The second copy, seen besides the state, is the one that was started.
+        // The second copy that can be observed is the one of the new start.
         self.arrives(self.steps);
         Ok(())
     }
 
-    /// The same run without the lanes of the CPU's registers, or with them again, as at first. In lanes, stages
-    /// of implicit schemes and iterations of loops over arrays are computed several at a time; systems written
-    /// by hand stay scalar. The bits are the same, unless the run is [`fused`](Integrator::fused).
+    /// Turns the lanes of the CPU's registers off, or on again, as by default. In lanes, several
+    /// stages of implicit schemes and iterations of loops over arrays are computed at a time;
+    /// systems written by hand stay scalar. The bits are the same, unless the run is
+    /// [`fused`](Integrator::fused).
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -271,24 +274,25 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.computed(Arithmetic { lanes, ..now })
     }
 
-    /// The same run with fused products in lanes, `a·b + c` rounded once: a fifth to a half faster on
-    /// CPUs that have them. Its bits are no longer those of other CPUs, of a run without
-    /// [`lanes`](Integrator::lanes), or of the member of an ensemble.
+    /// Turns on fused products in lanes, `a·b + c` rounded once: 20 to 50 % faster on CPUs that
+    /// have them. The bits then differ from those of other CPUs, of a run without
+    /// [`lanes`](Integrator::lanes), and of the member of an ensemble.
     #[must_use]
     pub fn fused(self) -> Self {
         let now = self.prepared.arithmetic();
         self.computed(Arithmetic { fused: true, ..now })
     }
 
-    /// The same run on so many threads (0 counts as 1); on one by default. The bits are the same with each
-    /// number. A step that costs less than some 10 μs is not faster on several threads.
+    /// Sets the number of threads (0 counts as 1); the default is one. The bits do not depend on
+    /// it. A step that costs less than about 10 μs is not faster on several threads.
     ///
-    /// Threads share the loops over arrays of forces, drifts and fields that take 16384 iterations or more: rows
-    /// of a lattice whose iterations change elements of their own row alone, and chains. Polynomials of
-    /// neighbours, as `(u[(i + 1) % n][j] - u[i][j])^2`, count as changes of the own row. Sums over a whole
-    /// array, sums over pairs, and all else of a step run on one thread; so do all loops without
-    /// [`lanes`](Integrator::lanes), and chains with neighbours in a [`fused`](Integrator::fused) run. An
-    /// ensemble has threads of its own, and each of its members one.
+    /// Threads share the loops over arrays of forces, drifts and fields that take 16384 iterations
+    /// or more: rows of a lattice whose iterations change elements of their own row alone, and
+    /// chains. Polynomials of neighbours, such as `(u[(i + 1) % n][j] - u[i][j])^2`, count as
+    /// changes of the own row. Sums over a whole array, sums over pairs, and all else of a step run
+    /// on one thread; so do all loops without [`lanes`](Integrator::lanes), and chains with
+    /// neighbours in a [`fused`](Integrator::fused) run. An ensemble has threads of its own, and
+    /// each of its members one.
     ///
     /// ```
     /// use hamiltonian::prelude::*;
@@ -309,7 +313,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// # Ok::<(), Error>(())
     /// ```
     ///
-    /// Where the operating system starts no threads, the run has one. A saved run is resumed on one.
+    /// If the operating system cannot start threads, the run has one. A saved run is resumed on
+    /// one.
     #[cfg(feature = "rayon")]
     #[must_use]
     pub fn threads(mut self, threads: usize) -> Self
@@ -322,14 +327,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.computed(Arithmetic { threads, ..now })
     }
 
-    /// The same run, computed in another way.
+    /// Changes the arithmetic of the run.
     pub(crate) fn computed(mut self, arithmetic: Arithmetic) -> Self {
         self.prepared.set_arithmetic(arithmetic);
         self.map = self.recipe.prepare(&self.prepared, Step::of(self.step));
         self
     }
 
-    /// Puts the saved state of a run in place of the present one.
+    /// Replaces the current state by a saved one.
     pub(crate) fn restore(&mut self, clock: Clock<T>, began: u64, steps: u64) {
         self.clock = clock;
         self.began = began;
@@ -337,7 +342,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.arrives(steps);
     }
 
-    /// Shows a new observer the present state, or gives it back what it remembers.
+    /// Passes the current state to a new observer, or restores its saved data.
     fn attach<N: Observer<T, S>>(&mut self, observer: &mut N) {
         if self.memory.is_empty() {
             if observer.attach(&self.view(&self.part())).is_break() {
@@ -355,7 +360,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// Ends the run at a state between two steps, or at the present one.
+    /// Ends the run at a state between two steps, or at the current one.
     fn end(&mut self, end: Result<Option<State<S::Vector>>, Error>) {
         self.ended = true;
         match end {
@@ -365,20 +370,20 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// Returns true if an observer has ended the run: it makes no further steps until it is told to
-    /// [`go_on`](Integrator::go_on).
+    /// Returns true if an observer has ended the run. It makes no further steps until
+    /// [`go_on`](Integrator::go_on) is called.
     pub fn has_ended(&self) -> bool {
         self.ended
     }
 
-    /// Lets a run that an observer has ended go on: from the step it has made, where the end lies
-    /// before that.
+    /// Continues a run that an observer has ended: from the end of its last step, if the run ended
+    /// before it.
     pub fn go_on(&mut self) {
         self.ended = false;
         self.arrives(self.steps);
     }
 
-    /// Parts of a step from the present state.
+    /// Parts of a step from the current state.
     pub(crate) fn part(&self) -> Part<'_, T, S, R> {
         Part {
             prepared: &self.prepared,
@@ -390,7 +395,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// The present state as observers see it.
+    /// The current state as observers receive it.
     fn view<'a>(&'a self, part: &'a Part<'a, T, S, R>) -> View<'a, T, S> {
         View {
             step: self.steps,
@@ -400,7 +405,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// The same run with another observer, made of its own.
+    /// Replaces the observer by one that is made from it.
     fn with_observer<N>(self, make: impl FnOnce(O) -> N) -> Integrator<T, S, R, N> {
         Integrator {
             prepared: self.prepared,
@@ -473,14 +478,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: fmt::Debug> fmt::Debug for Integr
     }
 }
 
-/// The name of a system, H, and the number of components, by which a saved run is recognised.
+/// The name of a system, H, and the number of components, which identify a saved run.
 pub(crate) fn formula<T: Real, S: System<T>>(q: &S::Vector) -> String {
     alloc::format!("{}: {} (coordinates: {})", S::NAME, S::FORMULA, q.len())
 }
 
 /// The parameters of a system with their values.
 pub(crate) fn parameters<T: Real, S: System<T>>(system: &S) -> String {
-    // Room for a few, so that short runs do not spend their time on growing it.
+    // Capacity for a few, so that short runs spend no time on growth.
     let mut parameters = String::with_capacity(64);
     // Writing to a string does not fail.
     let _ = system.describe_parameters(&mut parameters);
@@ -497,7 +502,7 @@ fn parameter_without_value(parameters: &str) -> Option<Box<str>> {
     line.map(Box::from)
 }
 
-/// The time a step advances, in units of its size.
+/// The time that a step advances, in units of its size.
 pub(crate) fn duration<T: Real>(entry: &Entry) -> T {
     T::constant(f64::from(entry.duration), 0.0)
 }

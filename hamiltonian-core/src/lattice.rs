@@ -29,7 +29,8 @@ use hamiltonian_lanes::Real;
 pub struct Lattice<T, const R: usize> {
     extents: [usize; R],
     elements: Vec<T>,
-    /// Two rows of different lengths in the nested lists it was made of. Then there are no elements.
+    /// Two rows of different lengths in the nested lists of its construction. Then there are no
+    /// elements.
     uneven: Option<Box<Uneven>>,
 }
 
@@ -86,7 +87,7 @@ impl<T, const R: usize> Lattice<T, R> {
         &self.elements
     }
 
-    /// The same, to be changed.
+    /// The elements, mutable, in the same order.
     #[inline(always)]
     pub fn as_mut_slice(&mut self) -> &mut [T] {
         &mut self.elements

@@ -97,8 +97,9 @@ pub trait Observer<T: Real, S: System<T>> {
     }
     /// Receives a state whose step number is a multiple of the interval; `Break` ends the run.
     fn observe(&mut self, view: &View<'_, T, S>) -> ControlFlow<()>;
-    /// Visits what it follows, if that is the drift of functions of the state, seen after every so many
-    /// steps, and the changes of their signs, and nothing else: ensembles then follow it in lanes.
+    /// Visits the functions of the state that the observer follows, if it needs only their drifts,
+    /// at multiples of its interval, and the changes of their signs. Ensembles then follow them in
+    /// lanes.
     #[doc(hidden)]
     fn follow(&mut self, _: &mut Follower<T>) -> bool {
         false

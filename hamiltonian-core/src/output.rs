@@ -17,7 +17,7 @@ use alloc::vec::Vec;
 use core::ops::{ControlFlow, Deref};
 use hamiltonian_lanes::Real;
 
-/// Records t, coordinates, momenta, observables and on request H, rounded to `f64`.
+/// Records t, coordinates, momenta, observables and, on request, H, rounded to `f64`.
 ///
 /// Columns have the declared names: `t`, then `q`, `q[3]` or `q[3][1]` for each coordinate, the
 /// momenta likewise, then the observables, then `H`. [`Recorder::of`] selects some of them. In another
@@ -45,7 +45,7 @@ pub struct Recorder {
     /// The columns whose angles are wrapped.
     angles: Vec<String>,
     energy: bool,
-    /// For each column its source.
+    /// The source of each column.
     sources: Vec<Source>,
     table: Table,
     failure: Option<Error>,
@@ -74,7 +74,7 @@ impl Recorder {
         Recorder::default()
     }
 
-    /// Creates a recorder with room for so many rows, allocated when it is attached.
+    /// Creates a recorder with capacity for `rows` rows, allocated when it is attached.
     pub fn with_capacity(rows: usize) -> Self {
         Recorder {
             capacity: rows,
@@ -283,7 +283,7 @@ impl<T: Real, S: System<T>> Observer<T, S> for Recorder {
     }
 }
 
-/// The columns on one line, by which a saved recorder is recognised.
+/// The columns on one line, which identify a saved recorder.
 fn described(table: &Table, sources: &[Source]) -> String {
     let mut text = String::new();
     for (name, source) in table.columns().iter().zip(sources) {

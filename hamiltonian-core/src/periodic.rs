@@ -75,10 +75,10 @@ pub struct PeriodicOrbit<V: Vector<Scalar = f64>> {
     pub monodromy: DMatrix<f64>,
 }
 
-/// The most corrections.
+/// The largest number of corrections.
 const MOST: u32 = 40;
 
-/// The most halvings of a correction.
+/// The largest number of halvings of a correction.
 const HALVINGS: u32 = 12;
 
 impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
@@ -130,7 +130,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
             let mut better = None;
             for _ in 0..HALVINGS {
                 let (moved, longer) = search.moved(&start, period, &correction, scale);
-                // A start where the system has no value is too far.
+                // A start at which H has no value is too far away.
                 if let Ok(there) = search.at(&moved, longer)
                     && largest(&there.off) < largest(&at.off)
                 {
@@ -140,7 +140,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
                 scale *= 0.5;
             }
             let Some(found) = better else {
-                // Rounding is left.
+                // Only rounding is left.
                 break;
             };
             (start, period, at) = found;
@@ -149,7 +149,8 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
         let size = size.fold(1.0, |size: f64, x| size.max(x.abs()));
         let growth = at.matrix.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
         let off = largest(&at.off);
-        // Rounding of a step grows as deviations do; steps add up at random.
+        // The rounding error of a step grows like a deviation, and the errors of steps add up like
+        // random numbers.
         let rounding = 64.0 * f64::EPSILON * growth * Real::sqrt(steps as f64);
         if off.is_nan() || off > rounding.max(1e-12) * size {
             return Err(Error::NoPeriodicOrbit { gap: off });
@@ -169,7 +170,7 @@ impl<V: Vector<Scalar = f64>> PeriodicOrbit<V> {
     }
 }
 
-/// What stays the same in the search.
+/// The constants of the search.
 struct Search<'a, S, M> {
     system: &'a S,
     scheme: M,
@@ -178,7 +179,7 @@ struct Search<'a, S, M> {
     steps: u64,
 }
 
-/// The conditions at a start: how far each is off, and its slopes.
+/// The conditions at a start: the gap of each, and its derivatives.
 struct At {
     /// The gap of each component, then that of the section and that of the energy.
     off: Vec<f64>,
@@ -242,7 +243,7 @@ where
         })
     }
 
-    /// The derivative of the state after a period with respect to the period, all steps growing alike.
+    /// The derivative of the state after a period with respect to the period, with equal steps.
     fn by_period(&self, start: &State<V>, period: f64) -> Result<Vec<f64>, Error> {
         let zeros = || System::<Dual<f64>>::zeros(self.system);
         let mut lifted = State {
@@ -263,7 +264,7 @@ where
         Ok(ends.map(|number| number.eps).collect())
     }
 
-    /// The start and the period less a part of the correction.
+    /// The start and the period minus a part of the correction.
     fn moved(
         &self,
         start: &State<V>,

@@ -1,7 +1,7 @@
 //! A progress bar (feature `progress`).
 //!
 //! Input: the number of steps of a run. Output: [`Progress`], an observer that moves a bar.
-//! Invariant: like every observer, it changes no bit of the run.
+//! Invariant: like every observer, it does not affect the run.
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -57,7 +57,7 @@ impl Progress {
         &self.bar
     }
 
-    /// Moves it to where the run stands.
+    /// Moves the bar to the position of the run.
     fn place(&self, step: u64) {
         let made = step.saturating_sub(self.first);
         if self.steps.saturating_sub(made) >= self.interval {

@@ -1,7 +1,7 @@
 //! Kicks of systems with a force.
 //!
-//! Input: the emitted program of ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations that
-//! are the exact flow together, [`Coupled`], the exact flow where momenta push each other, and
+//! Input: the emitted program of ṗ = f − ∂V/∂q at frozen q. Output: [`Both`], two accumulations
+//! that are the exact flow together, [`Coupled`], the exact flow if momenta are coupled, and
 //! [`SubStep`], a symmetric step for a force that has no exact flow. Invariant: only momenta move.
 
 use crate::flow::{Flow, Scratch, VectorField};
@@ -10,7 +10,7 @@ use crate::state::Point;
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// One flow after the other: together they are one exact flow, which merges.
+/// One flow after the other: together they are one exact flow that merges.
 #[derive(Debug, Clone)]
 pub struct Both<A, B>(pub A, pub B);
 
@@ -25,7 +25,7 @@ impl<X: Vector, A: Flow<X>, B: Flow<X>> Flow<X> for Both<A, B> {
     }
 }
 
-/// Momenta to compute in.
+/// Scratch momenta.
 #[derive(Debug, Clone)]
 pub struct Momenta<V>([V; 4]);
 
@@ -42,9 +42,9 @@ impl<V: Vector> Scratch<Point<V>> for Momenta<V> {
 /// p ← p + Σ Δₖ,   Δ₁ = s·c·(A·p + b),   Δₖ = s·c·A·Δₖ₋₁/k
 /// ```
 ///
-/// summed to rounding, 1/s times one after the other. s is the largest power of ½ for which no term is
-/// larger than p and Δ₁ together, so that none takes digits from the sum; each lane has its own. A lane
-/// whose sum does not end becomes NaN.
+/// summed to rounding, 1/s times one after the other. s is the largest power of ½ for which no term
+/// is larger than p and Δ₁ together, so that no term costs digits of the sum; each lane has its
+/// own. A lane whose sum does not converge becomes NaN.
 ///
 /// Source: A. H. Al-Mohy, N. J. Higham, SIAM J. Sci. Comput. 33 (2011) 488, eqs. (3.1) and (3.15),
 /// doi:10.1137/100788860.
@@ -56,11 +56,12 @@ pub struct Coupled<F, L> {
     pub linear: L,
 }
 
-/// The most terms of a series none of which is larger than p and the first together. Where c·A is at most
-/// 2, as it then mostly is, term 38 is below ε of a double-double number.
+/// The largest number of terms of a series in which no term is larger than p and the first
+/// together. If c·A is at most 2, which is then the usual case, term 38 is below ε of a
+/// double-double number.
 const TERMS: u32 = 48;
 
-/// A duration in more parts than this is an error.
+/// The largest number of parts of a duration; more are an error.
 const PARTS: u32 = 10_000;
 
 impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled<F, L> {
@@ -94,7 +95,7 @@ impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled
                 core::mem::swap(term, next);
                 let size = term.size();
                 grows = grows | scale.lt(size);
-                // Two in a row: a term may be small by chance.
+                // Two in succession, because one term may be small by chance.
                 let was_small = core::mem::replace(&mut small, size.le(rounding * scale));
                 ended = ended | (small & was_small);
                 lost = lost | !(size + scale).equals(size + scale);
@@ -126,12 +127,12 @@ impl<V: Vector, F: VectorField<V>, L: VectorField<V>> Flow<Point<V>> for Coupled
 /// p ← p + c·(f − ∂V/∂q)(q, (p + p′)/2, t) = p′
 /// ```
 ///
-/// Solved by fixed-point iteration; where that does not converge the momenta become NaN. Two steps do
+/// Solved by fixed-point iteration; if it does not converge, the momenta become NaN. Two steps do
 /// not merge.
 #[derive(Debug, Clone)]
 pub struct SubStep<F>(pub F);
 
-/// A sub-step that is not solved after so many iterations is an error.
+/// The number of iterations after which an unsolved sub-step is an error.
 const LIMIT: u32 = 100;
 
 /// Δp ↦ c·(f − ∂V/∂q)(q, p + Δp/2)

@@ -1,4 +1,4 @@
-//! Indices whose bounds only the values of sizes decide.
+//! Indices that are in range for some sizes only.
 //!
 //! Input: an index and the loops it runs in, affine, as numbers. Output: its least and greatest
 //! value. Invariants: exact (an iteration that does not take place reaches nothing); usable in
@@ -45,7 +45,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         self.escape(extent).is_none()
     }
 
-    /// An error if `index` leaves `0..extent`.
+    /// Returns an error if `index` leaves `0..extent`.
     ///
     /// # Errors
     /// [`Error::Index`]
@@ -60,7 +60,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         }
     }
 
-    /// An error if what is the first value of `range` is negative.
+    /// Returns an error if the first value of `range` is negative.
     ///
     /// # Errors
     /// [`Error::Range`]
@@ -71,7 +71,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         }
     }
 
-    /// The value of a form. Forms of loops are shorter by the loops that begin further inside.
+    /// The value of a form. The forms of a loop lack the factors of the loops inside it.
     const fn value(&self, form: &[i64], at: &[i128; LOOPS]) -> i128 {
         let mut value = form[0] as i128;
         let mut term = 1;
@@ -127,7 +127,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
             let mut width = (0, [0; LOOPS]);
             self.add(&mut width, 1, upper);
             self.add(&mut width, -1, lower);
-            // The loops around this one were looked at before.
+            // The loops around this one were checked before.
             if self.at_ends(width, false) < 1 {
                 return false;
             }
@@ -136,7 +136,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
         true
     }
 
-    /// The first and the last value of a loop; the last is less where there is none.
+    /// The first and the last value of a loop; the last is less if the loop is empty.
     const fn range(&self, level: usize, at: &[i128; LOOPS]) -> [i128; 2] {
         let [lower, upper] = self.loops[level];
         [
@@ -167,7 +167,7 @@ impl<const LOOPS: usize> Reach<'_, LOOPS> {
             }
             return all;
         }
-        // From here on the ends are affine in this variable, so that its own ends are enough.
+        // The ends are affine in this variable, so its own ends suffice.
         at[level] = first;
         let at_first = self.extremes(level + 1, at);
         at[level] = last;

@@ -1,4 +1,4 @@
-//! Saving a run and going on with it.
+//! Saving and resuming a run.
 //!
 //! Input: a run, or a [`Checkpoint`]. Output: the other. Invariant: a checkpoint of another system,
 //! of other parameters or of another scheme is refused.
@@ -24,7 +24,7 @@ const FUSED: u64 = 2;
 const SCALAR: u64 = 4;
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, R, O> {
-    /// The run and the memory of its observers, to be saved. Closures remember nothing.
+    /// Returns a checkpoint of the run and the data of its observers. Closures have no data.
     pub fn checkpoint(&self) -> Checkpoint {
         let mut numbers = Memory::default();
         for scalar in [self.clock.start, self.step] {
@@ -53,8 +53,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
 
 #[cfg(feature = "std")]
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The same run, saved to `path` after every `steps` steps (0 counts as 1), counted from its start:
-    /// when observers have been shown the state there. A file is replaced when the new one is whole.
+    /// Saves the run to `path` after every `steps` steps (0 counts as 1), counted from its start,
+    /// after observers have received the state. A file is replaced when the new one is complete.
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -72,8 +72,8 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
     /// ```
     ///
     /// # Errors
-    /// None here. If the file cannot be written, [`advance`](Integrator::advance) returns
-    /// [`CheckpointError::File`] after the step, and the run can go on.
+    /// This method returns none. If the file cannot be written, [`advance`](Integrator::advance)
+    /// returns [`CheckpointError::File`] after the step, and the run can continue.
     #[must_use]
     pub fn checkpoint_every(mut self, steps: u64, path: impl AsRef<std::path::Path>) -> Self {
         self.saving = Some((steps.max(1), path.as_ref().to_path_buf()));
@@ -82,13 +82,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
 }
 
 impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
-    /// The run that was saved: it goes on with the same bits, in another process too (of the same
-    /// binary, and if it is [`fused`](Integrator::fused) on the same kind of processor). Its observers are attached again in the same order,
-    /// by [`observe`](Integrator::observe) and [`watch`](Integrator::watch), and remember what they
-    /// saw; with another observer in a place [`advance`](Integrator::advance) returns an error.
+    /// Resumes a saved run with the same bits, also in another process of the same binary (for a
+    /// [`fused`](Integrator::fused) run, on the same kind of processor). Attach its observers in
+    /// the same order by [`observe`](Integrator::observe) and [`watch`](Integrator::watch); their
+    /// data are restored. If an observer differs, [`advance`](Integrator::advance) returns an
+    /// error.
     ///
-    /// Over another scalar than `f64` it is [`resume_over`](Integrator::resume_over): neither a system
-    /// nor a file tells rustc which one.
+    /// For other scalars than `f64` there is [`resume_over`](Integrator::resume_over), because
+    /// rustc cannot infer the scalar.
     ///
     /// ```
     #[doc = include_str!("doc/oscillator.md")]
@@ -115,8 +116,8 @@ impl<S: System<f64>, R: MapOf<f64, S>> Integrator<f64, S, R> {
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
-    /// The run over another scalar that was saved: `Integrator::<DoubleDouble, _, _>::resume_over(…)`. All
-    /// else is as with [`resume`](Integrator::resume).
+    /// Resumes a saved run over another scalar, `Integrator::<DoubleDouble, _, _>::resume_over(…)`,
+    /// like [`resume`](Integrator::resume).
     ///
     /// # Errors
     /// Those of [`resume`](Integrator::resume).

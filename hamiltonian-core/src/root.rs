@@ -1,8 +1,8 @@
 //! Roots of a function of one variable between two points where its signs differ.
 //!
-//! Input: the function, its values at 0 and 1. Output: the point, to the rounding of 1, and the value
-//! there. Invariant: points are made of constants alone, so a derivative part of a value never gets
-//! into one.
+//! Input: the function, its values at 0 and 1. Output: the point, to the rounding of 1, and the
+//! value there. Invariant: points are made of constants alone, so a derivative part of a value
+//! never enters one.
 
 use crate::error::Error;
 use hamiltonian_lanes::{Mask, Real};
@@ -21,8 +21,9 @@ pub(crate) fn side<T: Real>(value: T) -> i8 {
 }
 
 /// The root of `f` between `a` and `b`, whose values have different signs: inverse quadratic
-/// interpolation where it is safe, bisection elsewhere (T. R. Chandrupatla, Adv. Eng. Softw. 28 (1997)
-/// 145, doi:10.1016/S0965-9978(96)00051-8). Of the last two points the one whose value is smaller.
+/// interpolation where it is safe, bisection elsewhere (T. R. Chandrupatla, Adv. Eng. Softw. 28
+/// (1997) 145, doi:10.1016/S0965-9978(96)00051-8). Returns the one
+/// of the last two points with the smaller value.
 ///
 /// # Errors
 /// Those of `f`.
@@ -31,7 +32,7 @@ pub(crate) fn root<T: Real>(
     mut b: Sample<T>,
     mut f: impl FnMut(T) -> Result<T, Error>,
 ) -> Result<Sample<T>, Error> {
-    /// Bisection alone needs a step for each bit.
+    /// The largest number of steps: bisection alone needs one for each bit.
     const MOST: u32 = 240;
     let mut part = 0.5;
     for _ in 0..MOST {
@@ -54,7 +55,7 @@ pub(crate) fn root<T: Real>(
     Ok(nearer(a, b))
 }
 
-/// The one with the smaller value.
+/// The point with the smaller value.
 fn nearer<T: Real>(a: Sample<T>, b: Sample<T>) -> Sample<T> {
     if a.value.abs().lt(b.value.abs()).any() {
         a
@@ -78,7 +79,7 @@ fn interpolated<T: Real>(a: Sample<T>, b: Sample<T>, c: Sample<T>) -> Option<f64
 }
 
 /// A point between 0 and 1 at which `f` has another sign than at both ends, by golden sections
-/// towards the end's smaller sizes; none where the least size found has the sign of the ends.
+/// towards smaller sizes; `None` if the smallest value found has the sign of the ends.
 ///
 /// # Errors
 /// Those of `f`.
@@ -88,7 +89,7 @@ pub(crate) fn dip<T: Real>(
 ) -> Result<Option<Sample<T>>, Error> {
     /// (√5 − 1)/2.
     const GOLDEN: f64 = 0.618_033_988_749_894_8;
-    /// A minimum is flat: past half the digits its place does not matter.
+    /// A minimum is flat: beyond half the digits its position does not matter.
     const MOST: u32 = 36;
     let (mut low, mut high) = (0.0, 1.0);
     let mut probe = |at: f64| {

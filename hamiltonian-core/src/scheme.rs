@@ -61,7 +61,7 @@ pub struct Entry {
     pub equations: &'static str,
     /// The error of a trajectory is O(Δt^order).
     pub order: u32,
-    /// The time one step advances, in units of the step size Δt.
+    /// The time that one step advances, in units of the step size Δt.
     pub duration: u32,
     /// The structure that it requires of a system.
     pub needs: Needs,
@@ -71,7 +71,7 @@ pub struct Entry {
     pub source: &'static str,
 }
 
-/// The name, and the choice in parentheses: `StormerVerlet (kick-drift-kick)`.
+/// The name, with the setting in parentheses: `StormerVerlet (kick-drift-kick)`.
 impl core::fmt::Display for Entry {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self.variant {
@@ -93,20 +93,20 @@ pub trait Listed: Clone + Debug + Send + Sync + 'static {
 /// The bounds of the implementation state what the scheme requires of a system, so a wrong pairing is a
 /// compile error in the call that makes the run.
 pub trait Scheme<T: Real, S: System<T>>: Listed {
-    /// The scheme with the system's flows and all coefficients folded in.
+    /// The map: the scheme with the system's flows and all coefficients folded in.
     type Map: Map<Carried: Carried<Vector = S::Vector, Scalar = T>>;
     /// Folds the step into the flows. This does not allocate.
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> Self::Map;
-    /// An error where it cannot integrate this system from this state, as far as the bounds of the
-    /// implementation do not tell; the provided one knows of none.
+    /// Returns an error if the scheme cannot integrate this system from this state for a reason
+    /// that the bounds of the implementation do not express. The provided method returns none.
     ///
     /// # Errors
     /// [`Error::MonitorOfMomenta`].
     fn check(&self, _: &S::Prepared, _: &State<S::Vector>) -> Result<(), Error> {
         Ok(())
     }
-    /// The same after a step of `before`, which may have made other choices: the closing piece that
-    /// [`Map::join`] absorbs is that of `before`. None where the two cannot be joined.
+    /// Prepares a map that follows a step of `before`, a scheme with other settings: the closing
+    /// piece that [`Map::join`] absorbs is that of `before`. `None` if the two cannot be joined.
     #[inline(always)]
     fn prepare_after(
         &self,
@@ -126,8 +126,8 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
         state: &State<S::Vector>,
         h: T,
     ) -> <Self::Map as Map>::Carried;
-    /// The same for one step alone, a part of a step of a run: a second point that the scheme's own
-    /// start makes to first order is made to second order here.
+    /// The carried value for a single step, a part of a step of a run: a second point that the
+    /// scheme's own start computes to first order is computed to second order here.
     fn start_alone(
         &self,
         prepared: &S::Prepared,
@@ -141,8 +141,9 @@ pub trait Scheme<T: Real, S: System<T>>: Listed {
 /// A scheme whose step depends on the state alone, so that steps of different sizes can follow each
 /// other.
 ///
-/// The paper's (25), (26) and (33) are not: what they carry lags behind by a time that depends on the
-/// step, and a composition of them loses its order (Yoshida's of (33) has slope 0.8 instead of 4).
+/// The paper's (25), (26) and (33) are no such schemes: a value that they carry lags behind by a
+/// time that depends on the step, and a composition of them loses its order (Yoshida's of (33) has
+/// slope 0.8 instead of 4).
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no one-step scheme",
     label = "steps of different sizes cannot be composed of it",
@@ -157,7 +158,7 @@ pub trait OneStep: Listed + PartialEq {
     fn adjoint(&self) -> Self::Adjoint;
 }
 
-/// A scheme that is its own adjoint, Φₕ = (Φ₋ₕ)⁻¹, whichever choices are made in it: its order is even.
+/// A scheme that is its own adjoint, Φₕ = (Φ₋ₕ)⁻¹, for all settings: its order is even.
 ///
 /// An adjoint of the same type is not enough: that of `SymplecticEuler::KickDrift` is
 /// `SymplecticEuler::DriftKick`.

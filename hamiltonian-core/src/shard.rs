@@ -14,8 +14,8 @@ use core::str::FromStr;
 
 /// Part `index` of `count` equal parts of a sweep.
 ///
-/// A sweep hands out whole chunks: this part has the chunks c with c mod count = index. Parts need no
-/// connection between them.
+/// A sweep is divided by chunks: this part has the chunks c with c mod count = index. Processes
+/// need no connection.
 ///
 /// ```
 /// use hamiltonian::prelude::*;
@@ -61,7 +61,8 @@ impl Shard {
         }
     }
 
-    /// The part that the environment names: the first of these sources of which a variable is set.
+    /// The part that the environment names, by the first of these sources with a variable that is
+    /// set.
     ///
     /// | launcher | variables | part |
     /// |---|---|---|
@@ -73,15 +74,16 @@ impl Shard {
     /// | HyperQueue | `HQ_TASK_ID`, `HAMILTONIAN_SHARDS` | ID/SHARDS |
     /// | none | none set | 0/1 |
     ///
-    /// `SLURM_PROCID` alone names no part: a batch script has it too. A program that is started by several
-    /// launchers at once, for example by `mpirun` in each task of an array, takes `HAMILTONIAN_SHARD`.
+    /// `SLURM_PROCID` alone does not name a part, because a batch script has it too. A program that
+    /// is started by several launchers at once, for example by `mpirun` in each task of an array,
+    /// takes `HAMILTONIAN_SHARD`.
     ///
     /// # Errors
     /// [`ShardError`] if a variable of the source is missing or has another form, if its numbers
     /// contradict each other, or if the part does not exist.
     #[cfg(feature = "std")]
     pub fn from_env() -> Result<Self, Error> {
-        // A value that is no Unicode is none of the forms, and must not count as unset.
+        // A value that is not Unicode has none of the forms, and must not count as unset.
         Self::from_lookup(|name| {
             std::env::var_os(name).map(|value| value.to_string_lossy().into_owned())
         })
@@ -114,7 +116,7 @@ impl Shard {
         self.count.get()
     }
 
-    /// Returns true if a chunk is of this part.
+    /// Returns true if a chunk belongs to this part.
     pub fn has(&self, chunk: u64) -> bool {
         chunk % self.count == self.index
     }
@@ -133,7 +135,7 @@ impl fmt::Display for Shard {
     }
 }
 
-/// From `k/n`.
+/// Reads `k/n`.
 impl FromStr for Shard {
     type Err = Error;
 
@@ -154,7 +156,7 @@ fn parsed(text: &str, variable: Option<&'static str>) -> Result<Shard, ShardErro
     Shard::of(index, count, variable)
 }
 
-/// A number of decimal digits alone: `u64::from_str` takes a sign as well.
+/// Reads a number of decimal digits: `u64::from_str` would accept a sign.
 fn whole(text: &str) -> Option<u64> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     digits.then(|| text.parse().ok()).flatten()
@@ -183,7 +185,7 @@ impl Variables<'_> {
         }
     }
 
-    /// A number that belongs to another variable, which is set.
+    /// The number that a variable must have because another one is set.
     fn besides(&self, name: &'static str, variable: &'static str) -> Result<u64, ShardError> {
         self.number(name)?.ok_or(ShardError::Missing {
             variable,
@@ -258,7 +260,7 @@ fn slurm_array(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
             "no whole number of steps lead there",
         );
     }
-    // An array such as 1,2,5 has no even steps; all its tasks find that out if the last one is known.
+    // An array such as 1,2,5 has no equal steps; all its tasks detect this from the last one.
     if let Some(max) = env.number(MAX)? {
         let tasks = max.checked_sub(min).map(|range| range / step + 1);
         if tasks != Some(count) {
@@ -269,7 +271,7 @@ fn slurm_array(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     Shard::of((id - min) / step, count, Some(ID)).map(Some)
 }
 
-/// A task of `srun`, which alone has a step.
+/// A task of `srun`; only these have a step.
 fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     /// Steps from here on are those of batch scripts and shells, in which one process runs
     /// (`SLURM_INTERACTIVE_STEP` and above in slurm.h).
@@ -301,7 +303,7 @@ fn slurm_step(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     Shard::of(index, count, Some("SLURM_PROCID")).map(Some)
 }
 
-/// A task of HyperQueue, whose number of tasks the user says.
+/// A task of HyperQueue; the user sets the number of tasks.
 fn hyperqueue(env: &Variables<'_>) -> Result<Option<Shard>, ShardError> {
     const ID: &str = "HQ_TASK_ID";
     const SHARDS: &str = "HAMILTONIAN_SHARDS";

@@ -1,8 +1,8 @@
 //! Starts on an energy surface: one momentum from H = E, one coordinate from an event.
 //!
-//! Input: a system, a state as the guess, the unknown. Output: the state with one
-//! momentum (and one coordinate) replaced. Invariant: a root is bracketed before it is refined, so
-//! a returned state lies on the surface to rounding; all its other components are those of the guess.
+//! Input: a system, a state as the guess, the unknown. Output: the state with one momentum (and one
+//! coordinate) replaced. Invariant: a root is bracketed before it is refined, so a returned state
+//! lies on the surface to rounding error; its other components are those of the guess.
 //!
 //! ```
 //! use hamiltonian::start::{Branch, momentum_from_energy};
@@ -30,12 +30,12 @@ use search::{FINEST, Sample, Search, polished};
 /// The choice among several momenta with H = E.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Branch {
-    /// The one nearest to the guess; of two at the same distance the larger.
+    /// The momentum nearest to the guess; the larger of two at the same distance.
     #[default]
     Nearest,
-    /// The nearest with q̇ = ∂H/∂p ≥ 0: its coordinate grows.
+    /// The nearest momentum with q̇ = ∂H/∂p ≥ 0: its coordinate increases.
     Forward,
-    /// The nearest with q̇ = ∂H/∂p ≤ 0.
+    /// The nearest momentum with q̇ = ∂H/∂p ≤ 0.
     Backward,
 }
 
@@ -54,13 +54,13 @@ pub struct Section {
 /// The state with momentum `momentum` (a flat index) such that H = `energy`; the state's own value
 /// is the guess.
 ///
-/// H may depend on that momentum in any smooth way; all roots are found where it is convex, concave
-/// or monotone in it (quadratic, relativistic, geodesic), otherwise those next to the guess. Over
-/// duals the result carries its derivatives. A minimum that touches E to rounding counts as a root.
+/// H may be any smooth function of this momentum. All roots are found if H is convex, concave or
+/// monotone in it (quadratic, relativistic, geodesic), otherwise those next to the guess. Over
+/// duals the result has derivatives. A minimum that touches E to rounding counts as a root.
 ///
 /// # Errors
-/// [`Error::NoMomentum`] where H reaches E for no value (beyond a turning point), with the value of
-/// H nearest to E; [`Error::Shape`], [`Error::Component`], [`Error::Start`].
+/// [`Error::NoMomentum`] if H = E for no value (beyond a turning point), with the value of H
+/// nearest to E; [`Error::Shape`], [`Error::Component`], [`Error::Start`].
 pub fn momentum_from_energy<T: Real, S: System<T>>(
     system: &S,
     state: &State<S::Vector>,
@@ -89,7 +89,7 @@ pub fn momentum_from_energy<T: Real, S: System<T>>(
 /// zero nearest to the state's own value, found by its change of sign.
 ///
 /// # Errors
-/// [`Error::NoCrossing`] where none was found; [`Error::Observable`], [`Error::Shape`],
+/// [`Error::NoCrossing`] if none was found; [`Error::Observable`], [`Error::Shape`],
 /// [`Error::Component`], [`Error::Start`].
 pub fn coordinate_on_event<T: Real, S: System<T>>(
     system: &S,
@@ -163,7 +163,7 @@ pub fn on_section<T: Real, S: System<T>>(
             momentum_from_energy(system, &at, momentum, energy, branch)
         }
         Err(value) => {
-            // Without a momentum at the event, the momentum is missing.
+            // If there is no momentum at the event, the error is the missing momentum.
             solved?;
             Err(no_crossing::<T, S>(event, coordinate, state, value))
         }
@@ -190,7 +190,7 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
             slope: slopes.component(momentum),
         }
     };
-    // The size of the terms of H without the one that is solved for, by q·∂H/∂q and p·∂H/∂p.
+    // The size of the terms of H, estimated by q·∂H/∂q and p·∂H/∂p of the other components.
     let mut moved = state.clone();
     let (mut dq, mut dp) = (state.q.zeros_like(), state.p.zeros_like());
     let mut size = |x: T| {
@@ -240,7 +240,7 @@ fn solve_momentum<T: Real, D: Dynamics<T>>(
     best.map(|root| polished(root, &mut at)).ok_or(closest)
 }
 
-/// The zero of `f` nearest to `x`, by its change of sign; the value at `x` where none is found.
+/// The zero of `f` nearest to `x`, by its change of sign; the value at `x` if none is found.
 fn crossing<T: Real>(x: T, mut f: impl FnMut(T) -> T) -> Result<T, T> {
     let start = f(x);
     if start.equals(T::zero()).all() {
@@ -279,10 +279,10 @@ fn crossing<T: Real>(x: T, mut f: impl FnMut(T) -> T) -> Result<T, T> {
 
 /// The zero between a and b, where f has different signs, and the smaller value at the ends of the
 /// last bracket: the Illinois form of false position (Dowell & Jarratt, BIT 11, 168 (1971),
-/// doi:10.1007/BF01934364), bisection where that is slow.
+/// doi:10.1007/BF01934364), bisection if that is slow.
 fn narrowed<T: Real>(a: T, fa: T, b: T, fb: T, f: &mut impl FnMut(T) -> T) -> (T, f64) {
     let (mut a, mut fa, mut b, mut fb) = (a, fa, b, fb);
-    // The value at `a` as it counts for the secant.
+    // The value at `a` that the secant uses.
     let mut weighed = fa;
     for round in 0..FINEST {
         let between = |x: T| (a.lt(x).all() && x.lt(b).all()) || (b.lt(x).all() && x.lt(a).all());

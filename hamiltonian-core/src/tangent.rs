@@ -42,7 +42,7 @@ pub(crate) use megno::Megno;
 /// # Ok::<(), Error>(())
 /// ```
 pub struct Tangent<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> {
-    /// One for each deviation; their values are those of the first.
+    /// The runs, one for each deviation; their values are those of the first.
     runs: Vec<Integrator<Dual<T>, S, R>>,
 }
 
@@ -90,12 +90,12 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         self.runs.first().map_or(0, Integrator::steps)
     }
 
-    /// The present time.
+    /// The current time.
     pub fn time(&self) -> T {
         self.runs.first().map_or(T::zero(), |run| run.time().re)
     }
 
-    /// The present state; derivative parts are those of the first deviation.
+    /// The current state; derivative parts are those of the first deviation.
     pub fn state(&self) -> &State<<S as System<Dual<T>>>::Vector> {
         self.runs[0].state()
     }
@@ -169,8 +169,9 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         Ok(sums.into_iter().map(|sum| sum / time).collect())
     }
 
-    /// Makes steps, and deviations orthonormal after each stretch of them; `see` receives the first and last step of
-    /// the stretch, counted from the first call, and what each deviation has grown to.
+    /// Makes steps, and orthonormalises the deviations after each stretch of them; `see` receives
+    /// the first and last step of the stretch, counted from the first call, and the length of each
+    /// deviation.
     fn grow(
         &mut self,
         steps: u64,
@@ -240,8 +241,8 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
         matrix
     }
 
-    /// Shows what is carried now. All values are made those of the first run: where a step is solved to
-    /// rounding, the solutions beside different deviations differ by that.
+    /// Updates the observed states. All values are made those of the first run: solutions of
+    /// implicit steps beside different deviations differ by rounding errors.
     fn show(&mut self) {
         let Some((first, others)) = self.runs.split_first_mut() else {
             return;
@@ -256,7 +257,7 @@ impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Tangent<T, S, R> {
     }
 }
 
-/// All that is carried changes: its derivative parts are linear in the deviation.
+/// The whole carried value changes: its derivative parts are linear in the deviation.
 impl<T: Real, S: System<Dual<T>>, R: MapOf<Dual<T>, S>> Columns<T> for Tangent<T, S, R> {
     fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>) {
         let (before, run) = self.runs.split_at_mut(to);
@@ -291,7 +292,7 @@ pub(crate) fn lifted<T: Real, S: System<T> + System<Dual<T>>>(
     Ok(lifted)
 }
 
-/// A state whose deviation is the unit vector of that number: coordinates, then momenta.
+/// A state whose deviation is the unit vector `deviation`: coordinates, then momenta.
 pub(crate) fn towards<T: Real, V: Vector<Scalar = Dual<T>>>(
     lifted: &State<V>,
     deviation: usize,
@@ -323,7 +324,7 @@ pub(crate) fn aslant<T: Real, V: Vector<Scalar = Dual<T>>>(lifted: &State<V>) ->
     start
 }
 
-/// An error for no deviation from a state of `n` coordinates, or more than there are directions.
+/// Returns an error for no deviation, or for more than a state of `n` coordinates has directions.
 pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error> {
     match deviations == 0 || deviations > 2 * n {
         false => Ok(()),
@@ -336,7 +337,7 @@ pub(crate) fn check_deviations(deviations: usize, n: usize) -> Result<(), Error>
 
 /// Deviations that change as the columns of a matrix do.
 pub(crate) trait Columns<T> {
-    /// Deviation `to` becomes `scale` times itself, less a multiple of one before it.
+    /// Deviation `to` becomes `scale` times itself, minus a multiple of an earlier one.
     fn combine(&mut self, to: usize, scale: T, less: Option<(usize, T)>);
 }
 
@@ -355,9 +356,9 @@ pub(crate) fn volume<T: Real>(matrix: &mut [T], columns: usize) -> T {
         .fold(T::one(), |volume, length| volume * length)
 }
 
-/// Gives columns the length 1; if they are to be `orthogonal`, first makes each so to those before it, twice, since
-/// once leaves what rounding did. `lengths` become theirs before the last division. The matrix stands column
-/// after column, and `with` receives every change of a column.
+/// Normalises columns. If `orthogonal`, first makes each orthogonal to those before it, twice, to
+/// remove rounding errors. `lengths` become their lengths before the last division. The matrix
+/// stands column after column, and `with` receives every change of a column.
 #[inline(always)]
 pub(crate) fn gram_schmidt<T: Real>(
     matrix: &mut [T],
@@ -434,16 +435,19 @@ where
     Ok(tangent.matrix())
 }
 
-/// MEGNO of an orbit, the mean exponential growth of nearby orbits, over so many steps of the size `step`. The deviation
-/// gets the length 1 every so many of them: so often that it does not overflow.
+/// MEGNO of an orbit, the mean exponential growth of nearby orbits, over `steps` steps of the size
+/// `step`. The deviation is normalised after each `every` steps, which must be so often that it
+/// does not overflow.
 ///
-/// Over longer and longer stretches MEGNO tends to 2 on a regular orbit, and to 0 if neighbours do not drift apart, as
-/// those of a harmonic oscillator. On a chaotic orbit it grows like λt/2, where λ is the largest Lyapunov exponent.
+/// With the number of steps, MEGNO tends to 2 on a regular orbit, or to 0 if neighbouring orbits do
+/// not separate, such as those of a harmonic oscillator. On a chaotic orbit it grows like λt/2,
+/// where λ is the largest Lyapunov exponent.
 ///
-/// It is the mean Ȳ(t) of Y(t) = (2/t) ∫₀ᵗ s d ln δ(s) (P. M. Cincotta, C. Simó, Astron. Astrophys. Suppl. Ser. 147
-/// (2000) 205, doi:10.1051/aas:2000108). Time is counted in steps, as for a map, and both integrals are sums over the
-/// stretches of `every` steps, by the trapezoidal rule. δ begins in a direction without symmetry, the same for
-/// every orbit: on a section of symmetry, a unit vector can be one in which neighbours do not drift apart.
+/// It is the mean Ȳ(t) of Y(t) = (2/t) ∫₀ᵗ s d ln δ(s) (P. M. Cincotta, C. Simó, Astron. Astrophys.
+/// Suppl. Ser. 147 (2000) 205, doi:10.1051/aas:2000108). Time is counted in steps, as for a map,
+/// and both integrals are sums over the stretches of `every` steps, by the trapezoidal rule. δ
+/// begins in a direction without symmetry, the same for every orbit: on a section of symmetry, a
+/// unit vector can be a direction in which neighbouring orbits do not separate.
 ///
 /// ```
 #[doc = include_str!("doc/oscillator.md")]

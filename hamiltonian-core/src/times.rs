@@ -52,9 +52,9 @@ pub fn at_times<V: Vector, I: IntoIterator<Item = V::Scalar>, O>(
 #[derive(Debug, Clone)]
 pub struct AtTimes<V: Vector, I, O> {
     times: I,
-    /// The time that comes next.
+    /// The next time.
     next: Option<V::Scalar>,
-    /// The number of times shown.
+    /// The number of times that were passed on.
     shown: u64,
     before: Option<State<V>>,
     end: Option<State<V>>,
@@ -64,7 +64,8 @@ pub struct AtTimes<V: Vector, I, O> {
 }
 
 impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
-    /// Shows the state at `before`, a state of the run, and those up to the present one.
+    /// Passes on the states at the times from `before`, a state of the run, up to the current
+    /// state.
     fn show<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,
@@ -119,7 +120,8 @@ impl<V: Vector, I: Iterator<Item = V::Scalar>, O> AtTimes<V, I, O> {
         Ok(ControlFlow::Continue(()))
     }
 
-    /// Shows the states asked for between `before` and the present state, and remembers where it stands.
+    /// Passes on the requested states between `before` and the current state, and stores its
+    /// position.
     fn go<S: System<V::Scalar, Vector = V>>(
         &mut self,
         view: &View<'_, V::Scalar, S>,

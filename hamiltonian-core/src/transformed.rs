@@ -1,8 +1,8 @@
 //! Another time by a monitor function: K = g(q)·(H + p_t) as a system of its own.
 //!
-//! Input: a system, and a function g > 0 of its coordinates. Output: [`TimeTransformed`], whose time is s
-//! with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the long and short steps are
-//! part of the integrated system, not of a control beside it.
+//! Input: a system, and a function g > 0 of its coordinates. Output: [`TimeTransformed`], whose
+//! time is s with dt = g ds. Invariant: orbits on the shell K = 0 are those of H, and the lengths
+//! of steps are part of the integrated system, not of a separate control.
 
 use crate::error::Error;
 use crate::flow::VectorField;
@@ -77,7 +77,7 @@ impl<S: System<f64> + Clone> TimeTransformed<S, Observed<S>> {
     /// H in the time of a monitor that the system declares, by its name.
     ///
     /// # Errors
-    /// [`Error::Unknown`] where it declares none of this name, [`Error::Timed`] where time is in it.
+    /// [`Error::Unknown`] if it declares none of this name, [`Error::Timed`] if it depends on time.
     pub fn by(system: S, monitor: &str) -> Result<Self, Error> {
         let monitor = Observed::new(system.clone(), monitor)?;
         Ok(TimeTransformed { system, monitor })
@@ -85,7 +85,7 @@ impl<S: System<f64> + Clone> TimeTransformed<S, Observed<S>> {
 }
 
 impl<S, G> TimeTransformed<S, G> {
-    /// H in the time of g: `monitor` is a system whose own energy is g, not a closure, since schemes need
+    /// H in the time of g: `monitor` is a system whose H is g, not a closure, because schemes need
     /// the derivatives of g.
     pub fn new(system: S, monitor: G) -> Self {
         TimeTransformed { system, monitor }
@@ -94,7 +94,8 @@ impl<S, G> TimeTransformed<S, G> {
     /// The start of a run from a state of H: s = 0, and p_t = −H.
     ///
     /// # Errors
-    /// [`Error::Shape`] for a state of another shape, [`Error::Monitor`] where g is not positive there.
+    /// [`Error::Shape`] for a state of another shape, [`Error::Monitor`] if g is not positive
+    /// there.
     pub fn start<T, V>(&self, state: &State<V>) -> Result<State<WithTime<V>>, Error>
     where
         T: Real,
@@ -121,7 +122,7 @@ impl<S, G> TimeTransformed<S, G> {
         })
     }
 
-    /// The state of H that a state of the run is, with its time t.
+    /// The state of H for a state of the run, with its time t.
     pub fn declared<V: Vector>(&self, state: &State<WithTime<V>>) -> State<V> {
         State {
             t: state.q.y[0],
@@ -140,7 +141,7 @@ impl<S, G> TimeTransformed<S, G> {
     }
 }
 
-/// The most groups of coordinates a system has in another time.
+/// The largest number of groups of coordinates in another time.
 const MOST_GROUPS: usize = 64;
 
 /// The groups, and the time, repeated.
@@ -246,7 +247,7 @@ where
         let energy = (self.system).energy_and_gradient(t, &q.x, &p.x, &mut dq.x, &mut dp.x);
         let shell = energy + p.y[0];
         dp.x.scale(scale);
-        // A field takes ∂g/∂q away.
+        // A field subtracts ∂g/∂q.
         dq.x.scale(-scale);
         let field = self.monitor.field(shell);
         field.add(t, &q.x, &p.x, &mut dp.x, &mut dq.x);

@@ -1,6 +1,6 @@
 //! Nested lists whose parts have different lengths.
 //!
-//! Input: two of the parts. Output: the error that names one of them, when the extents are known.
+//! Input: two of the parts. Output: the error that names one of them, once the extents are known.
 
 use crate::error::Error;
 use alloc::format;
@@ -12,7 +12,7 @@ use alloc::vec::Vec;
 pub struct Uneven(pub(crate) [(Vec<usize>, usize); 2]);
 
 impl Uneven {
-    /// The error for coordinates of these extents: it names one of the two that does not have them.
+    /// The error for coordinates of these extents: it names a part whose length differs.
     pub(crate) fn error(&self, name: &str, extents: &[usize]) -> Error {
         let [first, second] = &self.0;
         let expected = extents.get(first.0.len()).copied().unwrap_or_default();

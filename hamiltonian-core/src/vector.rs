@@ -13,12 +13,12 @@ use nalgebra::{ArrayStorage, Const, DVector, Dyn, Matrix, OMatrix, SMatrix, SVec
 ///
 /// `[N]` is `SVector<T, N>`, `[N][3]` the N×3 column-major matrix (component `c` of body `i` at
 /// `i + N·c`), run-time sizes `DVector` and `OMatrix<T, Dyn, Const<3>>`; coordinates whose last extent
-/// is set at run time or more than 4 are a [`Lattice`](crate::Lattice), row after row; those of mixed
-/// shape are a generated struct with one part per group. This is the order of `as_slice`, of the parts
-/// and of the flat index. [`State::to_vec`](crate::State::to_vec) and its kin have the order of the
-/// declaration instead, row after row.
+/// is set at run time or more than 4 are a [`Lattice`](crate::Lattice), row after row; those of
+/// mixed shape are a generated struct with one part per group. This is the order of `as_slice`, of
+/// the parts and of the flat index. [`State::to_vec`](crate::State::to_vec) and its relatives have
+/// the order of the declaration instead, row after row.
 ///
-/// The provided methods are the whole linear algebra a scheme needs. They are loops over the
+/// The provided methods are all the linear algebra that schemes need. They are loops over the
 /// parts; the flat index runs through part 0, then part 1, and so on.
 pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     /// The scalar of every component.
@@ -50,8 +50,8 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
     }
     /// The same shape, all zero.
     fn zeros_like(&self) -> Self;
-    /// Moves the value out without allocating. The rest is a valid vector, of no certain shape or
-    /// value, to be overwritten.
+    /// Moves the value out without allocating. It leaves a valid vector of unspecified shape and
+    /// values, to be overwritten.
     fn take(&mut self) -> Self;
 
     /// The number of components.
@@ -220,8 +220,8 @@ pub trait Vector: Clone + core::fmt::Debug + PartialEq + Send + Sync + 'static {
         }
     }
 
-    /// NaN into every component in the lanes where the mask is set: how an exact flow says that it
-    /// left its domain, and a solve that it did not converge.
+    /// Writes NaN into every component in the lanes where the mask is set, to mark an exact flow
+    /// that left its domain or an iteration that did not converge.
     #[inline(always)]
     fn poison(&mut self, mask: <Self::Scalar as Real>::Mask) {
         let nan = Self::Scalar::constant(f64::NAN, 0.0);
@@ -373,9 +373,10 @@ wide!(Const<R>, , const R: usize);
 /// Arguments of [`State::new`](crate::State::new): arrays, vectors, and every [`Vector`] itself.
 ///
 /// `[T; N]` becomes `SVector<T, N>`; `[[T; C]; N]`, one row a body, the N×C matrix; `Vec<T>` a
-/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the same
-/// by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, and three or four levels of `Vec`s and
-/// arrays that of `u[n][m][k]` or `u[n][m][k][l]`. `M` only tells these cases apart and is always inferred.
+/// `DVector<T>`; `Vec<[T; C]>` the matrix with a run-time number of rows; slices and `&Vec` the
+/// same by copy; `Vec<Vec<T>>` the [`Lattice`](crate::Lattice) of `u[n][m]`, and three or four
+/// levels of `Vec`s and arrays that of `u[n][m][k]` or `u[n][m][k][l]`. `M` distinguishes these
+/// cases and is always inferred.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is no list of real numbers",
     label = "expected a list of real numbers",
@@ -384,9 +385,9 @@ wide!(Const<R>, , const R: usize);
     note = "`new` takes the sizes, then the parameters without a default, in the order of their declaration"
 )]
 pub trait IntoVector<M> {
-    /// The storage it becomes.
+    /// The storage of the result.
     type Vector: Vector;
-    /// The same numbers in that storage.
+    /// Converts the numbers to this storage.
     fn into_vector(self) -> Self::Vector;
 }
 
@@ -413,7 +414,7 @@ pub mod shape {
     /// `&[[T; C]]` and `&Vec<[T; C]>`
     #[derive(Debug, Clone, Copy)]
     pub struct SliceOfRows;
-    /// A [`Vector`](crate::Vector) already.
+    /// A [`Vector`](crate::Vector) itself.
     #[derive(Debug, Clone, Copy)]
     pub struct Same;
 }

@@ -61,7 +61,7 @@ pub enum KnotError {
 }
 
 impl KnotError {
-    /// An error where one of the numbers is not finite.
+    /// Returns an error if one of the numbers is not finite.
     pub(crate) fn check_finite(what: &'static str, numbers: &[f64]) -> Result<(), KnotError> {
         match numbers.iter().position(|number| !number.is_finite()) {
             None => Ok(()),
@@ -73,7 +73,7 @@ impl KnotError {
         }
     }
 
-    /// An error where there are fewer than `needed` knots.
+    /// Returns an error if there are fewer than `needed` knots.
     pub(crate) fn check_count(needed: usize, found: usize) -> Result<(), KnotError> {
         match found >= needed {
             true => Ok(()),

@@ -1,9 +1,9 @@
-//! The known name that a misspelt one is nearest to.
+//! The known name nearest to a misspelt one.
 
 use alloc::vec::Vec;
 
-/// The candidate nearest to `name`, if one is near: equal but for case, or at most one edit in three
-/// letters away. The first of several equally near.
+/// The candidate nearest to `name`: equal except for case, or at most one edit per three letters
+/// away. The first of equally near ones.
 pub(super) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,

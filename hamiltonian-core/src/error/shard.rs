@@ -3,7 +3,7 @@
 use alloc::string::String;
 use core::fmt;
 
-/// A part of a sweep that does not exist, or cannot be found out.
+/// A part of a sweep that does not exist, or that the environment does not determine.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ShardError {
@@ -17,7 +17,7 @@ pub enum ShardError {
         /// The variable that holds the number of the part, if the environment gives it.
         variable: Option<&'static str>,
     },
-    /// A text or a variable has another form than its own.
+    /// A text or a variable does not have the required form.
     #[error("{}`{text}`, and must be {expected}", Named(.variable))]
     Form {
         /// The variable, if the environment gives it.
@@ -27,14 +27,14 @@ pub enum ShardError {
         /// The form it must have.
         expected: &'static str,
     },
-    /// A variable is set, and another one that belongs to it is not.
+    /// A variable is set without another one that belongs to it.
     #[error("`{variable}` is set, but `{missing}` is not\nhelp: {remedy}")]
     Missing {
         /// The variable that is set.
         variable: &'static str,
         /// The variable that is missing.
         missing: &'static str,
-        /// The way out.
+        /// The remedy.
         remedy: &'static str,
     },
     /// Two variables contradict each other.
@@ -46,7 +46,7 @@ pub enum ShardError {
         one: String,
         /// Another one with its value.
         other: String,
-        /// Why the two do not fit.
+        /// The reason why the two do not fit.
         reason: &'static str,
     },
 }

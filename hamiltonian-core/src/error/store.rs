@@ -7,9 +7,9 @@ pub enum StoreError {
     /// A layout that no store can have.
     #[error("{fact}\nhelp: {remedy}")]
     Layout {
-        /// What does not fit.
+        /// The part that does not fit.
         fact: String,
-        /// The way out.
+        /// The remedy.
         remedy: &'static str,
     },
     /// The directory holds something else.
@@ -17,10 +17,10 @@ pub enum StoreError {
     Foreign {
         /// The directory.
         path: String,
-        /// A name in it that no store has.
+        /// A name in the directory that no store has.
         found: String,
     },
-    /// The store is that of another sweep.
+    /// The store belongs to another sweep.
     #[error(
         "`{path}` is the store of another sweep: it says `{saved}`, and this sweep `{given}`\n\
          help: give another path, or remove the store"
@@ -33,7 +33,7 @@ pub enum StoreError {
         /// That line for this sweep.
         given: String,
     },
-    /// The members of a chunk were other ones when it was written.
+    /// The chunk was written with other members.
     #[error(
         "chunk {chunk} of `{path}` was made from other members: its first one had another system or \
          another start\nhelp: give another path, or make the members as they were made"
@@ -44,7 +44,7 @@ pub enum StoreError {
         /// The number of the chunk.
         chunk: u64,
     },
-    /// A file of the store is not as it was written.
+    /// A file of the store differs from what was written.
     #[error("`{path}` is damaged: it has {found} bytes, and must have {expected}\nhelp: remove it")]
     Damaged {
         /// The file.

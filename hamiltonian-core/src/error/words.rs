@@ -1,9 +1,9 @@
-//! Parts of messages: where, which number, what to do.
+//! Parts of messages: place, number, remedy.
 
 use alloc::boxed::Box;
 use core::fmt::{Display, Formatter, Result};
 
-/// ` in the flow of …`, where there is one.
+/// ` in the flow of …`, if there is a piece.
 pub(super) struct Within(pub(super) Option<&'static str>);
 
 impl Display for Within {
@@ -15,12 +15,12 @@ impl Display for Within {
     }
 }
 
-/// A number in the fewest digits that read back to it, with an exponent where it is large or small.
+/// A number in the fewest digits that identify it, with an exponent if it is large or small.
 pub(super) struct Number(pub(super) f64);
 
 impl Display for Number {
     fn fmt(&self, f: &mut Formatter<'_>) -> Result {
-        // Those that `{:?}` writes so; it writes whole numbers with `.0`.
+        // The numbers to which `{:?}` gives an exponent; it writes integers with `.0`.
         let size = self.0.abs();
         match size.is_finite() && size != 0.0 && !(1e-5..1e16).contains(&size) {
             true => write!(f, "{:e}", self.0),
@@ -29,7 +29,7 @@ impl Display for Number {
     }
 }
 
-/// Components: the first few of many, and the first of them that is not finite.
+/// Components: the first few, and the first that is not finite.
 pub(super) struct Numbers<'a>(pub(super) &'a [f64]);
 
 impl Display for Numbers<'_> {
@@ -50,7 +50,7 @@ impl Display for Numbers<'_> {
     }
 }
 
-/// `the derivative part of …`, where it is that.
+/// `the derivative part of …`, if it is one.
 pub(super) struct Part(pub(super) bool);
 
 impl Display for Part {
@@ -63,7 +63,7 @@ impl Display for Part {
     }
 }
 
-/// The way to a start with values, and with derivative parts where they are missing.
+/// The remedy for a start without values, or without derivative parts.
 pub(super) struct Remedy<'a>(pub(super) &'a Option<Box<str>>, pub(super) bool);
 
 impl Display for Remedy<'_> {
@@ -79,7 +79,7 @@ impl Display for Remedy<'_> {
     }
 }
 
-/// ` in lane …`, where there are several.
+/// ` in lane …`, if there are several.
 pub(super) struct Lane(pub(super) Option<u32>);
 
 impl Display for Lane {

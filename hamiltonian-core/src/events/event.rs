@@ -1,4 +1,4 @@
-//! An event: a function of the state, and which of its roots count.
+//! An event: a function of the state, with the roots that count.
 //!
 //! Input: a name, or a closure. Output: an [`Event`], and differences of its values.
 
@@ -28,7 +28,7 @@ use hamiltonian_lanes::Real;
 pub struct Event<V: Vector> {
     pub(super) name: String,
     pub(super) function: Option<Function<V>>,
-    /// The sign of the slope that is asked for; 0 for both.
+    /// The required sign of the slope; 0 for both.
     pub(super) slope: i8,
     pub(super) period: Option<V::Scalar>,
     pub(super) ends_after: Option<u64>,
@@ -37,7 +37,7 @@ pub struct Event<V: Vector> {
 type Function<V> = Arc<dyn Fn(&State<V>) -> <V as Vector>::Scalar + Send + Sync>;
 
 impl<V: Vector> Event<V> {
-    /// The roots of the event, monitor or invariant that the system declares under that name.
+    /// Creates an event at the roots of the event, monitor or invariant of this name.
     pub fn named(name: &str) -> Self {
         Event {
             name: name.to_owned(),
@@ -48,7 +48,7 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// The roots of a function of the state, under a name of yours.
+    /// Creates an event at the roots of a function of the state, with a name.
     pub fn of(
         name: &str,
         function: impl Fn(&State<V>) -> V::Scalar + Send + Sync + 'static,
@@ -59,13 +59,13 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// Only where the function grows, in the direction of the run.
+    /// Selects roots at which the function increases, in the direction of the run.
     #[must_use]
     pub fn rising(self) -> Self {
         Event { slope: 1, ..self }
     }
 
-    /// Only where the function falls, in the direction of the run.
+    /// Selects roots at which the function decreases, in the direction of the run.
     #[must_use]
     pub fn falling(self) -> Self {
         Event { slope: -1, ..self }
@@ -96,8 +96,8 @@ impl<V: Vector> Event<V> {
         }
     }
 
-    /// Its name and the roots that count: a saved run goes on with the same alone. Where it ends the run may be
-    /// changed.
+    /// The name and the roots that count, which a resumed run must have too. The end of the run may
+    /// be changed.
     pub(super) fn text(&self) -> String {
         let direction = match self.slope {
             0 => "",
@@ -108,19 +108,19 @@ impl<V: Vector> Event<V> {
         format!("{}{direction}{}", self.name, period.unwrap_or_default())
     }
 
-    /// The difference of two values, or of a value and 0, to the nearest of what is the same.
+    /// The difference of two values, or of a value and 0, modulo the period and of least size.
     pub(super) fn difference(&self, value: V::Scalar) -> V::Scalar {
         let Some(period) = self.period else {
             return value;
         };
         let turns = (value / period).to_f64();
         let below = turns as i64 as f64;
-        // Halves go away from 0.
+        // Halves are rounded away from 0.
         let turns = (2.0 * (turns - below)) as i64 as f64 + below;
         value - V::Scalar::constant(turns, 0.0) * period
     }
 
-    /// A value, counted on from the one before.
+    /// A value, continued from the one before without jumps of the period.
     pub(super) fn counted(&self, from: V::Scalar, value: V::Scalar) -> V::Scalar {
         match self.period {
             None => value,

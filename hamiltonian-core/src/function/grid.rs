@@ -64,8 +64,9 @@ impl Grid {
         Grid::through(origin, spacing, rows, false)
     }
 
-    /// The periodic spline: after the last row comes the first again, and so do columns, so the periods are
-    /// `rows.len()·spacing[0]` and `rows[0].len()·spacing[1]`. It needs three points in each direction.
+    /// The periodic spline: the first row follows the last, and likewise the columns, so the
+    /// periods are `rows.len()·spacing[0]` and `rows[0].len()·spacing[1]`. It needs three points in
+    /// each direction.
     ///
     /// # Errors
     /// Those of [`natural`](Grid::natural).

@@ -1,13 +1,13 @@
-//! Systems of equations with three diagonals, as splines have them.
+//! Tridiagonal systems of equations, for splines.
 //!
-//! Input: rows `lower·x[i−1] + middle·x[i] + upper·x[i+1] = right`. Output: x. Invariant: rows are dominated
-//! by their middle, so elimination needs no exchange of rows.
+//! Input: rows `lower·x[i−1] + middle·x[i] + upper·x[i+1] = right`. Output: x. Invariant: the
+//! matrix is diagonally dominant, so elimination needs no exchange of rows.
 
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A row: the factors of the unknown before it, its own and the one after it, and the right side. The factor
-/// of an unknown that is not there is not read.
+/// A row: the factors of the unknown before it, its own and the one after it, and the right side.
+/// The factor of an unknown that does not exist is not read.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Row {
     pub lower: f64,
@@ -34,8 +34,8 @@ pub(super) fn solve(rows: &[Row]) -> Vec<f64> {
     x
 }
 
-/// The solution where the first and the last unknown are neighbours, of at least three rows (J. Sherman and
-/// W. J. Morrison, *Ann. Math. Stat.* 21, 124, 1950, doi:10.1214/aoms/1177729893).
+/// The solution of at least three rows if the first and the last unknown are neighbours (J. Sherman
+/// and W. J. Morrison, *Ann. Math. Stat.* 21, 124, 1950, doi:10.1214/aoms/1177729893).
 pub(super) fn solve_around(rows: &[Row]) -> Vec<f64> {
     let last = rows.len() - 1;
     let (corner, other) = (rows[0].lower, rows[last].upper);

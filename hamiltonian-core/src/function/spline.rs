@@ -35,7 +35,7 @@ pub struct Spline(Arc<Pieces>);
 #[derive(Debug)]
 struct Pieces {
     knots: Vec<f64>,
-    /// Of (x − left knot), from the constant on.
+    /// The coefficients of powers of (x − left knot), the constant first.
     polynomials: Vec<[f64; 4]>,
     period: Option<f64>,
     fingerprint: u64,
@@ -146,7 +146,7 @@ fn curvatures(knots: &[f64], values: &[f64], ends: Ends) -> Vec<f64> {
     let last = knots.len() - 1;
     let width = |i: usize| knots[i + 1] - knots[i];
     let slope = |i: usize| (values[i + 1] - values[i]) / width(i);
-    // The slopes of two neighbours agree at the knot between them.
+    // The slopes of two neighbouring polynomials agree at their knot.
     let joint = |before: usize, after: usize| Row {
         lower: width(before),
         middle: 2.0 * (width(before) + width(after)),

@@ -1,7 +1,7 @@
 //! The steps of a run.
 //!
-//! Input: a run. Output: the run so many steps later, or an error that names the first bad step.
-//! Invariant: a state that is not finite is never shown; a run that failed stands at the last good
+//! Input: a run. Output: the run after these steps, or an error that names the first bad step.
+//! Invariant: a state that is not finite is never returned; a failed run stands at the last good
 //! state.
 
 use super::part::Part;
@@ -15,8 +15,8 @@ use crate::system::{System, clock};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// Steps between two checks that everything is finite: few enough that replaying a bad block is
-/// quick, enough that the check costs nothing.
+/// The number of steps between two checks that everything is finite: few enough that a bad block is
+/// repeated quickly, enough that the check costs nothing.
 const BLOCK: u64 = 1024;
 
 /// The first multiple of `interval` after `steps`.
@@ -90,7 +90,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         Ok(())
     }
 
-    /// Steps to `stop`, leaves the synchronised state there.
+    /// Makes steps to `stop` and leaves the synchronised state there.
     fn run_to(&mut self, stop: u64) -> Result<(), Error> {
         while self.steps < stop {
             let n = BLOCK.min(stop - self.steps);
@@ -102,7 +102,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         Ok(())
     }
 
-    /// Makes `n` steps from a snapshot; whether all is finite after them.
+    /// Makes `n` steps from a snapshot. Returns true if everything is finite after them.
     fn makes(&mut self, n: u64) -> bool {
         let steps = Steps {
             map: &self.map,
@@ -122,14 +122,14 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         steps.make()
     }
 
-    /// Makes the block of `n` steps again, one by one, up to the bad one, and stops before that.
+    /// Repeats the block of `n` steps one by one, and stops before the bad one.
     #[cold]
     fn replay(&mut self, n: u64) -> Error {
         let last = self.steps + n - 1;
         self.carried.copy_from(&self.snapshot);
         loop {
             let good = self.makes(1);
-            // The last step is the bad one if none before it was.
+            // If no earlier step was bad, the last one is.
             if good && self.steps < last {
                 self.steps += 1;
                 continue;
@@ -170,7 +170,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         }
     }
 
-    /// Writes the state after `made` steps, which the map has made; whether all is finite.
+    /// Writes the state after the `made` steps of the map. Returns true if everything is finite.
     #[inline(always)]
     pub(super) fn arrives(&mut self, steps: u64) -> bool {
         let made = steps - self.began;
@@ -188,13 +188,13 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         steps.arrive()
     }
 
-    /// Writes the state anew after what is carried was changed.
+    /// Writes the state again after a change of the carried value.
     pub(crate) fn show_carried(&mut self) {
         self.arrives(self.steps);
     }
 }
 
-/// What steps are made of.
+/// The data of steps.
 pub(crate) struct Steps<'a, R: Map> {
     map: &'a R,
     work: &'a mut R::Work,
@@ -210,10 +210,11 @@ pub(crate) struct Steps<'a, R: Map> {
 }
 
 impl<R: Map> Steps<'_, R> {
-    /// Makes them; whether all is finite after them. The one place where the loop over steps is compiled.
+    /// Makes the steps. Returns true if everything is finite after them. The loop over steps is
+    /// compiled here only.
     #[inline(never)]
     pub(crate) fn make(self) -> bool {
-        // In a function of the level of a pack: here its instructions would be calls.
+        // This runs in a function of the level of a pack: here its instructions would be calls.
         ScalarOf::<R>::out_of_line(
             #[inline(always)]
             || {
@@ -224,7 +225,7 @@ impl<R: Map> Steps<'_, R> {
         )
     }
 
-    /// Writes the state after them; whether all is finite.
+    /// Writes the state after the steps. Returns true if everything is finite.
     #[inline(always)]
     fn arrive(self) -> bool {
         let made = self.made + self.n;

@@ -12,7 +12,7 @@ use crate::vector::Vector;
 use alloc::format;
 use hamiltonian_lanes::{Mask, Real};
 
-/// An error for a step that is no step.
+/// Returns an error for a step that is zero, NaN or infinite.
 pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
     if step.is_finite() && !step.equals(T::zero()).any() {
         return Ok(());
@@ -22,7 +22,7 @@ pub(crate) fn check_step<T: Real>(step: T) -> Result<(), Error> {
     })
 }
 
-/// An error for a state of another shape, or with a NaN or an infinity in it.
+/// Returns an error for a state of another shape, or with a NaN or an infinity.
 pub(crate) fn check_state<T: Real, S: System<T>>(
     system: &S,
     state: &State<S::Vector>,
@@ -39,7 +39,7 @@ pub(crate) fn check_state<T: Real, S: System<T>>(
     })
 }
 
-/// The prepared system of a run from a start, or an error for a start that is no start.
+/// Prepares the system of a run from a start, or returns an error for a start that is refused.
 pub(crate) fn check_start<T: Real, S: System<T>>(
     system: &S,
     start: &State<S::Vector>,
@@ -50,7 +50,8 @@ pub(crate) fn check_start<T: Real, S: System<T>>(
     Ok(prepared)
 }
 
-/// An error where H or a first derivative of it is not finite, and off the shell where there is one.
+/// Returns an error if H or a first derivative is not finite, or if the start is off the shell of
+/// another time.
 fn check_values<T: Real, S: System<T>>(
     system: &S,
     prepared: &S::Prepared,
@@ -63,7 +64,7 @@ fn check_values<T: Real, S: System<T>>(
         let mut found = value.lane(lane);
         let derivative = found.is_finite();
         if derivative {
-            // The value is its first words.
+            // The first words are the value.
             value.write_words(&mut |word| {
                 if found.is_finite() {
                     found = word;
@@ -105,8 +106,8 @@ fn check_values<T: Real, S: System<T>>(
     let Some(&given) = numbers(&start.p).last() else {
         return Ok(());
     };
-    // H = g·(h + p_t) is held against Σ p ∂H/∂p, in which g·p_t is one term, and by so little that where a
-    // run with errors in its energy ended another can go on.
+    // H = g·(h + p_t) is compared with Σ p ∂H/∂p, in which g·p_t is one term. The bound is wide
+    // enough that a run can continue from the end of another that has errors in its energy.
     let terms = start.p.components().zip(velocities.components());
     let scale: f64 = terms.map(|(p, velocity)| (p * velocity).magnitude()).sum();
     if h.to_f64().abs() <= 1e-3 * scale {

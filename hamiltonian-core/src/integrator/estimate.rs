@@ -25,17 +25,18 @@ pub struct ErrorEstimate<V: Vector> {
     pub energy_error: f64,
     /// The observed order p of `error` = O(hᵖ). NaN if steps make no difference.
     ///
-    /// If it is far from the order of the [entry](crate::schemes::author::Entry), the estimates are not reliable:
-    /// the step is too long for the asymptotic error, errors are those of rounding, or the orbit is chaotic and
-    /// the run longer than its memory.
+    /// If it is far from the order of the [entry](crate::schemes::author::Entry), the estimates are
+    /// not reliable: the step is too long for the asymptotic error, errors are those of rounding,
+    /// or the orbit is chaotic and the run is longer than its predictable time.
     pub order: f64,
 }
 
-/// The error of the first of three values that halve their steps, from their two differences, and the order.
+/// The error of the first of three values with steps that halve, and the order, from the two
+/// differences.
 ///
 /// Errors e, 2⁻ᵖe, 4⁻ᵖe have the differences a = (1 − 2⁻ᵖ)e and b = 2⁻ᵖa, so e = a²/(a − b).
 fn extrapolated(a: f64, b: f64) -> (f64, f64) {
-    // At order 1/2 and below nothing converges that a scheme here makes.
+    // At order 1/2 and below no scheme of this library converges.
     let converges = a > core::f64::consts::SQRT_2 * b;
     let error = if converges { a * a / (a - b) } else { a.max(b) };
     (error, Real::ln(a / b) / core::f64::consts::LN_2)

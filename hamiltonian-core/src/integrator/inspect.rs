@@ -1,4 +1,4 @@
-//! Questions to a run.
+//! Properties of a run.
 //!
 //! Input: a run. Output: its state, clock, energy, second copy and observer. Invariant: nothing here
 //! changes a run.
@@ -13,12 +13,12 @@ use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
-    /// The present state: time, coordinates and momenta, all at the same time.
+    /// The current state: time, coordinates and momenta, all at the same time.
     pub fn state(&self) -> &State<S::Vector> {
         &self.state
     }
 
-    /// The present time.
+    /// The current time.
     pub fn time(&self) -> T {
         self.state.t
     }
@@ -33,20 +33,20 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.step
     }
 
-    /// The time one step advances: the step size, but twice that for
+    /// The time that one step advances: the step size, or twice the step size for
     /// [`ConsecutiveSubTrajectories`](crate::schemes::ConsecutiveSubTrajectories).
     pub fn interval(&self) -> T {
         self.clock.interval
     }
 
-    /// The declared H at the present state: in another time, `dt = g*ds`, without g and the
+    /// The declared H at the current state: in another time, `dt = g*ds`, without g and the
     /// momentum of time.
     pub fn energy(&self) -> T {
         declared_energy::<T, S>(&self.prepared, &self.state)
     }
 
-    /// The observable of that name, a monitor, an invariant or an event, at the present state; `None`
-    /// if there is none.
+    /// The observable of that name, a monitor, an invariant or an event, at the current state;
+    /// `None` if there is none.
     pub fn observable_named(&self, name: &str) -> Option<T> {
         let index = S::observable_index(name)?;
         let State { t, q, p } = &self.state;
@@ -63,7 +63,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O> Integrator<T, S, R, O> {
         self.entry
     }
 
-    /// All that the scheme carries, before the closing piece of the last step.
+    /// The value that the scheme carries, before the closing piece of the last step.
     pub fn carried(&self) -> &R::Carried {
         &self.carried
     }
@@ -82,8 +82,8 @@ impl<T: Real, S: System<T>, R, O> Integrator<T, S, R, O>
 where
     R: MapOf<T, S> + Map<Carried = Copies<S::Vector>>,
 {
-    /// The second copy (q̃, p̃) at the present time, or the second point of a scheme that carries two;
-    /// the first is [`state`](Integrator::state).
+    /// The second copy (q̃, p̃) at the current time, or the second point of a scheme that carries
+    /// two; the first is [`state`](Integrator::state).
     pub fn copy(&self) -> Point<S::Vector> {
         self.shown.y.clone()
     }

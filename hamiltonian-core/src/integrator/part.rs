@@ -1,6 +1,6 @@
 //! Parts of a step: the state of a run between its steps.
 //!
-//! Input: the present state of a run and a time. Output: the state at that time, by one step of
+//! Input: the current state of a run and a time. Output: the state at that time, by one step of
 //! another size of a copy, of the scheme's own order. Invariant: no bit of the run changes.
 
 use super::{Integrator, MapOf, numbers};
@@ -17,8 +17,8 @@ use alloc::format;
 use alloc::string::String;
 use hamiltonian_lanes::{Mask, Real};
 
-/// The scheme of a run, its type forgotten: how maps are made. (A run names its scheme's map alone:
-/// with the scheme in its type a wrong pairing would be reported at every call.)
+/// The scheme of a run without its type, which makes maps. (The type of a run contains only the
+/// map: with the scheme in it, rustc would report a wrong pairing at every call.)
 pub(crate) trait Recipe<T: Real, S: System<T>, R: Map>: Send + Sync {
     fn prepare(&self, prepared: &S::Prepared, step: Step<T>) -> R;
     fn start(&self, prepared: &S::Prepared, state: &State<S::Vector>, h: T) -> R::Carried;
@@ -60,19 +60,19 @@ pub(crate) struct Part<'a, T: Real, S: System<T>, R> {
     pub(crate) state: &'a State<S::Vector>,
     pub(crate) step: T,
     pub(crate) clock: Clock<T>,
-    /// About how long the next step is, where it is not the clock's interval.
+    /// The approximate length of the next step, if it is not the interval of the clock.
     pub(crate) duration: Option<T>,
 }
 
 impl<T: Real, S: System<T>, R: MapOf<T, S>> Between<S::Vector> for Part<'_, T, S, R> {
     fn state_at(&self, t: T) -> Result<State<S::Vector>, Error> {
         let now = self.state.t;
-        // If durations are carried, the step before and the one after are longer or shorter.
+        // If durations are carried, the previous and the next step have other lengths.
         let (step, most) = match self.duration {
             Some(duration) => (duration, 2.0),
             None => (self.clock.interval, 1.0),
         };
-        // False for NaN.
+        // This is false for NaN.
         let is_near = ((t - now) / step).magnitude() <= most + self.rounding(now, t);
         if !is_near {
             return Err(Error::Far {
@@ -174,15 +174,15 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Part<'_, T, S, R> {
 }
 
 impl<T: Real> Clock<T> {
-    /// The number of steps to `t` after `made`: (none, that number), or where none leads there the numbers
-    /// before and after it. `clock` is the name of the time.
+    /// The number of steps to `t` after `made`: (none, this number), or the numbers before and
+    /// after it if no number leads there. `clock` is the name of the time.
     pub(crate) fn whole_steps(
         &self,
         made: u64,
         t: T,
         clock: &'static str,
     ) -> Result<(Option<u64>, u64), Error> {
-        /// Numbers of steps up to here are exact in `f64`.
+        /// The largest number of steps that is exact in `f64`.
         const MOST: f64 = (1_u64 << 53) as f64;
         let count = ((t - self.start) / self.interval).to_f64();
         let nearest = (count.clamp(0.0, MOST) + 0.5) as u64;
@@ -260,7 +260,7 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>, O: Observer<T, S>> Integrator<T, S, 
         let (before, after) = self.whole_steps(t)?;
         self.advance(before.unwrap_or(after))?;
         match before {
-            // An end is a step of the grid, or the state where an observer ended the run.
+            // The end is a step of the grid, or the state at which an observer ended the run.
             _ if self.ended => Ok(self.state.clone()),
             None => Ok(self.state.clone()),
             Some(_) => self.state_at(t),

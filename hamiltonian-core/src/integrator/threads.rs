@@ -10,7 +10,7 @@ use alloc::sync::Arc;
 /// The threads of a run, and its steps among them.
 pub(crate) struct Threads<R: Map> {
     pool: Arc<rayon_core::ThreadPool>,
-    /// [`Steps::make`] on one of the threads. Here it is known that the map may go there.
+    /// [`Steps::make`] on one of the threads. The bounds here state that the map is `Sync`.
     make: fn(&rayon_core::ThreadPool, Steps<'_, R>) -> bool,
 }
 
@@ -24,9 +24,9 @@ impl<R: Map> Clone for Threads<R> {
 }
 
 impl<R: Map<Work: Send> + Sync> Threads<R> {
-    /// So many threads; none if they are fewer than two, or where the system starts none.
+    /// Starts the threads; returns `None` for fewer than two, or if the system cannot start them.
     pub(crate) fn new(number: usize) -> Option<Self> {
-        // As for members of ensembles: what is not touched takes no memory.
+        // As for members of ensembles: memory that is not written is not used.
         const STACK: usize = 64 << 20;
         if number < 2 {
             return None;
@@ -47,7 +47,7 @@ impl<R: Map> Threads<R> {
         self.pool.current_num_threads()
     }
 
-    /// Makes the steps among the threads; whether all is finite after them.
+    /// Makes the steps on the threads. Returns true if everything is finite after them.
     pub(crate) fn make(&self, steps: Steps<'_, R>) -> bool {
         (self.make)(&self.pool, steps)
     }

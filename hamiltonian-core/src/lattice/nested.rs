@@ -41,7 +41,7 @@ impl<T: Real, const N: usize> Nested<1> for [T; N] {
     }
 }
 
-/// Lists of one level less, one after the other.
+/// Concatenates lists of one level less.
 fn stacked<B: Nested<R>, const R: usize, const S: usize>(
     parts: impl ExactSizeIterator<Item = B>,
     elements: &mut Vec<B::Scalar>,

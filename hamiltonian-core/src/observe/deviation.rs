@@ -1,6 +1,7 @@
 //! The change of a function of the state.
 //!
-//! Input: its values. Output: the extremes and means of the change. Invariant: nothing is kept but sums.
+//! Input: its values. Output: the extremes and means of the change. Invariant: only sums are
+//! stored.
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
@@ -33,7 +34,7 @@ impl<T: Real> Deviation<T> {
         let change = (value - self.start).to_f64();
         let size = if change < 0.0 { -change } else { change };
         self.count += 1;
-        // A NaN stays, which `f64::max` would drop.
+        // A NaN must remain; `f64::max` would drop it.
         if size > self.max || size.is_nan() {
             self.max = size;
         }
@@ -64,7 +65,7 @@ impl<T: Real> Deviation<T> {
         self.start
     }
 
-    /// The number of states seen.
+    /// The number of received states.
     pub fn count(&self) -> u64 {
         self.count
     }

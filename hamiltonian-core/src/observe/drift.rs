@@ -1,7 +1,7 @@
 //! The drift of functions of the state.
 //!
-//! Input: states of a run. Output: the extremes and means of H ([`EnergyDrift`]) and of the observables
-//! ([`Monitors`]). Invariant: nothing of a run is kept but sums.
+//! Input: states of a run. Output: the extremes and means of H ([`EnergyDrift`]) and of the
+//! observables ([`Monitors`]). Invariant: only sums are stored.
 
 use super::deviation::Deviation;
 use super::follow::Follower;

@@ -21,7 +21,7 @@ impl Quantity {
         let Quantity::Observable(index) = self else {
             return [true; 2];
         };
-        // The time may be carried beside either.
+        // The time may be carried with either.
         let declared = S::OBSERVABLES.get(index);
         let is_timed = declared.is_none_or(|observable| observable.depends_on_time);
         let reads = S::READS.get(index).filter(|_| !is_timed);

@@ -1,8 +1,9 @@
 //! Changes of sign, found in lanes.
 //!
-//! Input: the values of a function after each step, lane by lane. Output: the lanes in which its sign may
-//! have changed, so that [`Events`](crate::observers::Events) must see the step. Invariant: the step of a lane that is
-//! not found is one at which the observer would find nothing, and after which it remembers two values alone.
+//! Input: the values of a function after each step, lane by lane. Output: the lanes in which its
+//! sign may have changed, so that [`Events`](crate::observers::Events) must receive the step.
+//! Invariant: in a lane that is not returned, the observer would find nothing, and stores only two
+//! values after the step.
 
 use super::quantity::Quantity;
 use hamiltonian_lanes::{Mask, Real};
@@ -11,7 +12,7 @@ use hamiltonian_lanes::{Mask, Real};
 #[derive(Debug, Clone, Copy)]
 pub struct Section<T> {
     pub(crate) quantity: Quantity,
-    /// The function is 0 at all multiples of it.
+    /// The period: all multiples of it count as 0.
     pub(crate) period: Option<T>,
     /// The value after the last step.
     pub(crate) value: T,
@@ -22,7 +23,7 @@ pub struct Section<T> {
 }
 
 impl<T: Real> Section<T> {
-    /// Returns true if another section is of the same function.
+    /// Returns true if another section has the same function.
     pub(crate) fn is_of(&self, other: &Self) -> bool {
         let is_same_period = match (self.period, other.period) {
             (Some(one), Some(other)) => one.equals(other).all(),
@@ -53,7 +54,7 @@ fn nearest<U: Real>(x: U) -> U {
 }
 
 impl<U: Real> Watcher<U> {
-    /// A function whose values are yet to be written.
+    /// Creates a function whose values are to be written.
     pub(crate) fn new(quantity: Quantity, period: Option<U>) -> Self {
         Watcher {
             quantity,
@@ -83,16 +84,16 @@ impl<U: Real> Watcher<U> {
         [self.value(), &self.values[(self.turn + 1) & 1]]
     }
 
-    /// Goes on to the value after the next step, if nothing can have happened in the lanes that are watched:
-    /// a short form of [`is_loud`](Watcher::is_loud) for the usual step. Returns whether it does.
+    /// Accepts the value after the next step and returns true if nothing can have happened in the
+    /// watched lanes: a short form of [`is_loud`](Watcher::is_loud) for the usual step.
     #[inline(always)]
     pub(crate) fn is_past(&mut self, value: U, watched: U::Mask) -> bool {
         if self.period.is_some() {
             return false;
         }
-        // The ratio of the last value to this one is above a small number and below 1.476: the sign is the same,
-        // and the function falls by less than half of what is left of it, so the next step is not near 0 either
-        // in the sense of `is_loud`.
+        // The ratio of the last value to this one is between a small number and 1.476. Then the
+        // sign is the same, and the function decreases by less than half of its value, so `is_loud`
+        // finds nothing in the next step either.
         let least = U::constant(1.0 / 262_144.0, 0.0);
         let above = least.fma(-value, *self.value());
         let below = U::constant(3.1, 0.0).fma(value, U::constant(-2.1, 0.0) * *self.value());
@@ -106,11 +107,12 @@ impl<U: Real> Watcher<U> {
         is_far && was_far
     }
 
-    /// Goes on to the values after the next step. Returns the lanes in which something can have happened.
+    /// Accepts the values after the next step. Returns the lanes in which something can have
+    /// happened.
     ///
-    /// An observer evaluates the function once more without fused products. A lane whose value is so small
-    /// against its change that the rounding of either might decide the sign is loud, at this step and at the
-    /// next.
+    /// An observer evaluates the function once more without fused products. A lane is loud, at this
+    /// step and at the next, if its value is so small relative to its change that the rounding of
+    /// either might decide the sign.
     #[inline(always)]
     pub(crate) fn is_loud(&mut self, value: U) -> U::Mask {
         let [&from, &before] = self.last();

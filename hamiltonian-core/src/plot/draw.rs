@@ -9,8 +9,8 @@ use std::path::Path;
 
 type Drawn<T> = Result<T, Box<dyn core::error::Error>>;
 
-/// Everything is drawn so many times larger and shown smaller: the backend draws to whole pixels,
-/// of which curves would get steps.
+/// The factor by which everything is drawn larger and displayed smaller: the backend rounds to
+/// whole pixels, which would make steps in curves.
 const FINE: u32 = 8;
 
 /// A number on an axis, as short as it is exact to a few digits.
@@ -19,7 +19,8 @@ fn tick(x: &f64) -> String {
     if size < 1e-12 {
         "0".into()
     } else if (0.01..1e5).contains(&size) {
-        // Rust writes the shortest decimal; rounding first drops what counting up the axis left.
+        // Rust writes the shortest decimal; rounding first removes the errors of adding steps of
+        // the axis.
         format!("{}", (x * 1e6).round() / 1e6)
     } else {
         format!("{x:.1e}")
@@ -31,7 +32,7 @@ fn decade(x: f64) -> String {
     format!("{x:.0e}")
 }
 
-/// Told apart by people who see colours differently too (Okabe and Ito).
+/// Colours that colour-blind people can distinguish too (Okabe and Ito).
 const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -77,7 +78,7 @@ impl Figure {
             let to = from + length + "</text>".len();
             text.replace_range(from..to, &raster.element());
         }
-        // Shown at the size it is meant for.
+        // It is displayed at the intended size.
         let drawn = format!("width=\"{width}\" height=\"{height}\"");
         let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
         Ok(text.replacen(&drawn, &shown, 1))
@@ -121,7 +122,7 @@ impl Figure {
             let shown = || all().map(|(_, y)| y.abs()).filter(|y| *y > 0.0);
             let smallest = shown().fold(f64::INFINITY, f64::min).max(1e-17);
             let largest = shown().fold(f64::NEG_INFINITY, f64::max);
-            // Room for the legend above the curves, a line of it each.
+            // Space for the legend above the curves, one line for each curve.
             let room = (0.05 * (1 + self.names().len()) as f64).max(0.2);
             let y = self
                 .range
@@ -142,7 +143,7 @@ impl Figure {
                 let y = range(&mut all().map(|(_, y)| *y));
                 let span = (y.end - y.start).max(f64::MIN_POSITIVE);
                 if self.equal {
-                    // A square about the middle, with a margin, the legend's room on top.
+                    // A square about the middle, with a margin, and the space of the legend on top.
                     let half = 0.53 * span.max(x.end - x.start);
                     let (middle, across) = (0.5 * (y.start + y.end), 0.5 * (x.start + x.end));
                     x = across - half..across + half;
@@ -231,7 +232,7 @@ impl Figure {
                     });
                 continue;
             }
-            // A curve that leaves the range is cut there, not joined across.
+            // A curve that leaves the range is interrupted.
             let pieces = curve.points.split(|(_, y)| visible(*y).is_none());
             for (number, piece) in pieces.filter(|piece| piece.len() > 1).enumerate() {
                 let line = LineSeries::new(

@@ -25,7 +25,7 @@ use crate::error::Error;
 use crate::table::Table;
 use std::ops::Range;
 
-/// The most dots of a figure that are drawn one by one; more become one embedded PNG.
+/// The largest number of dots that are drawn one by one; more become one embedded PNG.
 pub const DENSE: usize = 500;
 
 /// A named curve. Curves with the same name share a colour and a line of the legend.

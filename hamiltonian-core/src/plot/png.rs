@@ -67,7 +67,7 @@ fn adler32(bytes: &[u8]) -> u32 {
     high << 16 | low
 }
 
-/// One block with the fixed codes; matches are found by the last place of the same three bytes.
+/// One block with the fixed codes; matches are found by the last position of the same three bytes.
 fn zlib(bytes: &[u8]) -> Vec<u8> {
     /// The farthest match of deflate, and the longest.
     const WINDOW: usize = 32_768;

@@ -29,7 +29,7 @@ impl Raster {
         }
     }
 
-    /// Puts a dot of `size`² pixels; what lies outside is left out.
+    /// Draws a dot of `size`² pixels; pixels outside the area are omitted.
     pub(super) fn dot(&mut self, (x, y): (i32, i32), size: usize, colour: [u8; 3]) {
         let known = self.palette.iter().position(|known| *known == colour);
         let number = known.unwrap_or_else(|| {

@@ -1,8 +1,8 @@
 //! The list of all schemes.
 //!
-//! Input: the schemes with each of their choices. Output: [`catalogue`] to print,
-//! [`visit_any`] and its like to run. Invariant: every entry is measured by the
-//! tests, which iterate over it; a scheme that is not in it is not in the library.
+//! Input: the schemes with all their settings. Output: [`catalogue`] to print, [`visit_any`] and
+//! similar functions to run. Invariant: every entry is measured by the tests, which iterate over
+//! it; a scheme that is not in it is not in the library.
 
 use super::{
     Aba104, Aba864, Aba1064, BlanesCasasEscorihuela8, BlanesCasasMurua8, BlanesMoan4, BlanesMoan6,
@@ -23,9 +23,9 @@ use hamiltonian_lanes::Real;
 
 /// A visitor of the schemes of the catalogue.
 pub trait Visitor<T: Real, S: System<T>> {
-    /// Does it with one.
+    /// Visits a scheme.
     fn visit<M: Scheme<T, S>>(&mut self, scheme: M);
-    /// Does it with one that has an adjoint: the same, unless that is wanted.
+    /// Visits a scheme that has an adjoint, like any other by default.
     fn visit_one_step<M>(&mut self, scheme: M)
     where
         M: Scheme<T, S> + OneStep<Adjoint: Scheme<T, S>>,
@@ -65,42 +65,42 @@ macro_rules! catalogue {
                 .into_iter()
         }
 
-        /// Visits the schemes that serve any H, with forces.
+        /// Visits the schemes for any H, with forces.
         pub fn visit_any<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $any);)+
         }
 
-        /// Visits the schemes that ask for no forces.
+        /// Visits the schemes that require the absence of forces.
         pub fn visit_unforced<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $($unforced_kind)? $unforced);)+
         }
 
-        /// Visits the schemes that ask for pieces.
+        /// Visits the schemes that require pieces.
         pub fn visit_split<T: Real, S: Split<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $split);)+
         }
 
-        /// Visits the schemes that ask for pieces whose flows are all exact.
+        /// Visits the schemes that require pieces with exact flows only.
         pub fn visit_exact<T: Real, S: Split<T> + Exact>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $exact);)+
         }
 
-        /// Visits the schemes that ask for H = T(p, t) + V(q, t).
+        /// Visits the schemes that require H = T(p, t) + V(q, t).
         pub fn visit_separable<T: Real, S: Separable<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $separable);)+
         }
 
-        /// Visits the schemes that ask for H = A(q, p) + V(q, t), A at most quadratic in p.
+        /// Visits the schemes that require H = A(q, p) + V(q, t), A at most quadratic in p.
         pub fn visit_nystrom<T: Real, S: Nystrom<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $nystrom);)+
         }
 
-        /// Visits the schemes of the stages of a quadrature, which serve any H, with forces.
+        /// Visits the schemes with the stages of a quadrature, for any H, with forces.
         pub fn visit_implicit<T: Real, S: System<T>>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $implicit);)+
         }
 
-        /// Visits the schemes that preserve H; they ask for no forces.
+        /// Visits the schemes that preserve H; they require the absence of forces.
         pub fn visit_energy<T: Real, S: System<T> + Unforced>(visitor: &mut impl Visitor<T, S>) {
             $(visit!(visitor, $energy);)+
         }
@@ -117,7 +117,7 @@ macro_rules! catalogue {
             $(visit!(visitor, $compensated);)+
         }
 
-        /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q) in the time of a monitor function.
+        /// Visits the schemes that require H = ½ pᵀM⁻¹p + V(q) in the time of a monitor function.
         pub fn visit_transformed<T, S, G>(visitor: &mut impl Visitor<T, TimeTransformed<S, G>>)
         where
             T: Real,
@@ -127,7 +127,7 @@ macro_rules! catalogue {
             $(visit!(visitor, $transformed);)+
         }
 
-        /// Visits the schemes that ask for H = ½ pᵀM⁻¹p + V(q, t) with constant M.
+        /// Visits the schemes that require H = ½ pᵀM⁻¹p + V(q, t) with constant M.
         pub fn visit_quadratic<T: Real, S: Separable<T> + QuadraticKinetic + Unforced>(
             visitor: &mut impl Visitor<T, S>,
         ) {

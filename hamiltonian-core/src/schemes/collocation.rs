@@ -1,8 +1,8 @@
 //! Collocation: the coefficients of Gauss' and Lobatto's methods for any number of stages.
 //!
 //! Input: the number of stages. Output: [`Collocation`]: nodes, weights and integrals of Lagrange's
-//! polynomials, in double-double, from nothing but Legendre's polynomials. Invariant: B(2s) (Gauss)
-//! or B(2s − 2) (Lobatto) and C(s) hold to 1e-30, and nothing allocates.
+//! polynomials, in double-double, from Legendre's polynomials alone. Invariant: B(2s) (Gauss) or
+//! B(2s − 2) (Lobatto) and C(s) hold to 1e-30, and nothing allocates.
 //!
 //! With the shifted Legendre polynomials P₀, P₁, … on [0, 1] and a quadrature that is exact for
 //! degree 2s − 2, Lagrange's polynomials are `ℓⱼ(x) = bⱼ Σ (2k + 1) Pₖ(cⱼ) Pₖ(x)`, k = 0 … s − 1, and
@@ -92,7 +92,7 @@ impl<const S: usize> Collocation<S> {
             (weights[S - 1 - j], weights[j]) = (weight, weight);
         }
         if S % 2 == 1 {
-            // Zero exactly.
+            // This is exactly zero.
             weights[S / 2] = node(S / 2).1;
         }
         let half = number(0.5);
@@ -161,7 +161,8 @@ impl<const S: usize> Collocation<S> {
         })
     }
 
-    /// The same in another scalar, `μᵢⱼ`, and `1 − μⱼᵢ` for the momenta, with 1 as their sum exactly.
+    /// The coefficients in another scalar, `μᵢⱼ`, and `1 − μⱼᵢ` for the momenta, whose sum is
+    /// exactly 1.
     pub(super) fn pair<T: Real>(&self, degree: usize) -> ([[T; S]; S], [[T; S]; S]) {
         let integrals = self.integrals_of(degree);
         let mut coordinates = integrals.map(|row| row.map(constant::<T>));
@@ -194,8 +195,9 @@ impl<const S: usize> Collocation<S> {
 
     /// `μᵢⱼ = aᵢⱼ/bⱼ` of Gauss' method in another scalar, with `μᵢⱼ + μⱼᵢ = 1` exactly.
     ///
-    /// So rounded, the method is symplectic in the arithmetic of the scalar too: M. Antoñana,
-    /// J. Makazaga, A. Murua, Numer. Algorithms 76, 861 (2017), section 3, doi:10.1007/s11075-017-0287-z.
+    /// With this rounding, the method is symplectic in the arithmetic of the scalar too: M.
+    /// Antoñana, J. Makazaga, A. Murua, Numer. Algorithms 76, 861 (2017), section 3,
+    /// doi:10.1007/s11075-017-0287-z.
     pub fn symplectic<T: Real>(&self) -> [[T; S]; S] {
         let mu = |i: usize, j: usize| {
             let (here, there) = (self.integrals[i][j], self.integrals[j][i]);
@@ -217,9 +219,10 @@ impl<const S: usize> Collocation<S> {
     /// cᵢh and νᵢⱼh with `νᵢⱼ = Σ μᵢₖbₖμₖⱼ = (A²)ᵢⱼ/bⱼ` of Gauss' method in another scalar, with
     /// `νᵢⱼh − νⱼᵢh = cᵢh − cⱼh` exactly and h − cᵢh without rounding.
     ///
-    /// So rounded, the Nyström method `Q = q + ch M⁻¹p + h M⁻¹ Σ νᵢⱼ kⱼ` with the kicks k of p and their parts
-    /// 1 − c in q is symplectic in the arithmetic of the scalar too: E. Hairer, C. Lubich, G. Wanner, Geometric
-    /// Numerical Integration (2006), theorem IV.2.3, doi:10.1007/3-540-30666-8.
+    /// With this rounding, the Nyström method `Q = q + ch M⁻¹p + h M⁻¹ Σ νᵢⱼ kⱼ` with the kicks k
+    /// of p and their parts 1 − c in q is symplectic in the arithmetic of the scalar too: E.
+    /// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), theorem IV.2.3,
+    /// doi:10.1007/3-540-30666-8.
     pub(super) fn symplectic_double<T: Real>(&self, h: T) -> ([T; S], [[T; S]; S]) {
         let times = self.nodes.map(|c| whole_ulps(c, h));
         let mut double = [[T::zero(); S]; S];
@@ -251,7 +254,7 @@ fn number(value: f64) -> DoubleDouble {
     DoubleDouble::from(value)
 }
 
-/// The number in another scalar.
+/// Converts a number to another scalar.
 #[inline(always)]
 pub(super) fn constant<T: Real>(x: DoubleDouble) -> T {
     T::constant(x.hi(), x.lo())

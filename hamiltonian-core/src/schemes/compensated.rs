@@ -1,4 +1,4 @@
-//! Compensated summation: the low words that rounding takes away are carried.
+//! Compensated summation: rounding errors are carried as low words.
 //!
 //! Input: a table of weights and H = T(p, t) + V(q, t). Output: [`Compensated`]. Invariant: the point
 //! and its low words together are the sum of all kicks and drifts to twice the digits; kicks and drifts
@@ -41,7 +41,7 @@ use hamiltonian_lanes::Real;
 /// # Ok::<(), Error>(())
 /// ```
 ///
-/// Friction is no sum: a system with a force is refused.
+/// Friction is not a sum: a system with a force is refused.
 ///
 /// ```compile_fail,E0277
 /// use hamiltonian::{Scheme, Separable};
@@ -70,14 +70,14 @@ symmetric!(Compensated<M>, M: Splitting + Symmetric);
 /// The point and its low words.
 type Words<V> = Pair<Point<V>, Point<V>>;
 
-/// `z + low` as a new z and its rounding error, for |low| ≤ |z| in a few steps' time.
+/// `z + low` as a new z and its rounding error, for |low| ≤ |z|, which holds after a few steps.
 #[inline(always)]
 pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
     for k in 0..V::PARTS {
         for (z, low) in z.part_mut(k).iter_mut().zip(low.part_mut(k)) {
             let before = *z;
             let sum = before + *low;
-            // Exact also where the low word is the larger one (Knuth).
+            // This is exact even if the low word is the larger one (Knuth).
             let rest = sum - before;
             *low = (before - (sum - rest)) + (*low - rest);
             *z = sum;
@@ -85,11 +85,11 @@ pub(super) fn carry<V: Vector>(z: &mut V, low: &mut V) {
     }
 }
 
-/// A kick, where `KICK`, or a drift, that adds to the low words and carries.
+/// A kick (if `KICK`) or a drift that adds to the low words and carries.
 #[derive(Debug, Clone, Copy)]
 pub struct Carrying<A, const KICK: bool>(A);
 
-/// The scalar that a flow of points computes in.
+/// The scalar of a flow of points.
 #[derive(Debug)]
 pub struct OfPoint<W>(W);
 
@@ -110,7 +110,7 @@ impl<V: Vector, F: Flow<Point<V>>, const KICK: bool> Flow<Words<V>> for Carrying
         } else {
             (&mut point.q, &mut low.q)
         };
-        // The flow adds its increment to whatever stands where it adds.
+        // The flow adds its increment to the existing values.
         core::mem::swap(moved, low);
         self.0.apply(t, point, work);
         let moved = if KICK { &mut point.p } else { &mut point.q };
@@ -133,7 +133,7 @@ where
     }
 }
 
-/// Kick and drift of a system, carrying.
+/// Kick and drift of a system with low words.
 type Halves<T, S> = (
     Carrying<<S as Separable<T>>::Kick, true>,
     Carrying<<S as Separable<T>>::Drift, false>,

@@ -17,9 +17,9 @@ use hamiltonian_lanes::{Mask, Real};
 
 /// A scheme made of steps of another: Φ(γₛh) ∘ … ∘ Φ(γ₂h) ∘ Φ(γ₁h).
 ///
-/// Of a symmetric scheme of order 2, Yoshida's weights γ = (1/(2 − ∛2), −∛2/(2 − ∛2), 1/(2 − ∛2))
-/// make one of order 4. What the scheme preserves its compositions preserve. Schemes whose step
-/// depends on what came before cannot be composed: [`OneStep`].
+/// Yoshida's weights γ = (1/(2 − ∛2), −∛2/(2 − ∛2), 1/(2 − ∛2)) turn a symmetric scheme of order 2
+/// into one of order 4. A composition preserves what its scheme preserves. Schemes whose step
+/// depends on earlier steps cannot be composed: [`OneStep`].
 ///
 /// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, eq. 4.4, doi:10.1016/0375-9601(90)90092-3; E.
 /// Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), sec. II.4,
@@ -56,7 +56,8 @@ use hamiltonian_lanes::{Mask, Real};
 /// let _ = KahanLi6.of(Composition::with_adjoint(SymplecticEuler::default()));
 /// ```
 ///
-/// `SYMMETRIC` is false for weights given to [`new`](Composition::new) and [`of`](Composition::of), as they can be any.
+/// `SYMMETRIC` is false for weights given to [`new`](Composition::new) and [`of`](Composition::of),
+/// because they are arbitrary.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Composition<M, const S: usize, const SYMMETRIC: bool = true> {
     stages: [(M, Weight); S],
@@ -72,8 +73,7 @@ impl<M: OneStep, const S: usize> Composition<M, S, false> {
         Self::of(weights.map(|weight| (scheme.clone(), weight)), order, name)
     }
 
-    /// The same of schemes of one type that may differ in their choices: of a scheme and its adjoint,
-    /// say.
+    /// Composes schemes of one type with different settings, for example a scheme and its adjoint.
     pub fn of(stages: [(M, Weight); S], order: u32, name: &'static str) -> Self {
         Self::made(stages, order, name)
     }
@@ -201,17 +201,18 @@ struct Stage<M: Map> {
     map: M,
     /// True if its `join` closes the stage before; else that closes and this one opens.
     joins: bool,
-    /// When it begins, after the beginning of the step.
+    /// The time of its beginning, relative to the beginning of the step.
     at: ScalarOf<M>,
 }
 
-/// The map of a [`Composition`]; `JOINED` where every stage joins the one before, so that no step asks.
+/// The map of a [`Composition`]; `JOINED` if every stage joins the one before, so that steps need
+/// no test.
 pub struct Composed<M: Map, const S: usize, const JOINED: bool> {
     stages: [Stage<M>; S],
 }
 
 impl<M: Map, const S: usize, const JOINED: bool> Composed<M, S, JOINED> {
-    /// When stage `i` of the step from `t` to `end` is over.
+    /// The time at the end of stage `i` of the step from `t` to `end`.
     #[inline(always)]
     fn end_of(&self, i: usize, t: ScalarOf<M>, end: ScalarOf<M>) -> ScalarOf<M> {
         match self.stages.get(i + 1) {
@@ -308,14 +309,14 @@ impl<M: Map, const S: usize, const JOINED: bool> Map for Composed<M, S, JOINED> 
 /// The adjoint Φ*ₕ = (Φ₋ₕ)⁻¹ of any scheme that carries the point alone, its equations solved by
 /// fixed-point iteration.
 ///
-/// [`OneStep::adjoint`] gives the adjoint in closed form where there is one.
+/// [`OneStep::adjoint`] returns the adjoint in closed form, if there is one.
 ///
 /// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), def. II.3.1,
 /// doi:10.1007/3-540-30666-8.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Adjoint<M>(pub M);
 
-/// A step that is not solved after so many iterations is an error.
+/// The number of iterations after which an unsolved step is an error.
 const LIMIT: u32 = 100;
 
 impl<M: OneStep> Listed for Adjoint<M> {

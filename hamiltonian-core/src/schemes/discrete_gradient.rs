@@ -1,7 +1,7 @@
-//! Gonzalez' discrete gradient: steps that keep H.
+//! Gonzalez' discrete gradient: steps that preserve H.
 //!
-//! Input: a system without forces. Output: [`DiscreteGradient`]. Invariant: the difference of H over a
-//! step is rounding, whatever the step.
+//! Input: a system without forces. Output: [`DiscreteGradient`]. Invariant: the difference of H
+//! over a step is rounding error, for any step size.
 
 use super::iterate::{Contraction, iterate};
 use crate::flow::Scratch;
@@ -12,15 +12,15 @@ use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
 use hamiltonian_lanes::{Mask, Real};
 
-/// The midpoint discrete gradient of Gonzalez: order 2, keeps H to rounding, time-reversible; not
-/// symplectic.
+/// The midpoint discrete gradient of Gonzalez: order 2, preserves H to rounding error,
+/// time-reversible; not symplectic.
 ///
 /// ```text
 /// z[n+1] = z[n] + h J∇̄H,   ∇̄H = ∇H(m) + (H(z[n+1]) − H(z[n]) − ∇H(m)·Δ) Δ/|Δ|²
 /// ```
 ///
-/// with `m = (z[n] + z[n+1])/2` and `Δ = z[n+1] − z[n]`. Where H depends on t, the step keeps H at the time
-/// in its middle. Solved by fixed-point iteration from the slope of the step before.
+/// with `m = (z[n] + z[n+1])/2` and `Δ = z[n+1] − z[n]`. If H depends on t, the step preserves H at
+/// the time in its middle. Solved by fixed-point iteration from the slope of the step before.
 ///
 /// Source: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449, eq. 3.7, doi:10.1007/BF02440162.
 ///
@@ -35,7 +35,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DiscreteGradient {
-    /// A step that is not solved after so many iterations is an error.
+    /// The number of iterations after which an unsolved step is an error.
     pub max_iterations: u32,
 }
 

@@ -14,7 +14,7 @@ use crate::system::{Dynamics, System, Unforced};
 use crate::vector::Vector;
 use hamiltonian_lanes::Real;
 
-/// Two copies (q, p) and (q̃, p̃) of a point; the first is seen.
+/// Two copies (q, p) and (q̃, p̃) of a point; the first is the observed one.
 pub type Copies<V> = Pair<Point<V>, Point<V>>;
 
 /// Pihajoki's leapfrog in extended phase space (the paper's PSVM): order 2, explicit for every H;

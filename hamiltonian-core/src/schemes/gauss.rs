@@ -12,8 +12,8 @@ use crate::system::{Dynamics, System};
 use core::fmt;
 use hamiltonian_lanes::Real;
 
-/// Gauss collocation with `S` stages: order 2S, symplectic for every H, time-reversible. The number of stages is
-/// always written, `Gauss::<2>::default()`.
+/// Gauss collocation with `S` stages: order 2S, symplectic for every H, time-reversible. The number
+/// of stages is always explicit, `Gauss::<2>::default()`.
 ///
 /// ```text
 /// Fᵢ = J∇H(z[n] + h Σ aᵢⱼ Fⱼ, t[n] + cᵢh);   z[n+1] = z[n] + h Σ bᵢ Fᵢ
@@ -31,8 +31,8 @@ use hamiltonian_lanes::Real;
 /// `z[n+1]` are carried to the next step (compensated summation). A force is part of the vector field. With one
 /// stage it is the [`ImplicitMidpoint`](super::ImplicitMidpoint) rule.
 ///
-/// Choice of S: an evaluation of J∇H is made S times an iteration. Two stages serve errors of 1e-6, four to
-/// six those of 1e-12, eight and more `DoubleDouble`.
+/// Choice of S: an evaluation of J∇H is made S times an iteration. Two stages suit errors of 1e-6,
+/// four to six those of 1e-12, eight and more `DoubleDouble`.
 ///
 /// Source: J. C. Butcher, Math. Comp. 18 (1964) 50, doi:10.1090/S0025-5718-1964-0159424-9; E. Hairer,
 /// C. Lubich, G. Wanner, Geometric Numerical Integration (2006), sections II.1.3 and VIII.6,
@@ -64,8 +64,8 @@ impl<const S: usize> Default for Gauss<S> {
 }
 
 impl<const S: usize> Gauss<S> {
-    /// A step that is not solved after so many iterations of the fixed point, nor then after as many of
-    /// Newton's method, is an error; 100 unless said here.
+    /// The number of iterations of the fixed point, and then of Newton's method, after which an
+    /// unsolved step is an error; 100 by default.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {
         Gauss {
@@ -75,7 +75,7 @@ impl<const S: usize> Gauss<S> {
     }
 }
 
-/// So many stages, in words.
+/// The number of stages, in words.
 pub(super) fn stages(count: usize) -> &'static str {
     const STAGES: [&str; 17] = [
         "",

@@ -39,7 +39,7 @@ use hamiltonian_lanes::{Mask, Real};
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ImplicitMidpoint {
-    /// A step that is not solved after so many iterations is an error.
+    /// The number of iterations after which an unsolved step is an error.
     pub max_iterations: u32,
 }
 
@@ -120,7 +120,7 @@ impl<V: Vector, F: VectorField<V>> Contraction<Point<V>> for Slope<'_, V, F> {
     }
     #[inline(always)]
     fn scale(&self, slope: &Point<V>) -> <V::Scalar as Real>::Size {
-        // The slope counts too: a point at the origin has no size of its own.
+        // The slope counts too, because a point at the origin has size 0.
         self.point.size() / self.map.h.size() + slope.size()
     }
 }

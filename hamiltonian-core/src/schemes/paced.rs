@@ -1,7 +1,7 @@
 //! Variable steps that are reversible: the density of steps follows a function of the state.
 //!
-//! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric in the
-//! point and the density together, so no drift comes in that a fixed step would not have.
+//! Input: a one-step scheme and a [`Density`]. Output: [`Paced`]. Invariant: the map is symmetric
+//! in the point and the density together, so it adds no drift to that of a fixed step.
 
 use crate::error::Error;
 use crate::flow::{Scratch, VectorField};
@@ -13,10 +13,10 @@ use crate::vector::Vector;
 use core::fmt::Debug;
 use hamiltonian_lanes::Real;
 
-/// A measure of how short steps are to be: Q(t, q, p) > 0, in any unit; steps will be proportional to 1/Q.
+/// The density of steps, Q(t, q, p) > 0, in any unit: steps are proportional to 1/Q.
 ///
-/// Its method gives the rate d ln Q/dt along the motion, given q̇ and ṗ: for Kepler's problem with
-/// Q = r^(−3/2), −(3/2) q·q̇/q·q.
+/// Its method returns the rate d ln Q/dt along the orbit, given q̇ and ṗ. For Kepler's problem with
+/// Q = r^(−3/2) it is −(3/2) q·q̇/q·q.
 pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
     /// d ln Q/dt at (t, q, p), where the velocity is (dq, dp).
     fn rate(&self, t: V::Scalar, q: &V, p: &V, dq: &V, dp: &V) -> V::Scalar;
@@ -40,7 +40,7 @@ pub trait Density<V: Vector>: Clone + Debug + Send + Sync + 'static {
 pub struct Paced<M, G> {
     /// The scheme that makes the steps.
     pub scheme: M,
-    /// The measure of how short they are to be.
+    /// The density of steps.
     pub density: G,
 }
 
@@ -218,7 +218,7 @@ where
         *rate_here =
             rate::<T, S::Prepared, G>(&self.density, &self.field, *t, &z.point, &mut work.velocity);
         *density += self.half * *rate_here;
-        // A density that is not positive any more has no step.
+        // There is no step for a density that is not positive.
         let gone = density.le(T::zero());
         *density = T::select(gone, T::constant(f64::NAN, 0.0), *density);
     }

@@ -1,8 +1,8 @@
 //! Processed splittings: a kernel that is repeated, and a processor around all of its steps.
 //!
-//! Input: a [`Split`] system, the tables of a kernel and of a processor. Output: [`Processed`]. Invariant:
-//! what is carried from step to step is the state before the processor, so that a step costs its kernel
-//! alone; the processor is applied to the copy that is shown.
+//! Input: a [`Split`] system, the tables of a kernel and of a processor. Output: [`Processed`].
+//! Invariant: the carried value is the state before the processor, so that a step costs its kernel
+//! alone; the processor is applied to the observed copy.
 
 use super::splitting::{Durations, Negated, Reversed, Splitting};
 use super::strang::Strang;
@@ -22,17 +22,18 @@ use hamiltonian_lanes::{Mask, Real};
 /// Φ = π ∘ K ∘ π⁻¹,    Φⁿ = π ∘ Kⁿ ∘ π⁻¹
 /// ```
 ///
-/// A run applies π⁻¹ once at its start, then K in each step, and π to the copy of the state that an observer
-/// or the caller sees. K has to satisfy those order conditions alone that no change of variables removes, so
-/// it takes fewer stages than a splitting of the same order, or has smaller errors with as many.
-/// Observers of every step pay for the processor in every step; see
+/// A run applies π⁻¹ once at its start, then K in each step, and π to the copy of the state that an
+/// observer or the caller sees. K has to satisfy only the order conditions that no change of
+/// variables removes. It therefore needs fewer stages than a splitting of the same order, or has
+/// smaller errors with as many. An observer of every step causes a processor in every step; see
 /// [`every`](crate::observers::every).
 ///
 /// Both K and π are compositions of the exact flows, so Φ preserves dq∧dp. Its adjoint is
 /// π₋ₕ ∘ K* ∘ π₋ₕ⁻¹; π and π₋ₕ agree to the order of the scheme but not to the last bit, so Φ is symmetric to
 /// that order only.
 ///
-/// `K` and `P` are [`Splitting`]s; the durations of `P` sum to zero. Its entry is that of the whole scheme.
+/// `K` and `P` are [`Splitting`]s; the durations of `P` sum to zero. The entry is that of the whole
+/// scheme.
 ///
 /// Source: J. C. Butcher, Lecture Notes in Mathematics 109 (1969) 133, doi:10.1007/BFb0060019; S. Blanes,
 /// F. Casas, A. Murua, SIAM J. Sci. Comput. 27 (2006) 1817, doi:10.1137/030601223.
@@ -124,10 +125,10 @@ pub struct Processing<X: Vector, O, I, K: Splitting, P: Splitting> {
     processor: Zigzag<X, O, I, P>,
 }
 
-/// A processor at the time `t`, to which the clock comes back: the durations sum to zero.
+/// A processor at the time `t`, to which the clock returns, because the durations sum to zero.
 ///
-/// It is long and seldom made, so it is compiled once, apart from the loop over steps. Its point is moved there and
-/// back, so that the one of the loop stays in registers.
+/// It is long and rare, so it is compiled once, apart from the loop over steps. Its point is moved
+/// there and back, so that the point of the loop stays in registers.
 #[inline(always)]
 fn apart<X, O, I, W>(
     processor: &Zigzag<X, O, I, W>,
@@ -152,7 +153,7 @@ impl<X: Carried, O: Flow<X>, I: Flow<X>, K: Splitting, P: Splitting> Map
     for Processing<X, O, I, K, P>
 {
     type Carried = X;
-    /// That of the kernel, which the processors share.
+    /// The scratch of the kernel, which the processors share.
     type Work = (O::Work, I::Work);
 
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! Doubled schemes brought back to one point at every step.
+//! Schemes on two copies that are projected to one point at every step.
 //!
 //! Input: a system without forces and a table of weights. Output: [`MidpointProjected`],
 //! [`Semiexplicit`]. Invariant: a step begins with both copies at the point (or symmetrically
@@ -42,9 +42,10 @@ fn inner<T: Real, S: System<T>, W: Splitting>(
 /// ```
 ///
 /// dq∧dp is *not* preserved, but nearly: a step of order p violates it by O(h^(2p+2))
-/// (pseudo-symplectic), as the copies part by O(h^(p+1)). What is carried besides the point is the first
-/// copy before the projection: [`Integrator::copy_distance`](crate::Integrator::copy_distance) is
-/// half of |a − b|, an estimate of the error of the last step that costs nothing.
+/// (pseudo-symplectic), because the copies separate by O(h^(p+1)). The first copy before the
+/// projection is carried besides the point:
+/// [`Integrator::copy_distance`](crate::Integrator::copy_distance) is half of |a − b|, an estimate
+/// of the error of the last step that costs nothing.
 ///
 /// Source: J. Luo, X. Wu, G. Huang, F. Liu, Astrophys. J. 834 (2017) 64,
 /// doi:10.3847/1538-4357/834/1/64.
@@ -133,9 +134,10 @@ impl<V: Vector, M: Map<Carried = Copies<V>>> Map for Averaged<M> {
 /// (z, z̃) ← Ψ(z, z̃);   q ← αq + (1 − α)q̃,  q̃ ← (1 − α)q + αq̃;   p, p̃ likewise with β
 /// ```
 ///
-/// α = β = 1 is no mixing, [`Pihajoki`](super::Pihajoki); 0 exchanges halves of the copies, ½ makes
-/// them equal, both of which is [`MidpointProjected`]. The copies are carried. Mixing ties them together,
-/// and breaks the form dq∧dp + dq̃∧dp̃ unless α = β = 1 or α = β = 0.
+/// Without mixing, α = β = 1, it is [`Pihajoki`](super::Pihajoki); 0 exchanges halves of the
+/// copies, ½ makes them equal; ½ for both is [`MidpointProjected`]. The copies are carried. Mixing
+/// keeps them together, and does not preserve the form dq∧dp + dq̃∧dp̃ unless α = β = 1 or α = β =
+/// 0.
 ///
 /// Source: P. Pihajoki, Celest. Mech. Dyn. Astron. 121 (2015) 211, section 3.2,
 /// doi:10.1007/s10569-014-9597-9.

@@ -156,8 +156,8 @@ impl OneStep for SymplecticEuler {
     }
 }
 
-/// With the drift outermost: composed with its adjoint, kick–drift ends with the piece the other
-/// begins with, and both are one flow.
+/// The drift is outermost: composed with its adjoint, kick–drift ends with the piece with which the
+/// adjoint begins, and both are one flow.
 impl Splitting for SymplecticEuler {
     type Of<U> = [U; 1];
     #[inline(always)]
@@ -171,7 +171,7 @@ impl Splitting for SymplecticEuler {
     }
     #[inline(always)]
     fn map<A, U>([of]: [A; 1], mut f: impl FnMut(A) -> U) -> [U; 1] {
-        // Without `map`, whose closures are compiled apart, without the instructions of a level.
+        // This avoids `map`, whose closures are compiled without the instructions of a level.
         [f(of)]
     }
 }

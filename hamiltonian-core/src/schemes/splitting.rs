@@ -12,19 +12,19 @@ use hamiltonian_lanes::Real;
 pub struct Weight(pub f64, pub f64);
 
 impl Weight {
-    /// As a number of any scalar.
+    /// Returns the weight as any scalar.
     #[inline(always)]
     pub fn to<T: Real>(self) -> T {
         T::constant(self.0, self.1)
     }
 
-    /// −w, exactly.
+    /// Returns −w, exactly.
     #[must_use]
     pub const fn negated(self) -> Weight {
         Weight(-self.0, -self.1)
     }
 
-    /// Half of it, exactly.
+    /// Returns half of it, exactly.
     #[must_use]
     pub const fn half(self) -> Weight {
         Weight(0.5 * self.0, 0.5 * self.1)

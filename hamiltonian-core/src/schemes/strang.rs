@@ -58,7 +58,7 @@ impl Splitting for Strang {
     }
     #[inline(always)]
     fn map<A, U>([of]: [A; 1], mut f: impl FnMut(A) -> U) -> [U; 1] {
-        // Without `map`, whose closures are compiled apart, without the instructions of a level.
+        // This avoids `map`, whose closures are compiled without the instructions of a level.
         [f(of)]
     }
 }

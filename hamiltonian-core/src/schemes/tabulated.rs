@@ -1,9 +1,9 @@
 //! Splittings of higher order: one type for each table of coefficients.
 //!
-//! Input: a system with exact flows of its pieces. Output: `Yoshida4` and its like, on every
-//! [`Split`] system; `Srkn6b` and its like on every [`Nystrom`] system; `Saba2` and its like for a small
-//! second piece. Invariant: a type is its table, from `tables`, and the pieces it moves; the
-//! loop is [`Zigzag`]'s.
+//! Input: a system with exact flows of its pieces. Output: `Yoshida4` and similar schemes on every
+//! [`Split`] system; `Srkn6b` and similar ones on every [`Nystrom`] system; `Saba2` and similar
+//! ones for a small second piece. Invariant: a type is its table, from `tables`, and the pieces
+//! that it moves; the loop is [`Zigzag`]'s.
 
 use super::composition::Composition;
 use super::splitting::{Durations, Reversed, Splitting};
@@ -114,7 +114,7 @@ on_exact_pieces!(Reversed<Ruth3>);
 macro_rules! of_symmetric {
     ($($name:ident: $table:path, $stages:literal;)+) => {$(
         impl $name {
-            /// Steps of the sizes γ of any symmetric scheme of order 2, which make one of the order of
+            /// Steps of the sizes γ of any symmetric scheme of order 2: a scheme of the order of
             /// the table. A scheme that is not [`Symmetric`] is refused.
             ///
             /// ```
@@ -150,8 +150,8 @@ general! {
     Ruth3: general::RUTH_3, 3, reversed;
     /// The triple jump, the scheme of Forest and Ruth: order 4 with 3 stages.
     ///
-    /// Steps γ₁h, γ₂h, γ₁h of Strang's splitting with γ₁ = 1/(2 − ∛2) and γ₂ = 1 − 2γ₁. Its errors are
-    /// large; [`Suzuki4`] and [`BlanesMoan4`] reach more with as many flows.
+    /// Steps γ₁h, γ₂h, γ₁h of Strang's splitting with γ₁ = 1/(2 − ∛2) and γ₂ = 1 − 2γ₁. Its errors
+    /// are large; [`Suzuki4`] and [`BlanesMoan4`] are more accurate with as many flows.
     ///
     /// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, doi:10.1016/0375-9601(90)90092-3; E. Forest,
     /// R. D. Ruth, Physica D 43 (1990) 105, doi:10.1016/0167-2789(90)90019-L.
@@ -172,7 +172,7 @@ general! {
     /// Source: S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142 (2002) 313,
     /// doi:10.1016/S0377-0427(01)00492-7.
     BlanesMoan6: general::BLANES_MOAN_6, 10, symmetric;
-    /// Yoshida's solution A: order 6 with 7 stages, the least.
+    /// Yoshida's solution A: order 6 with 7 stages, the smallest number.
     ///
     /// Source: H. Yoshida, Phys. Lett. A 150 (1990) 262, doi:10.1016/0375-9601(90)90092-3.
     Yoshida6: general::YOSHIDA_6, 7, symmetric;
@@ -180,7 +180,7 @@ general! {
     ///
     /// Source: W. Kahan, R.-C. Li, Math. Comp. 66 (1997) 1089, doi:10.1090/S0025-5718-97-00873-9.
     KahanLi6: general::KAHAN_LI_6, 9, symmetric;
-    /// Order 8 with 15 stages, the least.
+    /// Order 8 with 15 stages, the smallest number.
     ///
     /// Source: R. I. McLachlan, SIAM J. Sci. Comput. 16 (1995) 151, doi:10.1137/0916010.
     McLachlan8: general::MCLACHLAN_8, 15, symmetric;

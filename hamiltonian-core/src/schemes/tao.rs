@@ -20,14 +20,14 @@ use hamiltonian_lanes::Real;
 /// Strang's splitting of H(q, p̃) + H(q̃, p) + ½ω(|q − q̃|² + |p − p̃|²). The last piece turns
 /// (q − q̃, p − p̃) by the angle 2ωh; three evaluations of J∇H a step.
 ///
-/// Preserves dq∧dp + dq̃∧dp̃ in the doubled space, and there an energy near H(q, p̃) + H(q̃, p) + the
-/// binding; dq∧dp of the state that is seen is *not* preserved, but the copies stay together where ω is large
-/// enough.
+/// Preserves dq∧dp + dq̃∧dp̃ in the doubled space, and there an energy near H(q, p̃) + H(q̃, p) +
+/// the binding; dq∧dp of the observed state is *not* preserved, but the copies stay together if ω
+/// is large enough.
 ///
-/// ω should be larger than the rate at which copies of the unbound scheme part, that is of the order of
-/// the largest frequency of the motion; the error grows as ωh², and stability asks for ωh well below 1.
-/// Ten to twenty times the frequency is a start. Its copies are bound by no theorem where ω is small:
-/// watch [`Integrator::copy_distance`](crate::Integrator::copy_distance).
+/// ω should be larger than the rate at which copies of the unbound scheme separate, which is of the
+/// order of the largest frequency of the motion. The error grows as ωh², and stability requires ωh
+/// well below 1. Begin with ten to twenty times the frequency. No theorem bounds the distance of
+/// the copies for a small ω: watch [`Integrator::copy_distance`](crate::Integrator::copy_distance).
 ///
 /// Higher even orders are compositions: `KahanLi6.of(Tao { omega: 20.0 })`.
 ///

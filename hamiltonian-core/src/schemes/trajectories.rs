@@ -1,4 +1,4 @@
-//! The paper's own schemes: leaps over a point, from one trajectory of points to the other.
+//! The paper's own schemes: leaps over a point, on two interleaved trajectories.
 //!
 //! Input: any system and a [`Start`]. Output: [`TwoStepMidpoint`] (25),
 //! [`ConsecutiveSubTrajectories`] (26), [`IntersectingSubTrajectories`] (33). Invariant: with
@@ -15,8 +15,8 @@ use hamiltonian_lanes::Real;
 
 /// The construction of the second starting point, half a leap before the first.
 ///
-/// An error of it excites the parasitic mode (root −1) of these schemes, which is then seen as an
-/// oscillation of H for ever; on some systems it grows.
+/// Its error excites the parasitic mode (root −1) of these schemes, a permanent oscillation of H,
+/// which grows on some systems.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Start {
     /// The paper's: equal to the first, an error of O(Δt). The scheme is of order 1.
@@ -119,9 +119,9 @@ macro_rules! entries {
 /// z[n+1] = z[n−1] + 2h J∇H(z[n], t[n])
 /// ```
 ///
-/// Preserves dq_a∧dp_b + dq_b∧dp_a of the last two points, not dq∧dp of one. The start asks for
-/// `z[−1]`, made by [`Start`]. No term of its derivation needs H separable; it is limited by its
-/// parasitic root −1.
+/// Preserves dq_a∧dp_b + dq_b∧dp_a of the last two points, not dq∧dp of one. The start requires
+/// `z[−1]`, made by [`Start`]. No step of its derivation requires a separable H; its parasitic root
+/// −1 limits it.
 ///
 /// Source: the paper, eqs. 25a–d; T. Eirola, J. M. Sanz-Serna, Numer. Math. 61 (1992) 281,
 /// doi:10.1007/BF01385510 (the two-point form).
@@ -150,9 +150,9 @@ entries!(TwoStepMidpoint, "25", 1);
 /// z[n+½] = z[n−½] + 2h J∇H(z[n]);   z[n+1] = z[n] + 2h J∇H(z[n+½])
 /// ```
 ///
-/// **One step of size h advances the time by 2h**: the factor 2 of (25) is kept although points
-/// lie half a step apart. The state's `t` is the true time, t₀ + 2kh after k steps. (The paper
-/// plots against kh and so sees twice as many oscillations.) With half the step it is
+/// **One step of size h advances the time by 2h**: the factor 2 of (25) is kept although points lie
+/// half a step apart. The state's `t` is the true time, t₀ + 2kh after k steps. (The paper plots
+/// against kh and therefore shows twice as many oscillations.) With half the step it is
 /// [`IntersectingSubTrajectories`].
 ///
 /// Preserves dq_a∧dp_b + dq_b∧dp_a of `z[n]` and `z[n−½]`. The start asks for `z[−½]`, made by
@@ -211,7 +211,7 @@ pub struct IntersectingSubTrajectories {
 
 entries!(IntersectingSubTrajectories, "33", 1);
 
-/// Two points: the one that is seen, and one half a leap before it.
+/// Two points: the observed one, and one half a leap before it.
 type Points<V> = Pair<Point<V>, Point<V>>;
 
 impl<T: Real, S: System<T> + Unforced> Scheme<T, S> for TwoStepMidpoint {
@@ -261,7 +261,7 @@ impl<V: Vector, F: VectorField<V>> Map for TwoStep<F, V> {
         core::mem::swap(x, y);
     }
 
-    /// In pairs of steps, after which the points are back in their places.
+    /// Steps are made in pairs, after which the points are in their places again.
     #[inline(always)]
     fn run(&self, clock: Clock<V::Scalar>, made: u64, n: u64, z: &mut Points<V>, _: &mut ()) {
         let (mut k, end) = (made, made + n);

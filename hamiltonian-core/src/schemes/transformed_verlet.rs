@@ -1,7 +1,7 @@
 //! Störmer–Verlet in another time.
 //!
 //! Input: H = ½pᵀM⁻¹p + V(q) in the time of a monitor function g(q). Output: [`TransformedVerlet`].
-//! Invariant: one ∂V/∂q a step; implicit are two equations for a number each.
+//! Invariant: one ∂V/∂q a step; only two equations, for one number each, are implicit.
 
 use super::iterate::{Contraction, iterate};
 use crate::error::Error;
@@ -24,13 +24,14 @@ use nalgebra::SVector;
 /// q[1] = Q + h/2 g(Q) M⁻¹p[1],   t[1] = t[0] + h g(Q)
 /// ```
 ///
-/// Q is on a line, so the first is one equation for the number g(Q), solved by Newton's method; p\[1\] too
-/// is on a line, on which γ is a quadratic polynomial, solved in closed form. So a step costs one ∂V/∂q
-/// and some g. Without ∂g/∂q it would be a leapfrog with steps that follow g, which is not symplectic.
-/// `KahanLi6.of(TransformedVerlet::default())` and its like have higher order.
+/// Q is on a line, so the first is one equation for the number g(Q), solved by Newton's method;
+/// p\[1\] too is on a line, on which γ is a quadratic polynomial, solved in closed form. So a step
+/// costs one ∂V/∂q and some g. Without ∂g/∂q it would be a leapfrog with steps that follow g, which
+/// is not symplectic. Compositions such as `KahanLi6.of(TransformedVerlet::default())` have a
+/// higher order.
 ///
-/// It is the scheme of [`TimeTransformed`] alone. g must not depend on momenta: steps end in an error
-/// otherwise.
+/// It requires a [`TimeTransformed`] system. g must not depend on momenta; otherwise steps return
+/// an error.
 ///
 /// Source: E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration (2006), section VIII.2.1,
 /// doi:10.1007/3-540-30666-8; E. Hairer, Appl. Numer. Math. 25 (1997) 219,
@@ -56,12 +57,12 @@ use nalgebra::SVector;
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TransformedVerlet {
-    /// A step whose g(Q) is not found after so many iterations is an error.
+    /// The number of iterations after which a step without g(Q) is an error.
     pub max_iterations: u32,
 }
 
 impl Default for TransformedVerlet {
-    /// At most 50 iterations of Newton's method, which doubles digits.
+    /// At most 50 iterations of Newton's method, which doubles the digits.
     fn default() -> Self {
         TransformedVerlet { max_iterations: 50 }
     }

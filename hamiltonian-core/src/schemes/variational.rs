@@ -34,9 +34,9 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 /// q[n+1] = q[n] + h ∫q̇,   p[n+1] = p[n] − h Σ bᵢ ∂H/∂q(Qᵢ, Pᵢ, tᵢ)
 /// ```
 ///
-/// with φ the polynomials of degree < `DEGREE` on [0, 1] and Φ = ∫₀φ: here ∂Qᵢ/∂(coefficient) = hΦ(cᵢ) is the
-/// chain rule that (35) of the paper asks for. The order is the least of 2·`DEGREE` and the
-/// quadrature's:
+/// with φ the polynomials of degree < `DEGREE` on [0, 1] and Φ = ∫₀φ: here ∂Qᵢ/∂(coefficient) =
+/// hΦ(cᵢ) is the chain rule that (35) of the paper requires. The order is 2·`DEGREE` or that of the
+/// quadrature, whichever is less:
 ///
 /// | degree | quadrature | | order |
 /// |---|---|---|---|
@@ -48,11 +48,12 @@ use hamiltonian_lanes::{DoubleDouble, Mask, Real};
 /// | s | Gauss | `<s, s>::gauss()` | 2s: [`Gauss`](super::Gauss) |
 /// | s | Lobatto, s + 1 points | `<s, {s + 1}>::lobatto()` | 2s |
 ///
-/// With as many points as the degree every H has these equations, and they are solved as
-/// [`Gauss`](super::Gauss)' are. With more points ∂H/∂p must determine p: then Pᵢ is the momentum of the
-/// velocity q̇(tᵢ), the integrand the Lagrangian (type I), and the equations are solved by Newton's method
-/// with the Hessian of H, for which all components of all points must not be more than 256. With fewer
-/// points the action does not see a part of the path: that does not compile.
+/// With as many points as the degree, these equations exist for every H, and they are solved like
+/// those of [`Gauss`](super::Gauss). With more points ∂H/∂p must determine p: then Pᵢ is the
+/// momentum of the velocity q̇(tᵢ), the integrand the Lagrangian (type I), and the equations are
+/// solved by Newton's method with the Hessian of H, for which all components of all points must not
+/// be more than 256. With fewer points the action does not depend on a part of the path: such a
+/// type does not compile.
 ///
 /// ```compile_fail
 /// // A parabola sampled at one point.
@@ -124,8 +125,9 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         }
     }
 
-    /// A step that is not solved after so many iterations is an error; 100 unless said here. With as many
-    /// points as the degree they are those of the fixed point, then as many of Newton's method.
+    /// The number of iterations after which an unsolved step is an error; 100 by default. With as
+    /// many points as the degree, they are those of the fixed point, then as many of Newton's
+    /// method.
     #[must_use]
     pub fn at_most(self, max_iterations: u32) -> Self {
         Variational {
@@ -281,8 +283,8 @@ impl<T: Real, S: System<T>, const POINTS: usize> Scheme<T, S> for MomentumVariat
 }
 
 impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
-    /// The equations in the coefficients of Legendre's polynomials, `velocities` of which make dq/dt; the
-    /// matrix of the momenta is left to the caller.
+    /// The equations in the coefficients of Legendre's polynomials, with `velocities` of them for
+    /// dq/dt; the caller computes the matrix of the momenta.
     fn with_modes<T: Real, P: Dynamics<T>>(
         &self,
         prepared: &P,
@@ -318,7 +320,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// The stationary path of a step from time `t` to `t + h` between given ends, with its action and both
     /// its ends.
     ///
-    /// The derivatives of the action as a function of the ends are the unknowns there: the
+    /// The derivatives of the action as a function of the ends are the unknowns at the ends: the
     /// discrete form of the paper's (4), (5) and (18) to (21).
     ///
     /// ```text
@@ -327,17 +329,17 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
     /// type III  S⁻(q₁, p₀) = −p₀·q₀ − S:  q₀ = −∂S⁻/∂p₀, p₁ = −∂S⁻/∂q₁
     /// ```
     ///
-    /// Two steps make one path where the momentum at the end of the first is that at the beginning of
-    /// the second, (6). Where a symmetry moves q and leaves H as it is, S is as it was too, and so its
-    /// momentum map is the same at both ends, for any ends: discrete Noether conservation. With a force
-    /// the momenta are those of the Lagrange–d'Alembert principle and no derivatives of S.
+    /// Two steps form one path if the momentum at the end of the first equals that at the beginning
+    /// of the second, (6). A symmetry that moves q and preserves H preserves S too, so its momentum
+    /// map is the same at both ends, for any ends: discrete Noether conservation. With a force, the
+    /// momenta are those of the Lagrange–d'Alembert principle, and not derivatives of S.
     ///
     /// For [`Ends::Coordinates`] ∂H/∂p must determine p. Newton's method begins at rest, p = 0 or the
     /// momentum given.
     ///
     /// # Errors
-    /// [`Error::Step`] where h is zero or not finite, [`Error::Shape`] where an end has not the system's
-    /// shape, [`Error::Stationary`] where no path was found.
+    /// [`Error::Step`] if h is zero or not finite, [`Error::Shape`] if an end does not have the
+    /// system's shape, [`Error::Stationary`] if no path was found.
     ///
     /// ```
     /// use hamiltonian::schemes::author::Ends;
@@ -367,7 +369,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             let (q, p) = (q.clone(), p.clone());
             system.check_shape(&State { t, q, p })
         };
-        // The point the stages are counted from.
+        // The point from which the stages are measured.
         let (point, line) = match &ends {
             Ends::Coordinates(q0, q1) => {
                 shape(q0, q0)?;
@@ -399,7 +401,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
             }
         }
         if matches!(ends, Ends::Left(..)) {
-            // From the other end the first polynomial, 1, is integrated backwards.
+            // From the other end, the first polynomial, 1, is integrated backwards.
             for row in &mut map.coordinates {
                 row[0] -= T::one();
             }
@@ -443,7 +445,7 @@ impl<const DEGREE: usize, const POINTS: usize> Variational<DEGREE, POINTS> {
         let (mut start, mut end) = (point.clone(), point);
         match ends {
             Ends::Coordinates(_, q1) => {
-                // The mean of the momentum, less its changes to there.
+                // The mean of the momentum, minus its changes up to this point.
                 start.p.copy_from(&unknowns.0[0].q);
                 for (increment, c) in increments.iter().zip(self.coefficients.nodes) {
                     start.p.accumulate(constant::<T>(c) - one, &increment.p);

@@ -26,10 +26,10 @@ pub type ZigzagOf<T, S, K, W> = Zigzag<
     W,
 >;
 
-/// The outermost flow between two stages: one flow where it merges, two where it is a loop.
+/// The outermost flow between two stages: one flow if it merges, two if it is a loop.
 #[derive(Debug, Clone)]
 struct Link<F> {
-    /// For the stage before, with the one after where both are one.
+    /// The flow of the previous stage, merged with that of the next if possible.
     up: F,
     down: Option<F>,
 }
@@ -66,7 +66,8 @@ impl<F> Link<F> {
         }
     }
 
-    /// The same, compiled apart; the piece's name if it leaves the numbers.
+    /// Moves the point in a function of its own; returns the piece's name if the point is not
+    /// finite.
     #[cold]
     #[inline(never)]
     fn blame<X: Vector>(&self, t: X::Scalar, x: &mut X, work: &mut F::Work) -> Option<&'static str>
@@ -78,8 +79,9 @@ impl<F> Link<F> {
     }
 }
 
-/// Durations as differences of partial sums, each rounded to a multiple of an ulp of 4h at least: sums
-/// of them are exact, the last is h, and rounding of the weights makes no motion run fast or slow.
+/// Durations as differences of partial sums, each rounded to a multiple of an ulp of 4h at least:
+/// sums of them are exact, the last is h, and the rounding of the weights does not change the rate
+/// of any motion.
 struct PartialSums<T> {
     h: T,
     weights: DoubleDouble,
@@ -95,9 +97,9 @@ impl<T: Real> PartialSums<T> {
         }
     }
 
-    /// The duration of the weight after those before.
+    /// The duration of the next weight.
     fn next(&mut self, weight: Weight) -> T {
-        // Of a table's last digits.
+        // The rounding of the last digits of a table.
         const ROUNDING: f64 = 1e-28;
         if weight == Weight(0.0, 0.0) {
             return T::zero();
@@ -123,7 +125,7 @@ struct Stage<T, O, I> {
     inner: I,
     /// The time of the outermost clock after the beginning of the step.
     inner_at: T,
-    /// Between this stage and the next; in the last stage the closing flow.
+    /// The flow between this stage and the next; in the last stage, the closing flow.
     outer: Link<O>,
     /// The time of the other clock.
     outer_at: T,
@@ -131,7 +133,7 @@ struct Stage<T, O, I> {
 
 /// A splitting for a given step.
 pub struct Zigzag<X: Vector, O, I, W: Splitting> {
-    /// None where its duration is 0.
+    /// `None` if its duration is 0.
     opening: Option<O>,
     joining: Link<O>,
     closes: bool,
@@ -148,7 +150,8 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         Self::after(table, table, pieces, prepared, step)
     }
 
-    /// The same after a step of the table `before` on the same pieces.
+    /// Folds the table into the flows, for a step after one of the table `before` on the same
+    /// pieces.
     #[inline(always)]
     pub fn after<P, K>(
         before: &W,
@@ -167,7 +170,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         Self::with(table, pieces, prepared, step.h, duration, closing)
     }
 
-    /// The same with durations that add up to the step exactly.
+    /// Folds the table into the flows, with durations that add up to the step exactly.
     #[inline(always)]
     pub(super) fn exact<P, K>(table: &W, pieces: &K, prepared: &P, step: Step<X::Scalar>) -> Self
     where
@@ -184,7 +187,8 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
         Self::with(table, pieces, prepared, step.h, duration, closing)
     }
 
-    /// With the duration of each weight, asked for in the order of the table.
+    /// Folds the durations of the weights into the flows; `duration` is called in the order of the
+    /// table.
     #[inline(always)]
     fn with<P, K>(
         table: &W,
@@ -246,7 +250,7 @@ impl<X: Vector, O: Flow<X>, I: Flow<X>, W: Splitting> Zigzag<X, O, I, W> {
 
 impl<X: Carried, O: Flow<X>, I: Flow<X>, W: Splitting> Map for Zigzag<X, O, I, W> {
     type Carried = X;
-    /// Of the outermost flow, and of those inside.
+    /// The clock of the outermost flow, and that of the inner ones.
     type Work = (O::Work, I::Work);
 
     #[inline(always)]

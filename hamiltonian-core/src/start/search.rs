@@ -14,9 +14,10 @@ pub(super) struct Sample<T> {
     pub(super) slope: T,
 }
 
-/// The most samples of one walk; each doubles its step.
+/// The largest number of samples of one walk; each doubles its step.
 const LONGEST: usize = 400;
-/// The most refinements of one bracket: bisection alone needs 64, or 110 in double-double.
+/// The largest number of refinements of one bracket: bisection alone needs 64, or 110 in
+/// double-double.
 pub(super) const FINEST: usize = 300;
 
 /// A walk along the momentum.
@@ -36,10 +37,10 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
         }
     }
 
-    /// Walks from the guess in one direction with doubling steps, and notes up to two roots.
+    /// Walks from the guess in one direction with doubling steps, and records up to two roots.
     pub(super) fn walk(&mut self, guess: Sample<T>, direction: T) {
         let mut last = guess;
-        // On a root, the sign is that of the next value.
+        // At a root, the sign is that of the next value.
         let mut negative = sign_after(&last, direction);
         let newton = Real::abs((last.f / last.slope).to_f64());
         let default = Real::abs(last.x.to_f64()).max(1.0) / 1024.0;
@@ -56,7 +57,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
                 return;
             }
             if !next.f.is_finite() || !next.slope.is_finite() {
-                // The edge of the domain of H: towards it in ever smaller steps.
+                // At the edge of the domain of H, steps towards it decrease.
                 edge += 1;
                 step /= 4.0;
                 if edge > 30 {
@@ -94,7 +95,7 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
                     return;
                 }
                 if before >= 0.0 && after >= before && after > 0.0 {
-                    // Away from E, and no slower than before.
+                    // The values move away from E, and no slower than before.
                     return;
                 }
             }
@@ -204,8 +205,8 @@ impl<T: Real, F: FnMut(T) -> Sample<T>, G: FnMut(T) -> f64> Search<'_, T, F, G> 
     }
 }
 
-/// The root after one more step of Newton's iteration, which gives it the derivative parts it has
-/// over duals; without, where it is worse.
+/// The root after one more step of Newton's iteration, which adds the derivative parts over duals;
+/// without the step if it makes the root worse.
 pub(super) fn polished<T: Real>(root: Sample<T>, mut at: impl FnMut(T) -> Sample<T>) -> T {
     let step = root.f / root.slope;
     let next = root.x - step;

@@ -1,7 +1,8 @@
-//! Files that appear whole or not at all.
+//! Files that are written atomically.
 //!
-//! A file is written beside its place and renamed. What a killed process was writing stays in the
-//! directory `status/parts` until the store is complete: readers of Zarr never look there.
+//! A file is written under a temporary name and renamed. The unfinished file of a killed process
+//! stays in the directory `status/parts`, which readers of Zarr ignore, until the store is
+//! complete.
 
 use crate::error::Error;
 use crate::error::StoreError;
@@ -12,11 +13,12 @@ use std::io::{self, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Names for what is being written, different in every process on every machine.
+/// Names of temporary files, different in every process on every machine.
 #[derive(Debug)]
 pub(super) struct Parts {
     directory: PathBuf,
-    /// A number that is different in every process: process numbers are those of one machine.
+    /// A number that is different in every process: numbers of processes are unique on one machine
+    /// only.
     process: u64,
     next: AtomicU64,
 }
@@ -30,7 +32,7 @@ impl Parts {
         }
     }
 
-    /// A path that nobody else writes to.
+    /// A path that no other process uses.
     pub(super) fn fresh(&self) -> io::Result<PathBuf> {
         fs::create_dir_all(&self.directory)?;
         let number = self.next.fetch_add(1, Ordering::Relaxed);
@@ -38,13 +40,13 @@ impl Parts {
         Ok(self.directory.join(name))
     }
 
-    /// Removes what killed processes left.
+    /// Removes the files of killed processes.
     pub(super) fn remove(&self) {
         // There may be none, or another process is removing them.
         let _ = fs::remove_dir_all(&self.directory);
     }
 
-    /// Writes a file: `place` has all bytes, or is as it was.
+    /// Writes a file: afterwards `place` has all bytes, or is unchanged.
     pub(super) fn write(&self, place: &Path, bytes: &[u8]) -> io::Result<()> {
         let part = self.fresh()?;
         let written = write_new(&part, bytes).and_then(|()| {
@@ -54,7 +56,7 @@ impl Parts {
             fs::rename(&part, place)
         });
         if written.is_err() {
-            // It is of no use, and takes space that may be missing.
+            // The temporary file is of no use, and takes space.
             let _ = fs::remove_file(&part);
         }
         written

@@ -1,7 +1,7 @@
-//! JSON, as far as the metadata of a store takes it.
+//! The part of JSON that the metadata of a store requires.
 //!
-//! Invariant: equal values have equal texts, one member of an object a line, so that a store is
-//! recognised by its text, and the first line that differs names what differs.
+//! Invariant: equal values have equal texts, one member of an object a line, so that the text
+//! identifies a store, and the first different line names the difference.
 
 use core::fmt;
 
@@ -30,7 +30,7 @@ impl Json {
         match self {
             Json::Flag(flag) => write!(f, "{flag}"),
             Json::Whole(number) => write!(f, "{number}"),
-            // JSON has no other numbers: these are the texts that Zarr has for them.
+            // JSON has no such numbers: these are the texts of Zarr for them.
             Json::Number(number) if number.is_nan() => write!(f, "\"NaN\""),
             Json::Number(number) if number.is_infinite() => {
                 let sign = if *number < 0.0 { "-" } else { "" };

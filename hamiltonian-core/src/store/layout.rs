@@ -1,12 +1,12 @@
 //! The arrays of a store.
 //!
-//! Input: a [`Layout`]. Output: the metadata of its arrays, as Zarr v3 has them.
-//! Source: A. Miles, R. Abernathey et al., "Zarr core specification", version 3.0 (2023).
+//! Input: a [`Layout`]. Output: the metadata of its arrays, in the form of Zarr v3. Source: A.
+//! Miles, R. Abernathey et al., "Zarr core specification", version 3.0 (2023).
 
 use super::json::Json;
 use crate::error::StoreError;
 
-/// What a store holds.
+/// The contents of a store.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layout {
     /// The names of the columns.
@@ -19,8 +19,8 @@ pub struct Layout {
     pub chunk: u64,
     /// The names of the failures, in one word each: the status 3 and up.
     pub failures: Vec<String>,
-    /// What tells this sweep from others, for example the text of H, the scheme, the step and the seed.
-    /// A store with other attributes is refused.
+    /// The attributes that distinguish this sweep from others, for example the text of H, the
+    /// scheme, the step and the seed. A store with other attributes is refused.
     pub attributes: Vec<(String, Attribute)>,
 }
 
@@ -83,7 +83,7 @@ pub(super) const STATUS: &str = "status";
 pub(super) const TIME: &str = "time";
 pub(super) const STEPS: &str = "steps";
 pub(super) const HASHES: &str = "members_hash";
-/// Those of a store with any number of rows.
+/// The arrays of a store with any number of rows.
 pub(super) const COUNT: &str = "count";
 pub(super) const ROWS: &str = "rows";
 pub(super) const MEMBER: &str = "member";
@@ -163,8 +163,8 @@ impl Layout {
 
     /// The metadata of the group, with those of its arrays: readers then open one file.
     ///
-    /// Where members have any number of rows they are left out: each chunk adds a group, and readers of
-    /// consolidated metadata look for no others.
+    /// If members have any number of rows, they are omitted: each chunk adds a group, and readers
+    /// of consolidated metadata would ignore it.
     pub(super) fn group(&self) -> Json {
         let own = [
             ("members".to_owned(), Json::Whole(self.members)),
@@ -230,7 +230,7 @@ impl Layout {
         arrays
     }
 
-    /// The arrays of a chunk with so many rows, where members have any number of them.
+    /// The arrays of a chunk with `rows` rows, if members have any number of them.
     pub(super) fn rows_arrays(&self, rows: u64) -> Vec<Array> {
         let line = |name: &str, kind| Array::line(name, kind, rows, "row");
         let columns = self.columns.iter().map(|name| line(name, Kind::F64));
@@ -342,8 +342,8 @@ fn group_members(attributes: Json) -> [(&'static str, Json); 3] {
     ]
 }
 
-/// The metadata of a group with those of all of its arrays, as zarr-python writes them: the specification
-/// has no word for it yet, and readers may ignore it.
+/// The metadata of a group with those of all of its arrays, as zarr-python writes them. The
+/// specification does not contain this yet, and readers may ignore it.
 pub(super) fn consolidated(attributes: Json, arrays: &[Array]) -> Json {
     let metadata = arrays
         .iter()

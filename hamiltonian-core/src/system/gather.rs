@@ -1,12 +1,12 @@
-//! Several members in the lanes of one: how code over `f64` reaches packs.
+//! Several members in the lanes of one, which takes code over `f64` to packs.
 //!
-//! Input: vectors and prepared systems over a scalar, one a member. Output: one over
-//! [`Real::Over`] a pack, and back. Invariant: lane k has the bits of member k; the last member fills the
-//! lanes that are left; what is prepared is computed once, over the scalar, and copied.
+//! Input: vectors and prepared systems over a scalar, one a member. Output: one over [`Real::Over`]
+//! a pack, and back. Invariant: lane k has the bits of member k; the last member fills the
+//! remaining lanes; prepared values are computed once, over the scalar, and copied.
 //!
-//! Two routes lead here. An ensemble gathers the prepared systems of its members ([`Gather`]). A scheme
-//! or a loop of a single run hands a [`InLanes`] kernel to [`Dynamics::in_lanes`], which gathers one
-//! system into all lanes at the level of the CPU.
+//! Two routes lead here. An ensemble gathers the prepared systems of its members ([`Gather`]). A
+//! scheme or a loop of a single run passes an [`InLanes`] kernel to [`Dynamics::in_lanes`], which
+//! gathers one system into all lanes at the level of the CPU.
 
 use super::Dynamics;
 use crate::vector::Vector;
@@ -21,10 +21,10 @@ pub type ScalarOver<V, P> = <<V as Vector>::Scalar as Real>::Over<P>;
 /// A vector with a member in each lane of the pack `P`.
 pub type VectorOver<V, P> = <V as Vector>::Over<ScalarOver<V, P>>;
 
-/// The most members that are gathered into one pack.
+/// The largest number of members that are gathered into one pack.
 pub const MOST: usize = 128;
 
-/// A prepared system that can stand in the lanes of a pack beside others of its definition.
+/// A prepared system that can be gathered into a pack with others of its definition.
 ///
 /// The macro implements it for every definition. A system written by hand implements it to take part in
 /// ensembles and, with [`Dynamics::in_lanes`], to let implicit schemes use packs in a single run:
@@ -73,7 +73,7 @@ pub const MOST: usize = 128;
     note = "systems of `hamiltonian!` can; for one written by hand: `impl<T: Real> Gather<T> for … {{}}`"
 )]
 pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
-    /// The same prepared system over another scalar.
+    /// The prepared system over another scalar.
     type Over<U: Real>: Dynamics<U, Vector = <Self::Vector as Vector>::Over<U>>
         + Send
         + Sync
@@ -82,13 +82,13 @@ pub trait Gather<T: Real>: Dynamics<T> + Send + Sync + 'static {
     /// One system with member k in lane k, and the last in the lanes that are left. There are at least one
     /// and at most [`MOST`] members, and all of them [`fit`](Gather::fits) the first.
     fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
-    /// Returns true if both may stand in one pack: sizes set at run time are the same.
+    /// Returns true if both may be in one pack: sizes set at run time are equal.
     fn fits(&self, other: &Self) -> bool;
-    /// Returns true if both are the same system: every parameter is equal.
+    /// Returns true if every parameter is equal in both.
     fn equals(&self, other: &Self) -> bool;
 }
 
-/// Work of a single run over the scalar `T` that packs do faster: stages, loops.
+/// Work of a single run over the scalar `T` that is faster in packs: stages, loops.
 ///
 /// `run` and all that it calls in a loop must be `#[inline(always)]`, as for [`Kernel`].
 pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
@@ -97,11 +97,11 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
     /// The pack that is used on a level; wrapped in [`Nf`] unless products
     /// [fuse](crate::schemes::author::Arithmetic::fused), so that a run has the same bits on every level.
     type Pack<L: Level>: Base;
-    /// The least level and the best on which packs are faster than one number after the other: for others no
-    /// code is made. A better CPU runs the best of them.
+    /// The lowest and the highest level on which packs are faster than single numbers. No code is
+    /// compiled for other levels. A better CPU runs the highest of them.
     const LEVELS: [Cpu; 2];
-    /// Computes it with the system in every lane. What it keeps, it finds there the next time that a kernel
-    /// runs with the same system in the same packs.
+    /// Computes the result with the system in every lane. The next kernel with the same system in
+    /// the same packs finds in `kept` the values that this one stored.
     fn run<P, D>(self, system: &D, kept: &mut Kept) -> Self::Output
     where
         P: Pack,
@@ -114,7 +114,7 @@ pub trait InLanes<T: Real, V: Vector<Scalar = T>> {
 pub struct Kept(Option<Box<dyn Any + Send + Sync>>);
 
 impl Kept {
-    /// The value kept, if it has this type and is good; else a new one.
+    /// The kept value, if it has this type and passes the test; otherwise a new one.
     #[inline(always)]
     pub fn get<X: Any + Send + Sync>(
         &mut self,
@@ -146,9 +146,9 @@ impl fmt::Debug for Kept {
 }
 
 /// Runs a kernel on the best level of this CPU with one system in all lanes: the implementation of
-/// [`Dynamics::in_lanes`] where there is [`Gather`]. Nothing runs if `T` has no form in lanes, if the
-/// system's [arithmetic](Dynamics::arithmetic) does not use them, or if the CPU has none of the kernel's
-/// [levels](InLanes::LEVELS).
+/// [`Dynamics::in_lanes`] for systems with [`Gather`]. Nothing runs if `T` has no form in lanes, if
+/// the system's [arithmetic](Dynamics::arithmetic) does not use them, or if the CPU has none of the
+/// kernel's [levels](InLanes::LEVELS).
 #[inline(always)]
 pub fn in_lanes<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>>(
     system: &D,
@@ -167,7 +167,7 @@ pub fn in_lanes<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>>(
     })
 }
 
-/// The way into a level for [`in_lanes`].
+/// The kernel that enters a level for [`in_lanes`].
 struct Entry<'a, T, D, K> {
     system: &'a D,
     kept: &'a mut Kept,
@@ -175,7 +175,7 @@ struct Entry<'a, T, D, K> {
     scalar: PhantomData<T>,
 }
 
-/// What [`in_lanes`] keeps: the system, gathered.
+/// The value that [`in_lanes`] keeps: the gathered system.
 struct Gathered<D, O> {
     of: D,
     over: O,
@@ -203,7 +203,7 @@ impl<T: Real, D: Gather<T>, K: InLanes<T, D::Vector>> Kernel for Entry<'_, T, D,
     const BEST: Cpu = K::LEVELS[1];
     #[inline(always)]
     fn run<L: Level>(self) -> Self::Output {
-        // A condition that is a constant of types is decided before code is emitted.
+        // The compiler decides this condition, because it is a constant of types.
         if const { (L::CPU as u8) < K::LEVELS[0] as u8 } {
             return None;
         }

@@ -4,7 +4,7 @@ use super::Table;
 use crate::error::Error;
 use std::io::{BufWriter, Write};
 
-/// The bytes collected before the writer receives them.
+/// The number of bytes that are collected before the writer receives them.
 pub(super) const BUFFER: usize = 1 << 16;
 
 impl Table {

@@ -118,7 +118,7 @@ impl Table {
         &self.values
     }
 
-    /// The same table with other values.
+    /// Replaces the values of the table.
     pub(crate) fn set_values(&mut self, values: Vec<f64>) {
         self.values = values;
     }
@@ -156,7 +156,7 @@ impl Table {
         Some(self.iter().map(move |row| row[at]))
     }
 
-    /// The place of a column.
+    /// The position of a column.
     pub(crate) fn position(&self, name: &str) -> Result<usize, Error> {
         (self.columns.iter().position(|column| column == name))
             .ok_or_else(|| TableError::unknown(name, &self.columns).into())

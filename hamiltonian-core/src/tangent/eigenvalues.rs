@@ -1,8 +1,8 @@
 //! Eigenvalues of a real matrix.
 //!
-//! Input: a square matrix. Output: its eigenvalues, complex ones in pairs. Invariant: nothing but
-//! arithmetic and square roots, so that no standard library is needed; NaN for what an iteration
-//! does not reach.
+//! Input: a square matrix. Output: its eigenvalues, complex ones in pairs. Invariant: only
+//! arithmetic and square roots, so that no standard library is needed; NaN for eigenvalues for
+//! which the iteration does not converge.
 //!
 //! The matrix is reduced to Hessenberg form by reflections, then to blocks of one or two rows by
 //! steps with two shifts at once (J. G. F. Francis, *Comput. J.* 4, 332, 1962,
@@ -16,7 +16,8 @@ use core::ops::RangeInclusive;
 use hamiltonian_lanes::Real;
 use nalgebra::{Complex, DMatrix};
 
-/// The most steps for one eigenvalue; two or three are usual. Every tenth has other shifts.
+/// The largest number of steps for one eigenvalue; two or three are usual. Every tenth has other
+/// shifts.
 const STEPS: usize = 60;
 
 /// The eigenvalues of a square matrix.
@@ -60,8 +61,8 @@ fn reduce_to_hessenberg(h: &mut DMatrix<f64>) {
     }
 }
 
-/// The first row of the block that ends in row `high`: above it the subdiagonal is 0, or made so
-/// where it is a rounding error beside the diagonal.
+/// The first row of the block that ends in row `high`: above it the subdiagonal is 0, or set to 0
+/// if it is a rounding error relative to the diagonal.
 fn block(h: &mut DMatrix<f64>, high: usize) -> usize {
     let size = h.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     let mut low = high;
@@ -88,7 +89,7 @@ fn pair(h: &DMatrix<f64>, k: usize) -> (Complex<f64>, Complex<f64>) {
         let middle = d + half;
         return (Complex::new(middle, root), Complex::new(middle, -root));
     }
-    // The one farther from `d` does not cancel, and gives the other.
+    // The eigenvalue farther from `d` does not cancel, and determines the other.
     let far = half + if half < 0.0 { -root } else { root };
     let near = if far == 0.0 { 0.0 } else { product / far };
     (Complex::new(d + far, 0.0), Complex::new(d - near, 0.0))
@@ -138,8 +139,8 @@ fn step(h: &mut DMatrix<f64>, low: usize, high: usize, sum: f64, product: f64) {
     }
 }
 
-/// The vector `v`, scaled so that `1 − v·vᵀ` takes `column` to a multiple of the first axis; none
-/// where the column is 0.
+/// The vector `v`, scaled so that `1 − v·vᵀ` takes `column` to a multiple of the first axis; `None`
+/// if the column is 0.
 fn normal(column: &[f64]) -> Option<Vec<f64>> {
     let size = column.iter().fold(0.0_f64, |size, x| size.max(x.abs()));
     if size == 0.0 {

@@ -1,7 +1,7 @@
 //! The mean exponential growth of nearby orbits.
 //!
-//! Input: what a deviation grows by in stretches of steps. Output: its MEGNO. Invariant: a run and the lanes of
-//! an ensemble do the same operations.
+//! Input: the growth of a deviation in stretches of steps. Output: its MEGNO. Invariant: a run and
+//! the lanes of an ensemble do the same operations.
 
 use hamiltonian_lanes::Real;
 
@@ -37,13 +37,13 @@ impl<T: Real> Megno<T> {
         self.present = present;
     }
 
-    /// ∫ Y ds, of which [`mean`](Megno::mean) is made.
+    /// ∫ Y ds, from which [`mean`](Megno::mean) is computed.
     #[inline(always)]
     pub(crate) fn area(&self) -> T {
         self.area
     }
 
-    /// The mean of Y over so many steps.
+    /// The mean of Y over `steps` steps.
     pub(crate) fn mean(area: T, steps: u64) -> T {
         area / T::constant(steps as i64 as f64, 0.0)
     }

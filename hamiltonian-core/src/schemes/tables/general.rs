@@ -2,12 +2,12 @@
 //!
 //! Input: the digits as published, polished by `scripts/coefficients.py`. Output: the tables of
 //! order 3 to 10. Invariant: every condition of a composition of a map and its adjoint holds up to
-//! the order, whatever the map.
+//! the order, for any map.
 
 use super::{Class, Coefficients, palindrome, strokes, symmetric};
 use crate::schemes::author::Weight;
 
-/// Ruth's scheme of order 3, the least with three stages; not symmetric.
+/// Ruth's scheme of order 3 with three stages, the smallest number; not symmetric.
 ///
 /// Kick first in the paper: b = (7/24, 3/4, −1/24), a = (2/3, −2/3, 1); of order 3 in either order.
 pub const RUTH_3: Coefficients<3> = Coefficients {
@@ -89,7 +89,7 @@ pub const BLANES_MOAN_6: Coefficients<10> = Coefficients {
     source: "S. Blanes, P. C. Moan, J. Comput. Appl. Math. 142, 313 (2002), doi:10.1016/S0377-0427(01)00492-7",
 };
 
-/// Yoshida's solution A of order 6 with 7 stages, the least.
+/// Yoshida's solution A of order 6 with 7 stages, the smallest number.
 pub const YOSHIDA_6: Coefficients<7> = Coefficients {
     name: "Yoshida 6",
     order: 6,
@@ -118,7 +118,8 @@ pub const KAHAN_LI_6: Coefficients<9> = Coefficients {
     source: "W. Kahan, R.-C. Li, Math. Comp. 66, 1089 (1997), doi:10.1090/S0025-5718-97-00873-9",
 };
 
-/// The composition of order 8 with 15 stages, the least, that Suzuki and Umeno and McLachlan found.
+/// The composition of order 8 with 15 stages, the smallest number, found by Suzuki and Umeno and by
+/// McLachlan.
 ///
 /// As printed it has Σγ³ = −3.4e-15; here all its numbers are polished.
 pub const MCLACHLAN_8: Coefficients<15> = Coefficients {

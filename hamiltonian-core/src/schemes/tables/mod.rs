@@ -21,7 +21,7 @@ pub mod near_integrable;
 pub mod nystrom;
 pub mod processed;
 
-/// For which splittings a table has its order.
+/// The splittings on which a table has its order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Class {
     /// For any pieces, and for compositions of any one-step map and its adjoint.
@@ -31,9 +31,9 @@ pub enum Class {
         /// The piece of the first stroke.
         first: First,
     },
-    /// For any pieces; made for H = A + εB, where the error is O(ε h^r₁ + ε² h^r₂ + …).
+    /// For any pieces, and designed for H = A + εB, with the error O(ε h^r₁ + ε² h^r₂ + …).
     NearIntegrable {
-        /// r₁, r₂, …; the last one stands for all higher powers of ε.
+        /// r₁, r₂, …; the last one applies to all higher powers of ε.
         orders: &'static [u32],
     },
 }
@@ -62,7 +62,7 @@ pub struct Coefficients<const S: usize> {
     pub source: &'static str,
 }
 
-/// A table, whatever its number of stages.
+/// A table with any number of stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Listing {
     /// Its name in the field.
@@ -112,7 +112,7 @@ all! {
     near_integrable { SABA_1 SABA_2 SABA_3 SABA_4 ABA_104 ABA_864 ABA_1064 }
 }
 
-/// A processed table, whatever its numbers of stages.
+/// A processed table with any numbers of stages.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProcessedListing {
     /// Its name in the field.

@@ -10,8 +10,8 @@ use crate::schemes::author::Weight;
 
 /// Blanes and Moan's SRKN₆ᵇ, order 4 with 6 stages, kick first.
 ///
-/// It has order 4 on any splitting: up to there the conditions are the same. Its errors are small
-/// on its class.
+/// It has order 4 on any splitting, because the conditions are the same up to order 4. Its errors
+/// are small on its class.
 pub const SRKN_6B: Coefficients<6> = Coefficients {
     name: "SRKN6b",
     order: 4,

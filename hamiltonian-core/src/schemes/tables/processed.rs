@@ -18,7 +18,7 @@ pub struct Processing<const K: usize, const P: usize> {
     pub class: Class,
     /// The durations of the stages of the kernel.
     pub kernel: [Durations; K],
-    /// The durations of the stages of π, which is applied to what is seen.
+    /// The durations of the stages of π, which is applied to observed states.
     pub processor: [Durations; P],
     /// Author, journal or book, year, DOI.
     pub source: &'static str,

@@ -1,10 +1,11 @@
-//! Basins of a damped pendulum that is pushed to and fro.
+//! Basins of attraction of a damped, driven pendulum.
 //!
-//! θ̈ + γθ̇ + sin θ = f cos t with γ = 0.2 and f = 1.66: friction takes phase space away, and what is left are a
-//! few orbits with the period of the push. The starts that end on each are its basin; boundaries between
-//! basins are fractal (J. Kennedy and J. A. Yorke, Physica D 51 (1991) 213, doi:10.1016/0167-2789(91)90234-Z).
+//! θ̈ + γθ̇ + sin θ = f cos t with γ = 0.2 and f = 1.66: friction contracts phase space, and all orbits tend to a
+//! few periodic ones with the period of the drive. The starts that tend to one of them are its basin; boundaries
+//! between basins are fractal (J. Kennedy and J. A. Yorke, Physica D 51 (1991) 213,
+//! doi:10.1016/0167-2789(91)90234-Z).
 //!
-//! Each start is looked at once a period, when the push is strongest. `-- N` computes about N starts, 10 000 by
+//! Each orbit is sampled once a period, when the driving force is largest. `-- N` computes about N starts, 10 000 by
 //! default; 1 000 000 take minutes. The basins are written to `target/basins/basins.svg`.
 
 use checks::Checks;

@@ -1,10 +1,9 @@
 //! Order and chaos of Hénon–Heiles at one energy: MEGNO of a sheet of starts.
 //!
-//! At H = 1/8 the section x = 0 is divided between islands of regular orbits and a chaotic sea (M. Hénon and
-//! C. Heiles, Astronomical Journal 69, 73, 1964; `henon_heiles` draws orbits of both). MEGNO
-//! measures how fast the neighbours of every start leave (P. M. Cincotta, C. Simó, Astronomy and Astrophysics
-//! Supplement Series 147, 205, 2000): in the islands it tends to 2, in the sea it grows like λt/2, where λ is
-//! about 0.047.
+//! At H = 1/8 the section x = 0 is divided between islands of regular orbits and a chaotic sea (M. Hénon and C.
+//! Heiles, Astronomical Journal 69, 73, 1964; `henon_heiles` draws orbits of both). MEGNO measures how fast
+//! neighbouring orbits separate (P. M. Cincotta, C. Simó, Astronomy and Astrophysics Supplement Series 147, 205,
+//! 2000): in the islands it tends to 2, in the sea it grows like λt/2, where λ is about 0.047.
 //!
 //! `-- N` computes about N starts, 4000 by default; 1 000 000 take minutes. Ctrl-C ends it. The map is written to
 //! `target/chaos_map/map.svg`.

@@ -1,12 +1,12 @@
 //! Newton's gravity from three bodies to hundreds, by one definition.
 //!
-//! Three bodies run after each other on a figure eight (C. Moore 1993; A. Chenciner and R.
-//! Montgomery, Annals of Mathematics 152, 881, 2000). Then a ball of stars at rest falls together:
-//! how many is an argument, `cargo run --release --example nbody -- 1000`.
+//! Three bodies run after each other on a figure eight (C. Moore 1993; A. Chenciner and R. Montgomery, Annals of
+//! Mathematics 152, 881, 2000). Then a ball of stars at rest collapses; `cargo run --release --example nbody -- N`
+//! sets the number of stars.
 //!
-//! Prints how well the eight closes, when the ball is smallest, which for a uniform ball is the time
-//! of free fall, ½π√(R³/2GM), and how it settles: 2T = −V on the average (the virial theorem), but
-//! for the stars that were thrown out. Look at `target/nbody/eight.svg` and `target/nbody/collapse.svg`.
+//! The program prints the gap of the eight after a period; the time at which the ball is smallest, beside the time
+//! of free fall of a uniform ball, ½π√(R³/2GM); and the mean of 2T/|V|, which by the virial theorem would be 1 if no
+//! star were ejected. Pictures: `target/nbody/eight.svg` and `target/nbody/collapse.svg`.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

@@ -1,9 +1,9 @@
-//! The paper's schemes on the paper's two systems: its figures, its table, and what it did not see.
+//! The paper's schemes on the paper's two systems: its figures, its table, and longer runs.
 //!
 //! Pictures: `target/paper/figure1.svg` has the pendulum, `figure2.svg` H = ½(q²+1)(p²+1) in a short run,
 //! `figure3.svg` the same system in a longer run, and `figure4.svg` the same to t = 10⁵ with the exact flows of the
-//! pieces into which the macro splits H: explicit and symplectic, as the paper wanted. The table is printed and
-//! written to `results.csv`.
+//! pieces into which the macro splits H: explicit and symplectic, which is the aim of the paper. The table is
+//! printed and written to `results.csv`.
 //!
 //! The paper does not state g, the length of the runs, the zero of the potential, or the definition of
 //! "uncertainty". The program prints what is assumed; "uncertainty" is taken as the deviation of the mean of H over

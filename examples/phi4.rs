@@ -1,12 +1,12 @@
 //! Kinks of the φ⁴ field in two dimensions: a kink and an antikink meet.
 //!
-//! H = ∫ (π² + |∇φ|²)/2 + (φ² − 1)²/4 has the kinks φ = tanh(γ(x − vt)/√2). A pair that meets faster than
-//! v_c = 0.2598 bounces and escapes with v' where v'² = 0.887 (v² − v_c²); a slower one is caught, but for
-//! windows of resonance above v = 0.19 (D. K. Campbell, J. F. Schonfeld, C. A. Wingate, Physica D 9 (1983) 1).
-//! Flat fronts do so in two dimensions too. The picture has bent fronts, which leave a bubble that shrinks: the
-//! lines φ = 0 at several times, written to `target/phi4/fronts.svg`.
+//! H = ∫ (π² + |∇φ|²)/2 + (φ² − 1)²/4 has the kinks φ = tanh(γ(x − vt)/√2). A pair that meets faster than v_c =
+//! 0.2598 bounces and escapes with v' where v'² = 0.887 (v² − v_c²); a slower one is captured, except in windows of
+//! resonance above v = 0.19 (D. K. Campbell, J. F. Schonfeld, C. A. Wingate, Physica D 9 (1983) 1). Flat fronts
+//! behave likewise in two dimensions. The picture `target/phi4/fronts.svg` has the lines φ = 0 of bent fronts at
+//! several times: they leave a bubble that shrinks.
 //!
-//! `-- N` makes N times as many sites along each axis.
+//! `-- N` sets N times as many sites along each axis.
 
 use checks::Checks;
 use hamiltonian::Lattice;

@@ -1,4 +1,4 @@
-//! Point vortices in the plane, which carry each other round.
+//! Point vortices in the plane, each moved by the others.
 //!
 //! A vortex has a position and no mass: the momentum of x is y times the strength Γ (G. Kirchhoff, Vorlesungen über
 //! mathematische Physik, 1876, lecture 20). H has no kinetic energy and is not separable. But two vortices alone

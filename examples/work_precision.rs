@@ -1,14 +1,14 @@
-//! Work against precision: the price of a digit with each scheme.
+//! Work against precision: the CPU time of each scheme for a given error.
 //!
-//! Three races: Hénon–Heiles, which is separable; the paper's (34) and an orbit round a black hole, which
-//! are not, but fall into pieces with exact flows. There each order has its own race: compositions of
-//! exact flows beside the implicit midpoint rule and Gauss's schemes, M. Tao's doubled phase space and the
-//! symmetric projection of it.
+//! Three problems: Hénon–Heiles, which is separable; the paper's (34) and an orbit round a black hole, which are not
+//! separable, but are sums of pieces with exact flows. For these two, schemes are compared order by order:
+//! compositions of exact flows, the implicit midpoint rule and Gauss's schemes, M. Tao's doubled phase space, and
+//! its symmetric projection.
 //!
-//! Writes to `target/work_precision/`, for each race, how far H moved (`…_energy.svg`) and how far the end
-//! point is off (`…_end.svg`) against the time that a unit of time takes, for steps halved again and again;
-//! numbers at curves are orders. Prints tables of it. Times are this machine's; that each error of H
-//! falls with its order is checked.
+//! The program writes two pictures of each problem to `target/work_precision/`: the change of H (`…_energy.svg`) and
+//! the error of the end point (`…_end.svg`) against the CPU time for one unit of time, with steps that are halved
+//! repeatedly. The number at a curve is the order of its scheme. Tables of both are printed. Times are those of this
+//! machine; the program checks that each error of H decreases with the order of its scheme.
 
 use checks::Checks;
 use hamiltonian::plot::{Curve, Figure};

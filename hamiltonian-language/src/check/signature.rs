@@ -15,8 +15,17 @@ use std::collections::HashMap;
 /// The largest last extent whose columns are written out, each an array of its own.
 const WRITTEN_OUT: u64 = 4;
 
+/// The largest last extent of coordinates of a Lagrangian whose columns are written out, so that the mass matrix
+/// may couple them.
+const COUPLED: u64 = 16;
+
 /// The largest number of elements of a lattice with literal extents.
 const LARGEST: i64 = 1 << 32;
+
+/// The largest last extent whose columns are written out.
+fn written_out(lagrangian: bool) -> u64 {
+    if lagrangian { COUPLED } else { WRITTEN_OUT }
+}
 
 impl Checker<'_> {
     /// Declares the signature of the definition. Returns true if its names are known.
@@ -97,9 +106,7 @@ impl Checker<'_> {
         }
         let ty = ty.unwrap_or(Type::Scalar);
         let is_lattice = match ty {
-            Type::Matrix(_, Extent::Literal(columns)) => {
-                velocity.is_none() && columns > WRITTEN_OUT
-            }
+            Type::Matrix(_, Extent::Literal(columns)) => columns > written_out(velocity.is_some()),
             Type::Matrix(_, Extent::Size(_)) | Type::Array(_) => true,
             _ => false,
         };
@@ -305,9 +312,9 @@ impl Checker<'_> {
             };
         };
         match columns {
-            // A mass matrix may couple columns with each other, and short arrays in any way.
-            Size::Literal(..) if lagrangian => self.array(&variable.sizes),
-            Size::Literal(number, _) if *number <= WRITTEN_OUT => self.array(&variable.sizes),
+            Size::Literal(number, _) if *number <= written_out(lagrangian) => {
+                self.array(&variable.sizes)
+            }
             _ => self.lattice(&variable.sizes),
         }
     }

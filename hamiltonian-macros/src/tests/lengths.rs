@@ -15,6 +15,8 @@ const DEFINITIONS: &[&str] = &[
     "pub struct Gravity { G = 1.0, m: [@] }
      H(q[@][3]; p[@][3]) = sum(i in 0..@) { norm_squared(p[i])/(2*m[i]) }
          - G*sum(i in 0..@, j in 0..i) { m[i]*m[j]/norm(q[i] - q[j]) }",
+    "H(u[@][@]; p[@][@]) = sum(i in 0..@, j in 0..@) { p[i][j]^2/2 + (u[(i + 1) % @][j] - u[i][j])^2/2 }",
+    "L(u[@][@]; v[@][@]) = sum(i in 0..@, j in 0..@) { v[i][j]^2/2 - (u[i][(j + 1) % @] - u[i][j])^2/2 }",
     "H(q[@]; p[@]) = sqrt(1 + sum(i in 0..@) { p[i]^2 }) + sum(i in 0..@) { q[i]*q[(i + 3) % @] }",
 ];
 
@@ -55,12 +57,13 @@ fn is_doc(tree: Option<&TokenTree>) -> bool {
     matches!(group.stream().into_iter().next(), Some(TokenTree::Ident(name)) if name == "doc")
 }
 
-/// A literal, or a string of LaTeX, with `@` for the length and `@-1` for the last index wherever
-/// they are whole words.
+/// A literal, or a string of LaTeX, with `@` for the length, `@-1` for the last index and `@*@` for the number
+/// of elements of a lattice, if they are whole words.
 fn generalised(literal: &str, length: u32) -> String {
     let word = |word: &str| match word.trim_end_matches("usize").parse() {
         Ok(value) if value == length => "@".to_owned(),
         Ok(value) if value == length - 1 => "@-1".to_owned(),
+        Ok(value) if value == length * length => "@*@".to_owned(),
         Ok::<u32, _>(_) | Err(_) => word.to_owned(),
     };
     let parts = literal.split_inclusive(|c: char| !c.is_alphanumeric() && c != '_');

@@ -374,6 +374,10 @@ where
     fn looks(&self) -> bool {
         self.looks
     }
+
+    fn is_cancelled(&mut self) -> bool {
+        false
+    }
 }
 
 /// Shows an observer a state whose number of steps is a multiple of its interval.

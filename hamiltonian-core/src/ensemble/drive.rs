@@ -71,7 +71,7 @@ where
             return;
         }
         let mut lanes = Lanes::<T, S, P, M>::new::<L>(self, &crew);
-        loop {
+        while !host.is_cancelled() {
             lanes.board::<L>(self, &mut crew);
             // Members whose drift begins here are seen before their first step.
             let attach = lanes.attach.take();

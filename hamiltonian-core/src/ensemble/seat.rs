@@ -68,4 +68,6 @@ pub trait Host<T: Real, S: System<T>> {
     fn fail(&mut self, seat: &mut Seat<T, S>, error: Error);
     /// Returns true if it receives states; if not, members leave at their stops.
     fn looks(&self) -> bool;
+    /// Returns true if the work stops here, between two blocks: members under way are left where they are.
+    fn is_cancelled(&mut self) -> bool;
 }

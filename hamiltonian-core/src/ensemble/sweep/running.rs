@@ -364,8 +364,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
 impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O> {
     fn load(&mut self, seat: &mut Option<Seat<f64, S>>) -> bool {
         while self.next < self.indices.len() {
-            if self.sweep.is_cancelled() {
-                self.cancelled = true;
+            if self.is_cancelled() {
                 return false;
             }
             let key = self.next;
@@ -463,5 +462,10 @@ impl<S: System<f64>, O: Observer<f64, S>> Host<f64, S> for Running<'_, '_, S, O>
 
     fn looks(&self) -> bool {
         true
+    }
+
+    fn is_cancelled(&mut self) -> bool {
+        self.cancelled |= self.sweep.is_cancelled();
+        self.cancelled
     }
 }

@@ -163,6 +163,10 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     /// ```
     ///
     /// Call it once. For several observers the closure returns a tuple.
+    ///
+    /// A member for which the closure panics fails with [`Error::Panicked`]. The closure is called again for
+    /// another member, so that [`observers`](Ensemble::observers) has an entry for each; that one receives
+    /// nothing.
     pub fn observe<N: Observer<f64, S> + Send>(
         self,
         mut observer: impl FnMut(Member) -> N,
@@ -170,10 +174,33 @@ impl<S: System<f64>, O> Ensemble<S, O> {
     where
         O: Unobserved,
     {
-        let chunks = self.chunks.into_iter().map(|chunk| {
-            let indices = chunk.first..chunk.first + chunk.count;
-            let observers = indices.map(|index| observer(Member::new(index, 0)));
-            let observers = observers.collect();
+        let now = self.common.steps;
+        let (mut of, count) = (
+            |index| guard(|| observer(Member::new(index, 0))),
+            self.len(),
+        );
+        // A member for which the closure returns: none before one is found, or after a vain search.
+        let (mut good, mut is_vain) = (None, false);
+        let chunks = self.chunks.into_iter().map(|mut chunk| {
+            let mut observers = Vec::with_capacity(chunk.count);
+            for key in 0..chunk.count {
+                let index = chunk.first + key;
+                let made = of(index).or_else(|error| {
+                    chunk
+                        .out
+                        .entry(key)
+                        .or_insert(Out::Failed(error.clone(), now));
+                    if good.is_none() && !is_vain {
+                        good = (index + 1..count).find(|other| of(*other).is_ok());
+                        is_vain = good.is_none();
+                    }
+                    good.map_or(Err(error), &mut of)
+                });
+                if good.is_none() && made.is_ok() {
+                    good = Some(index);
+                }
+                observers.extend(made);
+            }
             chunk.with_observers(observers)
         });
         let mut observed = Ensemble {
@@ -184,7 +211,6 @@ impl<S: System<f64>, O> Ensemble<S, O> {
             fuses: self.fuses,
             memory: Memory::default(),
         };
-        let now = observed.common.steps;
         let mut memory = self.memory;
         if !memory.is_empty() {
             observed.restore(&mut memory);

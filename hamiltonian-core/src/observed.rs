@@ -5,11 +5,13 @@
 
 use crate::error::Error;
 use crate::flow::VectorField;
+use crate::system::gather::Gather;
 use crate::system::{Autonomous, Dynamics, Group, Observable, System, Unforced};
 use crate::vector::Vector;
 use alloc::string::ToString;
+use alloc::vec::Vec;
 use core::fmt;
-use hamiltonian_lanes::{Dual, Real};
+use hamiltonian_lanes::{Dual, Pack, Real};
 
 /// A monitor (invariant, event) of a system as a Hamiltonian: its value for H.
 ///
@@ -69,7 +71,12 @@ where
     S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
 {
     type Vector = Of<S, T>;
-    type Prepared = ReadyObserved<T, S>;
+    type Prepared = ReadyObserved<
+        T,
+        <S as System<T>>::Prepared,
+        <S as System<Dual<T>>>::Prepared,
+        <S as System<Dual<Dual<T>>>>::Prepared,
+    >;
     const NAME: &'static str = <S as System<T>>::NAME;
     const GROUPS: &'static [Group] = <S as System<T>>::GROUPS;
     const OBSERVABLES: &'static [Observable] = &[];
@@ -80,7 +87,7 @@ where
         writeln!(to, "{name} of {}", <S as System<T>>::FORMULA)?;
         <S as System<T>>::describe_parameters(&self.system, to)
     }
-    fn prepare(&self) -> ReadyObserved<T, S> {
+    fn prepare(&self) -> Self::Prepared {
         ReadyObserved {
             plain: <S as System<T>>::prepare(&self.system),
             first: ready::<_, Dual<T>>(&self.system),
@@ -94,147 +101,142 @@ where
 }
 
 /// A prepared system with zeros of its shape.
-type Ready<S, T> = (<S as System<T>>::Prepared, Of<S, T>);
+type Ready<F, T> = (F, <F as Dynamics<T>>::Vector);
 
-fn ready<S: System<T>, T: Real>(system: &S) -> Ready<S, T> {
+fn ready<S: System<T>, T: Real>(system: &S) -> Ready<S::Prepared, T> {
     (system.prepare(), system.zeros())
 }
 
-/// [`Observed`], prepared.
-pub struct ReadyObserved<T: Real, S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>> {
-    plain: <S as System<T>>::Prepared,
-    first: Ready<S, Dual<T>>,
-    second: Ready<S, Dual<Dual<T>>>,
+/// [`Observed`], prepared: the system over numbers, over duals and over duals of duals.
+#[derive(Debug, Clone)]
+pub struct ReadyObserved<T, P, F, G>
+where
+    T: Real,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
+{
+    plain: P,
+    first: Ready<F, Dual<T>>,
+    second: Ready<G, Dual<Dual<T>>>,
     index: usize,
 }
 
-impl<T: Real, S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>> Clone
-    for ReadyObserved<T, S>
-{
-    fn clone(&self) -> Self {
-        ReadyObserved {
-            plain: self.plain.clone(),
-            first: self.first.clone(),
-            second: self.second.clone(),
-            index: self.index,
-        }
-    }
-}
-
-impl<T, S> fmt::Debug for ReadyObserved<T, S>
-where
-    T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        (f.debug_struct("ReadyObserved").field("plain", &self.plain))
-            .field("index", &self.index)
-            .finish_non_exhaustive()
-    }
-}
-
-/// The components of `from`, each by a function, in a vector of the shape of `like`.
-fn lifted<V: Vector, W: Vector>(
-    like: &W,
-    from: &V,
-    of: impl Fn(usize, V::Scalar) -> W::Scalar,
-) -> W {
+/// The components of `from` without derivatives, in a vector of the shape of `like`.
+#[inline(always)]
+fn fixed<V: Vector, W: Vector<Scalar = Dual<V::Scalar>>>(like: &W, from: &V) -> W {
     let mut lifted = like.clone();
     for i in 0..from.len() {
-        *lifted.component_mut(i) = of(i, from.component(i));
+        *lifted.component_mut(i) = Dual::fixed(from.component(i));
     }
     lifted
 }
 
-impl<T, S> ReadyObserved<T, S>
+/// The components of `from` with those of `along` as their derivatives, in a vector of the shape of `like`.
+#[inline(always)]
+fn moved<V, W>(like: &W, from: &V, along: &V) -> W
+where
+    V: Vector,
+    W: Vector<Scalar = Dual<Dual<V::Scalar>>>,
+{
+    let mut lifted = like.clone();
+    for i in 0..from.len() {
+        let number = Dual::new(from.component(i), along.component(i));
+        *lifted.component_mut(i) = Dual::fixed(number);
+    }
+    lifted
+}
+
+impl<T, P, F, G> ReadyObserved<T, P, F, G>
 where
     T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
 {
-    /// The derivatives by all components of q, then of p: each is given to `of`.
-    fn derivatives(&self, t: T, q: &Of<S, T>, p: &Of<S, T>, mut of: impl FnMut(bool, usize, T)) {
+    /// The derivatives by the components of q and by those of p that are asked for.
+    #[inline(always)]
+    fn derivatives(
+        &self,
+        t: T,
+        q: &P::Vector,
+        p: &P::Vector,
+        mut by_q: Option<&mut P::Vector>,
+        mut by_p: Option<&mut P::Vector>,
+    ) {
         let (prepared, zeros) = &self.first;
-        let mut q = lifted(zeros, q, |_, x| Dual::fixed(x));
-        let mut p = lifted(zeros, p, |_, x| Dual::fixed(x));
+        let (mut q, mut p) = (fixed(zeros, q), fixed(zeros, p));
         let (t, one) = (Dual::fixed(t), T::one());
         for i in 0..q.len() {
-            q.component_mut(i).eps = one;
-            of(true, i, prepared.observable(self.index, t, &q, &p).eps);
-            q.component_mut(i).eps = T::zero();
-            p.component_mut(i).eps = one;
-            of(false, i, prepared.observable(self.index, t, &q, &p).eps);
-            p.component_mut(i).eps = T::zero();
+            if let Some(by_q) = &mut by_q {
+                q.component_mut(i).eps = one;
+                *by_q.component_mut(i) = prepared.observable(self.index, t, &q, &p).eps;
+                q.component_mut(i).eps = T::zero();
+            }
+            if let Some(by_p) = &mut by_p {
+                p.component_mut(i).eps = one;
+                *by_p.component_mut(i) = prepared.observable(self.index, t, &q, &p).eps;
+                p.component_mut(i).eps = T::zero();
+            }
         }
     }
 }
 
-impl<T, S> Dynamics<T> for ReadyObserved<T, S>
+impl<T, P, F, G> Dynamics<T> for ReadyObserved<T, P, F, G>
 where
     T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
 {
-    type Vector = Of<S, T>;
-    type Field = FieldObserved<T, S>;
+    type Vector = P::Vector;
+    type Field = FieldObserved<Self, T>;
 
     #[inline(always)]
-    fn energy(&self, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+    fn energy(&self, t: T, q: &P::Vector, p: &P::Vector) -> T {
         self.plain.observable(self.index, t, q, p)
     }
-    fn gradient_q(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
-        self.derivatives(t, q, p, |of_q, i, x| {
-            if of_q {
-                *out.component_mut(i) = x;
-            }
-        });
+    #[inline(always)]
+    fn gradient_q(&self, t: T, q: &P::Vector, p: &P::Vector, out: &mut P::Vector) {
+        self.derivatives(t, q, p, Some(out), None);
     }
-    fn gradient_p(&self, t: T, q: &Self::Vector, p: &Self::Vector, out: &mut Self::Vector) {
-        self.derivatives(t, q, p, |of_q, i, x| {
-            if !of_q {
-                *out.component_mut(i) = x;
-            }
-        });
+    #[inline(always)]
+    fn gradient_p(&self, t: T, q: &P::Vector, p: &P::Vector, out: &mut P::Vector) {
+        self.derivatives(t, q, p, None, Some(out));
     }
-    fn gradient(
-        &self,
-        t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        dq: &mut Self::Vector,
-        dp: &mut Self::Vector,
-    ) {
-        self.derivatives(t, q, p, |of_q, i, x| {
-            *if of_q { &mut *dq } else { &mut *dp }.component_mut(i) = x;
-        });
+    #[inline(always)]
+    fn gradient(&self, t: T, q: &P::Vector, p: &P::Vector, dq: &mut P::Vector, dp: &mut P::Vector) {
+        self.derivatives(t, q, p, Some(dq), Some(dp));
     }
-    fn time_derivative(&self, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
+    #[inline(always)]
+    fn time_derivative(&self, _: T, _: &P::Vector, _: &P::Vector) -> T {
         T::zero()
     }
+    #[inline(always)]
     fn hessian_vector(
         &self,
         t: T,
-        q: &Self::Vector,
-        p: &Self::Vector,
-        vq: &Self::Vector,
-        vp: &Self::Vector,
-        out_q: &mut Self::Vector,
-        out_p: &mut Self::Vector,
+        q: &P::Vector,
+        p: &P::Vector,
+        vq: &P::Vector,
+        vp: &P::Vector,
+        out_q: &mut P::Vector,
+        out_p: &mut P::Vector,
     ) {
         let (prepared, zeros) = &self.second;
         let t = Dual::fixed(Dual::fixed(t));
-        let along = |v: &Self::Vector, i, x| Dual::fixed(Dual::new(x, v.component(i)));
-        let mut q = lifted(zeros, q, |i, x| along(vq, i, x));
-        let mut p = lifted(zeros, p, |i, x| along(vp, i, x));
+        let (mut q, mut p) = (moved(zeros, q, vq), moved(zeros, p, vp));
+        let (one, zero) = (Dual::fixed(T::one()), Dual::fixed(T::zero()));
         for i in 0..q.len() {
-            for (of_q, out) in [(true, &mut *out_q), (false, &mut *out_p)] {
-                let mark = Dual::fixed(T::one());
-                if of_q { &mut q } else { &mut p }.component_mut(i).eps = mark;
-                let value = prepared.observable(self.index, t, &q, &p);
-                *out.component_mut(i) = value.eps.eps;
-                if of_q { &mut q } else { &mut p }.component_mut(i).eps = Dual::fixed(T::zero());
-            }
+            q.component_mut(i).eps = one;
+            *out_q.component_mut(i) = prepared.observable(self.index, t, &q, &p).eps.eps;
+            q.component_mut(i).eps = zero;
+            p.component_mut(i).eps = one;
+            *out_p.component_mut(i) = prepared.observable(self.index, t, &q, &p).eps.eps;
+            p.component_mut(i).eps = zero;
         }
     }
-    fn observable(&self, _: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T {
+    #[inline(always)]
+    fn observable(&self, _: usize, t: T, q: &P::Vector, p: &P::Vector) -> T {
         self.energy(t, q, p)
     }
     fn field(&self, c: T) -> Self::Field {
@@ -245,47 +247,66 @@ where
     }
 }
 
+impl<T, P, F, G> Gather<T> for ReadyObserved<T, P, F, G>
+where
+    T: Real,
+    P: Gather<T>,
+    F: Gather<Dual<T>>,
+    G: Gather<Dual<Dual<T>>>,
+{
+    type Over<U: Real> = ReadyObserved<U, P::Over<U>, F::Over<Dual<U>>, G::Over<Dual<Dual<U>>>>;
+
+    #[inline(always)]
+    fn gather<L: Pack>(members: &[&Self]) -> Self::Over<T::Over<L>> {
+        let plain: Vec<&P> = members.iter().map(|one| &one.plain).collect();
+        let first: Vec<&F> = members.iter().map(|one| &one.first.0).collect();
+        let second: Vec<&G> = members.iter().map(|one| &one.second.0).collect();
+        let [one, ..] = members else {
+            unreachable!("there is at least one member")
+        };
+        ReadyObserved {
+            plain: P::gather::<L>(&plain),
+            first: (F::gather::<L>(&first), one.first.1.zeros_over()),
+            second: (G::gather::<L>(&second), one.second.1.zeros_over()),
+            index: one.index,
+        }
+    }
+    fn fits(&self, other: &Self) -> bool {
+        self.index == other.index && self.plain.fits(&other.plain)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.index == other.index && self.plain.equals(&other.plain)
+    }
+}
+
 /// c·J∇ of an observable.
-pub struct FieldObserved<T: Real, S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>> {
-    ready: ReadyObserved<T, S>,
+#[derive(Debug, Clone)]
+pub struct FieldObserved<R, T> {
+    ready: R,
     c: T,
 }
 
-impl<T: Real, S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>> Clone
-    for FieldObserved<T, S>
+impl<T, P, F, G> VectorField<P::Vector> for FieldObserved<ReadyObserved<T, P, F, G>, T>
+where
+    T: Real,
+    P: Dynamics<T>,
+    F: Dynamics<Dual<T>>,
+    G: Dynamics<Dual<Dual<T>>>,
 {
-    fn clone(&self) -> Self {
-        FieldObserved {
-            ready: self.ready.clone(),
-            c: self.c,
+    #[inline(always)]
+    fn add(
+        &self,
+        t: T,
+        q: &P::Vector,
+        p: &P::Vector,
+        into_q: &mut P::Vector,
+        into_p: &mut P::Vector,
+    ) {
+        let (mut by_q, mut by_p) = (q.clone(), p.clone());
+        (self.ready).derivatives(t, q, p, Some(&mut by_q), Some(&mut by_p));
+        for i in 0..q.len() {
+            *into_p.component_mut(i) -= self.c * by_q.component(i);
+            *into_q.component_mut(i) += self.c * by_p.component(i);
         }
-    }
-}
-
-impl<T, S> fmt::Debug for FieldObserved<T, S>
-where
-    T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
-{
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        (f.debug_struct("FieldObserved").field("ready", &self.ready))
-            .field("c", &self.c)
-            .finish()
-    }
-}
-
-impl<T, S> VectorField<Of<S, T>> for FieldObserved<T, S>
-where
-    T: Real,
-    S: System<T> + System<Dual<T>> + System<Dual<Dual<T>>>,
-{
-    fn add(&self, t: T, q: &Of<S, T>, p: &Of<S, T>, into_q: &mut Of<S, T>, into_p: &mut Of<S, T>) {
-        self.ready.derivatives(t, q, p, |of_q, i, x| {
-            if of_q {
-                *into_p.component_mut(i) -= self.c * x;
-            } else {
-                *into_q.component_mut(i) += self.c * x;
-            }
-        });
     }
 }

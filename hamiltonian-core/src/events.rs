@@ -11,7 +11,7 @@ pub use event::Event;
 
 use crate::checkpoint::Memory;
 use crate::error::Error;
-use crate::observe::{Follower, Observer, Quantity, Section, View};
+use crate::observe::{Follower, Observer, Quantity, Section, View, one_trajectory};
 use crate::root::{Sample, dip, root, side};
 use crate::state::State;
 use crate::system::{Dynamics, System};
@@ -75,9 +75,9 @@ pub struct Located<V: Vector> {
 ///
 /// # Errors
 /// The run returns [`Error::Event`] for a name that the system does not declare and for a period that is not
-/// positive. It does so over packs of lanes, since each lane has events of its own, and inside
-/// [`every`](crate::observers::every), since `Events` needs the state after every step. It also returns the errors of
-/// the shorter steps.
+/// positive. It does so inside [`every`](crate::observers::every), since `Events` needs the state after every step. It
+/// also returns the errors of the shorter steps. Over packs of lanes it does not compile, since each lane has events of
+/// its own.
 #[derive(Debug, Clone)]
 pub struct Events<V: Vector> {
     events: Vec<Event<V>>,
@@ -177,9 +177,6 @@ impl<V: Vector> Events<V> {
         let before = view.between.part(view.state, back).ok();
         self.tracks.clear();
         for (number, event) in self.events.iter().enumerate() {
-            if V::Scalar::LANES > 1 {
-                return Err(self.refuse(number, "each lane has events of its own"));
-            }
             let observable = S::observable_index(&event.name);
             if event.function.is_none() && observable.is_none() {
                 return Err(self.refuse(number, "the system declares none of this name"));
@@ -347,6 +344,7 @@ fn correct<V: Vector>(to: &mut V, part: V::Scalar, end: &V, reached: &V) {
 
 impl<T: Real, S: System<T>> Observer<T, S> for Events<S::Vector> {
     fn attach(&mut self, view: &View<'_, T, S>) -> ControlFlow<()> {
+        one_trajectory::<T>();
         self.before = Some((view.step, view.state.clone()));
         match self.begin(view) {
             Ok(()) => ControlFlow::Continue(()),

@@ -376,6 +376,49 @@ tuple!(A 0, B 1, C 2, D 3, E 4);
 tuple!(A 0, B 1, C 2, D 3, E 4, F 5);
 
 /// Fails to compile over packs of lanes: what an observer makes of one trajectory would be that of lane 0.
+///
+/// This compiles:
+/// ```
+/// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
+#[doc = include_str!("doc/oscillator.md")]
+/// type Four = W<f64, 4>;
+/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// # let mut run = run;
+/// run.advance(1)?;
+/// # Ok::<(), Error>(())
+/// ```
+/// Each of these ends the same lines, and does not:
+/// ```compile_fail
+/// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
+#[doc = include_str!("doc/oscillator.md")]
+/// type Four = W<f64, 4>;
+/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let mut run = run.observe(Events::new([Event::of("q", |state: &State<_>| state.q[0])]));
+/// run.advance(1)?;
+/// # Ok::<(), Error>(())
+/// ```
+/// ```compile_fail
+/// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
+#[doc = include_str!("doc/oscillator.md")]
+/// type Four = W<f64, 4>;
+/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let mut run = run.observe(Recorder::new());
+/// run.advance(1)?;
+/// # Ok::<(), Error>(())
+/// ```
+/// ```compile_fail
+/// # use hamiltonian::{lanes::{Pack, W}, prelude::*};
+#[doc = include_str!("doc/oscillator.md")]
+/// type Four = W<f64, 4>;
+/// let start = State::over([Four::splat(1.0)], [Four::splat(0.0)]);
+/// let run = Integrator::new(&Oscillator {}, StormerVerlet::default(), start, Four::splat(0.1))?;
+/// let mut run = run.observe(EnergyDrift::new());
+/// run.advance(1)?;
+/// # Ok::<(), Error>(())
+/// ```
 #[inline(always)]
 pub(crate) fn one_trajectory<T: Real>() {
     const {

@@ -320,6 +320,12 @@ pub enum Error {
     /// An ensemble or a sweep of no members.
     #[error("an ensemble has at least one member, found 0")]
     NoMembers,
+    /// A sweep whose members have no end.
+    #[error(
+        "the members of the sweep have no end\nhelp: give them one: `.until(t)`, `.steps(n)`, or at least one time \
+         of `.record_at(…)`"
+    )]
+    NoEnd,
     /// Members that no common number of steps leads to one time.
     #[error(
         "no number of steps leads all members to one time, since {reason}; a `Sweep` ends each at its time"

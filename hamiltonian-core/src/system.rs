@@ -87,7 +87,8 @@ pub trait System<T: Real> {
     const FORMULA: &'static str = "";
 
     /// Writes the parameters with their values, all digits of them, each on a line, `m = 1.5`; by
-    /// them a saved run is recognised.
+    /// them a saved run is recognised, and the members of a stored sweep. Without them a sweep recognises its members
+    /// by the `Debug` text of what [`prepare`](System::prepare) returns.
     ///
     /// # Errors
     /// Those of the writer.

@@ -28,11 +28,15 @@ impl Write for Hash {
     }
 }
 
-/// A hash of a member's parameters, start and step.
+/// A hash of a member's parameters, start and step. A system that describes no parameters may be written by hand and
+/// have some nevertheless: then what it prepares is written in full.
 pub(crate) fn hash_of<S: System<f64>>(system: &S, start: &State<S::Vector>, step: f64) -> u64 {
     let mut hash = Hash::new();
     // Writing to a hash does not fail.
     let _ = system.describe_parameters(&mut hash);
+    if hash.0 == Hash::new().0 {
+        let _ = write!(hash, "{:?}", system.prepare());
+    }
     hash.word(start.t.to_bits());
     for number in start.q.components().chain(start.p.components()) {
         hash.word(number.to_bits());

@@ -16,7 +16,7 @@ use alloc::format;
 use alloc::string::ToString;
 use alloc::vec;
 use alloc::vec::Vec;
-use core::ops::ControlFlow;
+use core::ops::{ControlFlow, Range};
 use hamiltonian_lanes::Cpu;
 use std::path::Path;
 
@@ -38,13 +38,60 @@ where
     /// alone.
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) for a store of another
-    /// sweep or of other members, and for files that cannot be written.
+    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]; [`StoreError`](crate::errors::StoreError) for a
+    /// store of another sweep or of other members, and for files that cannot be written.
     pub fn store(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
-        if self.count == 0 {
-            return Err(Error::NoMembers);
-        }
+        self.check()?;
         let store = Store::open_or_create(path, &self.layout())?;
+        let missing = self.missing(&store)?;
+        if !missing.is_empty() {
+            self.each_batch(missing, true, |batch| {
+                let chunk = (batch.first / self.chunk_size()) as u64;
+                store.write(chunk, &self.data(&batch))?;
+                Ok(ControlFlow::Continue(()))
+            })?;
+        }
+        store.complete()
+    }
+
+    /// Says which chunks of the whole sweep the store at `path` does not have, without running any. Nothing is
+    /// created if there is no store. The first member of each chunk of this shard that is present is made again and
+    /// compared.
+    ///
+    /// ```
+    #[doc = include_str!("../doc/oscillator.md")]
+    ///
+    /// let path = std::env::temp_dir().join("example-complete.zarr");
+    /// # let _ = std::fs::remove_dir_all(&path);
+    /// let start = |member: Member| (Oscillator {}, State::new([0.1 * member.index as f64], [0.5]));
+    /// let sweep = Sweep::new(100, start, ImplicitMidpoint::default(), 0.01)
+    ///     .steps(10)
+    ///     .chunk(50)
+    ///     .record(["q"], |end| [end.state.q[0]]);
+    /// assert_eq!(sweep.complete(&path)?.to_string(), "2 of 2 chunks are missing: 0 to 1");
+    /// sweep.store(&path)?;
+    /// assert!(sweep.complete(&path)?.is_complete());
+    /// # std::fs::remove_dir_all(path)?;
+    /// # Ok::<(), Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Those of [`store`](Sweep::store), but for the files that it writes.
+    pub fn complete(&self, path: impl AsRef<Path>) -> Result<Completeness, Error> {
+        self.check()?;
+        let layout = self.layout();
+        let Some(store) = Store::open(path, &layout)? else {
+            return Ok(Completeness {
+                chunks: layout.chunks(),
+                missing: core::iter::once(0..layout.chunks()).collect(),
+            });
+        };
+        self.missing(&store)?;
+        store.complete()
+    }
+
+    /// The members of the chunks of this shard that a store does not have; those that it has are checked.
+    fn missing(&self, store: &Store) -> Result<Vec<Range<usize>>, Error> {
         let mut missing = Vec::new();
         for members in self.chunks() {
             let chunk = (members.start / self.chunk_size()) as u64;
@@ -54,14 +101,7 @@ where
                 store.check_first(chunk, self.hash(members.start))?;
             }
         }
-        if !missing.is_empty() {
-            self.each_batch(missing, true, |batch| {
-                let chunk = (batch.first / self.chunk_size()) as u64;
-                store.write(chunk, &self.data(&batch))?;
-                Ok(ControlFlow::Continue(()))
-            })?;
-        }
-        store.complete()
+        Ok(missing)
     }
 
     /// The hash of a member, which is made again; 0 if it cannot be made.
@@ -93,13 +133,19 @@ where
             (None, Aim::Steps(n)) => format!("{n} steps").into(),
             (None, Aim::Until(t)) => (*t).into(),
             (None, Aim::Each(_)) => "of each member".into(),
+            (None, Aim::Unknown) => "none".into(),
         };
         let step: Attribute = match self.step_each {
             Some(_) => "of each member".into(),
             None => self.step.into(),
         };
         let arithmetic = if self.fuses { "fused" } else { "unfused" };
-        let mut attributes = vec![
+        // Without fused products all levels have the same bits.
+        let level = match self.fuses {
+            true => format!("{:?}", Cpu::best()),
+            false => "any".to_string(),
+        };
+        let attributes = vec![
             ("system".to_string(), S::NAME.into()),
             ("hamiltonian".to_string(), S::FORMULA.into()),
             ("scheme".to_string(), self.engine.describe().into()),
@@ -107,11 +153,9 @@ where
             ("end".to_string(), end),
             ("seed".to_string(), self.seed.into()),
             ("arithmetic".to_string(), arithmetic.into()),
+            ("level".to_string(), level.into()),
             ("version".to_string(), env!("CARGO_PKG_VERSION").into()),
         ];
-        if self.fuses {
-            attributes.push(("level".to_string(), format!("{:?}", Cpu::best()).into()));
-        }
         let failures = ["start", "not_finite", "unsolved", "panicked", "failed"];
         Layout {
             rows,

@@ -32,6 +32,8 @@ type Each<'a> = Box<dyn Fn(Member) -> f64 + Send + Sync + 'a>;
 
 /// Where members end.
 pub(crate) enum Aim<'a> {
+    /// Nowhere yet.
+    Unknown,
     /// After so many steps.
     Steps(u64),
     /// At this time.
@@ -113,7 +115,7 @@ impl<'a, S: System<f64>> Sweep<'a, S> {
             make: Box::new(make),
             step,
             step_each: None,
-            aim: Aim::Steps(0),
+            aim: Aim::Unknown,
             observer: Arc::new(|_| ()),
             record: (),
             seed: 0,
@@ -349,7 +351,7 @@ where
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoMembers`], [`Error::Cancelled`]. The error of a member is in its row.
+    /// [`Error::NoMembers`], [`Error::NoEnd`], [`Error::Cancelled`]. The error of a member is in its row.
     pub fn fold<A>(&self, init: A, mut take: impl FnMut(A, &Row<'_>) -> A) -> Result<A, Error> {
         self.try_fold(init, |all, row| ControlFlow::Continue(take(all, row)))
     }
@@ -411,6 +413,18 @@ where
         Ok(table)
     }
 
+    /// Checks that there are members, and that they have ends.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        if self.count == 0 {
+            return Err(Error::NoMembers);
+        }
+        match (&self.record.times, &self.aim) {
+            (Some(times), _) if times.is_empty() => Err(Error::NoEnd),
+            (None, Aim::Unknown) => Err(Error::NoEnd),
+            _ => Ok(()),
+        }
+    }
+
     /// Runs chunks and takes their batches in order, with hashes of their members if they are stored.
     pub(crate) fn each_batch(
         &self,
@@ -418,9 +432,7 @@ where
         hashes: bool,
         mut take: impl FnMut(Batch) -> Result<ControlFlow<()>, Error>,
     ) -> Result<(), Error> {
-        if self.count == 0 {
-            return Err(Error::NoMembers);
-        }
+        self.check()?;
         let of = chunks.iter().map(Range::len).sum();
         let mut done = 0;
         let mut result = Ok(());

@@ -98,37 +98,61 @@ impl Store {
     /// another layout or other attributes, [`StoreError::Foreign`] for a directory of something else,
     /// [`StoreError::Full`] and [`StoreError::File`].
     pub fn open_or_create(path: impl AsRef<Path>, layout: &Layout) -> Result<Self, Error> {
+        let store = Self::at(path.as_ref(), layout)?;
+        if store.is_there()? {
+            return Ok(store);
+        }
+        // That of the group is the last, so that a store has the metadata of all arrays.
+        for (path, metadata) in store.metadata() {
+            store.write_file(&path, metadata.as_bytes())?;
+        }
+        if let Rows::At { name, values } = &layout.rows {
+            let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
+            store.write_file(&store.root.join(name).join("c/0"), &bytes)?;
+        }
+        store.write_file(&store.top(), layout.group().to_string().as_bytes())?;
+        Ok(store)
+    }
+
+    /// Opens the store at `path`; `None` if there is none yet, or one that is being created.
+    ///
+    /// # Errors
+    /// Those of [`open_or_create`](Store::open_or_create).
+    pub fn open(path: impl AsRef<Path>, layout: &Layout) -> Result<Option<Self>, Error> {
+        let store = Self::at(path.as_ref(), layout)?;
+        Ok(store.is_there()?.then_some(store))
+    }
+
+    /// The store of a layout at a place, where it may not be yet.
+    fn at(root: &Path, layout: &Layout) -> Result<Self, Error> {
         layout.check()?;
-        let root = path.as_ref().to_path_buf();
-        let store = Store {
+        Ok(Store {
             arrays: layout.arrays(),
             layout: layout.clone(),
-            parts: Parts::of(&root),
-            root,
+            parts: Parts::of(root),
+            root: root.to_path_buf(),
+        })
+    }
+
+    /// The metadata of the group.
+    fn top(&self) -> PathBuf {
+        self.root.join("zarr.json")
+    }
+
+    /// Returns true if the store is there. A store of another layout, and a directory of something else, are
+    /// errors.
+    fn is_there(&self) -> Result<bool, Error> {
+        let top = self.top();
+        let Some(saved) = files::read(&self.root, &top)? else {
+            self.refuse_foreign()?;
+            return Ok(false);
         };
-        let (top, group) = (store.root.join("zarr.json"), layout.group().to_string());
-        match files::read(&store.root, &top)? {
-            Some(saved) => {
-                store.same(&top, &saved, &group)?;
-                for (path, metadata) in store.metadata() {
-                    let saved = files::read(&store.root, &path)?.unwrap_or_default();
-                    store.same(&path, &saved, &metadata)?;
-                }
-            }
-            None => {
-                store.refuse_foreign()?;
-                // That of the group is the last, so that a store has the metadata of all arrays.
-                for (path, metadata) in store.metadata() {
-                    store.write_file(&path, metadata.as_bytes())?;
-                }
-                if let Rows::At { name, values } = &layout.rows {
-                    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-                    store.write_file(&store.root.join(name).join("c/0"), &bytes)?;
-                }
-                store.write_file(&top, group.as_bytes())?;
-            }
+        self.same(&top, &saved, &self.layout.group().to_string())?;
+        for (path, metadata) in self.metadata() {
+            let saved = files::read(&self.root, &path)?.unwrap_or_default();
+            self.same(&path, &saved, &metadata)?;
         }
-        Ok(store)
+        Ok(true)
     }
 
     /// The layout.

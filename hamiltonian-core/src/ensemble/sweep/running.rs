@@ -128,7 +128,7 @@ impl<'r, 'a, S: System<f64>, O: Observer<f64, S>> Running<'r, 'a, S, O> {
         let end = match &sweep.aim {
             Aim::Each(end) => guard(|| end(member))?,
             Aim::Until(end) => *end,
-            Aim::Steps(_) => f64::NAN,
+            Aim::Steps(_) | Aim::Unknown => f64::NAN,
         };
         let mut under = Under {
             member,

@@ -3,8 +3,12 @@
 mod allocations;
 mod events;
 mod exponents;
+mod gathering;
+mod kinds;
+mod layouts;
 mod members;
 mod observers;
+mod panics;
 mod stores;
 mod sweeps;
 mod times;

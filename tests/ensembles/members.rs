@@ -3,14 +3,14 @@
 use super::*;
 
 /// Members of a reproducible ensemble, advanced in two calls on two threads, have the bits of single runs.
-fn agrees<S, M>(make: fn(Member) -> (S, StateOf<S>), scheme: M)
+pub(super) fn agrees<S, M>(make: impl Fn(Member) -> (S, StateOf<S>), scheme: M)
 where
     S: System<f64>,
     M: Ensembles<S>,
 {
     let name = hamiltonian::schemes::author::Listed::entry(&scheme).to_string();
     let h = 0.03125;
-    let mut swarm = Ensemble::new(COUNT, make, scheme.clone(), h)
+    let mut swarm = Ensemble::new(COUNT, &make, scheme.clone(), h)
         .expect("there are members")
         .reproducible()
         .threads(2);

@@ -1,12 +1,12 @@
 //! Stores of sweeps outlast processes.
 
 use super::*;
+use hamiltonian::errors::StoreError;
 
 #[test]
 fn a_store_goes_on_where_it_stopped() {
     let _level = one_level();
-    let path = std::env::temp_dir().join(format!("hamiltonian-sweep-{}.zarr", std::process::id()));
-    let _ = std::fs::remove_dir_all(&path);
+    let path = place("sweep");
     let sweep = |seed| {
         Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.01)
             .steps(50)
@@ -41,6 +41,103 @@ fn a_store_goes_on_where_it_stopped() {
     std::fs::remove_dir_all(&path).expect("it is there");
 }
 
+/// A path for a store, where there is none.
+pub(super) fn place(name: &str) -> std::path::PathBuf {
+    let name = format!("hamiltonian-{name}-{}.zarr", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
+
+#[test]
+fn shards_of_two_levels_share_a_reproducible_store_alone() {
+    let _alone = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
+    let shard = |k| Shard::new(k, 2).expect("a shard");
+    let sweep = || {
+        Sweep::new(COUNT, pendulum, StormerVerlet::default(), 0.01)
+            .steps(50)
+            .chunk(16)
+            .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
+    };
+    let levels: Vec<Cpu> = Cpu::available().into_iter().collect();
+    let [worst, best] = [levels[0], levels[levels.len() - 1]];
+    let (fused, unfused, calm) = (place("fused"), place("unfused"), place("calm-levels"));
+    Cpu::limit_to(worst);
+    let first = sweep().shard(shard(0)).store(&fused).expect("a store");
+    assert!(!first.is_complete());
+    sweep()
+        .reproducible()
+        .shard(shard(0))
+        .store(&unfused)
+        .expect("a store");
+    Cpu::limit_to(best);
+    let (second, opened) = (
+        sweep().shard(shard(1)).store(&fused),
+        sweep().complete(&fused),
+    );
+    let last = sweep().reproducible().shard(shard(1)).store(&unfused);
+    sweep().reproducible().store(&calm).expect("a store");
+    Cpu::limit_to(Cpu::Avx512);
+    if worst == best {
+        return;
+    }
+    for refused in [second, opened] {
+        let Err(Error::Store(StoreError::Other { saved, given, .. })) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(saved, format!("\"level\": \"{worst:?}\""));
+        assert_eq!(given, format!("\"level\": \"{best:?}\""));
+    }
+    assert!(last.expect("a store").is_complete());
+    let read = std::fs::read_to_string(unfused.join("zarr.json")).expect("a store");
+    assert!(read.contains("\"level\": \"any\""), "{read}");
+    assert!(files(&unfused) == files(&calm), "the stores differ");
+    for path in [&fused, &unfused, &calm] {
+        std::fs::remove_dir_all(path).expect("it is there");
+    }
+}
+
+#[test]
+fn members_that_failed_are_stored_with_the_kind_of_their_failure() {
+    let _level = one_level();
+    let path = place("failed");
+    let sweep = Sweep::try_new(20, layouts::holes, StormerVerlet::default(), 0.01)
+        .until(17.0)
+        .chunk(20)
+        .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
+    assert_eq!(
+        sweep.complete(&path).expect("nothing is wrong").to_string(),
+        "1 of 1 chunks are missing: 0"
+    );
+    assert!(!path.exists(), "asking creates a store");
+    assert!(sweep.store(&path).expect("a store").is_complete());
+    let kind = |index: usize| match index {
+        11 | 13 => Status::Start,
+        index if index % 7 == 0 => Status::NotFinite,
+        _ => Status::Ended,
+    };
+    let status = std::fs::read(path.join("status/c/0")).expect("a chunk");
+    assert!(
+        status
+            .iter()
+            .copied()
+            .eq((0..20).map(|index| kind(index) as u8))
+    );
+    for column in ["q", "p", "time"] {
+        let bytes = std::fs::read(path.join(column).join("c/0")).expect("a chunk");
+        let numbers = bytes.as_chunks::<8>().0.iter();
+        for (index, number) in numbers.map(|bytes| f64::from_le_bytes(*bytes)).enumerate() {
+            let has_none = match column {
+                // That of the last good step.
+                "time" => kind(index) == Status::Start,
+                _ => kind(index) != Status::Ended,
+            };
+            assert_eq!(number.is_nan(), has_none, "{column} of member {index}");
+        }
+    }
+    std::fs::remove_dir_all(&path).expect("it is there");
+}
+
 /// The sweep of the processes that are killed: slow enough to be caught at work.
 fn killed(
     shard: Shard,
@@ -54,17 +151,21 @@ fn killed(
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
 }
 
+const PLACE: &str = "HAMILTONIAN_TEST_STORE";
+
 /// The child process of the test below; it does nothing else.
 #[test]
 fn a_process_that_is_killed() {
-    if let Some(path) = std::env::var_os("HAMILTONIAN_TEST_STORE") {
+    if let Some(path) = std::env::var_os(PLACE) {
         let shard = Shard::from_env().expect("a shard");
         killed(shard).store(path).expect("a store");
     }
 }
 
 /// All files of a directory, with their bytes.
-fn files(root: &std::path::Path) -> std::collections::BTreeMap<std::path::PathBuf, Vec<u8>> {
+pub(super) fn files(
+    root: &std::path::Path,
+) -> std::collections::BTreeMap<std::path::PathBuf, Vec<u8>> {
     let mut all = std::collections::BTreeMap::new();
     let mut left = vec![root.to_owned()];
     while let Some(directory) = left.pop() {
@@ -84,45 +185,62 @@ fn files(root: &std::path::Path) -> std::collections::BTreeMap<std::path::PathBu
 #[test]
 fn killed_processes_lose_and_double_nothing() {
     let _level = one_level();
-    let heavy = std::env::var_os("HAMILTONIAN_HEAVY").is_some();
-    let kills = if heavy { 100 } else { 10 };
-    let place = |name: &str| {
-        std::env::temp_dir().join(format!("hamiltonian-{name}-{}.zarr", std::process::id()))
-    };
     let (disturbed, whole) = (place("disturbed"), place("whole"));
-    for path in [&disturbed, &whole] {
-        let _ = std::fs::remove_dir_all(path);
-    }
     let start = |shard: u32| {
         std::process::Command::new(std::env::current_exe().expect("this test"))
-            .args(["a_process_that_is_killed", "--exact"])
-            .env("HAMILTONIAN_TEST_STORE", &disturbed)
+            .args(["stores::a_process_that_is_killed", "--exact"])
+            .env(PLACE, &disturbed)
             .env("HAMILTONIAN_SHARD", format!("{shard}/2"))
             .stdout(std::process::Stdio::null())
             .spawn()
             .expect("a process")
     };
-    for kill in 0..kills {
+    // The chunks that are there: only the processes write any.
+    let present = || {
+        let chunks = std::fs::read_dir(disturbed.join("status/c"));
+        chunks.map_or(0, Iterator::count)
+    };
+    let all = Shard::new(0, 1).expect("a shard");
+    let chunks = 4_000 / 20;
+    let (mut kills, mut rounds, mut written) = (0, 0, 0);
+    while kills < 100 {
+        rounds += 1;
+        assert!(rounds < 1_000, "{kills} of {rounds} processes were at work");
+        if present() == chunks {
+            // They were faster than the kills: once more from the beginning.
+            std::fs::remove_dir_all(&disturbed).expect("it is there");
+        }
+        let before = present();
         let mut children = [start(0), start(1)];
-        std::thread::sleep(std::time::Duration::from_millis(20 + 37 * kill % 100));
+        let begun = std::time::Instant::now();
+        let is_due = || present() > before || begun.elapsed().as_secs() > 60;
+        while !is_due() && children.iter_mut().any(|child| is_at_work(child)) {
+            std::thread::yield_now();
+        }
+        // Not always at the moment when a chunk has appeared.
+        std::thread::sleep(std::time::Duration::from_micros(rounds * 37 % 5_000));
         for child in &mut children {
             child.kill().expect("it is ours");
-            child.wait().expect("it was killed");
+            let ended = child.wait().expect("it was killed");
+            // One that had come to its end was not killed.
+            kills += u32::from(!ended.success() && present() > before);
         }
+        written += present() - before;
     }
+    assert!(written >= 50, "{written} chunks of {rounds} rounds");
     for mut child in [start(0), start(1)] {
         assert!(child.wait().expect("it ends").success());
     }
-    let all = Shard::new(0, 1).expect("a shard");
-    assert!(
-        killed(all)
-            .store(&disturbed)
-            .expect("a store")
-            .is_complete()
-    );
+    let complete = killed(all).complete(&disturbed).expect("a store");
+    assert!(complete.is_complete(), "{complete}");
     killed(all).store(&whole).expect("a store");
     assert!(files(&disturbed) == files(&whole), "the stores differ");
     for path in [&disturbed, &whole] {
         std::fs::remove_dir_all(path).expect("it is there");
     }
+}
+
+/// Returns true if a process has not come to its end.
+fn is_at_work(child: &mut std::process::Child) -> bool {
+    child.try_wait().expect("it is ours").is_none()
 }

@@ -131,12 +131,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     draw(&begin, 0.0)?;
     let mut now = begin.clone();
     for t in [2.0, 5.0, 10.0, 50.0, 100.0] {
-        swarm.advance_to(t)?;
+        let steps = (t / STEP).round() as u64;
+        swarm.watch(steps - swarm.steps(), 500, |swarm| {
+            eprint!("\r{} of {} steps", swarm.steps(), (100.0 / STEP).round());
+        });
         now = places(&swarm)?;
         report(t, &now);
         draw(&now, t)?;
     }
 
+    eprintln!();
     let mut checks = Checks::default();
     let drift = swarm.observers().map(|drift| {
         drift

@@ -1,10 +1,12 @@
 //! A sweep over a million starts of a forced pendulum, stored as Zarr.
 //!
 //! Processes with `HAMILTONIAN_SHARD=k/n`, tasks of Slurm, MPI or HyperQueue each compute a part; without
-//! them one process computes all. A process that was killed is started again as it was. `-- N` computes N
-//! members.
+//! them one process computes all. Ctrl-C stops it; a process that was stopped or killed is started again as it
+//! was. `-- N` computes N members.
 
 use hamiltonian::prelude::*;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 hamiltonian! {
     /// A pendulum whose support moves.
@@ -12,7 +14,11 @@ hamiltonian! {
     H(theta; p; t) = p^2/2 - (1 + a*cos(1.7*t))*cos(theta)
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let stop = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&stop);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))?;
+
     let members = std::env::args().nth(1).and_then(|n| n.parse().ok());
     let members: usize = members.unwrap_or(1_000_000);
     let start = move |member: Member| {
@@ -25,6 +31,7 @@ fn main() -> Result<(), Error> {
     let sweep = Sweep::new(members, start, BlanesMoan4, 0.05)
         .until(100.0)
         .shard(Shard::from_env()?)
+        .cancel(&stop)
         .progress(|done, of| eprint!("\r{done} of {of} members"))
         .record(["theta", "p"], |end| [end.state.q[0], end.state.p[0]]);
     let stored = sweep.store("target/sweep.zarr")?;

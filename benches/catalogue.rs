@@ -2,14 +2,16 @@
 //!
 //! `cargo bench --bench catalogue` prints, for each scheme and level, how many times a scalar run an
 //! ensemble is on one thread, fused and reproducible; with `-- --check` it fails below the ratios of
-//! [`least`]. Before anything is timed, members of reproducible ensembles are compared with single runs:
-//! the same bits. With a name, `-- Gauss`, it does the schemes whose entry begins with it.
+//! [`least`]. Before anything is timed, all members of reproducible ensembles are compared with single runs:
+//! the same bits. A scheme of the catalogue that is not here fails too. With a name, `-- Gauss`, it does the
+//! schemes whose entry begins with it.
 
 use std::time::Instant;
 
+use hamiltonian::Vector;
 use hamiltonian::lanes::Cpu;
 use hamiltonian::prelude::*;
-use hamiltonian::{Ensembles, Vector};
+use hamiltonian::schemes::author::{Observed, catalogue};
 
 hamiltonian! {
     /// Hénon–Heiles.
@@ -23,12 +25,19 @@ hamiltonian! {
     H(q; p) = (q^2 + 1)*(p^2 + 1)/2
 }
 
+hamiltonian! {
+    /// Kepler's problem, to be slowed by its distance.
+    pub struct Kepler {}
+    H(x, y; u, v) = (u^2 + v^2)/2 - 1/sqrt(x^2 + y^2);
+    monitor r = sqrt(x^2 + y^2)
+}
+
 /// Two of the widest packs: rounds are so short that other programs seldom interrupt all of them.
 const MEMBERS: usize = 160;
 /// So many that what a member costs at its start and end, as much as some tens of cheap steps, is spread over them.
 const STEPS: u64 = 400;
 
-/// The ratio that a scheme must reach on a level.
+/// The ratio that a scheme must reach on a level: less if its steps iterate or divide.
 fn least(name: &str, cpu: Cpu) -> f64 {
     let iterates = [
         "Gauss",
@@ -38,6 +47,7 @@ fn least(name: &str, cpu: Cpu) -> f64 {
         "DiscreteGradient",
         "MidpointProjected",
         "Semiexplicit",
+        "TransformedVerlet",
     ];
     match cpu {
         Cpu::Avx2 | Cpu::Avx512 if iterates.iter().any(|start| name.starts_with(start)) => 1.2,
@@ -56,9 +66,22 @@ fn mixture(member: Member) -> (Mixture, StateOf<Mixture>) {
     (Mixture {}, State::new([at], [0.5 - at]))
 }
 
+/// Kepler's problem in even steps of the distance.
+type Slowed = TimeTransformed<Kepler, Observed<Kepler>>;
+
+fn slowed(member: Member) -> (Slowed, StateOf<Slowed>) {
+    let at = member.index as f64 / MEMBERS as f64;
+    let system = TimeTransformed::by(Kepler {}, "r").expect("it is declared");
+    let start = State::new([0.5 + 0.5 * at, 0.0], [0.1, 1.2]);
+    let start = system.start(&start).expect("r is positive");
+    (system, start)
+}
+
 struct Bench {
     check: bool,
     only: Option<String>,
+    /// The entries of the schemes that were here.
+    seen: Vec<String>,
     failed: bool,
 }
 
@@ -69,6 +92,7 @@ impl Bench {
         M: Ensembles<S>,
     {
         let name = scheme.entry().to_string();
+        self.seen.push(name.clone());
         if self
             .only
             .as_ref()
@@ -84,6 +108,9 @@ impl Bench {
                 .lanes(false)
         };
         let mut singles: Vec<_> = (0..16).map(alone).collect();
+        let ends: Vec<_> = (0..MEMBERS)
+            .map(|index| alone(index).advance(STEPS).expect("finite").clone())
+            .collect();
         let best = Cpu::best();
         for cpu in [Cpu::Sse2, Cpu::Avx2, Cpu::Avx512] {
             if cpu > best {
@@ -99,9 +126,9 @@ impl Bench {
             for swarm in &mut swarms {
                 swarm.advance(STEPS);
             }
-            for (index, end) in swarms[1].states().enumerate().step_by(37) {
-                let (end, mut run) = (end.expect("finite"), alone(index));
-                let expected = run.advance(STEPS).expect("finite");
+            for ((index, end), expected) in swarms[1].states().enumerate().zip(&ends) {
+                let end = end.expect("finite");
+                assert_eq!(end.t.to_bits(), expected.t.to_bits());
                 let pairs = end.q.components().zip(expected.q.components());
                 for (found, expected) in
                     pairs.chain(end.p.components().zip(expected.p.components()))
@@ -149,6 +176,7 @@ fn main() {
         only: arguments
             .into_iter()
             .find(|argument| !argument.starts_with("--")),
+        seen: Vec::new(),
         failed: false,
     };
     macro_rules! all {
@@ -157,8 +185,14 @@ fn main() {
     all! { mixture:
         RungeKutta4, Strang, Ruth3, Yoshida4, Suzuki4, BlanesMoan4, Yoshida6, KahanLi6, BlanesMoan6,
         McLachlan8, KahanLi8, SofroniouSpaletta8, SofroniouSpaletta10, Saba2, Saba3, Saba4, Aba104, Aba864,
-        Aba1064, Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
-        TwoStepMidpoint { start: Start::SecondOrder }, ConsecutiveSubTrajectories { start: Start::SecondOrder },
+        Aba1064, Processed4::default(), Processed6::default(), BlanesCasasMurua8::default(),
+        WisdomHolman3::default(), WisdomHolman5::default(), WisdomHolman7::default(), WisdomHolman11::default(),
+        WisdomHolman17::default(), Pihajoki::CoordinateFirst, Pihajoki::MomentumFirst,
+        TwoStepMidpoint { start: Start::Equal }, TwoStepMidpoint { start: Start::HalfEuler },
+        TwoStepMidpoint { start: Start::SecondOrder }, ConsecutiveSubTrajectories { start: Start::Equal },
+        ConsecutiveSubTrajectories { start: Start::HalfEuler },
+        ConsecutiveSubTrajectories { start: Start::SecondOrder },
+        IntersectingSubTrajectories { start: Start::Equal }, IntersectingSubTrajectories { start: Start::HalfEuler },
         IntersectingSubTrajectories { start: Start::SecondOrder }, ImplicitMidpoint::default(),
         Tao::default(), Mixed::<Strang>::default(), MidpointProjected::<Strang>::default(),
         Semiexplicit::<Strang>::default(),
@@ -169,6 +203,16 @@ fn main() {
         GaussNystrom::<2>::default(), Gauss::<2>::default(), Gauss::<4>::default(),
         Variational::<1, 2>::lobatto(), Variational::<2, 2>::lobatto(), MomentumVariational::<2>::default(),
         DiscreteGradient::default(),
+    }
+    all! { slowed:
+        TransformedVerlet::default(),
+    }
+    for entry in catalogue() {
+        let name = entry.to_string();
+        if !bench.seen.contains(&name) {
+            println!("{name:<48} is not in this bench");
+            bench.failed = true;
+        }
     }
     std::process::exit(i32::from(bench.failed));
 }

@@ -171,7 +171,7 @@ fn a_system_by_hand() {
 #[test]
 fn stores_of_systems_by_hand_recognise_parameters() {
     let _level = one_level();
-    let path = stores::place("hand");
+    let path = place("hand");
     let sweep = |faster: f64| {
         let make = move |member: Member| {
             let (system, start) = spring(member);

@@ -4,17 +4,6 @@ use super::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Every seventh falls into the hole; one starts outside of it, one cannot be made.
-pub(super) fn holes(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
-    let q = match member.index {
-        11 => -1.0,
-        13 => return Err(Error::NoSteps),
-        index if index % 7 == 0 => 0.5 + 0.1 * part(index),
-        _ => 100.0,
-    };
-    Ok((Hole::default(), State::new([q], [0.0])))
-}
-
 /// The index of each row, its member's end and its bits, its member's error.
 type Rows = Vec<(usize, Status, u64, Vec<u64>, Option<String>)>;
 
@@ -155,7 +144,7 @@ fn a_sweep_has_an_end() {
     let none = sweep().record(["q"], |end| [end.state.q[0]]);
     assert_eq!(none.collect().err(), Some(Error::NoEnd));
     assert_eq!(none.fold(0, |n, _| n + 1).err(), Some(Error::NoEnd));
-    let path = stores::place("no-end");
+    let path = place("no-end");
     assert_eq!(none.store(&path).err(), Some(Error::NoEnd));
     assert_eq!(none.complete(&path).err(), Some(Error::NoEnd));
     assert!(!path.exists());

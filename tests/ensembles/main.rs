@@ -86,6 +86,43 @@ fn chain(member: Member) -> (Chain, StateOf<Chain>) {
     )
 }
 
+/// Every seventh falls into the hole; one starts outside of it, one cannot be made.
+fn holes(member: Member) -> Result<(Hole, StateOf<Hole>), Error> {
+    let q = match member.index {
+        11 => -1.0,
+        13 => return Err(Error::NoSteps),
+        index if index % 7 == 0 => 0.5 + 0.1 * part(index),
+        _ => 100.0,
+    };
+    Ok((Hole::default(), State::new([q], [0.0])))
+}
+
+/// A path for a store, where there is none.
+fn place(name: &str) -> std::path::PathBuf {
+    let name = format!("hamiltonian-{name}-{}.zarr", std::process::id());
+    let path = std::env::temp_dir().join(name);
+    let _ = std::fs::remove_dir_all(&path);
+    path
+}
+
+/// All files of a directory, with their bytes.
+fn files(root: &std::path::Path) -> std::collections::BTreeMap<std::path::PathBuf, Vec<u8>> {
+    let mut all = std::collections::BTreeMap::new();
+    let mut left = vec![root.to_owned()];
+    while let Some(directory) = left.pop() {
+        for entry in std::fs::read_dir(directory).expect("a directory") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                left.push(path);
+            } else {
+                let name = path.strip_prefix(root).expect("inside").to_owned();
+                all.insert(name, std::fs::read(path).expect("a file"));
+            }
+        }
+    }
+    all
+}
+
 /// The bits of a state.
 fn bits<V: hamiltonian::Vector<Scalar = f64>>(state: &State<V>) -> Vec<u64> {
     let numbers = state.q.components().chain(state.p.components());

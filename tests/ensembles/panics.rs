@@ -138,7 +138,7 @@ fn chunks_written_before_a_panic_are_intact() {
             .threads(2)
             .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     };
-    let (disturbed, calm) = (stores::place("panicked"), stores::place("calm"));
+    let (disturbed, calm) = (place("panicked"), place("calm"));
     sweep().store(&calm).expect("a store");
     // A closure that is no member's ends the sweep.
     let panics = sweep().progress(|done, _| assert!(done < 60, "enough"));
@@ -146,14 +146,14 @@ fn chunks_written_before_a_panic_are_intact() {
     assert!(catch_unwind(store).is_err());
     let left = sweep().complete(&disturbed).expect("a store");
     assert_eq!(left.to_string(), "8 of 11 chunks are missing: 3 to 10");
-    let (written, all) = (stores::files(&disturbed), stores::files(&calm));
+    let (written, all) = (files(&disturbed), files(&calm));
     let chunks = written.iter().filter(|(path, _)| path.starts_with("q/c"));
     assert_eq!(chunks.count(), 3);
     for (path, bytes) in written.iter().filter(|(path, _)| !is_part(path)) {
         assert_eq!(all.get(path), Some(bytes), "{}", path.display());
     }
     assert!(sweep().store(&disturbed).expect("a store").is_complete());
-    assert!(stores::files(&disturbed) == all, "the stores differ");
+    assert!(files(&disturbed) == all, "the stores differ");
     // A closure of a member is a row of it; other rows are as they would be.
     let panics = Sweep::new(
         COUNT,
@@ -166,9 +166,9 @@ fn chunks_written_before_a_panic_are_intact() {
     );
     let panics = panics.steps(50).chunk(20).threads(2);
     let panics = panics.record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
-    let path = stores::place("member");
+    let path = place("member");
     assert!(panics.store(&path).expect("a store").is_complete());
-    for (file, bytes) in stores::files(&path) {
+    for (file, bytes) in files(&path) {
         let of_chunk = file
             .components()
             .nth(2)

@@ -41,14 +41,6 @@ fn a_store_goes_on_where_it_stopped() {
     std::fs::remove_dir_all(&path).expect("it is there");
 }
 
-/// A path for a store, where there is none.
-pub(super) fn place(name: &str) -> std::path::PathBuf {
-    let name = format!("hamiltonian-{name}-{}.zarr", std::process::id());
-    let path = std::env::temp_dir().join(name);
-    let _ = std::fs::remove_dir_all(&path);
-    path
-}
-
 #[test]
 fn shards_of_two_levels_share_a_reproducible_store_alone() {
     let _alone = LEVEL.write().unwrap_or_else(PoisonError::into_inner);
@@ -59,7 +51,7 @@ fn shards_of_two_levels_share_a_reproducible_store_alone() {
             .chunk(16)
             .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]])
     };
-    let levels: Vec<Cpu> = Cpu::available().into_iter().collect();
+    let levels: Vec<Cpu> = Cpu::available().collect();
     let [worst, best] = [levels[0], levels[levels.len() - 1]];
     let (fused, unfused, calm) = (place("fused"), place("unfused"), place("calm-levels"));
     Cpu::limit_to(worst);
@@ -101,7 +93,7 @@ fn shards_of_two_levels_share_a_reproducible_store_alone() {
 fn members_that_failed_are_stored_with_the_kind_of_their_failure() {
     let _level = one_level();
     let path = place("failed");
-    let sweep = Sweep::try_new(20, layouts::holes, StormerVerlet::default(), 0.01)
+    let sweep = Sweep::try_new(20, holes, StormerVerlet::default(), 0.01)
         .until(17.0)
         .chunk(20)
         .record(["q", "p"], |end| [end.state.q[0], end.state.p[0]]);
@@ -162,26 +154,6 @@ fn a_process_that_is_killed() {
     }
 }
 
-/// All files of a directory, with their bytes.
-pub(super) fn files(
-    root: &std::path::Path,
-) -> std::collections::BTreeMap<std::path::PathBuf, Vec<u8>> {
-    let mut all = std::collections::BTreeMap::new();
-    let mut left = vec![root.to_owned()];
-    while let Some(directory) = left.pop() {
-        for entry in std::fs::read_dir(directory).expect("a directory") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                left.push(path);
-            } else {
-                let name = path.strip_prefix(root).expect("inside").to_owned();
-                all.insert(name, std::fs::read(path).expect("a file"));
-            }
-        }
-    }
-    all
-}
-
 #[test]
 fn killed_processes_lose_and_double_nothing() {
     let _level = one_level();
@@ -214,7 +186,7 @@ fn killed_processes_lose_and_double_nothing() {
         let mut children = [start(0), start(1)];
         let begun = std::time::Instant::now();
         let is_due = || present() > before || begun.elapsed().as_secs() > 60;
-        while !is_due() && children.iter_mut().any(|child| is_at_work(child)) {
+        while !is_due() && children.iter_mut().any(is_at_work) {
             std::thread::yield_now();
         }
         // Not always at the moment when a chunk has appeared.

@@ -3,10 +3,11 @@
 //! Input: any double. Output: the function's value. Invariant: angles up to 2²⁰ are reduced
 //! modulo π/2 in line, with the head of π/2 by parts whose products are exact, so that what is
 //! left has a second word however near to a multiple of π/2 the angle lies. A pack with a larger one
-//! is computed out of line, in lanes too, with [`reduction`] (Payne and Hanek). The sign bit is
-//! taken off first and put back last, so that odd functions are odd to the bit. Tiny angles are
-//! computed as 0, and stand where they are their own sine. Sine and cosine of fused lanes need
-//! neither: every operation rounds alike on both sides of 0, and squares of tiny angles become 0.
+//! is computed out of line, in lanes too, with [`reduction`] (Payne and Hanek). The usual value of a
+//! pack is computed before that branch, so that a second sine of the same angle costs the branch alone.
+//! The sign bit is taken off first and put back last, so that odd functions are odd to the bit. Tiny
+//! angles are computed as 0, and stand where they are their own sine. Sine and cosine of fused lanes
+//! need neither: every operation rounds alike on both sides of 0, and squares of tiny angles become 0.
 
 use super::coefficients::*;
 use super::pairs::{
@@ -309,16 +310,18 @@ pub fn sin<W: Word>(x: W) -> W {
         }
         return W::rare::<Sine, 1, 1>([x])[0];
     }
+    let usual = if W::FUSED {
+        Turned::of(x, 0.0).sine()
+    } else {
+        let angle = x.abs();
+        let tiny = is_tiny(angle);
+        let (n, r, tail) = reduce(unless(tiny, angle));
+        W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)))
+    };
     if is_any_large(x) {
         return W::rare::<Sine, 1, 1>([x])[0];
     }
-    if W::FUSED {
-        return Turned::of(x, 0.0).sine();
-    }
-    let angle = x.abs();
-    let tiny = is_tiny(angle);
-    let (n, r, tail) = reduce(unless(tiny, angle));
-    W::select(tiny, x, sine_in(n, r, tail, sign_bit(x)))
+    usual
 }
 
 struct Sine;
@@ -349,15 +352,17 @@ pub fn cos<W: Word>(x: W) -> W {
         }
         return W::rare::<Cosine, 1, 1>([x])[0];
     }
+    let usual = if W::FUSED {
+        Turned::of(x, 1.0).sine()
+    } else {
+        let angle = x.abs();
+        let (n, r, tail) = reduce(unless(is_tiny(angle), angle));
+        sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0))
+    };
     if is_any_large(x) {
         return W::rare::<Cosine, 1, 1>([x])[0];
     }
-    if W::FUSED {
-        return Turned::of(x, 1.0).sine();
-    }
-    let angle = x.abs();
-    let (n, r, tail) = reduce(unless(is_tiny(angle), angle));
-    sine_in(n.plus(W::Bits::splat(1)), r, tail, W::Bits::splat(0))
+    usual
 }
 
 struct Cosine;
@@ -392,17 +397,19 @@ pub fn sin_cos<W: Word>(x: W) -> (W, W) {
         };
         return turn(n, r, tail, sign_bit(x));
     }
+    let usual = if W::FUSED {
+        Turned::of(x, 0.0).both()
+    } else {
+        let tiny = is_tiny(angle);
+        let (n, r, tail) = reduce(unless(tiny, angle));
+        let (sine, cosine) = turn(n, r, tail, sign_bit(x));
+        (W::select(tiny, x, sine), cosine)
+    };
     if is_any_large(x) {
         let [sine, cosine] = W::rare::<SineAndCosine, 1, 2>([x]);
         return (sine, cosine);
     }
-    if W::FUSED {
-        return Turned::of(x, 0.0).both();
-    }
-    let tiny = is_tiny(angle);
-    let (n, r, tail) = reduce(unless(tiny, angle));
-    let (sine, cosine) = turn(n, r, tail, sign_bit(x));
-    (W::select(tiny, x, sine), cosine)
+    usual
 }
 
 struct SineAndCosine;

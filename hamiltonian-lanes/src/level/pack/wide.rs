@@ -129,9 +129,10 @@ impl<P: Base, const K: usize> Mask for Masks<P, K> {
     }
     #[inline(always)]
     fn any(self) -> bool {
-        // One branch for three masks: compilers would combine more masks of a byte each in vectors,
-        // which is slower.
-        let mut k = 0;
+        // Three masks at a time: compilers would combine more masks of a byte each in vectors, which is
+        // slower. Without a branch, so that what is computed before one on the result is not computed
+        // again for an equal argument after it.
+        let (mut k, mut found) = (0, false);
         while k < K {
             let mut any = self.0[k];
             if k + 1 < K {
@@ -140,12 +141,10 @@ impl<P: Base, const K: usize> Mask for Masks<P, K> {
             if k + 2 < K {
                 any = any | self.0[k + 2];
             }
-            if any.any() {
-                return true;
-            }
+            found |= any.any();
             k += 3;
         }
-        false
+        found
     }
     #[inline(always)]
     fn lane(self, k: u32) -> bool {

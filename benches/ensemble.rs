@@ -29,7 +29,7 @@ hamiltonian! {
     H(q; p) = p^2/(2*m*l^2) - m*g*l*cos(q)
 }
 
-/// Trajectories: 12 blocks of 80 lanes and a remainder.
+/// Trajectories: 15 blocks of 64 lanes and a remainder.
 const COUNT: usize = 1000;
 const STEP: f64 = 1e-3;
 

@@ -52,10 +52,10 @@ pub struct Ensemble<S: System<f64>, O = ()> {
     pub(crate) memory: Memory,
 }
 
-/// The most members of a chunk: a multiple of the lanes of every pack.
-const CHUNK: usize = 1280;
-/// The fewest, as many as the widest pack has lanes.
-const LANES: usize = 80;
+/// A multiple of the lanes of every pack that is wide: 8, 16, 24 or 64.
+const LANES: usize = 192;
+/// The most members of a chunk.
+const CHUNK: usize = 10 * LANES;
 
 impl<S: System<f64>> Ensemble<S> {
     /// An ensemble of `count` members. `make` makes the system and the start of each; `step` is the step

@@ -462,7 +462,7 @@ level!(
     Avx512,
     V<super::avx2::One>,
     core::arch::x86_64::__m512d,
-    10,
+    8,
     1,
     V<core::arch::x86_64::__m256d>,
     "avx512f,avx512dq,avx512cd,avx512bw,avx512vl,avx2,fma"

@@ -65,6 +65,49 @@ pub trait Map {
         Cause::Overflow
     }
 
+    /// [`join`](Map::join), and, if `closes`, [`close`](Map::close) of a copy: both begin at the same point, and what
+    /// they compute alike is computed once.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn join_and_close(
+        &self,
+        t: ScalarOf<Self>,
+        z: &mut Self::Carried,
+        copy: &mut Self::Carried,
+        closes: bool,
+        work: &mut Self::Work,
+    ) {
+        self.join(t, z, work);
+        if closes {
+            self.close(t, copy, work);
+        }
+    }
+
+    /// Makes the steps from number `made` to number `end`, of which the piece before the first body has been made.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn go_on<C: Times<ScalarOf<Self>>>(
+        &self,
+        times: &C,
+        made: u64,
+        end: u64,
+        z: &mut Self::Carried,
+        work: &mut Self::Work,
+    ) {
+        // Counted down to zero, which costs one instruction less; the number of the step is only
+        // computed where a system looks at the time. The body, the largest part, is compiled once.
+        let mut left = end - made;
+        loop {
+            let k = end - left;
+            self.body(times.at(k), times.at(k + 1), z, work);
+            left -= 1;
+            if left == 0 {
+                break;
+            }
+            self.join(times.at(k + 1), z, work);
+        }
+    }
+
     /// Makes `n` steps after the first `made`.
     #[inline(always)]
     fn run(
@@ -78,7 +121,6 @@ pub trait Map {
         if n == 0 {
             return;
         }
-        let end = made + n;
         // Moved out, the carried value is a variable of this loop alone and stays in registers.
         let mut carried = z.take();
         if made == 0 {
@@ -86,18 +128,7 @@ pub trait Map {
         } else {
             self.join(clock.at(made), &mut carried, work);
         }
-        // Counted down to zero, which costs one instruction less; the number of the step is only
-        // computed where a system looks at the time. The body, the largest part, is compiled once.
-        let mut left = n;
-        loop {
-            let k = end - left;
-            self.body(clock.at(k), clock.at(k + 1), &mut carried, work);
-            left -= 1;
-            if left == 0 {
-                break;
-            }
-            self.join(clock.at(k + 1), &mut carried, work);
-        }
+        self.go_on(&clock, made, made + n, &mut carried, work);
         *z = carried;
     }
 
@@ -156,6 +187,19 @@ pub struct Clock<T> {
     pub start: T,
     /// The time one step advances.
     pub interval: T,
+}
+
+/// The times of steps.
+pub trait Times<T> {
+    /// The time after so many steps.
+    fn at(&self, made: u64) -> T;
+}
+
+impl<T: Real> Times<T> for Clock<T> {
+    #[inline(always)]
+    fn at(&self, made: u64) -> T {
+        Clock::at(self, made)
+    }
 }
 
 impl<T: Real> Clock<T> {
@@ -246,5 +290,27 @@ impl<A: Map, B: Map<Carried = A::Carried>> Map for Either<A, B> {
         work: &mut Self::Work,
     ) {
         either!(self.run(clock, made, n, z; work));
+    }
+    #[inline(always)]
+    fn join_and_close(
+        &self,
+        t: ScalarOf<A>,
+        z: &mut A::Carried,
+        copy: &mut A::Carried,
+        closes: bool,
+        work: &mut Self::Work,
+    ) {
+        either!(self.join_and_close(t, z, copy, closes; work));
+    }
+    #[inline(always)]
+    fn go_on<C: Times<ScalarOf<A>>>(
+        &self,
+        times: &C,
+        made: u64,
+        end: u64,
+        z: &mut A::Carried,
+        work: &mut Self::Work,
+    ) {
+        either!(self.go_on(times, made, end, z; work));
     }
 }

@@ -5,8 +5,8 @@
 //! blocks.
 
 use super::marks::Marks;
-use crate::map::Map;
-use crate::observe::{Tracker, Watcher};
+use crate::map::{self, Map};
+use crate::observe::{Quantity, Tracker, Watcher};
 use crate::state::Carried;
 use crate::system::System;
 use crate::vector::Vector;
@@ -19,6 +19,13 @@ pub(crate) struct Times<U> {
     pub(crate) interval: U,
     /// The steps that a lane had made when the count began.
     pub(crate) ahead: U,
+}
+
+impl<U: Real> map::Times<U> for Times<U> {
+    #[inline(always)]
+    fn at(&self, k: u64) -> U {
+        Times::at(self, k)
+    }
 }
 
 impl<U: Real> Times<U> {
@@ -70,6 +77,8 @@ pub(crate) struct Followed<'a, U: Real, S: System<U>> {
     pub(crate) watchers: &'a mut [Watcher<U>],
     /// The lanes whose observers follow signs.
     pub(crate) watched: U::Mask,
+    /// True if H is followed.
+    pub(crate) energy: bool,
     /// True if any of them reads what the closing piece changes.
     pub(crate) closes: bool,
     /// The steps to the first state that a lane sees.
@@ -89,13 +98,6 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
         !self.watchers.is_empty() && self.attach.is_none()
     }
 
-    /// Returns true if what is followed is evaluated where the block shows it; else it is at the mark of what is
-    /// carried.
-    #[inline(always)]
-    fn is_shown(&self) -> bool {
-        self.closes || !self.watches()
-    }
-
     /// Follows the state after step `k`, where the clock stands at `t`, of which `marks` has what is carried, if
     /// signs are followed: `shown` is closed, if [`closes`](Followed::closes). Returns true if the block should end.
     #[inline(always)]
@@ -110,14 +112,18 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
             _ => None,
         };
         let watches = self.watches();
-        let seen = match self.is_shown() {
-            true => shown,
-            false => marks.present(),
-        };
-        let (t, point) = (seen.time(t), seen.point());
+        let (t, point) = (shown.time(t), shown.point());
+        // Apart from the loop, out of which it would be moved, to be computed for all quantities.
+        if self.energy {
+            let value = Quantity::Energy.at::<U, S>(self.prepared, t, point);
+            for tracker in &mut *self.trackers {
+                if tracker.quantity == Quantity::Energy {
+                    tracker.follow(self.attach, due, value);
+                }
+            }
+        }
         let mut is_any_loud = false;
-        let mut loud = U::Mask::splat(false);
-        // One place evaluates them all: each would have a copy of H, as long as a pack is wide.
+        // One place evaluates them all: each would have a copy of every observable, as long as a pack is wide.
         let drifts = self.trackers.len();
         let all = drifts + if watches { self.watchers.len() } else { 0 };
         for at in 0..all {
@@ -125,22 +131,24 @@ impl<U: Real, S: System<U>> Followed<'_, U, S> {
                 true => self.trackers[at].quantity,
                 false => self.watchers[at - drifts].quantity,
             };
-            let value = quantity.at::<U, S>(self.prepared, t, point);
-            if at >= drifts {
-                let watcher = &mut self.watchers[at - drifts];
-                if !watcher.is_past(value, self.watched) {
-                    loud = loud | watcher.is_loud(value);
-                    is_any_loud = true;
-                }
+            if quantity == Quantity::Energy {
                 continue;
             }
-            match self.attach {
-                Some(lanes) => self.trackers[at].begin(lanes, value),
-                None => self.trackers[at].record(due, value),
+            let value = quantity.observed::<U, S>(self.prepared, t, point);
+            if at < drifts {
+                self.trackers[at].follow(self.attach, due, value);
+                continue;
+            }
+            let watcher = &mut self.watchers[at - drifts];
+            if !watcher.is_past(value, self.watched) {
+                let loud = watcher.is_loud(value) & self.watched;
+                if loud.any() {
+                    marks.loud = marks.loud | loud;
+                    is_any_loud = true;
+                }
             }
         }
-        loud = loud & self.watched;
-        is_any_loud && loud.any() && marks.mark(k, loud)
+        is_any_loud && marks.mark(k)
     }
 }
 
@@ -154,6 +162,8 @@ pub(crate) struct Block<'a, R: Map<Carried: Carried<Scalar = U>>, U: Real, S: Sy
     pub(crate) opening: Opening<U::Mask>,
     pub(crate) carried: &'a mut R::Carried,
     pub(crate) shown: &'a mut R::Carried,
+    /// Scratch of the same shape.
+    pub(crate) spare: &'a mut R::Carried,
     pub(crate) work: &'a mut R::Work,
     pub(crate) followed: Followed<'a, U, S>,
     pub(crate) marks: &'a mut Marks<R::Carried, U::Mask>,
@@ -180,6 +190,7 @@ where
             opening,
             carried,
             shown,
+            spare,
             work,
             mut followed,
             marks,
@@ -188,8 +199,9 @@ where
         let mut end = made + n;
         let watches = !followed.watchers.is_empty();
         let follows = watches || !followed.trackers.is_empty();
-        // Moved out, the carried value is a variable of this loop alone and stays in registers.
-        let mut z = carried.take();
+        // Moved out, the value is a variable of this loop alone and stays in registers.
+        let mut z = spare.take();
+        z.copy_from(carried);
         let mut k = made;
         // The next step whose state is seen.
         let mut due = match n > 0 && follows {
@@ -197,60 +209,57 @@ where
             false => u64::MAX,
         };
         let mut stop = end.min(due);
-        // Each piece occurs once, which keeps the code of a level small.
+        // Beside the loop of steps each piece occurs once, which keeps the code of a level small: the piece that joins
+        // the last step with one that may not follow costs less than code for the other case.
         loop {
             let t = times.at(k);
-            let mut opens = if k == made { opening } else { Opening::Join };
-            if k == stop {
+            let opens = if k == made { opening } else { Opening::Join };
+            let stops = k == stop;
+            // A variable of one turn.
+            let mut seen = shown.take();
+            if stops {
                 if k == due && followed.watches() {
                     marks.add(&z);
                 }
-                if k == end || followed.is_shown() {
-                    shown.copy_from(&z);
+                if k == end {
+                    carried.copy_from(&z);
                 }
-                if k == end || followed.closes {
-                    match opens {
-                        Opening::Open => {}
-                        _ => map.close(t, shown, work),
-                    }
-                    if let Opening::Mixed(fresh) = opens {
-                        shown.copy_where(fresh, &z);
-                    }
+            }
+            seen.copy_from(&z);
+            if !matches!(opens, Opening::Open) {
+                let closes = stops && (k == end || followed.closes);
+                map.join_and_close(t, &mut z, &mut seen, closes, work);
+            }
+            if stops {
+                if let Opening::Mixed(fresh) = opens {
+                    seen.copy_where(fresh, carried);
                 }
                 let sees = k == due || followed.attach.is_some();
                 due = k.saturating_add(followed.interval);
                 stop = end.min(due);
-                if sees && followed.see((k, t), shown, marks) {
+                if sees && followed.see((k, t), &seen, marks) && k < end {
                     end = k;
+                    carried.copy_from(marks.present());
                 }
                 if k == end {
+                    *shown = seen;
                     break;
                 }
+            } else if !matches!(opens, Opening::Join) {
+                map.open(t, &mut seen, work);
+                match opens {
+                    Opening::Mixed(fresh) => z.copy_where(fresh, &seen),
+                    _ => z.copy_from(&seen),
+                }
             }
-            if !matches!(opens, Opening::Join) {
-                shown.copy_from(&z);
-                map.open(t, shown, work);
+            if const { core::mem::needs_drop::<R::Carried>() } {
+                *shown = seen;
             }
             // Nothing else is in the loop of the steps, so that what is carried stays in registers.
-            loop {
-                let t = times.at(k);
-                if !matches!(opens, Opening::Open) {
-                    map.join(t, &mut z, work);
-                }
-                match opens {
-                    Opening::Open => z.copy_from(shown),
-                    Opening::Mixed(fresh) => z.copy_where(fresh, shown),
-                    Opening::Join => {}
-                }
-                opens = Opening::Join;
-                k += 1;
-                map.body(t, times.at(k), &mut z, work);
-                if k == stop {
-                    break;
-                }
-            }
+            map.go_on(&times, k, stop, &mut z, work);
+            k = stop;
         }
-        *carried = z;
+        *spare = z;
         let t = times.at(end);
         let finite = shown.finite() & carried.finite();
         (finite & shown.time(t).finite(), end)

@@ -280,8 +280,11 @@ impl<T: Real, S: System<T>> Crew<T, S> {
                 continue;
             };
             drift.start = lanes[0][lane];
-            drift.max = lanes[1][lane].to_f64();
             drift.sum_of_sizes = lanes[2][lane].to_f64();
+            drift.max = match drift.sum_of_sizes.is_nan() {
+                true => drift.sum_of_sizes,
+                false => lanes[1][lane].to_f64(),
+            };
             drift.sum = lanes[3][lane].to_f64();
             let interval = seat.interval.max(1);
             drift.count += seat.made / interval - seat.since / interval;

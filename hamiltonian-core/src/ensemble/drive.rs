@@ -19,7 +19,7 @@ use super::marks::{Marks, Three};
 use super::seat::{Host, Seat};
 use crate::flow::Scratch;
 use crate::map::Map;
-use crate::observe::{Section, Tracker, Watcher};
+use crate::observe::{Quantity, Section, Tracker, Watcher};
 use crate::scheme::Scheme;
 use crate::state::Carried;
 use crate::system::System;
@@ -89,6 +89,7 @@ where
             }
             let schedule = crew.schedule();
             let closes = lanes.closes();
+            let energy = lanes.quantities().any(|one| one == Quantity::Energy);
             if let Some([left, interval]) = &schedule.apart {
                 gather::<L, T, P>(&counts(left), &mut lanes.apart.left);
                 gather::<L, T, P>(&counts(interval), &mut lanes.apart.interval);
@@ -98,6 +99,7 @@ where
                 trackers: &mut lanes.trackers,
                 watchers: &mut lanes.watchers,
                 watched: lanes.watched,
+                energy,
                 closes,
                 first: schedule.first,
                 interval: schedule.interval,
@@ -112,6 +114,7 @@ where
                 opening: lanes.opening,
                 carried: &mut lanes.carried,
                 shown: &mut lanes.shown,
+                spare: &mut lanes.passing,
                 work: &mut lanes.work,
                 followed,
                 marks: &mut lanes.marks,
@@ -300,13 +303,18 @@ where
         };
     }
 
+    /// The quantities that are followed.
+    fn quantities(&self) -> impl Iterator<Item = Quantity> {
+        let trackers = self.trackers.iter().map(|tracker| tracker.quantity);
+        let watchers = self.watchers.iter().map(|watcher| watcher.quantity);
+        trackers.chain(watchers)
+    }
+
     /// Returns true if anything that is followed reads what the closing piece of a step changes.
     #[inline(always)]
     fn closes(&self) -> bool {
         let closing = self.map.closing();
-        let trackers = self.trackers.iter().map(|tracker| tracker.quantity);
-        let watchers = self.watchers.iter().map(|watcher| watcher.quantity);
-        trackers.chain(watchers).any(|quantity| {
+        self.quantities().any(|quantity| {
             let reads = quantity.reads::<T, S>();
             (0..2).any(|half| closing[half] && reads[half])
         })

@@ -6,6 +6,7 @@
 
 use crate::vector::Vector;
 use alloc::vec::Vec;
+use hamiltonian_lanes::Mask;
 
 /// As many marked steps end a block.
 const MOST: usize = 16;
@@ -19,18 +20,21 @@ pub(crate) struct Marks<C, M> {
     ring: Three<C>,
     /// The place of the last of them.
     turn: usize,
+    /// The lanes for which the present step is to be marked.
+    pub(crate) loud: M,
     /// The steps that are marked, and their lanes.
     pub(crate) steps: Vec<(u64, M)>,
     /// What was carried then. There are as many as have ever been of use.
     states: Vec<Three<C>>,
 }
 
-impl<C: Vector, M> Marks<C, M> {
+impl<C: Vector, M: Mask> Marks<C, M> {
     #[inline(always)]
     pub(crate) fn new(ring: Three<C>) -> Self {
         Marks {
             ring,
             turn: 0,
+            loud: M::splat(false),
             steps: Vec::new(),
             states: Vec::new(),
         }
@@ -63,9 +67,10 @@ impl<C: Vector, M> Marks<C, M> {
         }
     }
 
-    /// Marks the last step. Returns true if the block should end.
+    /// Marks the last step for the lanes that are loud. Returns true if the block should end.
     #[inline(always)]
-    pub(crate) fn mark(&mut self, step: u64, lanes: M) -> bool {
+    pub(crate) fn mark(&mut self, step: u64) -> bool {
+        let lanes = core::mem::replace(&mut self.loud, M::splat(false));
         let place = self.steps.len();
         if place == self.states.len() {
             self.states.push(self.ring.clone());

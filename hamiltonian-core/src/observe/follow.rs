@@ -147,9 +147,18 @@ impl<U: Real> Tracker<U> {
         ]
     }
 
+    /// Begins some lanes with their first value, or records the value of those that are due.
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, begins: Option<U::Mask>, due: Option<U::Mask>, value: U) {
+        match begins {
+            Some(lanes) => self.begin(lanes, value),
+            None => self.record(due, value),
+        }
+    }
+
     /// Begins some lanes with their first value.
     #[inline(always)]
-    pub(crate) fn begin(&mut self, lanes: U::Mask, value: U) {
+    fn begin(&mut self, lanes: U::Mask, value: U) {
         self.start = U::select(lanes, value, self.start);
         for sum in [&mut self.max, &mut self.sizes, &mut self.sum] {
             *sum = U::select(lanes, U::zero(), *sum);
@@ -158,16 +167,15 @@ impl<U: Real> Tracker<U> {
 
     /// As [`Deviation`] does, lane by lane: all of them, or those that are due.
     #[inline(always)]
-    pub(crate) fn record(&mut self, due: Option<U::Mask>, value: U) {
+    fn record(&mut self, due: Option<U::Mask>, value: U) {
         let mut change = value - self.start;
         if let Some(due) = due {
             // A drift of 0 changes no bit of the others.
             change = U::select(due, change, U::zero());
         }
-        let size = U::select(change.lt(U::zero()), -change, change);
-        // A NaN stays.
-        let grows = self.max.lt(size) | !size.equals(size);
-        self.max = U::select(grows, size, self.max);
+        let size = change.abs();
+        // A NaN is lost here, and stays in the sum of sizes.
+        self.max = U::select(self.max.lt(size), size, self.max);
         self.sizes += size;
         self.sum += change;
     }

@@ -28,6 +28,7 @@ impl Quantity {
         reads.copied().unwrap_or([true; 2])
     }
 
+    /// Its value.
     #[inline(always)]
     pub(crate) fn at<T: Real, S: System<T>>(
         self,
@@ -35,10 +36,23 @@ impl Quantity {
         t: T,
         point: &Point<S::Vector>,
     ) -> T {
-        let Point { q, p } = point;
         match self {
-            Quantity::Energy => declared_energy_at::<T, S>(prepared, t, q, p),
-            Quantity::Observable(index) => prepared.observable(index, t, q, p),
+            Quantity::Energy => declared_energy_at::<T, S>(prepared, t, &point.q, &point.p),
+            Quantity::Observable(_) => self.observed::<T, S>(prepared, t, point),
+        }
+    }
+
+    /// The value of an observable; 0 for H.
+    #[inline(always)]
+    pub(crate) fn observed<T: Real, S: System<T>>(
+        self,
+        prepared: &S::Prepared,
+        t: T,
+        point: &Point<S::Vector>,
+    ) -> T {
+        match self {
+            Quantity::Energy => T::zero(),
+            Quantity::Observable(index) => prepared.observable(index, t, &point.q, &point.p),
         }
     }
 }

@@ -3,7 +3,8 @@
 //! `cargo bench --bench members` prints, for pendulums and Störmer–Verlet, million trajectory-steps a
 //! second: the kernel of `benches/ensemble.rs`, [`Ensemble`] on one thread, and what parameters per member,
 //! `reproducible`, failing members, time in H, an observer of the energy at each step, a section and a Lyapunov
-//! exponent cost. Rounds alternate, and CPU time is compared.
+//! exponent cost. The observer of the energy is also written by hand, with a sine and a cosine at once in each
+//! step. Rounds alternate, and CPU time is compared.
 //!
 //! With `-- --threads` it compares one thread with two on the best level instead: by the wall time, for which two
 //! cores must be free, and by the CPU time, of which other programs take little.
@@ -66,6 +67,53 @@ impl Kernel for Steps<'_> {
             let point = carried.point();
             point.q[0].store(some_q);
             point.p[0].store(some_p);
+        }
+    }
+}
+
+/// All trajectories with the drift of H, by hand.
+struct Drifts<'a> {
+    system: &'a Pendulum,
+    q: &'a mut [f64],
+    p: &'a mut [f64],
+    /// The largest sizes, of which each call makes new ones.
+    most: &'a mut [f64],
+}
+
+impl Kernel for Drifts<'_> {
+    type Output = ();
+    #[inline(always)]
+    fn run<L: Level>(self) {
+        let Pendulum { m, l, g } = *self.system;
+        let number = |x| L::Wide::constant(x, 0.0);
+        let (kick, half) = (number(-STEP * m * g * l), number(-STEP / 2.0 * m * g * l));
+        let drift = number(STEP / (m * l * l));
+        let (kinetic, depth) = (number(0.5 / (m * l * l)), number(-m * g * l));
+        let lanes = L::Wide::LANES as usize;
+        let chunks = self.q.chunks_mut(lanes).zip(self.p.chunks_mut(lanes));
+        for ((some_q, some_p), most) in chunks.zip(self.most.chunks_mut(lanes)) {
+            let (mut q, mut p) = (L::Wide::load(some_q, 0.0), L::Wide::load(some_p, 0.0));
+            let (sine, cosine) = q.sin_cos();
+            let begin = kinetic.fma(p * p, depth * cosine);
+            let (mut max, mut sizes, mut sum) = (L::Wide::zero(), L::Wide::zero(), L::Wide::zero());
+            p = half.fma(sine, p);
+            for _ in 0..STEPS {
+                q = drift.fma(p, q);
+                let (sine, cosine) = q.sin_cos();
+                let closed = half.fma(sine, p);
+                let change = kinetic.fma(closed * closed, depth * cosine) - begin;
+                let size = change.abs();
+                max = L::Wide::select(max.lt(size), size, max);
+                sizes += size;
+                sum += change;
+                p = kick.fma(sine, p);
+            }
+            black_box((&sizes, &sum));
+            // The last kick was one for the next step.
+            p = half.fma(-q.sin(), p);
+            q.store(some_q);
+            p.store(some_p);
+            max.store(most);
         }
     }
 }
@@ -171,13 +219,14 @@ fn main() {
             .expect("there are members")
             .threads(1);
         let (mut q, mut p): (Vec<f64>, Vec<f64>) = (0..COUNT).map(|k| start(k).into()).unzip();
-        let mut least = [f64::INFINITY; 10];
+        let mut most = vec![0.0; COUNT];
+        let mut least = [f64::INFINITY; 11];
         let mut drifts = swarm(&plain).observe(|_| EnergyDrift::new());
         let section = |_| Events::new([Event::named("bottom").rising()]);
         let mut sections = swarm(&plain).observe(section);
         let system = black_box(Pendulum::default());
         for _ in 0..5 {
-            let mut times = [0.0; 10];
+            let mut times = [0.0; 11];
             times[0] = seconds(|| {
                 dispatch(Steps {
                     system: &system,
@@ -212,6 +261,14 @@ fn main() {
                     .collect();
                 black_box(rates.expect("there are members"));
             });
+            times[10] = seconds(|| {
+                dispatch(Drifts {
+                    system: &system,
+                    q: &mut q,
+                    p: &mut p,
+                    most: &mut most,
+                });
+            });
             for (least, time) in least.iter_mut().zip(times) {
                 *least = time.min(*least);
             }
@@ -224,6 +281,7 @@ fn main() {
                 "EnergyDrift at each step",
                 "section event",
                 "Lyapunov exponent",
+                "EnergyDrift by hand",
             ]);
         for (name, time) in names.zip(least) {
             let rate = COUNT as f64 * STEPS as f64 / time / 1e6;

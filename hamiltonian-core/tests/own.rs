@@ -69,8 +69,8 @@ impl OneStep for Runge {
 // A one-step scheme, end.
 
 // A table.
-/// McLachlan's scheme with two stages, (λ, ½ − λ) and (½ − λ, λ): of order 2 for every λ, with the least error for
-/// this one.
+/// McLachlan's scheme with two stages, (λ, ½ − λ) and (½ − λ, λ). Its order is 2 for every λ; this λ minimises the
+/// error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct TwoStages;
 

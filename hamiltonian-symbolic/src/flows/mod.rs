@@ -3,6 +3,7 @@
 //! Input: a model. Output: pieces with their flows ([`split`]). Invariant: every flow is an instance of a row,
 //! or made of such by theorems whose conditions are proven.
 
+mod limits;
 mod solve;
 mod space;
 pub mod split;

@@ -9,7 +9,8 @@ pub(crate) mod rows;
 pub(crate) mod units;
 
 use crate::dag::{Kind, Map, Node};
-use crate::flows::space::{COMMUTING, Limit, PARTS, Space, Variables};
+use crate::flows::limits::{COMMUTING, Limit, PARTS};
+use crate::flows::space::{Space, Variables};
 use crate::model::{EXPONENTIAL, Flow, Motion};
 use crate::rational::Rational;
 use rows::{Axes, Moved, ROWS, Solve, is_constant_form};

@@ -14,110 +14,14 @@ pub(crate) mod tape;
 use crate::algebra::ball::Ball;
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side, Sign};
 use crate::diff;
+use crate::flows::limits::{COMPONENTS, Limit, NODES, PAIRS, POINTS, PRODUCTS, QUESTION, TESTS};
 use crate::index::Index;
 use crate::loops::{Sample, Values};
 use crate::model::{Flow, Model, Motion};
 use crate::normal_form::{Answer, Effort, Undecided, answer_within, tidy, witness};
 use crate::rational::Rational;
 use crate::set::{Member, Set};
-use std::fmt;
 use tape::Tape;
-
-/// The most questions whether an expression is zero.
-const TESTS: usize = 400;
-
-/// The most nodes that a search adds to the arena; those of the systems in the tests stay below
-/// 1500.
-pub const NODES: usize = 6_000;
-
-/// The most products of terms that the normal form takes for all questions together.
-const PRODUCTS: usize = 60_000;
-
-/// The most products of terms that the normal form takes for one question.
-const QUESTION: usize = 20_000;
-
-/// The most points of which numbers are kept.
-const POINTS: usize = 64;
-
-/// The most terms of H that are combined to pieces.
-pub(crate) const TERMS: usize = 32;
-
-/// The most pieces of a splitting.
-pub const MOST: usize = 8;
-
-/// The most terms of a sum that are parted into parts that commute,
-pub(crate) const COMMUTING: usize = 36;
-/// and the most such parts.
-pub(crate) const PARTS: usize = 9;
-
-/// The most sums of terms of which a flow is sought.
-pub(crate) const SUMS: usize = 64;
-/// The most coupled terms all of whose sums are tried; of more only the terms, pairs of them, and all.
-pub(crate) const COUPLED: usize = 5;
-
-/// The most elements of each array in the body of a loop.
-pub(crate) const ROWS: usize = 4;
-
-/// A limit at which the search for exact flows ends. Each group of terms of H that has no degree of freedom
-/// in common with the others is searched by itself.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Limit {
-    /// The number of comparisons of two expressions.
-    Comparisons,
-    /// The number of products of terms in the normal forms of all questions.
-    Products,
-    /// The number of new expressions.
-    Expressions,
-    /// The number of terms of H.
-    Terms,
-    /// The number of degrees of freedom that terms of H join.
-    Pairs,
-    /// The number of pieces.
-    Pieces,
-    /// The number of terms of a sum that are parted into commuting parts.
-    Commuting,
-    /// The number of commuting parts.
-    Parts,
-    /// The number of sums of terms of which a flow is sought.
-    Sums,
-    /// The number of coupled terms all of whose sums are tried.
-    Coupled,
-    /// The number of rows of arrays that the body of a loop names.
-    Rows,
-    /// The number of products of terms in the normal form of one question.
-    Question,
-    /// The number of coordinates and momenta of a point whose quadratic forms are exponentiated.
-    Components,
-}
-
-impl fmt::Display for Limit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Limit::Comparisons => write!(f, "{TESTS} comparisons of expressions"),
-            Limit::Products => write!(f, "{PRODUCTS} products of terms"),
-            Limit::Expressions => write!(f, "{NODES} new expressions"),
-            Limit::Terms => write!(f, "{TERMS} terms"),
-            Limit::Pairs => write!(f, "{PAIRS} coupled degrees of freedom"),
-            Limit::Pieces => write!(f, "{MOST} pieces"),
-            Limit::Commuting => write!(f, "{COMMUTING} terms of a sum whose parts may commute"),
-            Limit::Parts => write!(f, "{PARTS} parts that commute"),
-            Limit::Sums => write!(f, "{SUMS} sums of terms"),
-            Limit::Coupled => write!(f, "{COUPLED} coupled terms of which all sums are tried"),
-            Limit::Rows => write!(f, "{ROWS} rows in the body of a loop"),
-            Limit::Components => write!(
-                f,
-                "{COMPONENTS} coordinates and momenta of which a quadratic form is exponentiated"
-            ),
-            Limit::Question => write!(f, "{QUESTION} products of terms for one comparison"),
-        }
-    }
-}
-
-/// The most components of a point whose quadratic forms are exponentiated as matrices.
-const COMPONENTS: usize = 16;
-
-/// The most pairs, so that a set of variables is a word.
-const PAIRS: usize = 32;
 
 /// A variable by its number: 2i is coordinate i, 2i + 1 its momentum.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]

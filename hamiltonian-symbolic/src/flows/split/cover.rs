@@ -4,10 +4,11 @@
 //! candidate are disjoint and hold every unit; each has a flow; at most [`SUMS`] are tried.
 
 use crate::dag::{Map, Node};
+use crate::flows::limits::{COUPLED, Limit, SUMS, TERMS};
 use crate::flows::solve::rows::is_quadratic;
 use crate::flows::solve::units::{Unit, Units};
 use crate::flows::solve::{exponential, flow};
-use crate::flows::space::{COUPLED, Limit, SUMS, Space, TERMS, Variable, Variables};
+use crate::flows::space::{Space, Variable, Variables};
 use crate::model::Flow;
 use crate::set::{Member, Set};
 

@@ -9,8 +9,8 @@ mod join;
 mod rank;
 mod sweep;
 
+pub use crate::flows::limits::{Limit, MOST, NODES};
 pub use crate::flows::solve::rows::{ROWS, Row};
-pub use crate::flows::space::{Limit, MOST, NODES};
 
 use crate::dag::{Dag, Kind, Node};
 use crate::flows::solve::rows::is_constant_form;

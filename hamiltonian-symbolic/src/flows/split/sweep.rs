@@ -8,8 +8,9 @@
 use super::{ExactFlow, Piece};
 use super::{any_flow, search};
 use crate::dag::{Array, Column, Dag, Dependence, Kind, Map, Node, Parameter, Side};
+use crate::flows::limits::{Limit, ROWS};
 use crate::flows::solve::units::{LoopedTerm, terms};
-use crate::flows::space::{Limit, ROWS, Space};
+use crate::flows::space::Space;
 use crate::index::{Affine, Domain, Index};
 use crate::model::Flow;
 use crate::model::{Group, Model, ParameterDeclaration, Shape};

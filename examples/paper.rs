@@ -13,7 +13,7 @@ use checks::Checks;
 use energy::{Contest, print_pieces};
 use hamiltonian::plot::{Curve, Figure};
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::{
+use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian::{Exact, Scheme, Separable, Split, System, Unforced, View, hamiltonian};

@@ -9,7 +9,7 @@ use crate::flows::Top;
 use crate::splits::{Body, InFour, Schwarzschild, Vortices};
 use crate::systems::{Dipole, Vortices as Strengths};
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::Visitor;
+use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{DoubleDouble, Dual, Exact, Split, Vector};
 use std::f64::consts::FRAC_PI_2;
 

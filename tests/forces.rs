@@ -4,7 +4,7 @@
 use crate::allocator::allocations;
 use crate::common::order::slope;
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::{
+use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_implicit, visit_separable, visit_split,
 };
 use hamiltonian::{DoubleDouble, Scheme, Separable, Split, hamiltonian};

@@ -3,7 +3,7 @@
 use crate::common::geometry::*;
 use crate::common::measured_here;
 use crate::common::systems::*;
-use hamiltonian::schemes::author::{
+use hamiltonian::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian::schemes::*;

@@ -34,6 +34,7 @@ mod loops;
 mod matrices;
 mod nystrom;
 pub mod order;
+mod pages;
 pub mod paper;
 mod periodic;
 pub mod planets;

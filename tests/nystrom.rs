@@ -5,7 +5,10 @@ use crate::common::order::{Order, slope};
 use crate::common::reference::difference;
 use crate::common::systems::Relativistic;
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::{Visitor, Zigzag, ZigzagOf};
+use hamiltonian::schemes::{
+    author::{Zigzag, ZigzagOf},
+    walk::Visitor,
+};
 use hamiltonian::{
     DoubleDouble, Nystrom, Scheme, Split, Vector, hamiltonian,
     schemes::author::{Entry, Listed, Point, Step},

@@ -4,7 +4,7 @@
 use crate::common::measured_here;
 use crate::common::order::Order;
 use crate::common::systems::*;
-use hamiltonian::schemes::author::{visit_any, visit_separable, visit_split, visit_unforced};
+use hamiltonian::schemes::walk::{visit_any, visit_separable, visit_split, visit_unforced};
 use hamiltonian::{DoubleDouble, Separable, Split, Unforced};
 
 fn separable<S>(mut order: Order<S>)

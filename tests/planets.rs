@@ -6,7 +6,7 @@ use crate::common::is_heavy;
 use crate::common::order::{Order, slope};
 use hamiltonian::nalgebra::{Const, Dyn, OMatrix};
 use hamiltonian::prelude::*;
-use hamiltonian::schemes::author::Visitor;
+use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{DoubleDouble, Dual, Split};
 
 hamiltonian! {

@@ -7,7 +7,7 @@ use crate::common::walk::{Sample, everywhere};
 use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::author::{
+use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian_core::{Scheme, Vector, View};

@@ -4,7 +4,7 @@ use crate::common::start;
 use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::author::{Visitor, visit_any, visit_split};
+use hamiltonian_core::schemes::walk::{Visitor, visit_any, visit_split};
 use hamiltonian_core::{
     DoubleDouble, Scheme,
     errors::CheckpointError,

@@ -6,7 +6,10 @@ use crate::common::systems::*;
 use crate::common::walk::{Sample, everywhere};
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::author::{Reversed, Splitting, Visitor, Weight};
+use hamiltonian_core::schemes::{
+    author::{Reversed, Splitting, Weight},
+    walk::Visitor,
+};
 use hamiltonian_core::{
     DoubleDouble, Scheme, Vector,
     schemes::author::{Form, OneStep},

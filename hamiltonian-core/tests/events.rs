@@ -5,7 +5,7 @@ use core::f64::consts::{PI, TAU};
 use core::ops::ControlFlow;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::author::{
+use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian_core::{DoubleDouble, Error, Scheme, View, observers::Located};

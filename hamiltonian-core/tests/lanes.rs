@@ -5,7 +5,7 @@ use crate::common::systems::*;
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::Coupled;
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::author::{
+use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian_core::{

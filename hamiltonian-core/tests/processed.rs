@@ -5,7 +5,10 @@ use crate::common::systems::*;
 use crate::common::{difference, start};
 use crate::composition::{is, slope};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::author::{Durations, Kernel4, Kernel6, Splitting, Weight};
+use hamiltonian_core::schemes::{
+    author::{Durations, Splitting, Weight},
+    inside::{Kernel4, Kernel6},
+};
 use hamiltonian_core::{
     Scheme,
     schemes::author::{Entry, Listed, OneStep},

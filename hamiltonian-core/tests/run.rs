@@ -3,7 +3,7 @@
 use crate::common::systems::*;
 use crate::common::{difference, start};
 use hamiltonian_core::prelude::*;
-use hamiltonian_core::schemes::author::{
+use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian_core::{Real, Scheme, Vector, observers::watch, private::SVector};

@@ -8,8 +8,11 @@ use super::common::systems::{DoublePendulum, Hand, HenonHeiles, Paper34, Pumped,
 use super::common::walk::{Sample, everywhere};
 use super::common::{difference, start};
 use hamiltonian_core::private::SVector;
-use hamiltonian_core::schemes::author::{Splitting, Visitor, visit_exact};
 use hamiltonian_core::schemes::*;
+use hamiltonian_core::schemes::{
+    author::Splitting,
+    walk::{Visitor, visit_exact},
+};
 use hamiltonian_core::{
     DoubleDouble, Dual, Integrator, Real, Scheme, State, System, Vector, schemes::author::Form,
 };

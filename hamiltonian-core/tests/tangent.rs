@@ -5,7 +5,7 @@ use core::f64::consts::{FRAC_PI_2, TAU};
 use hamiltonian_core::prelude::*;
 use hamiltonian_core::private::nalgebra::{Complex, DMatrix, DVector};
 use hamiltonian_core::private::{Group, SVector};
-use hamiltonian_core::schemes::author::{
+use hamiltonian_core::schemes::walk::{
     Visitor, visit_any, visit_separable, visit_split, visit_unforced,
 };
 use hamiltonian_core::{Scheme, Vector, tangents::multipliers};

@@ -1,7 +1,7 @@
 //! The 2-form a scheme preserves, measured by exact tangents.
 
 use super::state;
-use hamiltonian::schemes::author::Visitor;
+use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{
     Dual, Integrator, Scheme, State, System, Vector,
     schemes::author::{Clock, Entry, Form, Map, Scratch, Step},

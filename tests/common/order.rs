@@ -2,7 +2,7 @@
 
 use super::reference::{difference, solution};
 use super::state;
-use hamiltonian::schemes::author::Visitor;
+use hamiltonian::schemes::walk::Visitor;
 use hamiltonian::{DoubleDouble, Integrator, Real, Scheme, State, System, schemes::author::Entry};
 
 /// The exponent of the error against the step, by least squares over all points.

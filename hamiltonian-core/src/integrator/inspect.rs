@@ -6,7 +6,7 @@
 use super::{Integrator, MapOf};
 use crate::map::Map;
 use crate::scheme::Entry;
-use crate::schemes::author::Copies;
+use crate::schemes::inside::Copies;
 use crate::state::{Point, State};
 use crate::system::{Dynamics, System, declared_energy};
 use crate::vector::Vector;

@@ -64,6 +64,9 @@ macro_rules! symmetric {
 }
 
 pub mod author;
+#[doc(hidden)]
+pub mod inside;
+pub mod walk;
 
 mod splitting;
 pub mod tables;

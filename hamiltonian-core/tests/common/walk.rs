@@ -5,10 +5,13 @@
 use super::start;
 use super::systems::{Formula, Hand, HenonHeiles, Pumped, Relativistic, scalar};
 use crate::transformed::{InRadius, in_radius, pericentre};
-use hamiltonian_core::schemes::author::{
-    Visitor, catalogue, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
-    visit_implicit, visit_nystrom, visit_quadratic, visit_separable, visit_split,
-    visit_transformed, visit_unforced,
+use hamiltonian_core::schemes::{
+    author::catalogue,
+    walk::{
+        Visitor, visit_any, visit_compensated, visit_doubled, visit_energy, visit_exact,
+        visit_implicit, visit_nystrom, visit_quadratic, visit_separable, visit_split,
+        visit_transformed, visit_unforced,
+    },
 };
 use hamiltonian_core::{
     QuadraticKinetic, Real, Scheme, State, System,

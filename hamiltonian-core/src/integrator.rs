@@ -23,7 +23,7 @@ use crate::flow::Scratch;
 use crate::map::{Clock, Map, Step};
 use crate::observe::{Every, Observer, Unobserved, Verdict, View, Watch, every, watch};
 use crate::scheme::{Entry, Scheme};
-use crate::state::{Carried, State};
+use crate::state::{Carried, IntoStart, State};
 use crate::system::{Arithmetic, Dynamics, System};
 use crate::vector::Vector;
 use alloc::boxed::Box;
@@ -134,9 +134,10 @@ impl<T: Real, S: System<T>, R: MapOf<T, S>> Integrator<T, S, R> {
     pub fn new<M: Scheme<T, S, Map = R>>(
         system: &S,
         scheme: M,
-        start: State<S::Vector>,
+        start: impl IntoStart<S::Vector>,
         step: T,
     ) -> Result<Self, Error> {
+        let start = start.into_start();
         check_step(step)?;
         let prepared = check_start(system, &start)?;
         scheme.check(&prepared, &start)?;

@@ -99,7 +99,7 @@ pub use lattice::Lattice;
 pub use observe::{Observer, View};
 pub use scheme::Scheme;
 pub use shard::Shard;
-pub use state::{Gradient, Plain, State};
+pub use state::{Gradient, IntoStart, Plain, State};
 pub use system::{
     Autonomous, Exact, Nystrom, QuadraticKinetic, Separable, Split, System, Unforced,
 };

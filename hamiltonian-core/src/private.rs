@@ -118,25 +118,40 @@ impl<K, V: Vector, A: IntoVector<K, Vector = V>> ArrayOf<K, V> for A {
     }
 }
 
-/// A system whose parameters all have defaults: `Name::new(…)` leads to a message.
+/// A system without a `new`, since nothing must be given: `Name::new(…)` leads to a message.
 ///
-/// Its implementations ask for [`ParameterWithoutDefault`], which no system has. So a type may have a `new` of its own, and
-/// one from a trait of the user's.
+/// The bound of its implementations, [`ParameterWithoutDefault`] or [`AnyParameter`], holds for no system. So a type
+/// may have a `new` of its own, and one from a trait of the user's.
 #[doc(hidden)]
-pub trait EveryParameterHasADefault: ParameterWithoutDefault {
+pub trait EveryParameterHasADefault: Sized {
     /// Never called.
-    fn new() -> Self {
-        Self::never()
-    }
+    fn new() -> Self;
 }
 
-/// The bound of [`EveryParameterHasADefault`], which no system meets; rustc names it as what is missing.
+/// The bound of [`EveryParameterHasADefault`], which no system meets.
+///
+/// For `Name::<f64>::new` rustc shows the message. For `Name::new`, whose scalar is open, it shows the line of the
+/// declaration instead, which therefore has a comment.
 #[diagnostic::on_unimplemented(
     message = "`{Self}` has no `new`: each of its parameters has a default",
     label = "there is no `new`",
-    note = "write `Name {{ parameter: 2.0, ..Default::default() }}` to change some, `Name::default()` to change none"
+    note = "write `{Self} {{ parameter: 2.0, ..Default::default() }}` to change some parameters, `{Self}::default()` to change none"
 )]
-pub trait ParameterWithoutDefault: Sized {
+#[rustfmt::skip]
+pub trait ParameterWithoutDefault: Sized { // Without `new`: `Name { parameter: 2.0, ..Default::default() }`
+    /// Never called.
+    fn never() -> Self;
+}
+
+/// The bound of [`EveryParameterHasADefault`] for a system without parameters. The lifetime lets it stand on a type
+/// without generic parameters.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` has no `new`: it has no parameters",
+    label = "there is no `new`",
+    note = "write `{Self} {{}}` or `{Self}::default()`"
+)]
+#[rustfmt::skip]
+pub trait AnyParameter<'a>: Sized { // Without `new`: `Name {}`
     /// Never called.
     fn never() -> Self;
 }

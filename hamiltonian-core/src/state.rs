@@ -74,6 +74,28 @@ impl<V: Vector> State<V> {
     }
 }
 
+/// A start for a system whose coordinates are a `V`: a [`State`] of that shape over that scalar.
+///
+/// It is a trait for the sake of its message. If [`Integrator::new`](crate::Integrator::new) took the `State` itself,
+/// rustc would show the types of two storages.
+#[diagnostic::on_unimplemented(
+    message = "the start does not have the shape of the system's coordinates",
+    label = "expected a start of another shape",
+    note = "an extent that is a number or a const generic takes arrays, `State::new([0.5, 1.0], [0.0, 0.0])`; one that is set at run time takes `Vec`s, `State::new(vec![0.5, 1.0], vec![0.0, 0.0])`; with two extents each element is a row"
+)]
+pub trait IntoStart<V: Vector> {
+    /// The state.
+    fn into_start(self) -> State<V>;
+}
+
+#[diagnostic::do_not_recommend]
+impl<V: Vector> IntoStart<V> for State<V> {
+    #[inline(always)]
+    fn into_start(self) -> State<V> {
+        self
+    }
+}
+
 /// Checks that a slice has as many elements as a state.
 fn has_length(expected: usize, found: usize) -> Result<(), Error> {
     match expected == found {

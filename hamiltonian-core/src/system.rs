@@ -358,6 +358,12 @@ pub(crate) fn declared_energy_at<T: Real, S: System<T>>(
 /// Every [`Separable`] system implements it, with kick and drift as its pieces. So does every definition with declared
 /// pieces, `split { A = …; B = …; }`, or for which the macro finds pieces. A force is part of the kick. Beside other
 /// pieces, the force is a piece of its own, the innermost, `force`.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to split into pieces with exact flows",
+    label = "this scheme composes the flows of pieces of H",
+    note = "in generic code bound the system, `S: Split<{T}>`; every `S: Separable<{T}>` splits too",
+    note = "a system written by hand implements `Split`"
+)]
 pub trait Split<T: Real>: System<T> {
     /// The pieces, the outermost first.
     type Pieces: Pieces<T, Self::Prepared, Point = Point<Self::Vector>>;
@@ -368,6 +374,12 @@ pub trait Split<T: Real>: System<T> {
 }
 
 /// H = T(p, t) + V(q, t), proven at compile time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is not known to be separable",
+    label = "this scheme takes H = T(p, t) + V(q, t)",
+    note = "in generic code bound the system, `S: Separable<{T}>`",
+    note = "a system written by hand implements `Separable`"
+)]
 pub trait Separable<T: Real>: System<T> {
     /// V: its flow is `p −= c·∂V/∂q(q, t)`; with a force, `p += c·(f − ∂V/∂q)`.
     type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
@@ -385,6 +397,12 @@ pub trait Separable<T: Real>: System<T> {
 /// The macro implements it if the two are the pieces of [`Split`], in either order, and if H is [`Separable`] with such
 /// a T. Examples are T + V, and a potential with a uniform magnetic field or in a rotating frame. If H is separable, a
 /// force that does not depend on p is part of the kick.
+#[diagnostic::on_unimplemented(
+    message = "H of `{Self}` is not known to be at most quadratic in p beside V(q, t)",
+    label = "this scheme takes H = A(q, p) + V(q, t), with A at most quadratic in p",
+    note = "in generic code bound the system, `S: Nystrom<{T}>`",
+    note = "a system written by hand implements `Nystrom`"
+)]
 pub trait Nystrom<T: Real>: System<T> {
     /// V: its flow is `p −= c·∂V/∂q(q, t)`.
     type Kick: Piece<T, Self::Prepared, Point = Point<Self::Vector>>;
@@ -400,7 +418,8 @@ pub trait Nystrom<T: Real>: System<T> {
 #[diagnostic::on_unimplemented(
     message = "`{Self}` is not known to be without forces",
     label = "this scheme integrates H alone",
-    note = "for a system by hand without a force: `impl Unforced for … {{}}`"
+    note = "in generic code bound the system, `S: Unforced`",
+    note = "for a system written by hand without a force: `impl Unforced for … {{}}`"
 )]
 pub trait Unforced {}
 
@@ -410,14 +429,27 @@ pub trait Unforced {}
 #[diagnostic::on_unimplemented(
     message = "the pieces of `{Self}` are not known to have exact flows",
     label = "this scheme has an order above 2 with exact flows alone",
-    note = "for a system by hand whose flows are exact: `impl Exact for … {{}}`"
+    note = "in generic code bound the system, `S: Exact`",
+    note = "for a system written by hand whose flows are exact: `impl Exact for … {{}}`"
 )]
 pub trait Exact {}
 
 /// T = ½ pᵀM⁻¹p with constant M, proven at compile time.
+#[diagnostic::on_unimplemented(
+    message = "T of `{Self}` is not known to be ½ pᵀM⁻¹p with constant M",
+    label = "this scheme integrates second-order equations",
+    note = "in generic code bound the system, `S: QuadraticKinetic`",
+    note = "for a system written by hand: `impl QuadraticKinetic for … {{}}`"
+)]
 pub trait QuadraticKinetic {}
 
 /// H does not depend on t, proven at compile time.
+#[diagnostic::on_unimplemented(
+    message = "H of `{Self}` is not known to be independent of t",
+    label = "this needs an H that does not depend on t",
+    note = "in generic code bound the system, `S: Autonomous`",
+    note = "for a system written by hand: `impl Autonomous for … {{}}`"
+)]
 pub trait Autonomous {}
 
 /// Coordinates that do not appear in H: their momenta are conserved.

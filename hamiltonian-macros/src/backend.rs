@@ -122,7 +122,7 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
     text.facts.extend(split.facts);
     let structure = verdicts::verdicts(&mut model, &structure, split.verdict);
     let wanted = wanted(checked, &model, large, &structure);
-    let program = derive(frame, &mut model, wanted, report)?;
+    let (program, third) = derive(frame, &mut model, wanted, report)?;
     text.operations = docs::operations(&model, &program);
     limit(checked, &program, report);
     Some(emit::generate(&emit::Definition {
@@ -134,6 +134,7 @@ fn system(frame: &Frame, mut model: Model, part: Part, report: &mut Report) -> O
         declared: part.declared,
         model: &model,
         program: &program,
+        third: third.as_deref(),
         structure,
         text,
     }))
@@ -199,21 +200,23 @@ fn is_large(checked: &Checked, model: &Model) -> bool {
     is_static && model.dag.reachable(&[model.h()]).len() > LARGE
 }
 
-/// The program, without H's own second derivatives where they have third ones of a Rust function.
+/// The program, without H's own second derivatives if they have third ones of a Rust function, whose name is returned.
 fn derive(
     frame: &Frame,
     model: &mut Model,
     mut wanted: Vec<Purpose>,
     report: &mut Report,
-) -> Option<Program> {
+) -> Option<(Program, Option<String>)> {
     let checked = frame.checked;
-    let mut blamed = Vec::new();
+    let (mut blamed, mut third) = (Vec::new(), None);
     loop {
         match pipeline::derive(model, &wanted) {
-            Ok(program) => return Some(program),
+            Ok(program) => return Some((program, third)),
             Err(NoProgram::ThirdDerivative { purpose, function }) => {
                 wanted.retain(|other| *other != purpose);
-                if purpose != Purpose::HessianVector {
+                if purpose == Purpose::HessianVector {
+                    third = Some(function);
+                } else {
                     let asked = (purpose, function.as_str());
                     blame::third_derivative(checked, model, asked, &mut blamed, report);
                 }

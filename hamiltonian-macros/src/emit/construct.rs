@@ -32,15 +32,28 @@ pub fn default(context: Context) -> String {
         "#[automatically_derived]\nimpl{constants} __h::core::default::Default for {system} {{\n\
          fn default() -> Self {{ {value} }}\n}}\n"
     );
+    // The bound stands on the implementation, which is then no candidate: a trait of the user's may give the type a
+    // `new`.
+    let (declaration, named) = (
+        generics.declaration_without_bounds(),
+        generics.system_type(),
+    );
+    let (bound, missing) = match generics.scalars.is_empty() {
+        true => (
+            format!("for<'_a> {named}: __h::AnyParameter<'_a>"),
+            "AnyParameter<'static>",
+        ),
+        false => (
+            format!("{named}: __h::ParameterWithoutDefault"),
+            "ParameterWithoutDefault",
+        ),
+    };
+    let _ = writeln!(
+        text,
+        "impl{declaration} __h::EveryParameterHasADefault for {named} where {bound} {{\n\
+         fn new() -> Self {{ <Self as __h::{missing}>::never() }}\n}}"
+    );
     if let Some(scalar) = generics.scalars.first() {
-        let declaration = generics.declaration_without_bounds();
-        let named = generics.system_type();
-        // The bound stands on the implementation, which is then no candidate: a trait of the user's may
-        // give the type a `new`.
-        let _ = writeln!(
-            text,
-            "impl{declaration} __h::EveryParameterHasADefault for {named} where {named}: __h::ParameterWithoutDefault {{}}"
-        );
         let parameters = definition.checked.parameters.iter().enumerate();
         let fields = parameters.map(|(number, parameter)| {
             let value = default_of(context, number, scalar);

@@ -250,7 +250,7 @@ impl<'a> Emission<'a> {
                 };
                 format!("let _self = self;\n{text}{results}")
             }
-            None => derived::body(purpose),
+            None => derived::body(purpose, self.context.definition.third),
         };
         let list = declared(&arguments);
         line!(

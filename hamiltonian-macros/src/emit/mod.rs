@@ -78,6 +78,8 @@ pub struct Definition<'a> {
     pub model: &'a Model,
     /// The instructions.
     pub program: &'a Program,
+    /// The Rust function whose third derivative is in H's second derivatives, which are then not in the program.
+    pub third: Option<&'a str>,
     /// The proven structure.
     pub structure: Structure,
     /// The printed text.

@@ -53,6 +53,25 @@ fn pair_sums_with_a_size_of_run_time() {
     insta::assert_snapshot!(pretty(&emitted(GRAVITY)));
 }
 
+/// The message stands in code that only schemes with second derivatives instantiate.
+#[test]
+fn a_third_derivative_names_the_function_and_who_needs_it() {
+    let code = emitted(
+        "pub struct Well {} fn depth(x) = well; fn other(x) = well;
+         H(q; p) = p^2/2 + other(q) + bracket(depth(q), p)",
+    );
+    let code = code.to_string();
+    for part in [
+        "a third derivative of `depth`",
+        "`Gauss`",
+        "`TimeTransformed`",
+        "`let depth(x) = …`",
+    ] {
+        assert!(code.contains(part), "{part}");
+    }
+    assert!(!emitted(PENDULUM).to_string().contains("third derivative"));
+}
+
 #[test]
 fn emission_is_deterministic() {
     for definition in [PENDULUM, GRAVITY] {

@@ -32,6 +32,7 @@ mod limits;
 pub mod long;
 mod loops;
 mod matrices;
+pub mod numbers;
 mod nystrom;
 pub mod order;
 mod pages;

@@ -26,8 +26,7 @@ use crate::output::element;
 pub use crate::push::{Both, Coupled, SubStep};
 pub use crate::reach::Reach;
 pub use crate::slabs::rows;
-pub use crate::state::Point;
-pub use crate::state::{Gradient, State};
+pub use crate::state::{Gradient, Plain, Point, State};
 pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
 pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,

@@ -108,13 +108,13 @@ fn has_length(expected: usize, found: usize) -> Result<(), Error> {
     }
 }
 
-/// The scalar of [`State::new`]: `f64` and nothing else.
+/// The scalar of [`State::new`] and of the constructors that the macro emits: `f64` and nothing else.
 ///
 /// It has one implementation, by which rustc finds the type of numbers that nothing else gives a type.
 #[diagnostic::on_unimplemented(
-    message = "`State::new` takes numbers of type `f64`, found `{Self}`",
+    message = "states are made of numbers of type `f64`, found `{Self}`",
     label = "expected `f64` here",
-    note = "over another scalar, and in code that is generic over scalars, write `State::over(q, p)`"
+    note = "over another scalar, and in code that is generic over scalars, write `over` for `new`, as in `State::over(q, p)`, and `state_from_velocity_over`"
 )]
 pub trait Plain: Real + sealed::Sealed {}
 

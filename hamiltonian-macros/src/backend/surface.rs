@@ -79,7 +79,7 @@ fn refuse_same_methods(checked: &Checked, report: &mut Report) {
         methods.extend(["from_declared", "to_declared"].map(str::to_owned));
     }
     if matches!(checked.definition, Definition::Lagrangian(_)) {
-        methods.push("state_from_velocity".to_owned());
+        methods.extend(["state_from_velocity", "state_from_velocity_over"].map(str::to_owned));
     }
     let mut add = |name: &Ident, method: String| {
         if methods.contains(&method) {

@@ -65,7 +65,7 @@ fn inherent(context: Context) -> TokenStream {
             true => "vector",
             false => "declared_vector",
         };
-        methods.extend(lex(&mixed::constructor(mixed, method)));
+        methods.extend(lex(&mixed::constructors(mixed, method)));
     }
     if methods.is_empty() {
         return methods;

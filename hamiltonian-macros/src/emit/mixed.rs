@@ -75,18 +75,21 @@ fn arguments(context: Context) -> Arguments {
     }
 }
 
-/// A method that makes coordinates, for expression form, where the struct has no name outside.
-pub fn constructor(context: Context, method: &str) -> String {
+/// The methods that make coordinates, for expression form, where the struct has no name outside: over `f64`, and over
+/// any scalar.
+pub fn constructors(context: Context, method: &str) -> String {
     let Arguments {
         kinds,
         arguments,
         fields,
     } = arguments(context);
-    format!(
-        "pub fn {method}<T: __h::Real, {kinds}>(&self, {arguments}) -> {} {{ {} {{ {fields} }} }}\n",
-        context.mixed_type(),
-        context.mixed_name(),
-    )
+    let (ty, name) = (context.mixed_type(), context.mixed_name());
+    let one = |method: &str, bound: &str| {
+        format!(
+            "pub fn {method}<T: __h::Real{bound}, {kinds}>(&self, {arguments}) -> {ty} {{ {name} {{ {fields} }} }}\n"
+        )
+    };
+    one(method, " + __h::Plain") + &one(&format!("{method}_over"), "")
 }
 
 /// The implementations.
@@ -161,8 +164,10 @@ pub fn implementations(context: Context) -> String {
          #[inline(always)]\nfn zeros_over<__U: __h::Real>(&self) -> {over} {{ {name} {{ {zeros_over} }} }}\n\
          #[inline(always)]\nfn take(&mut self) -> Self {{ Self {{ {takes} }} }}\n}}\n\
          impl{declaration} {ty} {{\n\
-         /// The groups in declaration order, arrays in any form `IntoVector` takes.\n\
-         #[must_use]\n{visibility} fn new<{kinds}>({arguments}) -> Self {{ Self {{ {fields} }} }}\n}}\n",
+         /// The groups in declaration order, over `f64`. Arrays are taken in any form of `IntoVector`.\n\
+         #[must_use]\n{visibility} fn new<{kinds}>({arguments}) -> Self where T: __h::Plain {{ Self {{ {fields} }} }}\n\
+         /// The groups in declaration order, over any scalar.\n\
+         #[must_use]\n{visibility} fn over<{kinds}>({arguments}) -> Self {{ Self {{ {fields} }} }}\n}}\n",
         groups.len(),
     )
 }

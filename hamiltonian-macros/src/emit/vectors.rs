@@ -115,14 +115,28 @@ fn state_from_velocity(context: Context, visibility: &TokenStream) -> TokenStrea
             },
         ),
     };
-    quote! {
-        /// The state at a time with these coordinates and velocities.
-        #visibility fn state_from_velocity<T: #bound, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
-            &self, time: T, coordinates: __A, velocities: __A,
-        ) -> __h::State<#own> {
-            let (_q, _v) =
-                (__h::IntoVector::into_vector(coordinates), __h::IntoVector::into_vector(velocities));
-            #state
+    let method = |name: &str, text: &str, scalar: TokenStream| {
+        let name = format_ident!("{name}");
+        quote! {
+            #[doc = #text]
+            #visibility fn #name<T: #bound #scalar, __M, __A: __h::IntoVector<__M, Vector = #theirs>>(
+                &self, time: T, coordinates: __A, velocities: __A,
+            ) -> __h::State<#own> {
+                let (_q, _v) =
+                    (__h::IntoVector::into_vector(coordinates), __h::IntoVector::into_vector(velocities));
+                #state
+            }
         }
-    }
+    };
+    let mut methods = method(
+        "state_from_velocity",
+        " The state at a time with these coordinates and velocities, over `f64`.",
+        quote! { + __h::Plain },
+    );
+    methods.extend(method(
+        "state_from_velocity_over",
+        " The state at a time with these coordinates and velocities, over any scalar.",
+        TokenStream::new(),
+    ));
+    methods
 }

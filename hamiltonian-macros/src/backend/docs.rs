@@ -164,7 +164,7 @@ fn facts(structure: &Structure, is_forced: bool) -> Vec<String> {
     let mut facts = Vec::new();
     facts.push(match (&structure.separable, &structure.quadratic_kinetic) {
         (Ok(_), Ok(())) => {
-            "H is separable, its kinetic part a quadratic form of the momenta.".to_owned()
+            "H is separable, and its kinetic part is a quadratic form of the momenta.".to_owned()
         }
         (Ok(_), Err(_)) => "H is separable.".to_owned(),
         (Err(coupling), _) if coupling.limit.is_some() => {
@@ -181,7 +181,7 @@ fn facts(structure: &Structure, is_forced: bool) -> Vec<String> {
         let (coordinate, momentum) = (&cyclic.coordinate, &cyclic.momentum);
         facts.push(match is_forced {
             true => {
-                format!("`{coordinate}` does not appear in H: the force alone moves `{momentum}`.")
+                format!("`{coordinate}` does not appear in H: only the force changes `{momentum}`.")
             }
             false => format!("`{coordinate}` does not appear in H: `{momentum}` is conserved."),
         });

@@ -7,8 +7,8 @@
 use super::context::Context;
 use super::index::Indices;
 use super::{
-    allowances, construct, declared, documented, dynamics, externals, lex, located, markers, mixed,
-    observables, piece_method, piece_type, reach, vectors,
+    allowances, construct, declared, documented, dynamics, externals, is_doc, lex, located,
+    markers, mixed, observables, piece_method, piece_type, reach, vectors,
 };
 use hamiltonian_language::ast::Header;
 use hamiltonian_language::checked::{Field, SizeDeclaration};
@@ -194,6 +194,9 @@ fn with_root(tokens: TokenStream, root: &TokenStream) -> TokenStream {
 /// Rows of a table, and lines of equations, that stand open in the docs.
 const LONG_TABLE: usize = 12;
 
+/// Characters of H as text that stand open in the docs.
+const LONG_TEXT: usize = 600;
+
 /// Markdown that rustdoc shows on demand.
 fn collapsed(doc: &mut String, summary: &str, markdown: &str) {
     let _ = write!(
@@ -214,14 +217,19 @@ fn formula(doc: &mut String, math: &str) {
 fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     let text = &context.definition.text;
     let mut doc = String::new();
-    if item.attributes.is_empty() && context.definition.piece.is_none() {
+    if !item.attributes.iter().any(is_doc) && context.definition.piece.is_none() {
         let _ = writeln!(doc, "The Hamiltonian system `{name}`.\n");
     }
     doc.push_str("\n# Hamiltonian\n");
     if !text.math.is_empty() {
         formula(&mut doc, &text.math);
     }
-    let _ = write!(doc, "\n```text\n{}\n```\n", text.hamiltonian);
+    let written = format!("```text\n{}\n```", text.hamiltonian);
+    if text.hamiltonian.chars().count() > LONG_TEXT {
+        collapsed(&mut doc, "H as text", &written);
+    } else {
+        let _ = write!(doc, "\n{written}\n");
+    }
     for fact in &text.facts {
         let _ = write!(doc, "\n{fact}\n");
     }
@@ -234,16 +242,21 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
             let _ = write!(doc, "\n{lines}\n");
         } else {
             let rows = &text.math_equations;
+            let mut math = String::new();
             formula(
-                &mut doc,
+                &mut math,
                 &format!("<mtable displaystyle=\"true\">\n{rows}</mtable>"),
             );
+            match text.equations.len() > LONG_TABLE {
+                true => collapsed(&mut doc, "Each variable", &math),
+                false => doc.push_str(&math),
+            }
             collapsed(&mut doc, "As text", &lines);
         }
     }
     if !context.model.force.is_empty() {
         doc.push_str(
-            "\nThe declared force is in these equations. Schemes integrate it, and the method `force` gives it.\n",
+            "\nThe declared force is in these equations. Schemes integrate it, and the method `force` returns it.\n",
         );
     }
     if !text.latex.is_empty() {
@@ -257,8 +270,8 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
     }
     if !text.operations.is_empty() {
         doc.push_str(
-            "\n# Operations\n\nThe operations of one evaluation. What depends on parameters alone is computed once a run and \
-             not counted. A fused multiply–add counts as two operations, the sine and cosine of one angle as one.\n",
+            "\n# Operations\n\nThe operations of one evaluation. Expressions of parameters alone are computed once a run and \
+             are not counted. A fused multiply–add counts as two operations, the sine and cosine of one angle as one.\n",
         );
         let table = text.operations.join("\n");
         // A row for each loop: many of them hide what follows.
@@ -269,7 +282,7 @@ fn docs(context: Context, item: &Header, name: &Ident) -> TokenStream {
         }
     }
     if context.has_run_time_sizes() {
-        doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system. `check_shape` gives an\nerror instead; runs and starts ask it once.\n");
+        doc.push_str("\n# Panics\n\nEvaluation panics on a state that does not have the shape of the system. A run checks its start.\n`check_shape` checks any state and returns an error.\n");
     }
     quote! { #[doc = #doc] }
 }

@@ -251,10 +251,19 @@ fn allowances(names: &[&Ident]) -> TokenStream {
     }
 }
 
-/// The user's attributes, or this text as documentation where there are none.
+/// Returns true for a doc comment, and for `#[doc = …]`.
+fn is_doc(attribute: &TokenStream) -> bool {
+    let inside = attribute.clone().into_iter().find_map(|token| match token {
+        TokenTree::Group(group) => group.stream().into_iter().next(),
+        _ => None,
+    });
+    matches!(inside, Some(TokenTree::Ident(name)) if name == "doc")
+}
+
+/// The user's attributes, with this text as documentation if they have none.
 fn documented(attributes: &[TokenStream], text: &str) -> TokenStream {
-    match attributes {
-        [] => quote! { #[doc = #text] },
-        attributes => quote! { #(#attributes)* },
+    match attributes.iter().any(is_doc) {
+        true => quote! { #(#attributes)* },
+        false => quote! { #[doc = #text] #(#attributes)* },
     }
 }

@@ -143,7 +143,7 @@ fn structure() {
     assert_eq!(
         facts(PENDULUM),
         [
-            "H is separable, its kinetic part a quadratic form of the momenta.",
+            "H is separable, and its kinetic part is a quadratic form of the momenta.",
             "H does not depend on time: it is conserved.",
         ]
     );
@@ -248,7 +248,11 @@ fn formulas_are_set() {
         terms.join(" + ")
     ));
     assert!(!long.contains("<math"));
-    assert!(section(&long, "Hamiltonian").starts_with("```text"));
+    assert!(
+        section(&long, "Hamiltonian")
+            .starts_with("<details><summary>H as text</summary>\n\n```text")
+    );
+    assert!(hamiltonian.contains("</div>\n\n```text\nH(theta; p) = "));
     // Many lines of text open on demand too.
     let masses: Vec<String> = (0..13).map(|k| format!("p{k}^2/(2*m{k})")).collect();
     let terms: Vec<String> = (1..400).map(|k| format!("{k}/7*cos({k}*q0)")).collect();
@@ -271,6 +275,28 @@ fn formulas_are_set() {
         equations.starts_with("<details><summary>Each variable</summary>"),
         "{equations}"
     );
+}
+
+/// rustdoc shows the first line in lists of types.
+#[test]
+fn a_summary_comes_first() {
+    let first = |source: &str| docs(source).lines().next().unwrap_or_default().to_owned();
+    let plain = "pub struct Spring {} H = (p^2 + q^2)/2";
+    let own = "The Hamiltonian system `Spring`.";
+    assert_eq!(first(plain), own);
+    for attribute in [
+        "#[derive(PartialEq)]",
+        "#[must_use]",
+        "#[non_exhaustive] #[allow(dead_code)]",
+    ] {
+        assert_eq!(first(&format!("{attribute} {plain}")), own);
+    }
+    let text = " A spring.";
+    assert_eq!(
+        first(&format!("#[must_use] #[doc = \"{text}\"] {plain}")),
+        text
+    );
+    assert_eq!(first(&format!("///{text}\n {plain}")), text);
 }
 
 #[test]

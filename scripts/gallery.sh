@@ -30,12 +30,16 @@ mixing mixing t5.svg 10000
 nls nls peaks.svg
 rigid_body rigid_body axis.svg
 schwarzschild schwarzschild orbits.svg
+sweep sweep ends.svg 8000
 solar_system solar_system resonance.svg
 three_body three_body orbit.svg
 toda toda solitons.svg
 vortices vortices paths.svg
 wisdom_holman wisdom_holman energy.svg
+paper_pendulum paper figure1.svg
+paper_short paper figure2.svg
 paper_long paper figure3.svg
+paper_far paper figure4.svg
 work_precision_34 work_precision paper34_energy.svg
 work_precision_schwarzschild work_precision schwarzschild_energy.svg
 LIST

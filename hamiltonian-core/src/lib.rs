@@ -35,6 +35,8 @@ mod system;
 
 mod exponential;
 mod flow;
+mod held;
+mod kernel;
 mod push;
 
 mod map;

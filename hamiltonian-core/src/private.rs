@@ -10,6 +10,11 @@ use core::marker::PhantomData;
 pub extern crate alloc;
 pub use alloc::sync::Arc;
 pub use core;
+pub use core::primitive::{bool, f64, str, usize};
+pub use core::{
+    clone::Clone, cmp::PartialEq, default::Default, fmt, marker::Copy, option::Option,
+    result::Result,
+};
 
 pub use hamiltonian_lanes::{Dual, Lift, Mask, Pack, Real};
 pub use nalgebra::{
@@ -18,22 +23,45 @@ pub use nalgebra::{
 
 pub use crate::error::Error;
 pub use crate::exponential::Exponential;
-pub use crate::flow::{Flow, Piece, Pieces, VectorField};
+use crate::flow::{Flow, Piece, Pieces};
 pub use crate::function::Function;
+pub use crate::held::{Carried, Given, Held, gathered};
+pub use crate::kernel::{
+    Adds, Damped, Drift, Field, FieldOf, Kernel, Kick, Linear, Matrices, Motion, Moves, Numbered,
+    OfGradient, Origin, Push, Pushed, Rates, Shift, Shifts, Stepped, Whole,
+};
 pub use crate::lattice::{Lattice, MatrixOf, check_extents, fits};
 pub use crate::loops::{Body, Change, LONG, STRIDE, Store, Stretch, total};
 use crate::output::element;
-pub use crate::push::{Both, Coupled, SubStep};
+pub use crate::push::Coupled;
 pub use crate::reach::Reach;
 pub use crate::slabs::rows;
 pub use crate::state::{Gradient, Plain, Point, State};
-pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes, masks, numbers, vectors};
+pub use crate::system::gather::{Gather, InLanes, Kept, in_lanes};
 pub use crate::system::{
     Arithmetic, Autonomous, Cyclic, Dynamics, Exact, Group, Nystrom, Observable, ObservableKind,
     QuadraticKinetic, Separable, Split, System, Unforced,
 };
 pub use crate::uneven::Uneven;
 pub use crate::vector::{IntoVector, Vector};
+pub use crate::{__computed_as_chosen as computed_as_chosen, __gathers as gathers};
+
+/// A group of coordinates with its rank, part, offset and columns.
+#[must_use]
+pub const fn group(
+    coordinate: &'static str,
+    momentum: &'static str,
+    [rank, part, offset, columns]: [usize; 4],
+) -> Group {
+    Group {
+        coordinate,
+        momentum,
+        rank,
+        part,
+        offset,
+        columns,
+    }
+}
 
 /// `N` values from number `start` on, as an array that a pattern takes apart: rustc checks a
 /// pattern in a hundredth of the time it takes to check as many indices. Emitted code knows that
@@ -61,12 +89,12 @@ fn elements<T: Real>(rows: usize, values: &[T]) -> impl Iterator<Item = (usize, 
 /// # Errors
 /// Those of the writer.
 pub fn describe_parameter<T: Real>(
-    out: &mut dyn core::fmt::Write,
+    out: &mut dyn fmt::Write,
     name: &str,
     rank: usize,
     rows: usize,
     values: &[T],
-) -> core::fmt::Result {
+) -> fmt::Result {
     let mut all = elements(rows, values);
     all.try_for_each(|(i, j, value)| match rank {
         0 => writeln!(out, "{name} = {value:?}"),
@@ -155,12 +183,6 @@ pub trait AnyParameter<'a>: Sized { // Without `new`: `Name {}`
     fn never() -> Self;
 }
 
-/// Returns true if the same conditions hold in both.
-pub fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N]) -> bool {
-    let same = |k: usize| ((these[k] & those[k]) | (!these[k] & !those[k])).all();
-    (0..N).all(same)
-}
-
 /// The `C` columns, of `rows` elements each, of a column-major array.
 ///
 /// # Panics
@@ -226,8 +248,8 @@ impl<X> core::ops::Deref for SetByNew<X> {
     }
 }
 
-impl<X: core::fmt::Debug> core::fmt::Debug for SetByNew<X> {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+impl<X: fmt::Debug> fmt::Debug for SetByNew<X> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.0.fmt(f)
     }
 }
@@ -270,4 +292,49 @@ impl<T: Real, P, X: Vector<Scalar = T>> Pieces<T, P> for Never<X> {
     fn inner(&self, _: &P, _: T, _: T) -> Self {
         *self
     }
+}
+
+/// How a prepared system, a struct around what is held, stands in the lanes of a pack.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __gathers {
+    ([$($impl:tt)*] $prepared:ty as $name:ident over $over:ty) => {
+        #[automatically_derived]
+        $($impl)* $crate::private::Gather<T> for $prepared {
+            type Over<__U: $crate::private::Real> = $over;
+            #[inline(always)]
+            fn gather<__P: $crate::private::Pack>(of: &[&Self]) -> Self::Over<T::Over<__P>> {
+                $name($crate::private::gathered::<T, __P, _, _>(of, |one| &one.0))
+            }
+            fn fits(&self, other: &Self) -> $crate::private::bool {
+                $crate::private::Carried::fits(&self.0, &other.0)
+            }
+            fn equals(&self, other: &Self) -> $crate::private::bool {
+                self.fits(other) && $crate::private::Carried::equals(&self.0, &other.0)
+            }
+        }
+    };
+}
+
+/// The methods of a prepared system whose data begins with how it is computed, in lanes where there are some.
+#[macro_export]
+#[doc(hidden)]
+macro_rules! __computed_as_chosen {
+    ($scalar:ident) => {
+        #[inline(always)]
+        fn arithmetic(&self) -> $crate::private::Arithmetic {
+            self.0.data.0
+        }
+        fn set_arithmetic(&mut self, to: $crate::private::Arithmetic) {
+            self.0.data.0 = to;
+        }
+        #[inline(always)]
+        fn in_lanes<__K: $crate::private::InLanes<$scalar, Self::Vector>>(
+            &self,
+            kept: &mut $crate::private::Kept,
+            kernel: __K,
+        ) -> $crate::private::Option<__K::Output> {
+            $crate::private::in_lanes(self, kept, kernel)
+        }
+    };
 }

@@ -73,7 +73,7 @@ pub trait System<T: Real> {
     /// The groups of coordinates in declaration order.
     const GROUPS: &'static [Group];
     /// Monitors, invariants and events in declaration order.
-    const OBSERVABLES: &'static [Observable];
+    const OBSERVABLES: &'static [Observable] = &[];
     /// True if each of them reads coordinates, and the same for momenta. One that is missing here may read
     /// both.
     const READS: &'static [[bool; 2]] = &[];
@@ -287,8 +287,13 @@ pub trait Dynamics<T: Real>: Clone + core::fmt::Debug + Send + Sync {
     fn force(&self, _: T, _: &Self::Vector, _: &Self::Vector, out: &mut Self::Vector) {
         out.set_zero();
     }
-    /// Observable `index` of [`System::OBSERVABLES`].
-    fn observable(&self, index: usize, t: T, q: &Self::Vector, p: &Self::Vector) -> T;
+    /// Observable `index` of [`System::OBSERVABLES`]; the provided one is for systems that have none.
+    ///
+    /// # Panics
+    /// If there is no observable of that index.
+    fn observable(&self, index: usize, _: T, _: &Self::Vector, _: &Self::Vector) -> T {
+        panic!("observable {index} of 0")
+    }
     /// J∇H, and the force where there is one, with the coefficient `c` folded into the prepared
     /// constants.
     fn field(&self, c: T) -> Self::Field;
@@ -455,7 +460,7 @@ pub trait Autonomous {}
 /// Coordinates that do not appear in H: their momenta are conserved.
 pub trait Cyclic {
     /// Names of the cyclic coordinates as declared (`q`, or `q[0]` for a component).
-    const CYCLIC: &'static [&'static str];
+    const CYCLIC: &'static [&'static str] = &[];
 }
 
 /// An error where a part has not the length the system asks for, with the name of the first group

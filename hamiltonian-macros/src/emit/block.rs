@@ -6,6 +6,7 @@
 
 use super::context::{Access, Context, ZERO};
 use super::index::variable;
+use super::inline::{Binding, Inlined};
 use super::layout::{Layout, Slice};
 use super::number;
 use hamiltonian_symbolic::dag::{Array, Column, Part, Relation};
@@ -44,9 +45,17 @@ pub fn operand(context: Context, value: Value) -> String {
     }
 }
 
-/// Writes steps; `arithmetic` is the expression of how their loops are computed.
-pub fn write(out: &mut String, context: Context, arithmetic: &'static str, steps: &[Step]) {
+/// Writes steps; `arithmetic` is the expression of how their loops are computed. Values of `inlined` stand where
+/// they are used.
+pub fn write(
+    out: &mut String,
+    context: Context,
+    arithmetic: &'static str,
+    steps: &[Step],
+    inlined: Inlined,
+) {
     let mut writer = Writer {
+        inlined,
         context,
         arithmetic,
         out,
@@ -75,6 +84,8 @@ pub(super) struct Writer<'a> {
     pub(super) slabs: Vec<Slice>,
     /// True if a loop is open.
     pub(super) is_inside: bool,
+    /// The values of the outermost level that stand where they are used.
+    inlined: Inlined,
 }
 
 impl Writer<'_> {
@@ -108,7 +119,13 @@ impl Writer<'_> {
     }
 
     pub(super) fn operand(&self, value: Value) -> String {
-        operand(self.context, value)
+        self.at(value, Binding::Atom)
+    }
+
+    /// A value in a place that binds it so tightly.
+    fn at(&self, value: Value, place: Binding) -> String {
+        let text = self.inlined.text(value, place);
+        text.unwrap_or_else(|| operand(self.context, value))
     }
 
     fn compute(&mut self, value: Value) {
@@ -132,11 +149,17 @@ impl Writer<'_> {
             return;
         }
         let text = self.instruction(instruction);
-        line!(self, "let {} = {text};", name(value));
+        if !self.inlined.take(value, instruction, &text) {
+            line!(self, "let {} = {text};", name(value));
+        }
     }
 
     fn instruction(&self, instruction: &Instruction) -> String {
         let v = |value: &Value| self.operand(*value);
+        let whole = |value: &Value| self.at(*value, Binding::Whole);
+        // What stands on the right of an operator binds more tightly than what stands on the left.
+        let [term, factor] = [Binding::Term, Binding::Factor]
+            .map(|place| move |value: &Value| self.at(*value, place));
         match instruction {
             Instruction::Constant(value) => number::constant(value),
             Instruction::Pi => number::pi(),
@@ -152,23 +175,29 @@ impl Writer<'_> {
             Instruction::Load(array, row, column) => self.element(*array, row, column.as_ref()),
             Instruction::Accumulator => ZERO.into(),
             Instruction::Neg(a) => format!("-{}", v(a)),
-            Instruction::Add(a, b) => format!("{} + {}", v(a), v(b)),
-            Instruction::Sub(a, b) => format!("{} - {}", v(a), v(b)),
-            Instruction::Mul(a, b) => format!("{} * {}", v(a), v(b)),
-            Instruction::MulAdd(a, b, c) => format!("{}.fma({}, {})", v(a), v(b), v(c)),
-            Instruction::MulSub(a, b, c) => format!("{}.fma({}, -{})", v(a), v(b), v(c)),
-            Instruction::NegMulAdd(a, b, c) => format!("(-{}).fma({}, {})", v(a), v(b), v(c)),
-            Instruction::Div(a, b) => format!("{} / {}", v(a), v(b)),
+            Instruction::Add(a, b) => format!("{} + {}", term(a), factor(b)),
+            Instruction::Sub(a, b) => format!("{} - {}", term(a), factor(b)),
+            Instruction::Mul(a, b) => format!("{} * {}", factor(a), v(b)),
+            Instruction::MulAdd(a, b, c) => format!("{}.fma({}, {})", v(a), whole(b), whole(c)),
+            Instruction::MulSub(a, b, c) => format!("{}.fma({}, -{})", v(a), whole(b), v(c)),
+            Instruction::NegMulAdd(a, b, c) => {
+                format!("(-{}).fma({}, {})", v(a), whole(b), whole(c))
+            }
+            Instruction::Div(a, b) => format!("{} / {}", factor(a), v(b)),
             Instruction::Recip(a) => format!("{}.recip()", v(a)),
             Instruction::Call(op, arguments) => {
-                let arguments: Vec<String> = arguments.iter().map(v).collect();
-                let (first, others) = (&arguments[0], arguments[1..].join(", "));
-                format!("{first}.{}({others})", op.row().name)
+                let others: Vec<String> = arguments[1..].iter().map(whole).collect();
+                format!(
+                    "{}.{}({})",
+                    v(&arguments[0]),
+                    op.row().name,
+                    others.join(", ")
+                )
             }
             Instruction::PairedSin(a) => format!("{}.sin()", v(a)),
             Instruction::PairedCos(a) => v(a),
             Instruction::External(function, part, arguments) => {
-                let mut arguments: Vec<String> = arguments.iter().map(v).collect();
+                let mut arguments: Vec<String> = arguments.iter().map(whole).collect();
                 if self.context.is_parameter(*function) {
                     arguments.insert(0, format!("_f{function}"));
                 }
@@ -180,23 +209,28 @@ impl Writer<'_> {
                     Relation::LessEqual => "le",
                     Relation::Equal => "equals",
                 };
-                format!("{}.{method}({})", v(a), v(b))
+                format!("{}.{method}({})", v(a), whole(b))
             }
             Instruction::Not(a) => format!("!{}", v(a)),
             Instruction::And(a, b) => format!("{} & {}", v(a), v(b)),
             Instruction::Or(a, b) => format!("{} | {}", v(a), v(b)),
-            Instruction::Select(c, a, b) => format!("T::select({}, {}, {})", v(c), v(a), v(b)),
+            Instruction::Select(c, a, b) => {
+                format!("T::select({}, {}, {})", whole(c), whole(a), whole(b))
+            }
         }
     }
 
     fn update(&mut self, place: &str, update: &Update) {
         let v = |value: &Value| self.operand(*value);
+        let whole = |value: &Value| self.at(*value, Binding::Whole);
         let text = match update {
-            Update::Set(a) => format!("{place} = {};", v(a)),
-            Update::Add(a) => format!("{place} += {};", v(a)),
-            Update::Sub(a) => format!("{place} -= {};", v(a)),
-            Update::AddProduct(a, b) => format!("{place} = {}.fma({}, {place});", v(a), v(b)),
-            Update::SubProduct(a, b) => format!("{place} = (-{}).fma({}, {place});", v(a), v(b)),
+            Update::Set(a) => format!("{place} = {};", whole(a)),
+            Update::Add(a) => format!("{place} += {};", whole(a)),
+            Update::Sub(a) => format!("{place} -= {};", whole(a)),
+            Update::AddProduct(a, b) => format!("{place} = {}.fma({}, {place});", v(a), whole(b)),
+            Update::SubProduct(a, b) => {
+                format!("{place} = (-{}).fma({}, {place});", v(a), whole(b))
+            }
         };
         line!(self, "{text}");
     }
@@ -228,7 +262,7 @@ impl Writer<'_> {
             Target::Held(_) => self.place(slice, None, row),
             Target::Parameter(parameter) => {
                 match self.context.model.parameters[usize::from(parameter.0)].shape {
-                    Shape::Scalar => format!("*{}", slice.name()),
+                    Shape::Scalar => format!("_d.{}", self.context.generics.field(parameter.0)),
                     _ => self.entry(slice, parameter.0, row, column),
                 }
             }

@@ -9,7 +9,8 @@ use super::block::operand;
 use super::construct::{as_slice, set_by_new};
 use super::context::Context;
 use super::function::{Bodies, Body};
-use super::holder::{Holder, Receiver, field, shape};
+use super::halves::are_apart;
+use super::holder::{Holder, Receiver, shape};
 use super::layout::{Layout, Slice};
 use super::scan::scan;
 use super::{derived, observables, reach};
@@ -29,14 +30,13 @@ pub fn implementations(context: Context) -> (String, String) {
             context,
             parts: String::new(),
         },
-        vector: context.generics.vector_type_over("__Vector", "T"),
+        vector: context.generics.vector_type_over("__V", "T"),
         out: String::new(),
     };
     emission.alias();
     emission.system();
     emission.prepared.declare(&mut emission.out, context);
     emission.dynamics();
-    emission.prepared.gather(&mut emission.out, context);
     emission.field(Purpose::VectorField);
     emission.kick();
     emission.separable();
@@ -55,13 +55,8 @@ fn prepared(context: Context) -> Holder {
         .iter()
         .flat_map(|f| [&f.coefficient, &f.evaluation]);
     let slices = stages.flat_map(|steps| scan(context, steps, &[]).slices);
-    Holder::new(
-        context,
-        "__Prepared".into(),
-        &program.prepared,
-        slices.collect(),
-    )
-    .with_arithmetic()
+    let name = "__Prepared".to_owned();
+    Holder::new(context, name, &program.prepared, slices.collect()).prepared()
 }
 
 /// The text of the implementations as far as it is written.
@@ -79,7 +74,7 @@ impl<'a> Emission<'a> {
     fn alias(&mut self) {
         let context = self.context;
         let declaration = context.generics.declared(["T".to_owned()]);
-        line!(self, "type __Vector{declaration} = {};", context.vector());
+        line!(self, "type __V{declaration} = {};", context.vector());
     }
 
     fn system(&mut self) {
@@ -88,30 +83,27 @@ impl<'a> Emission<'a> {
             self,
             "#[automatically_derived]\nimpl{} __h::System<T> for {} {{\n\
              type Vector = {};\ntype Prepared = {};\n\
-             const NAME: &'static __h::core::primitive::str = {:?};\n\
-             const GROUPS: &'static [__h::Group] = &[{}];\n\
-             const OBSERVABLES: &'static [__h::Observable] = &[{}];\n\
-             const READS: &'static [[__h::core::primitive::bool; 2]] = &[{}];{}\n\
-             const FORMULA: &'static __h::core::primitive::str = {:?};\n{}",
+             const NAME: &'static __h::str = {:?};\n\
+             const GROUPS: &'static [__h::Group] = &[{}];\n{}{}\
+             const FORMULA: &'static __h::str = {:?};\n{}",
             generics.declaration_with_scalar(),
             generics.system_type(),
             self.vector,
             self.prepared.ty(context),
             context.model.name,
             groups(context.model, context.layout),
-            observables::entries(context.model),
-            observables::reads(context.model),
+            observables::constants(context.model),
             context.model.evolution.as_ref().map_or(String::new(), |time| format!(
-                "\nconst FICTITIOUS_TIME: __h::core::option::Option<&'static __h::core::primitive::str> = \
-                 __h::core::option::Option::Some({time:?});"
+                "const FICTITIOUS_TIME: __h::Option<&'static __h::str> = __h::Option::Some({time:?});\n"
             )),
             self.formula(),
             self.parameters(),
         );
         line!(
             self,
-            "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{\nlet _self = self;"
+            "#[inline(always)]\nfn prepare(&self) -> Self::Prepared {{"
         );
+        let start = self.out.len();
         self.out.push_str(&reach::asked(context));
         let results: Vec<_> = self.prepared.values().collect();
         let arguments = self.held();
@@ -128,24 +120,26 @@ impl<'a> Emission<'a> {
             arrays: &read,
         };
         self.bodies.write(&mut self.out, body);
-        let default = "__h::core::default::Default::default()";
+        let default = "__h::Default::default()";
         let fill = self.prepared.fill(context, default, |array| {
             let place = match array {
                 Slice::Read(Array::Held(number)) => format!("_made.{number}"),
-                _ => format!("_b{}", field(array).trim_start_matches('a')),
+                _ => format!("_b{}", array.name().trim_start_matches("_a")),
             };
             match context.is_dynamic(&shape(context, array)) {
                 true => format!("__h::Arc::new({place})"),
                 false => place,
             }
         });
-        line!(self, "{fill}\n}}");
+        let text = with_self(&(self.out.split_off(start) + &fill));
+        line!(self, "{text}\n}}");
+        let mut sizes = String::new();
+        Receiver::System.bind_sizes(&mut sizes, context);
+        let zeros = with_self(&(sizes + &context.zeros()));
         line!(
             self,
-            "#[inline]\nfn zeros(&self) -> Self::Vector {{\nlet _self = self;"
+            "#[inline]\nfn zeros(&self) -> Self::Vector {{\n{zeros}\n}}\n}}"
         );
-        Receiver::System.bind_sizes(&mut self.out, context);
-        line!(self, "{}\n}}\n}}", context.zeros());
     }
 
     /// The arrays that preparation fills, as an argument of its parts; made as `_made`.
@@ -174,7 +168,7 @@ impl<'a> Emission<'a> {
             generics.holder_declaration(),
             self.prepared.ty(context),
             self.vector,
-            generics.holder_type("__Field"),
+            self.field_type(),
         );
         let (q, p) = ("_oq", "_op");
         for (name, purpose, more, returns) in [
@@ -196,14 +190,21 @@ impl<'a> Emission<'a> {
                 false,
             ),
         ] {
-            self.method(name, purpose, more, returns);
+            // Core's own gradient is one half after the other.
+            let halves = [Purpose::GradientQ, Purpose::GradientP];
+            if !(purpose == Purpose::Gradient && are_apart(context.program, purpose, halves)) {
+                self.method(name, purpose, more, returns);
+            }
         }
-        line!(
-            self,
-            "#[inline(always)]\nfn observable(&self, _index: __h::core::primitive::usize, _t: T, _q: &Self::Vector, \
-             _p: &Self::Vector) -> T {{\n{}\n}}",
-            observables::dispatch(context.model),
-        );
+        if !context.model.observables.is_empty() {
+            line!(
+                self,
+                "#[inline(always)]\nfn observable(&self, _index: __h::usize, _t: T, _q: &{vector}, _p: &{vector}) -> T {{\n\
+                 {}\n}}",
+                observables::dispatch(context.model),
+                vector = self.vector,
+            );
+        }
         let mut vectors = context.model.vectors.iter();
         if let Some(at) = vectors.position(|vector| vector.usage == VectorUse::Force) {
             line!(
@@ -212,15 +213,10 @@ impl<'a> Emission<'a> {
                  _op: &mut Self::Vector) {{\nself.v{at}(_t, _q, _p, _op);\n}}"
             );
         }
-        let field = self.made(Purpose::VectorField, "__Field");
         line!(
             self,
-            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nlet _self = self;\n{field}\n}}\n\
-             #[inline(always)]\nfn arithmetic(&self) -> __h::Arithmetic {{\nself.arithmetic\n}}\n\
-             fn set_arithmetic(&mut self, _to: __h::Arithmetic) {{\nself.arithmetic = _to;\n}}\n\
-             #[inline(always)]\nfn in_lanes<__K: __h::InLanes<T, Self::Vector>>(&self, \
-             _kept: &mut __h::Kept, _kernel: __K) -> \
-             __h::core::option::Option<__K::Output> {{\n__h::in_lanes(self, _kept, _kernel)\n}}\n}}"
+            "#[inline(always)]\nfn field(&self, _c: T) -> Self::Field {{\nSelf::Field::fold(self, _c)\n}}\n\
+             __h::computed_as_chosen!(T);\n}}"
         );
     }
 
@@ -248,7 +244,7 @@ impl<'a> Emission<'a> {
                     true => results(self.context, &function.results),
                     false => String::new(),
                 };
-                format!("let _self = self;\n{text}{results}")
+                with_self(&(text + &results))
             }
             None => derived::body(purpose, self.context.definition.third),
         };
@@ -282,10 +278,10 @@ impl<'a> Emission<'a> {
     }
 
     /// The function of a purpose with the holder of the values and arrays that it reads.
-    pub(super) fn held_by(&self, purpose: Purpose, name: &str) -> Option<(&'a Function, Holder)> {
+    pub(super) fn held_by(&self, purpose: Purpose, name: String) -> Option<(&'a Function, Holder)> {
         let function = self.context.program.function(purpose)?;
         let scan = scan(self.context, &function.evaluation, &function.results);
-        let holder = Holder::new(self.context, name.to_owned(), &scan.reads, scan.slices);
+        let holder = Holder::new(self.context, name, &scan.reads, scan.slices);
         let has_loop = (function.evaluation.iter()).any(|step| matches!(step, Step::Loop(_)));
         match has_loop {
             true => Some((function, holder.with_arithmetic())),
@@ -294,14 +290,11 @@ impl<'a> Emission<'a> {
     }
 
     /// The body that makes the holder of a function from prepared values and the coefficient.
-    pub(super) fn made(&mut self, purpose: Purpose, name: &str) -> String {
-        let Some((function, holder)) = self.held_by(purpose, name) else {
-            return derived::FLOW.to_owned();
-        };
+    pub(super) fn made(&mut self, function: &Function, holder: &Holder) -> String {
         let results: Vec<_> = holder.values().collect();
         let mut text = String::new();
         let body = Body {
-            name: &format!("prepare{name}"),
+            name: &format!("prepare{}", holder.name),
             receiver: Receiver::Holder(&self.prepared),
             arguments: &[("_c", "T".to_owned())],
             steps: &function.coefficient,
@@ -310,8 +303,9 @@ impl<'a> Emission<'a> {
             arrays: &[],
         };
         self.bodies.write(&mut text, body);
-        let clone = |array| format!("_self.{}.clone()", field(array));
-        text + &holder.fill(self.context, "_self.arithmetic", clone)
+        let (context, prepared) = (self.context, &self.prepared);
+        let clone = |array| format!("{}.clone()", prepared.array(context, array));
+        text + &holder.fill(context, "_self.0.data.0", clone)
     }
 
     /// H, the force and the pieces as text, by which a saved run knows its system.
@@ -346,10 +340,18 @@ impl<'a> Emission<'a> {
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
             let (at, name) = (at as u16, &parameter.name);
-            let value = match parameter.shape {
-                Shape::Scalar => format!("[{}]", context.generics.lifted(at)),
-                _ => context.generics.lifted_array(at),
-            };
+            if parameter.shape == Shape::Scalar {
+                let whole = as_slice(
+                    &Shape::Scalar,
+                    &format!("[{}]", context.generics.lifted(at)),
+                );
+                let _ = writeln!(
+                    lines,
+                    "__h::describe_parameter(_out, \"{name}\", {whole})?;"
+                );
+                continue;
+            }
+            let value = context.generics.lifted_array(at);
             let whole = as_slice(&parameter.shape, "_b");
             let _ = writeln!(
                 lines,
@@ -367,9 +369,9 @@ impl<'a> Emission<'a> {
         if lines.is_empty() {
             return lines;
         }
+        let body = with_self(&(lines + "__h::Result::Ok(())"));
         format!(
-            "fn describe_parameters(&self, _out: &mut dyn __h::core::fmt::Write) -> __h::core::fmt::Result {{\n\
-             let _self = self;\n{lines}__h::core::result::Result::Ok(())\n}}\n"
+            "fn describe_parameters(&self, _out: &mut dyn __h::fmt::Write) -> __h::fmt::Result {{\n{body}\n}}\n"
         )
     }
 
@@ -390,12 +392,12 @@ impl<'a> Emission<'a> {
             let arguments = self.arguments(&["_q", "_p"]);
             let name = format!("o{at}");
             let text = self.evaluation(&name, None, &arguments, function);
+            let body = with_self(&format!("{text}[{}]", results(context, &function.results)));
             line!(
                 self,
-                "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\nlet _self = self;\n{text}[{}]\n}}",
+                "#[inline(always)]\nfn {name}(&self, {}) -> [T; {}] {{\n{body}\n}}",
                 declared(&arguments),
                 observable.components.len(),
-                results(context, &function.results),
             );
         }
         for (at, vector) in context.model.vectors.iter().enumerate() {
@@ -431,7 +433,8 @@ impl<'a> Emission<'a> {
             let name = &context.definition.checked.functions[at].name;
             let _ = write!(
                 fields,
-                "{name}: __h::core::clone::Clone::clone(&_self.f{at}), "
+                "{name}: __h::Clone::clone(&{}), ",
+                self.prepared.function(context, at)
             );
         }
         for (at, parameter) in context.model.parameters.iter().enumerate() {
@@ -442,13 +445,29 @@ impl<'a> Emission<'a> {
             };
             let _ = write!(fields, "{}: {zero}, ", context.generics.field(at as u16));
         }
+        let body = with_self(&format!(
+            "{sizes}let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result",
+            context.generics.name,
+        ));
         line!(
             self,
-            "#[inline]\nfn parameters(&self, {list}) -> {ty} {{\nlet _self = self;\n{sizes}\
-             let mut _result = {} {{ {fields} }};\nlet _d = &mut _result;\n{text}_result\n}}",
-            context.generics.name,
+            "#[inline]\nfn parameters(&self, {list}) -> {ty} {{\n{body}\n}}"
         );
     }
+}
+
+/// The body of a method: `_self` is the receiver, as parts that are free functions call it.
+pub(super) fn with_self(body: &str) -> String {
+    let mut parts = body.split("_self");
+    let mut out = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let is_inside = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '"');
+        let is_word = !out.ends_with(is_inside)
+            && !part.starts_with(|c: char| c.is_alphanumeric() || c == '_');
+        out.push_str(if is_word { "self" } else { "_self" });
+        out.push_str(part);
+    }
+    out
 }
 
 /// `name: type, …`
@@ -479,10 +498,10 @@ fn groups(model: &Model, layout: Layout) -> String {
             Layout::Array => (0, 0),
             Layout::Mixed => (at, 0),
         };
+        let (coordinate, momentum) = (&group.coordinate, &group.momentum);
         let _ = write!(
             out,
-            "__h::Group {{ coordinate: {:?}, momentum: {:?}, rank: {rank}, part: {part}, offset: {offset}, columns: {columns} }}, ",
-            group.coordinate, group.momentum
+            "__h::group({coordinate:?}, {momentum:?}, [{rank}, {part}, {offset}, {columns}]), "
         );
     }
     out

@@ -6,6 +6,7 @@
 use super::block;
 use super::context::Context;
 use super::holder::Receiver;
+use super::inline::Inlined;
 use super::layout::Slice;
 use hamiltonian_symbolic::dag::{Array, Parameter};
 use hamiltonian_symbolic::model::Shape;
@@ -61,7 +62,8 @@ impl Bodies<'_> {
                 Slice::Write(Target::Parameter(Parameter(number))) => {
                     let field = context.generics.field(*number);
                     let _ = match &context.model.parameters[usize::from(*number)].shape {
-                        Shape::Scalar => writeln!(out, "let {name} = &mut _d.{field};"),
+                        // Written as a field.
+                        Shape::Scalar => Ok(()),
                         shape if context.is_dynamic(shape) => writeln!(
                             out,
                             "let {name} = __h::SetByNew::get_mut(&mut _d.{field}).as_mut_slice();"
@@ -77,7 +79,13 @@ impl Bodies<'_> {
     /// Binds values computed earlier: by an earlier stage or, where they cost nothing, again.
     pub(super) fn read(&self, out: &mut String, receiver: Receiver, reads: &[Value]) {
         for value in receiver.read(out, reads) {
-            block::write(out, self.context, "", &[Step::Let(value)]);
+            block::write(
+                out,
+                self.context,
+                "",
+                &[Step::Let(value)],
+                Inlined::default(),
+            );
         }
     }
 }

@@ -197,30 +197,23 @@ impl Generics {
 
     /// A field of `_self` as a value of type `T`.
     pub fn lifted(&self, parameter: u16) -> String {
-        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
-        format!("<T as __h::Lift<{scalar}>>::lift(_self.{field})")
+        format!("T::lift(_self.{})", self.field(parameter))
     }
 
     /// An array field of `_self` over `T`.
     pub fn lifted_array(&self, parameter: u16) -> String {
-        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
-        format!("_self.{field}.map(<T as __h::Lift<{scalar}>>::lift)")
+        format!("_self.{}.map(T::lift)", self.field(parameter))
     }
 
     /// The same for a matrix, transposed: row after row.
     pub fn lifted_rows(&self, parameter: u16) -> String {
-        let (scalar, field) = (self.scalar(parameter), self.field(parameter));
-        format!("_self.{field}.transpose().map(<T as __h::Lift<{scalar}>>::lift)")
+        let field = self.field(parameter);
+        format!("_self.{field}.transpose().map(T::lift)")
     }
 
     /// The field of a parameter.
     pub fn field(&self, parameter: u16) -> &str {
         &self.fields[usize::from(parameter)]
-    }
-
-    /// The scalar of a parameter: its own, or the last one, which all share.
-    fn scalar(&self, parameter: u16) -> &str {
-        &self.scalars[usize::from(parameter).min(self.scalars.len() - 1)]
     }
 }
 

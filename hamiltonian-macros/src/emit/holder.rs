@@ -1,8 +1,7 @@
-//! The structs that carry prepared values into evaluations, and the reads of a body from the type it
-//! is a method of.
+//! What carries prepared values into evaluations, and the reads of a body from the type it is a function of.
 //!
-//! Input: the values, masks and parameter arrays that functions read. Output: struct declarations
-//! and the expressions that fill and read them. Invariant: a holder has the values its functions
+//! Input: the values, masks and parameter arrays that functions read. Output: their type, and the
+//! expressions that fill and read it. Invariant: a holder has the values its functions
 //! read and nothing else, but all run-time sizes and functions.
 
 use super::block::names;
@@ -14,16 +13,36 @@ use hamiltonian_symbolic::model::Shape;
 use hamiltonian_symbolic::program::Value;
 use std::fmt::Write;
 
-/// A struct of values computed before an evaluation.
+/// Values computed before an evaluation, and what is read beside them: core's `Held`.
 #[derive(Debug)]
 pub struct Holder {
-    /// Its name.
+    /// The name of its functions' parts, and of the prepared system.
     pub name: String,
     values: Values,
     /// Parameter arrays, lifted to the state's scalar, and arrays that preparation fills.
     pub arrays: Vec<Slice>,
     /// True if it says how work on the system is computed.
     pub arithmetic: bool,
+    /// True if it is the prepared system, a struct around what is held.
+    is_prepared: bool,
+}
+
+/// What a holder has beside values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Datum {
+    /// How work is computed.
+    Arithmetic,
+    /// A size that is set at run time.
+    Size(usize),
+    /// A function that is a parameter.
+    Function(usize),
+    Array(Slice),
+}
+
+/// A list as nested pairs.
+fn pairs(list: &[String]) -> String {
+    let pair = |rest: String, one: &String| format!("({one}, {rest})");
+    list.iter().rev().fold("()".to_owned(), pair)
 }
 
 impl Holder {
@@ -37,6 +56,7 @@ impl Holder {
             values: Values::of(context.program, values.iter().copied()),
             arrays: slices,
             arithmetic: false,
+            is_prepared: false,
         }
     }
 
@@ -48,49 +68,100 @@ impl Holder {
         }
     }
 
-    /// Its type over `T`.
-    pub fn ty(&self, context: Context) -> String {
-        context.generics.holder_type(&self.name)
+    /// The same as the prepared system.
+    pub fn prepared(self) -> Holder {
+        Holder {
+            is_prepared: true,
+            ..self.with_arithmetic()
+        }
     }
 
-    /// The declaration.
+    /// Its type over `T`.
+    pub fn ty(&self, context: Context) -> String {
+        match self.is_prepared {
+            true => context.generics.holder_type(&self.name),
+            false => self.held(context),
+        }
+    }
+
+    /// The type of what is held.
+    pub fn held(&self, context: Context) -> String {
+        let (numbers, masks) = (self.values.numbers.len(), self.values.masks.len());
+        let ty = |datum: &Datum| match *datum {
+            Datum::Arithmetic => "__h::Arithmetic".to_owned(),
+            Datum::Size(_) => "__h::usize".to_owned(),
+            Datum::Function(at) => {
+                let (ty, arity) = &context.generics.functions[at];
+                format!("__h::Given<{ty}, {arity}>")
+            }
+            Datum::Array(array) => {
+                let shape = shape(context, array);
+                let ty = context.storage(&shape, "T");
+                // All holders of a run share arrays that are sized at run time.
+                match context.is_dynamic(&shape) {
+                    true => format!("__h::Arc<{ty}>"),
+                    false => ty,
+                }
+            }
+        };
+        let data: Vec<String> = self.data(context).iter().map(ty).collect();
+        match (masks, data.is_empty()) {
+            (0, true) => format!("__h::Held<T, {numbers}>"),
+            (_, true) => format!("__h::Held<T, {numbers}, {masks}>"),
+            (_, false) => format!("__h::Held<T, {numbers}, {masks}, {}>", pairs(&data)),
+        }
+    }
+
+    fn data(&self, context: Context) -> Vec<Datum> {
+        let functions = 0..context.generics.functions.len();
+        let arithmetic = self.arithmetic.then_some(Datum::Arithmetic);
+        (arithmetic.into_iter())
+            .chain(context.run_time_sizes().map(Datum::Size))
+            .chain(functions.map(Datum::Function))
+            .chain(self.arrays.iter().copied().map(Datum::Array))
+            .collect()
+    }
+
+    /// The expression of what is held, in a body.
+    fn root(&self) -> &'static str {
+        match self.is_prepared {
+            true => "_self.0",
+            false => "_self",
+        }
+    }
+
+    /// The expression of a datum, in a body.
+    fn place(&self, context: Context, datum: Datum) -> String {
+        let mut data = self.data(context).into_iter();
+        let at = data.position(|known| known == datum);
+        let rest = ".1".repeat(at.expect("a body reads what is held"));
+        format!("{}.data{rest}.0", self.root())
+    }
+
+    /// The expression of an array, in a body.
+    pub fn array(&self, context: Context, array: Slice) -> String {
+        self.place(context, Datum::Array(array))
+    }
+
+    /// The expression of a function that is a parameter, in a body.
+    pub fn function(&self, context: Context, at: usize) -> String {
+        format!("{}.0", self.place(context, Datum::Function(at)))
+    }
+
+    /// The declaration of the prepared system, and how it stands in the lanes of a pack.
     pub fn declare(&self, out: &mut String, context: Context) {
         let generics = context.generics;
+        let (declaration, name) = (generics.holder_declaration(), &self.name);
         let _ = write!(
             out,
-            "#[doc(hidden)]\n#[allow(dead_code)]\n#[derive(__h::core::clone::Clone, __h::core::fmt::Debug)]\n\
-             {} struct {}{} {{\nv: {},\n",
+            "#[doc(hidden)]\n#[derive(__h::Clone, __h::fmt::Debug)]\n\
+             {} struct {name}{declaration}({});\n\
+             __h::gathers!([impl{declaration}] {} as {name} over {});\n",
             generics.visibility,
-            self.name,
-            generics.holder_declaration(),
-            match self.values.numbers.len() {
-                0 => "__h::core::marker::PhantomData<T>".to_owned(),
-                length => format!("[T; {length}]"),
-            }
+            self.held(context),
+            self.ty(context),
+            generics.holder_type_over(name, "__U"),
         );
-        let masks = &self.values.masks;
-        if !masks.is_empty() {
-            let _ = writeln!(out, "m: [<T as __h::Real>::Mask; {}],", masks.len());
-        }
-        if self.arithmetic {
-            out.push_str("arithmetic: __h::Arithmetic,\n");
-        }
-        for size in context.run_time_sizes() {
-            let _ = writeln!(out, "n{size}: __h::core::primitive::usize,");
-        }
-        for (at, (ty, _)) in generics.functions.iter().enumerate() {
-            let _ = writeln!(out, "f{at}: {ty},");
-        }
-        for &array in &self.arrays {
-            let shape = shape(context, array);
-            let ty = context.storage(&shape, "T");
-            // All holders of a run share arrays that are sized at run time.
-            let _ = match context.is_dynamic(&shape) {
-                true => writeln!(out, "{}: __h::Arc<{ty}>,", field(array)),
-                false => writeln!(out, "{}: {ty},", field(array)),
-            };
-        }
-        out.push_str("}\n");
     }
 
     /// The expression that makes one where all its values are in scope; `array` is the expression of
@@ -101,104 +172,32 @@ impl Holder {
         arithmetic: &str,
         array: impl Fn(Slice) -> String,
     ) -> String {
-        let values = match self.values.numbers.len() {
-            0 => "__h::core::marker::PhantomData".to_owned(),
-            _ => format!("[{}]", names(&self.values.numbers)),
+        let value = |datum: &Datum| match *datum {
+            Datum::Arithmetic => arithmetic.to_owned(),
+            Datum::Size(size) => format!("_n{size}"),
+            Datum::Function(at) => format!("__h::Given(__h::Clone::clone(_f{at}))"),
+            Datum::Array(own) => array(own),
         };
-        let mut out = format!("{} {{ v: {values}, ", self.name);
-        if !self.values.masks.is_empty() {
-            let _ = write!(out, "m: [{}], ", names(&self.values.masks));
-        }
-        if self.arithmetic {
-            let _ = write!(out, "arithmetic: {arithmetic}, ");
-        }
-        for size in context.run_time_sizes() {
-            let _ = write!(out, "n{size}: _n{size}, ");
-        }
-        for at in 0..context.generics.functions.len() {
-            let _ = write!(out, "f{at}: __h::core::clone::Clone::clone(_f{at}), ");
-        }
-        for &own in &self.arrays {
-            let _ = write!(out, "{}: {}, ", field(own), array(own));
-        }
-        out.push('}');
-        out
-    }
-
-    /// The implementation of `Gather` for the prepared system.
-    pub fn gather(&self, out: &mut String, context: Context) {
-        let generics = context.generics;
-        let mut fields = String::new();
-        let mut equal = String::new();
-        match self.values.numbers.len() {
-            0 => fields.push_str("v: __h::core::marker::PhantomData, "),
-            _ => {
-                fields.push_str("v: __h::numbers::<T, __P, _, _>(_of, |_one| &_one.v), ");
-                equal.push_str(" && self.v == _other.v");
-            }
-        }
-        if !self.values.masks.is_empty() {
-            fields.push_str("m: __h::masks::<T, __P, _, _>(_of, |_one| &_one.m), ");
-            equal.push_str(" && __h::same_masks::<T, _>(&self.m, &_other.m)");
-        }
-        if self.arithmetic {
-            fields.push_str("arithmetic: _of[0].arithmetic, ");
-        }
-        let mut fit = Vec::new();
-        for size in context.run_time_sizes() {
-            let _ = write!(fields, "n{size}: _of[0].n{size}, ");
-            fit.push(format!("self.n{size} == _other.n{size}"));
-        }
-        for (at, (ty, arity)) in generics.functions.iter().enumerate() {
-            let _ = write!(
-                fields,
-                "f{at}: __h::core::clone::Clone::clone(&_of[0].f{at}), "
-            );
-            let print = format!("<{ty} as __h::Function<{arity}>>::fingerprint");
-            fit.push(format!("{print}(&self.f{at}) == {print}(&_other.f{at})"));
-        }
-        for &array in &self.arrays {
-            let (name, shape) = (field(array), shape(context, array));
-            let ty = context.storage(&shape, "T");
-            let gathered = |of: &str| format!("__h::vectors::<{ty}, __P, _>(_of, |_one| {of})");
-            let _ = match context.is_dynamic(&shape) {
-                true => write!(
-                    fields,
-                    "{name}: __h::Arc::new({}), ",
-                    gathered(&format!("&*_one.{name}"))
-                ),
-                false => write!(fields, "{name}: {}, ", gathered(&format!("&_one.{name}"))),
-            };
-            let _ = write!(equal, " && self.{name} == _other.{name}");
-        }
-        let fit = match fit.is_empty() {
-            true => "true".to_owned(),
-            false => fit.join(" && "),
+        let data: Vec<String> = self.data(context).iter().map(value).collect();
+        let numbers = names(&self.values.numbers);
+        let masks = names(&self.values.masks);
+        let held = match data.is_empty() && masks.is_empty() {
+            true => format!("__h::Held::of([{numbers}])"),
+            false => format!(
+                "__h::Held {{ v: [{numbers}], m: [{masks}], data: {} }}",
+                pairs(&data)
+            ),
         };
-        let _ = writeln!(
-            out,
-            "#[automatically_derived]\nimpl{} __h::Gather<T> for {} {{\n\
-             type Over<__U: __h::Real> = {};\n\
-             #[inline(always)]\nfn gather<__P: __h::Pack>(_of: &[&Self]) -> Self::Over<T::Over<__P>> {{\n\
-             {} {{ {fields} }}\n}}\n\
-             fn fits(&self, _other: &Self) -> __h::core::primitive::bool {{ {fit} }}\n\
-             fn equals(&self, _other: &Self) -> __h::core::primitive::bool {{ self.fits(_other){equal} }}\n}}",
-            generics.holder_declaration(),
-            self.ty(context),
-            generics.holder_type_over(&self.name, "__U"),
-            self.name,
-        );
+        match self.is_prepared {
+            true => format!("{}({held})", self.name),
+            false => held,
+        }
     }
 
     /// All values, in the order they are filled.
     pub fn values(&self) -> impl Iterator<Item = Value> + '_ {
         self.values.all()
     }
-}
-
-/// The field of an array in a holder.
-pub fn field(array: Slice) -> String {
-    array.name().trim_start_matches('_').to_owned()
 }
 
 /// The shape of an array that a holder has; a matrix is stored as its transpose.
@@ -247,8 +246,9 @@ impl Receiver<'_> {
     /// The expression of how work is computed. A system does not say how it is prepared.
     pub fn arithmetic(self) -> &'static str {
         match self {
-            Receiver::Holder(holder) if holder.arithmetic => "_self.arithmetic",
-            _ => "__h::core::default::Default::default()",
+            Receiver::Holder(holder) if holder.is_prepared => "_self.0.data.0",
+            Receiver::Holder(holder) if holder.arithmetic => "_self.data.0",
+            _ => "__h::Default::default()",
         }
     }
 
@@ -258,7 +258,8 @@ impl Receiver<'_> {
             return reads.to_vec();
         };
         let mut rest: Wanted = reads.iter().map(|value| (*value, ())).collect();
-        holder.values.bind(out, ["_self.v", "_self.m"], &mut rest);
+        let [numbers, masks] = ["v", "m"].map(|field| format!("{}.{field}", holder.root()));
+        holder.values.bind(out, [&numbers, &masks], &mut rest);
         let is_missing = |value: &Value| rest.contains_key(value);
         reads.iter().copied().filter(is_missing).collect()
     }
@@ -269,7 +270,10 @@ impl Receiver<'_> {
             let name = &context.definition.checked.sizes[size].name;
             let _ = match self {
                 Receiver::System => writeln!(out, "let _n{size} = *_self.{name};"),
-                Receiver::Holder(_) => writeln!(out, "let _n{size} = _self.n{size};"),
+                Receiver::Holder(holder) => {
+                    let place = holder.place(context, Datum::Size(size));
+                    writeln!(out, "let _n{size} = {place};")
+                }
             };
         }
     }
@@ -281,7 +285,10 @@ impl Receiver<'_> {
         for (at, function) in parameters.enumerate() {
             let _ = match self {
                 Receiver::System => writeln!(out, "let _f{at} = &_self.{};", function.name),
-                Receiver::Holder(_) => writeln!(out, "let _f{at} = &_self.f{at};"),
+                Receiver::Holder(holder) => {
+                    let place = holder.function(context, at);
+                    writeln!(out, "let _f{at} = &{place};")
+                }
             };
         }
     }
@@ -298,7 +305,11 @@ impl Receiver<'_> {
                     _ => context.generics.lifted_array(number),
                 }
             ),
-            _ => writeln!(out, "let {name} = _self.{}.as_slice();", field(array)),
+            (Receiver::Holder(holder), _) => {
+                let place = holder.array(context, array);
+                writeln!(out, "let {name} = {place}.as_slice();")
+            }
+            (Receiver::System, _) => unreachable!("preparation reads parameters alone"),
         };
     }
 }

@@ -1,106 +1,91 @@
 //! The vector field, and the pieces V and T, with a force or without.
 //!
-//! Input: a definition. Output: text of the fields with their holders, of the pieces that kick and
-//! drift, and of `Separable`. Invariant: a kick reads no coordinate it moves and moves momenta alone.
+//! Input: a definition. Output: text of the bodies of fields, kicks and drifts, and of `Separable`.
+//! Invariant: a kick reads no coordinate it moves and moves momenta alone.
 
 use super::Kick;
-use super::dynamics::{Emission, declared};
-use super::{derived, markers};
+use super::dynamics::Emission;
+use super::markers;
+use super::pieces::PIECE;
 use hamiltonian_symbolic::program::Purpose;
 use std::fmt::Write;
 
-/// The pieces V and T.
-pub const HALVES: [&str; 2] = ["__KickPiece", "__DriftPiece"];
-
-/// The holder of a field, a kick or a drift.
-fn holder(purpose: Purpose) -> &'static str {
+/// The kind of a field, a kick or a drift: a type of core.
+fn kind(purpose: Purpose) -> &'static str {
     match purpose {
-        Purpose::Push => "__Push",
-        Purpose::Rates => "__Rates",
-        Purpose::Linear => "__Linear",
-        Purpose::Kick => "__Kick",
-        Purpose::Drift => "__Drift",
-        _ => "__Field",
+        Purpose::Push => "__h::Push",
+        Purpose::Rates => "__h::Rates",
+        Purpose::Linear => "__h::Linear",
+        Purpose::Kick => "__h::Kick",
+        Purpose::Drift => "__h::Drift",
+        _ => "__h::Whole",
     }
 }
 
 impl Emission<'_> {
-    /// A vector field: its holder with its evaluation.
-    pub(super) fn field(&mut self, purpose: Purpose) {
-        let (context, name) = (self.context, holder(purpose));
-        let Some((function, holder)) = self.held_by(purpose, name) else {
-            self.out
-                .push_str(&derived::flow(context.generics, &self.vector));
-            return;
+    /// The pieces V and T, as types.
+    pub(super) fn halves(&self) -> [String; 2] {
+        let kick = match self.context.definition.structure.kick {
+            Some(Kick::Damped { rest: true }) => "__h::Damped",
+            Some(Kick::Damped { rest: false }) => "__h::Moves<__h::Push>",
+            Some(Kick::Coupled) => "__h::Pushed",
+            Some(Kick::SubStep) => "__h::Stepped",
+            Some(Kick::Plain) | None => "__h::Shifts<__h::Kick>",
         };
-        holder.declare(&mut self.out, context);
-        let arguments = self.arguments(&["_q", "_p", "_oq", "_op"]);
-        let text = self.evaluation(name, Some(&holder), &arguments, function);
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{} __h::VectorField<{}> for {} {{\n\
-             #[inline(always)]\nfn add(&self, {}) {{\nlet _self = self;\n{text}}}\n}}",
-            context.generics.holder_declaration(),
-            self.vector,
-            holder.ty(context),
-            declared(&arguments),
-        );
+        [kick, "__h::Shifts<__h::Drift>"].map(|kind| self.kernel(kind))
     }
 
-    /// The piece that kicks.
+    /// The type of a piece of a kind.
+    pub(super) fn kernel(&self, kind: &str) -> String {
+        format!("__h::Kernel<{}, {kind}>", self.prepared.ty(self.context))
+    }
+
+    /// The type of the vector field.
+    pub(super) fn field_type(&self) -> String {
+        let prepared = self.prepared.ty(self.context);
+        match self.context.program.function(Purpose::VectorField) {
+            Some(_) => format!("__h::FieldOf<{prepared}, __h::Whole, T>"),
+            None => format!("__h::OfGradient<{prepared}, T>"),
+        }
+    }
+
+    /// The body of a vector field.
+    pub(super) fn field(&mut self, purpose: Purpose) {
+        let Some((function, holder)) = self.held_by(purpose, format!("{purpose:?}")) else {
+            return;
+        };
+        self.open_kernel("Field", kind(purpose), &holder, "");
+        self.fold(function, &holder);
+        let vectors = self.arguments(&["_q", "_p", "_oq", "_op"]);
+        self.evaluated("add", &holder, &vectors, function);
+        line!(self, "}}");
+    }
+
+    /// The pieces of the kick.
     pub(super) fn kick(&mut self) {
         let structure = &self.context.definition.structure;
         let Some(kick) = structure.kick else {
             return;
         };
-        let (mut types, mut values) = (Vec::new(), Vec::new());
         for purpose in kick.purposes() {
-            let name = holder(*purpose);
             match purpose {
                 Purpose::Rates | Purpose::Linear => self.field(*purpose),
-                _ => self.flow(*purpose, name, &structure.halves[0], true),
+                _ => self.flow(*purpose, kind(*purpose), &structure.halves[0], true),
             }
-            types.push(self.context.generics.holder_type(name));
-            values.push(self.made(*purpose, name));
         }
-        let (types, values) = (types.join(", "), values.as_slice());
-        let (ty, value) = match (kick, values) {
-            (Kick::Coupled, [field, linear]) => (
-                format!("__h::Coupled<{types}>"),
-                format!("__h::Coupled {{ field: {{ {field} }}, linear: {{ {linear} }} }}"),
-            ),
-            (_, [damped, rest]) => (
-                format!("__h::Both<{types}>"),
-                format!("__h::Both({{ {damped} }}, {{ {rest} }})"),
-            ),
-            (Kick::SubStep, _) => (
-                format!("__h::SubStep<{types}>"),
-                format!("__h::SubStep({{ {} }})", values.concat()),
-            ),
-            _ => (types, values.concat()),
-        };
-        self.maker(HALVES[0], &ty, &value);
     }
 
     /// The piece T, and `Separable`.
     pub(super) fn separable(&mut self) {
-        let (context, structure) = (self.context, &self.context.definition.structure);
-        let pieces = structure.separable.as_ref().map(|()| {
-            self.flow(Purpose::Drift, "__Drift", &structure.halves[1], true);
-            let drift = self.made(Purpose::Drift, "__Drift");
-            let ty = context.generics.holder_type("__Drift");
-            self.maker(HALVES[1], &ty, &drift);
-            HALVES.map(str::to_owned)
-        });
-        let pieces = pieces.as_ref().map(<[String; 2]>::as_slice);
-        let pieces = pieces.map_err(|reason| ("__HIsSeparable", *reason));
-        markers::of_pieces(
-            &mut self.out,
-            context,
-            "Separable",
-            &["Kick", "Drift"],
-            pieces,
-            "",
-        );
+        let structure = &self.context.definition.structure;
+        if structure.separable.is_ok() {
+            let drift = kind(Purpose::Drift);
+            self.flow(Purpose::Drift, drift, &structure.halves[1], true);
+        }
+        let halves = self.halves();
+        let pieces = structure.separable.as_ref().map(|()| (&halves[..], PIECE));
+        let pieces = pieces.map_err(|reason| ("__HIsSeparable", reason));
+        let names = ["Kick", "Drift"];
+        markers::of_pieces(&mut self.out, self.context, "Separable", &names, pieces, "");
     }
 }

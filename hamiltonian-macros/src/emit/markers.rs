@@ -11,23 +11,23 @@ use std::fmt::Write;
 /// A piece that cannot exist.
 const NEVER: &str = "__h::Never<__h::Point<<Self as __h::System<T>>::Vector>>";
 
-/// A trait of pieces, each as a type and as a constant, if they are there.
+/// A trait of pieces, each as a type and as a constant of these values, if they are there.
 pub fn of_pieces(
     out: &mut String,
     context: Context,
     name: &str,
     names: &[&str],
-    pieces: Result<&[String], (&str, &Reason)>,
+    pieces: Result<(&[String], &str), (&str, &Reason)>,
     more: &str,
 ) {
     let mut items = String::new();
     for (at, name) in names.iter().enumerate() {
         let (ty, value) = match &pieces {
-            Ok(pieces) => (pieces[at].clone(), pieces[at].clone()),
-            Err((_, reason)) => (
-                NEVER.to_owned(),
-                format!("__h::core::panic!({:?})", escaped(&reason.message)),
-            ),
+            Ok((types, value)) => (types[at].as_str(), (*value).to_owned()),
+            Err((_, reason)) => {
+                let message = escaped(&reason.message);
+                (NEVER, format!("__h::core::panic!({message:?})"))
+            }
         };
         let constant = name.to_uppercase();
         let _ = writeln!(
@@ -59,10 +59,10 @@ pub fn implementations(context: Context) -> String {
         let missing = verdict.as_ref().err().map(|reason| (bound, reason));
         marker(&mut out, context, name, &declaration, missing, "");
     }
-    let cyclic = format!(
-        "const CYCLIC: &'static [&'static __h::core::primitive::str] = &{:?};\n",
-        structure.cyclic
-    );
+    let cyclic = match structure.cyclic.as_slice() {
+        [] => String::new(),
+        names => format!("const CYCLIC: &'static [&'static __h::str] = &{names:?};\n"),
+    };
     marker(&mut out, context, "Cyclic", &declaration, None, &cyclic);
     out
 }
@@ -86,7 +86,7 @@ fn marker(
     };
     let _ = write!(
         out,
-        "#[automatically_derived]\nimpl{declaration} __h::{name} for {system}{condition} {{\n{items}}}\n",
+        "impl{declaration} __h::{name} for {system}{condition} {{\n{items}}}\n",
     );
 }
 

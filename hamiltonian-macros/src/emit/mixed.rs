@@ -11,12 +11,10 @@ use std::fmt::Write;
 pub fn derives(context: Context) -> String {
     let is_static = |group: &Group| !context.is_on_heap(group);
     let copy = match context.groups.iter().all(is_static) {
-        true => "__h::core::marker::Copy, ",
+        true => "__h::Copy, ",
         false => "",
     };
-    format!(
-        "#[derive({copy}__h::core::clone::Clone, __h::core::fmt::Debug, __h::core::cmp::PartialEq)]\n"
-    )
+    format!("#[derive({copy}__h::Clone, __h::fmt::Debug, __h::PartialEq)]\n")
 }
 
 /// The declaration without attributes and docs: `pub struct NameVector<T> { … }`
@@ -146,18 +144,18 @@ pub fn implementations(context: Context) -> String {
     }
     if !extents.is_empty() {
         extents = format!(
-            "fn extents(&self, _k: __h::core::primitive::usize) -> &[__h::core::primitive::usize] {{ match _k {{ {extents} _ => &[] }} }}\n"
+            "fn extents(&self, _k: __h::usize) -> &[__h::usize] {{ match _k {{ {extents} _ => &[] }} }}\n"
         );
         uneven = format!(
-            "fn uneven(&self, _k: __h::core::primitive::usize) -> __h::core::option::Option<&__h::Uneven> {{ match _k {{ {uneven} _ => __h::core::option::Option::None }} }}\n"
+            "fn uneven(&self, _k: __h::usize) -> __h::Option<&__h::Uneven> {{ match _k {{ {uneven} _ => __h::Option::None }} }}\n"
         );
     }
     format!(
         "#[automatically_derived]\nimpl{declaration} __h::Vector for {ty} {{\n\
-         type Scalar = T;\nconst PARTS: __h::core::primitive::usize = {};\n\
-         #[inline(always)]\nfn part(&self, _k: __h::core::primitive::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
-         #[inline(always)]\nfn part_mut(&mut self, _k: __h::core::primitive::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
-         fn columns(&self, _k: __h::core::primitive::usize) -> __h::core::primitive::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
+         type Scalar = T;\nconst PARTS: __h::usize = {};\n\
+         #[inline(always)]\nfn part(&self, _k: __h::usize) -> &[T] {{ match _k {{ {parts} }} }}\n\
+         #[inline(always)]\nfn part_mut(&mut self, _k: __h::usize) -> &mut [T] {{ match _k {{ {parts_mut} }} }}\n\
+         fn columns(&self, _k: __h::usize) -> __h::usize {{ match _k {{ {columns} _ => 1 }} }}\n\
          {extents}{uneven}\
          fn zeros_like(&self) -> Self {{ Self {{ {zeros} }} }}\n\
          type Over<__U: __h::Real> = {over};\n\

@@ -12,8 +12,20 @@ use proc_macro2::TokenStream;
 use quote::quote;
 use std::fmt::Write;
 
-/// The entries of `System::OBSERVABLES`.
-pub fn entries(model: &Model) -> String {
+/// `System::OBSERVABLES` and `System::READS`, of a system that has some.
+pub fn constants(model: &Model) -> String {
+    if model.observables.is_empty() {
+        return String::new();
+    }
+    format!(
+        "const OBSERVABLES: &'static [__h::Observable] = &[{}];\n\
+         const READS: &'static [[__h::bool; 2]] = &[{}];\n",
+        entries(model),
+        reads(model)
+    )
+}
+
+fn entries(model: &Model) -> String {
     let mut out = String::new();
     for observable in &model.observables {
         let kind = observable.kind;
@@ -34,8 +46,7 @@ pub fn entries(model: &Model) -> String {
     out
 }
 
-/// The entries of `System::READS`.
-pub fn reads(model: &Model) -> String {
+fn reads(model: &Model) -> String {
     let mut out = String::new();
     for node in (model.observables.iter()).flat_map(|observable| &observable.components) {
         let dependence = model.dag.dependence(*node);

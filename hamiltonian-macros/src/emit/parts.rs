@@ -6,6 +6,7 @@
 
 use super::block;
 use super::function::{Bodies, Body};
+use super::inline::Inlined;
 use super::scan::{Scan, scan};
 use super::values::{Values, Wanted};
 use hamiltonian_symbolic::program::{Instruction, Program, Step, Value};
@@ -59,7 +60,9 @@ impl Bodies<'_> {
         self.bind(out, body.receiver, slices);
         self.read(out, body.receiver, &scan.reads);
         block::clear(out, context, body.cleared);
-        block::write(out, context, body.receiver.arithmetic(), body.steps);
+        let inlined = Inlined::of(context, body.steps, body.results);
+        let arithmetic = body.receiver.arithmetic();
+        block::write(out, context, arithmetic, body.steps, inlined);
     }
 
     /// Writes a body as calls of its parts, and the parts.
@@ -140,7 +143,13 @@ impl Bodies<'_> {
         }
         let bound = self.bind_live(&mut text, body, &scan.reads, earlier);
         let arithmetic = body.receiver.arithmetic();
-        block::write(&mut text, self.context, arithmetic, steps);
+        block::write(
+            &mut text,
+            self.context,
+            arithmetic,
+            steps,
+            Inlined::default(),
+        );
         let function = format!("__{}_{at}", body.name);
         let (mut declared, mut passed) = (String::new(), String::new());
         for (name, ty) in body.arguments {

@@ -1,14 +1,12 @@
-//! The exact flows of a splitting: of each piece a flow that holds its constants and the unit struct
-//! that makes it, and `Split`.
+//! The exact flows of a splitting, and `Split`.
 //!
-//! Input: a model with pieces. Output: text of the implementations. Invariant: a flow reads and
-//! writes one point; outside of its domain all it moves becomes NaN, by the program.
+//! Input: a model with pieces. Output: text of the bodies, one a piece, and of the traits that name the pieces.
+//! Invariant: a flow reads and writes one point; outside of its domain all it moves becomes NaN, by the program.
 
 use super::Nystrom;
 use super::context::Access;
-use super::dynamics::Emission;
+use super::dynamics::{Emission, declared, with_self};
 use super::holder::Holder;
-use super::kicks::HALVES;
 use super::layout::Slice;
 use super::markers;
 use super::scan::scan;
@@ -17,34 +15,73 @@ use hamiltonian_symbolic::model::ExactFlow;
 use hamiltonian_symbolic::program::{Function, Purpose};
 use std::fmt::Write;
 
+/// The value of a piece.
+pub const PIECE: &str = "__h::Kernel::PIECE";
+
 impl Emission<'_> {
     /// The flows of the model's pieces.
     pub(super) fn pieces(&mut self) {
-        for number in 0..self.context.model.pieces.len() {
-            self.piece(number);
+        let mut is_matrix = false;
+        for (number, piece) in self.context.model.pieces.iter().enumerate() {
+            let kind = format!("__h::Numbered<{number}>");
+            let purpose = Purpose::Piece(number as u16);
+            self.flow(purpose, &kind, &piece.name, piece.flow.merges());
+            is_matrix |= self.rows(number).is_some();
         }
+        if is_matrix {
+            line!(
+                self,
+                "impl{} __h::Origin<T> for {} {{\nfn origin() -> {} {{ {} }}\n}}",
+                self.context.generics.holder_declaration(),
+                self.prepared.ty(self.context),
+                self.vector,
+                self.context.zeros(),
+            );
+        }
+    }
+
+    /// The number of rows of the matrix of a piece, if its flow is one.
+    fn rows(&self, number: usize) -> Option<usize> {
+        match self.context.model.pieces[number].flow {
+            ExactFlow::Exponential => self.context.model.components(),
+            _ => None,
+        }
+    }
+
+    /// The type of one of the model's pieces.
+    fn numbered(&self, number: usize) -> String {
+        let kind = format!("__h::Numbered<{number}>");
+        let function = (self.context.program).function(Purpose::Piece(number as u16));
+        self.kernel(&match (self.rows(number), function) {
+            (Some(rows), _) => format!("__h::Matrices<{kind}, {rows}>"),
+            (None, Some(function)) if self.one_way(function).is_some() => {
+                format!("__h::Shifts<{kind}>")
+            }
+            _ => format!("__h::Moves<{kind}>"),
+        })
     }
 
     /// `Split`, into the model's pieces with the kick of a force, or into V and T.
     pub(super) fn split(&mut self) {
         let (context, generics) = (self.context, self.context.generics);
         let (structure, own) = (&context.definition.structure, &context.model.pieces);
-        let mut pieces: Vec<String> = (0..own.len()).map(|at| format!("__Piece{at}")).collect();
+        let mut pieces: Vec<String> = (0..own.len()).map(|at| self.numbered(at)).collect();
         let mut names: Vec<String> = own.iter().map(|piece| piece.name.clone()).collect();
+        let halves = self.halves();
         if own.is_empty() {
-            pieces = HALVES.map(str::to_owned).to_vec();
+            pieces = halves.to_vec();
             names = structure.halves.to_vec();
         } else if structure.kick.is_some() && structure.separable.is_err() {
-            pieces.push(HALVES[0].to_owned());
+            pieces.push(halves[0].clone());
             names.push(structure.halves[0].clone());
         }
+        let values = format!("({})", format!("{PIECE}, ").repeat(pieces.len()));
         let tuple = [format!("({},)", pieces.join(", "))];
         let (verdict, names) = match &structure.split {
-            Ok(()) => (Ok(&tuple[..]), names),
+            Ok(()) => (Ok((&tuple[..], values.as_str())), names),
             Err(reason) => (Err(("__HIsSplit", reason)), Vec::new()),
         };
-        let list =
-            format!("const NAMES: &'static [&'static __h::core::primitive::str] = &{names:?};\n");
+        let list = format!("const NAMES: &'static [&'static __h::str] = &{names:?};\n");
         markers::of_pieces(&mut self.out, context, "Split", &["Pieces"], verdict, &list);
         // Over one scalar only, so that `Name::NAMES` is decided.
         if verdict.is_ok() && context.definition.checked.item.is_some() {
@@ -52,8 +89,8 @@ impl Emission<'_> {
             line!(
                 self,
                 "impl{constants} {system} {{\n/// The pieces of H with exact flows, the outermost first.\n\
-                 {visibility} const NAMES: &'static [&'static __h::core::primitive::str] = \
-                 <Self as __h::Split<__h::core::primitive::f64>>::NAMES;\n}}",
+                 {visibility} const NAMES: &'static [&'static __h::str] = \
+                 <Self as __h::Split<__h::f64>>::NAMES;\n}}",
                 visibility = generics.visibility,
             );
         }
@@ -61,124 +98,100 @@ impl Emission<'_> {
 
     /// `Nystrom`, of V and T or of two of the model's pieces.
     pub(super) fn nystrom(&mut self) {
-        let context = self.context;
-        let pieces = context.definition.structure.nystrom.as_ref();
+        let pieces = self.context.definition.structure.nystrom.as_ref();
         let pieces = pieces.map(|nystrom| match nystrom {
-            Nystrom::Halves => HALVES.map(str::to_owned),
-            Nystrom::Pieces(numbers) => numbers.map(|number| format!("__Piece{number}")),
+            Nystrom::Halves => self.halves(),
+            Nystrom::Pieces(numbers) => numbers.map(|number| self.numbered(number)),
         });
-        let pieces = pieces.as_ref().map(<[String; 2]>::as_slice);
+        let pieces = pieces.as_ref().map(|pieces| (&pieces[..], PIECE));
         let pieces = pieces.map_err(|reason| ("__HIsKickedQuadratic", *reason));
-        markers::of_pieces(
-            &mut self.out,
-            context,
-            "Nystrom",
-            &["Kick", "Quadratic"],
-            pieces,
-            "",
-        );
+        let names = ["Kick", "Quadratic"];
+        markers::of_pieces(&mut self.out, self.context, "Nystrom", &names, pieces, "");
     }
 
-    /// The unit struct `name` that makes a flow of a type by `body`.
-    pub(super) fn maker(&mut self, name: &str, flow: &str, body: &str) {
-        let generics = self.context.generics;
-        let prepared = self.prepared.ty(self.context);
-        line!(
-            self,
-            "#[doc(hidden)]\n\
-             #[derive(__h::core::clone::Clone, __h::core::marker::Copy, __h::core::fmt::Debug)]\n\
-             {visibility} struct {name};\n\
-             #[automatically_derived]\n\
-             impl{declaration} __h::Piece<T, {prepared}> for {name} {{\n\
-             type Point = __h::Point<{vector}>;\ntype Flow = {flow};\n\
-             #[inline(always)]\n\
-             fn flow(&self, _prepared: &{prepared}, _c: T) -> {flow} {{\n\
-             let _self = _prepared;\n{body}\n}}\n}}",
-            declaration = generics.holder_declaration(),
-            visibility = generics.visibility,
-            vector = self.vector,
-        );
-    }
-
-    fn piece(&mut self, number: usize) {
-        let (context, purpose) = (self.context, Purpose::Piece(number as u16));
-        let (flow, maker) = (format!("__Flow{number}"), format!("__Piece{number}"));
-        let piece = &context.model.pieces[number];
-        self.flow(purpose, &flow, &piece.name, piece.flow.merges());
-        let made = self.made(purpose, &flow);
-        let ty = context.generics.holder_type(&flow);
-        let components = match piece.flow {
-            ExactFlow::Exponential => context.model.components(),
-            _ => None,
-        };
-        let Some(components) = components else {
-            return self.maker(&maker, &ty, &made);
-        };
-        let ty = format!("__h::Exponential<{ty}, T, {components}>");
-        let zeros = context.zeros();
-        let body = format!(
-            "let _rates = {{\nlet _c = <{ty}>::raised(_c);\n{made}\n}};\n\
-             __h::Exponential::new(&_rates, &__h::Point {{ q: {zeros}, p: {zeros} }})"
-        );
-        self.maker(&maker, &ty, &body);
-    }
-
-    /// An exact flow: its holder with its evaluation.
-    pub(super) fn flow(&mut self, purpose: Purpose, name: &str, label: &str, merges: bool) {
-        let context = self.context;
+    /// The bodies of an exact flow.
+    pub(super) fn flow(&mut self, purpose: Purpose, kind: &str, label: &str, merges: bool) {
+        let name = format!("{purpose:?}").replace(['(', ')'], "");
         let Some((function, holder)) = self.held_by(purpose, name) else {
             return;
         };
-        holder.declare(&mut self.out, context);
-        line!(
-            self,
-            "#[automatically_derived]\nimpl{} __h::Flow<__h::Point<{}>> for {} {{\n\
-             const NAME: &'static __h::core::primitive::str = {label:?};\ntype Work = ();",
-            context.generics.holder_declaration(),
-            self.vector,
-            holder.ty(context),
-        );
+        let mut constants = format!("const NAME: &'static __h::str = {label:?};\n");
         if !merges {
-            line!(self, "const MERGES: __h::core::primitive::bool = false;");
+            constants.push_str("const MERGES: __h::bool = false;\n");
         }
-        if let Some(side) = self.one_way(function) {
-            let moves = [side == Side::P, side == Side::Q];
-            line!(
-                self,
-                "const MOVES: [__h::core::primitive::bool; 2] = {moves:?};"
-            );
-        }
-        self.motion("apply", &holder, function, Access::InPlace);
-        if !merges {
-            self.motion("apply_reversed", &holder, function, Access::Reversed);
+        // A flow that is a matrix is made of the whole point.
+        let rows = match purpose {
+            Purpose::Piece(number) => self.rows(usize::from(number)),
+            _ => None,
+        };
+        if let (Some(from), None) = (self.one_way(function), rows) {
+            let kicks = from == Side::Q;
+            let _ = writeln!(constants, "const KICKS: __h::bool = {kicks};");
+            self.open_kernel("Shift", kind, &holder, &constants);
+            self.fold(function, &holder);
+            let vectors = if kicks { ["_q", "_op"] } else { ["_p", "_oq"] };
+            self.evaluated("add", &holder, &self.arguments(&vectors), function);
+        } else {
+            self.open_kernel("Motion", kind, &holder, &constants);
+            self.fold(function, &holder);
+            let vectors = self.arguments(&["_oq", "_op"]);
+            self.bodies.context.access = Access::InPlace;
+            self.evaluated("apply", &holder, &vectors, function);
+            if !merges {
+                self.bodies.context.access = Access::Reversed;
+                self.evaluated("apply_reversed", &holder, &vectors, function);
+            }
+            self.bodies.context.access = Access::Apart;
         }
         line!(self, "}}");
     }
 
-    /// The method that moves a point.
-    fn motion(&mut self, method: &str, holder: &Holder, function: &Function, access: Access) {
-        let (access, [from, to], parts) = match self.one_way(function) {
-            Some(Side::Q) => (Access::Apart, ["_q", "_op"], "&_x.q, &mut _x.p"),
-            Some(Side::P) => (Access::Apart, ["_p", "_oq"], "&_x.p, &mut _x.q"),
-            None => (access, ["_oq", "_op"], "&mut _x.q, &mut _x.p"),
-        };
-        let arguments = self.arguments(&[from, to]);
-        let name = format!("{}_{method}", holder.name);
-        self.bodies.context.access = access;
-        let text = self.evaluation(&name, Some(holder), &arguments, function);
-        self.bodies.context.access = Access::Apart;
+    /// The head of the bodies of a kind.
+    pub(super) fn open_kernel(&mut self, name: &str, kind: &str, holder: &Holder, constants: &str) {
         line!(
             self,
-            "#[inline(always)]\n\
-             fn {method}(&self, _t: T, _x: &mut __h::Point<{}>, _: &mut ()) {{\nlet _self = self;\n\
-             let ({from}, {to}) = ({parts});\n{text}}}",
-            self.vector,
+            "#[automatically_derived]\nimpl{} __h::{name}<{kind}, T> for {} {{\n\
+             {constants}type Held = {};",
+            self.context.generics.holder_declaration(),
+            self.prepared.ty(self.context),
+            holder.held(self.context),
+        );
+    }
+
+    /// The body from prepared values and the coefficient to what is held.
+    pub(super) fn fold(&mut self, function: &Function, holder: &Holder) {
+        let made = with_self(&self.made(function, holder));
+        line!(
+            self,
+            "#[inline(always)]\nfn fold(&self, _c: T) -> Self::Held {{\n{made}\n}}"
+        );
+    }
+
+    /// The body of an evaluation over what is held.
+    pub(super) fn evaluated(
+        &mut self,
+        method: &str,
+        holder: &Holder,
+        arguments: &[(&'static str, String)],
+        function: &Function,
+    ) {
+        let name = format!("{}_{method}", holder.name);
+        let text = self.evaluation(&name, Some(holder), arguments, function);
+        let list = declared(arguments);
+        line!(
+            self,
+            "#[inline(always)]\nfn {method}(_self: &Self::Held, {list}) {{\n{text}}}"
         );
     }
 
     /// The side that is read, where nothing of it is written and all that is written is of the
     /// other: a kick or a drift, whose loops need not see their own stores.
     fn one_way(&self, function: &Function) -> Option<Side> {
+        match function.purpose {
+            Purpose::Kick => return Some(Side::Q),
+            Purpose::Drift => return Some(Side::P),
+            _ => {}
+        }
         let slices = scan(self.context, &function.evaluation, &function.results).slices;
         let touched = |side: Side| {
             let of_side = |slice: &&Slice| slice.part().is_some_and(|(_, of)| of.side == side);

@@ -73,6 +73,18 @@ fn a_third_derivative_names_the_function_and_who_needs_it() {
 }
 
 #[test]
+fn halves_without_common_work_make_the_gradient() {
+    let code = |definition| emitted(definition).to_string();
+    assert!(!code(PENDULUM).contains("fn gradient ("));
+    // The cosine of the time is work of both, and one loop serves both.
+    let shared = "H(q; p; t) = cos(t)*(p^2 + q^2)";
+    let looped = "H(q[9]; p[9]) = sum(i in 0..9) { p[i]^2 + q[i]^2 }";
+    for whole in [shared, looped].map(code) {
+        assert!(whole.contains("fn gradient ("));
+    }
+}
+
+#[test]
 fn emission_is_deterministic() {
     for definition in [PENDULUM, GRAVITY] {
         let [first, second] = [(); 2].map(|()| emitted(definition).to_string());

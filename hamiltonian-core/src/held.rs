@@ -1,0 +1,162 @@
+//! Values that are computed before an evaluation: what a prepared system, a field or a flow holds.
+//!
+//! Input: numbers and conditions of a definition, and its sizes, functions and arrays. Output: [`Held`], which
+//! emitted bodies read. Invariant: each of them can be [`Carried`] into the lanes of a pack.
+
+use crate::function::Function;
+use crate::system::Arithmetic;
+use crate::system::gather::{MOST, masks, numbers, vectors};
+use crate::vector::Vector;
+use alloc::sync::Arc;
+use core::fmt::Debug;
+use hamiltonian_lanes::{Mask, Pack, Real};
+
+/// Values that bodies read: `N` numbers, `M` conditions, and data that is not computed.
+#[derive(Debug, Clone)]
+pub struct Held<T: Real, const N: usize, const M: usize = 0, D = ()> {
+    /// Numbers.
+    pub v: [T; N],
+    /// Conditions.
+    pub m: [T::Mask; M],
+    /// How loops are computed, sizes set at run time, functions and arrays, those that there are in this order, as
+    /// nested pairs.
+    pub data: D,
+}
+
+impl<T: Real, const N: usize> Held<T, N> {
+    /// Numbers alone.
+    #[inline(always)]
+    pub fn of(v: [T; N]) -> Self {
+        let (m, data) = ([], ());
+        Held { v, m, data }
+    }
+}
+
+/// A value that several members have, each its own in its lane of a pack, or all the same.
+pub trait Carried<T: Real>: Clone + Debug + Send + Sync + 'static {
+    /// The same over another scalar.
+    type Over<U: Real>;
+    /// The values of members in the lanes of one.
+    fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>>;
+    /// Returns true if both may stand in one pack.
+    fn fits(&self, _: &Self) -> bool {
+        true
+    }
+    /// Returns true if both are equal, if they fit.
+    fn equals(&self, other: &Self) -> bool;
+}
+
+impl<T: Real, const N: usize, const M: usize, D: Carried<T>> Carried<T> for Held<T, N, M, D> {
+    type Over<U: Real> = Held<U, N, M, D::Over<U>>;
+    #[inline(always)]
+    fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
+        Held {
+            v: numbers::<T, P, _, _>(members, |one| &one.v),
+            m: masks::<T, P, _, _>(members, |one| &one.m),
+            data: gathered::<T, P, _, _>(members, |one| &one.data),
+        }
+    }
+    fn fits(&self, other: &Self) -> bool {
+        self.data.fits(&other.data)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.v == other.v && same_masks::<T, M>(&self.m, &other.m) && self.data.equals(&other.data)
+    }
+}
+
+/// Returns true if the same conditions hold in both.
+fn same_masks<T: Real, const N: usize>(these: &[T::Mask; N], those: &[T::Mask; N]) -> bool {
+    let same = |k: usize| ((these[k] & those[k]) | (!these[k] & !those[k])).all();
+    (0..N).all(same)
+}
+
+/// A part of each member, in its lane.
+#[inline(always)]
+pub fn gathered<'a, T: Real, P: Pack, W, D: Carried<T>>(
+    members: &[&'a W],
+    of: impl Fn(&'a W) -> &'a D,
+) -> D::Over<T::Over<P>> {
+    let mut parts = [of(members[0]); MOST];
+    let count = members.len().min(MOST);
+    for (part, member) in parts.iter_mut().zip(members) {
+        *part = of(member);
+    }
+    D::gather::<P>(&parts[..count])
+}
+
+/// A value that is the same in all lanes of a pack.
+macro_rules! same {
+    ($ty:ty, $one:ident, $other:ident, $fits:expr) => {
+        type Over<U: Real> = $ty;
+        #[inline(always)]
+        fn gather<P: Pack>(members: &[&Self]) -> Self {
+            members[0].clone()
+        }
+        fn fits(&self, other: &Self) -> bool {
+            let ($one, $other) = (self, other);
+            $fits
+        }
+        fn equals(&self, _: &Self) -> bool {
+            true
+        }
+    };
+}
+
+impl<T: Real> Carried<T> for Arithmetic {
+    same!(Arithmetic, _one, _other, true);
+}
+
+impl<T: Real> Carried<T> for usize {
+    same!(usize, one, other, one == other);
+}
+
+/// A function of `N` numbers that is a parameter.
+#[derive(Debug, Clone)]
+pub struct Given<F, const N: usize>(pub F);
+
+impl<T: Real, F: Function<N>, const N: usize> Carried<T> for Given<F, N> {
+    same!(Given<F, N>, one, other, one.0.fingerprint() == other.0.fingerprint());
+}
+
+impl<V: Vector> Carried<V::Scalar> for V {
+    type Over<U: Real> = V::Over<U>;
+    #[inline(always)]
+    fn gather<P: Pack>(members: &[&Self]) -> V::Over<<V::Scalar as Real>::Over<P>> {
+        vectors::<V, P, _>(members, |one| one)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+/// Holders of a run share an array of run-time size.
+impl<V: Vector> Carried<V::Scalar> for Arc<V> {
+    type Over<U: Real> = Arc<V::Over<U>>;
+    #[inline(always)]
+    fn gather<P: Pack>(members: &[&Self]) -> Arc<V::Over<<V::Scalar as Real>::Over<P>>> {
+        Arc::new(vectors::<V, P, _>(members, |one| &**one))
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self == other
+    }
+}
+
+impl<T: Real> Carried<T> for () {
+    same!((), _one, _other, true);
+}
+
+/// One value, and the rest.
+impl<T: Real, A: Carried<T>, B: Carried<T>> Carried<T> for (A, B) {
+    type Over<U: Real> = (A::Over<U>, B::Over<U>);
+    #[inline(always)]
+    fn gather<P: Pack>(members: &[&Self]) -> Self::Over<T::Over<P>> {
+        let first = gathered::<T, P, _, _>(members, |one| &one.0);
+        (first, gathered::<T, P, _, _>(members, |one| &one.1))
+    }
+    fn fits(&self, other: &Self) -> bool {
+        self.0.fits(&other.0) && self.1.fits(&other.1)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.0.equals(&other.0) && self.1.equals(&other.1)
+    }
+}

@@ -1,0 +1,311 @@
+//! The contract of kernels: bodies that a definition gives, and the fields, flows and pieces made of them.
+//!
+//! Input: straight-line bodies over any scalar, as implementations of [`Shift`], [`Motion`] and [`Field`] for a
+//! prepared system, one a kind. Output: [`Kernel`], the vector field, the flow and the piece of each kind.
+//! Invariant: a body has two stages, as in a program: from prepared values and a coefficient to what is held, and from
+//! what is held and a point to the change of a point.
+
+use crate::exponential::Exponential;
+use crate::flow::{Flow, Piece, VectorField};
+use crate::push::{Both, Coupled, SubStep};
+use crate::state::Point;
+use crate::system::Dynamics;
+use crate::vector::Vector;
+use core::fmt::{self, Debug};
+use core::marker::PhantomData;
+use hamiltonian_lanes::Real;
+
+/// A body that reads one half of phase space and adds to the other: a kick, a drift.
+pub trait Shift<K, T: Real>: Dynamics<T> {
+    /// The piece in the author's notation.
+    const NAME: &'static str;
+    /// True if momenta move, false if coordinates do.
+    const KICKS: bool;
+    /// See [`Flow::MERGES`].
+    const MERGES: bool = true;
+    /// What is computed from prepared values and the coefficient.
+    type Held: Clone + Debug;
+    /// Computes it.
+    fn fold(&self, c: T) -> Self::Held;
+    /// Adds to a half what follows from the other.
+    fn add(held: &Self::Held, t: T, from: &Self::Vector, into: &mut Self::Vector);
+}
+
+/// A body that reads and writes one point: an exact flow.
+pub trait Motion<K, T: Real>: Dynamics<T> {
+    /// The piece in the author's notation.
+    const NAME: &'static str;
+    /// See [`Flow::MERGES`].
+    const MERGES: bool = true;
+    /// What is computed from prepared values and the coefficient.
+    type Held: Clone + Debug;
+    /// Computes it.
+    fn fold(&self, c: T) -> Self::Held;
+    /// Moves a point.
+    fn apply(held: &Self::Held, t: T, q: &mut Self::Vector, p: &mut Self::Vector);
+    /// The same with the terms of loops in the opposite order.
+    #[inline(always)]
+    fn apply_reversed(held: &Self::Held, t: T, q: &mut Self::Vector, p: &mut Self::Vector) {
+        Self::apply(held, t, q, p);
+    }
+}
+
+/// A system without sizes set at run time, of which a flow is a matrix.
+pub trait Origin<T: Real>: Dynamics<T> {
+    /// The zero vector.
+    fn origin() -> Self::Vector;
+}
+
+/// A body that adds the values of a vector field at a point.
+pub trait Field<K, T: Real>: Dynamics<T> {
+    /// What is computed from prepared values and the coefficient.
+    type Held: Clone + Debug;
+    /// Computes it.
+    fn fold(&self, c: T) -> Self::Held;
+    /// See [`VectorField::add`].
+    fn add(
+        held: &Self::Held,
+        t: T,
+        q: &Self::Vector,
+        p: &Self::Vector,
+        into_q: &mut Self::Vector,
+        into_p: &mut Self::Vector,
+    );
+}
+
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $kind:ident;)*) => {
+        $($(#[$doc])*
+        #[derive(Debug)]
+        pub struct $kind;)*
+    };
+}
+
+kinds! {
+    /// The kick of V, or the part of it that reads no momenta.
+    Kick;
+    /// The drift of T.
+    Drift;
+    /// The part of a kick that reads momenta.
+    Push;
+    /// c·(J∇H + f).
+    Whole;
+    /// c·(f − ∂V/∂q).
+    Rates;
+    /// c·A·p of a force A·p + b.
+    Linear;
+    /// The kick in two parts, of which the first reads momenta.
+    Damped;
+    /// The kick of momenta that push each other.
+    Pushed;
+    /// The kick by a symmetric sub-step.
+    Stepped;
+}
+
+/// The piece of this number.
+#[derive(Debug)]
+pub struct Numbered<const K: usize>;
+
+/// The [`Shift`] of a kind.
+#[derive(Debug)]
+pub struct Shifts<K>(K);
+/// The [`Motion`] of a kind.
+#[derive(Debug)]
+pub struct Moves<K>(K);
+/// The [`Field`] of a kind.
+#[derive(Debug)]
+pub struct Adds<K>(K);
+/// The [`Motion`] of a kind as a matrix of `N` rows.
+#[derive(Debug)]
+pub struct Matrices<K, const N: usize>(K);
+/// The kernel of kind `K` of a prepared system `D`: a piece, or with what is held a flow or a field.
+pub struct Kernel<D, K, H = ()> {
+    held: H,
+    of: PhantomData<fn() -> (D, K)>,
+}
+
+impl<D, K> Kernel<D, K> {
+    /// The piece.
+    pub const PIECE: Self = Kernel::holding(());
+}
+
+impl<D, K, H> Kernel<D, K, H> {
+    #[inline(always)]
+    const fn holding(held: H) -> Self {
+        let of = PhantomData;
+        Kernel { held, of }
+    }
+}
+
+impl<D, K, H: Clone> Clone for Kernel<D, K, H> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        Kernel::holding(self.held.clone())
+    }
+}
+
+impl<D, K, H: Copy> Copy for Kernel<D, K, H> {}
+
+impl<D, K, H: Debug> Debug for Kernel<D, K, H> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.held.fmt(f)
+    }
+}
+
+/// The flow of the [`Shift`] of kind `K`.
+pub type ShiftOf<D, K, T> = Kernel<D, Shifts<K>, <D as Shift<K, T>>::Held>;
+/// The flow of the [`Motion`] of kind `K`.
+pub type MotionOf<D, K, T> = Kernel<D, Moves<K>, <D as Motion<K, T>>::Held>;
+/// The [`Field`] of kind `K`.
+pub type FieldOf<D, K, T> = Kernel<D, Adds<K>, <D as Field<K, T>>::Held>;
+
+impl<V, D, K, H> Flow<Point<V>> for Kernel<D, Shifts<K>, H>
+where
+    V: Vector,
+    D: Shift<K, V::Scalar, Vector = V, Held = H>,
+    H: Clone + Debug,
+{
+    const NAME: &'static str = D::NAME;
+    const MERGES: bool = D::MERGES;
+    const MOVES: [bool; 2] = [!D::KICKS, D::KICKS];
+    type Work = ();
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        if D::KICKS {
+            D::add(&self.held, t, &x.q, &mut x.p);
+        } else {
+            D::add(&self.held, t, &x.p, &mut x.q);
+        }
+    }
+}
+
+impl<V, D, K, H> Flow<Point<V>> for Kernel<D, Moves<K>, H>
+where
+    V: Vector,
+    D: Motion<K, V::Scalar, Vector = V, Held = H>,
+    H: Clone + Debug,
+{
+    const NAME: &'static str = D::NAME;
+    const MERGES: bool = D::MERGES;
+    type Work = ();
+    #[inline(always)]
+    fn apply(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        D::apply(&self.held, t, &mut x.q, &mut x.p);
+    }
+    #[inline(always)]
+    fn apply_reversed(&self, t: V::Scalar, x: &mut Point<V>, (): &mut ()) {
+        D::apply_reversed(&self.held, t, &mut x.q, &mut x.p);
+    }
+}
+
+impl<V, D, K, H> VectorField<V> for Kernel<D, Adds<K>, H>
+where
+    V: Vector,
+    D: Field<K, V::Scalar, Vector = V, Held = H>,
+    H: Clone + Debug,
+{
+    #[inline(always)]
+    fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
+        D::add(&self.held, t, q, p, into_q, into_p);
+    }
+}
+
+impl<D, K, H> Kernel<D, Adds<K>, H> {
+    /// The field for the coefficient `c`.
+    #[inline(always)]
+    pub fn fold<T: Real>(prepared: &D, c: T) -> Self
+    where
+        D: Field<K, T, Held = H>,
+    {
+        Kernel::holding(prepared.fold(c))
+    }
+}
+
+/// The flow that a piece makes for the coefficient `c`.
+macro_rules! piece {
+    ($kind:ty, [$($of:tt)*], [$($condition:tt)*], $flow:ty, |$prepared:ident, $c:ident| $body:expr) => {
+        impl<T: Real, D, $($of)*> Piece<T, D> for Kernel<D, $kind>
+        where
+            D: $($condition)* + 'static,
+        {
+            type Point = Point<D::Vector>;
+            type Flow = $flow;
+            #[inline(always)]
+            fn flow(&self, $prepared: &D, $c: T) -> Self::Flow {
+                $body
+            }
+        }
+    };
+}
+
+piece!(Shifts<K>, [K: 'static], [Shift<K, T>], ShiftOf<D, K, T>, |prepared, c| {
+    Kernel::holding(prepared.fold(c))
+});
+piece!(Moves<K>, [K: 'static], [Motion<K, T>], MotionOf<D, K, T>, |prepared, c| {
+    Kernel::holding(prepared.fold(c))
+});
+piece!(
+    Matrices<K, N>,
+    [K: 'static, const N: usize],
+    [Motion<K, T> + Origin<T>],
+    Exponential<MotionOf<D, K, T>, T, N>,
+    |prepared, c| {
+        let raised = Self::Flow::raised(c);
+        let rates = MotionOf::<D, K, T>::holding(prepared.fold(raised));
+        Exponential::new(&rates, &Point { q: D::origin(), p: D::origin() })
+    }
+);
+piece!(
+    Damped,
+    [],
+    [Motion<Push, T> + Shift<Kick, T>],
+    Both<MotionOf<D, Push, T>, ShiftOf<D, Kick, T>>,
+    |prepared, c| Both(
+        Kernel::holding(Motion::<Push, T>::fold(prepared, c)),
+        Kernel::holding(Shift::<Kick, T>::fold(prepared, c)),
+    )
+);
+piece!(
+    Pushed,
+    [],
+    [Field<Rates, T> + Field<Linear, T>],
+    Coupled<FieldOf<D, Rates, T>, FieldOf<D, Linear, T>>,
+    |prepared, c| Coupled {
+        field: Kernel::fold(prepared, c),
+        linear: Kernel::fold(prepared, c),
+    }
+);
+piece!(
+    Stepped,
+    [],
+    [Field<Rates, T>],
+    SubStep<FieldOf<D, Rates, T>>,
+    |prepared, c| SubStep(Kernel::fold(prepared, c))
+);
+
+/// The field of a large system, whose code is not written out a second time: the gradient, then two
+/// accumulations. The vectors of such systems have no size set at run time, so that nothing allocates.
+#[derive(Debug, Clone)]
+pub struct OfGradient<D, T> {
+    prepared: D,
+    c: T,
+}
+
+impl<D: Clone, T> OfGradient<D, T> {
+    /// The field for the coefficient `c`.
+    #[inline(always)]
+    pub fn fold(prepared: &D, c: T) -> Self {
+        let prepared = prepared.clone();
+        OfGradient { prepared, c }
+    }
+}
+
+impl<V: Vector, D: Dynamics<V::Scalar, Vector = V>> VectorField<V> for OfGradient<D, V::Scalar> {
+    #[inline(always)]
+    fn add(&self, t: V::Scalar, q: &V, p: &V, into_q: &mut V, into_p: &mut V) {
+        let (mut x, mut y) = (into_q.clone(), into_p.clone());
+        let _ = self.prepared.energy_and_gradient(t, q, p, &mut x, &mut y);
+        into_q.accumulate(self.c, &y);
+        into_p.accumulate(-self.c, &x);
+    }
+}

@@ -1,0 +1,98 @@
+//! Values that stand where they are used, instead of in a `let` of their own.
+//!
+//! Input: the steps of a body. Output: the text of the values that one step of it uses, in place. Invariant: the
+//! operations are the same: a value moves past stores only if it reads no output.
+
+use super::context::{Access, Context};
+use hamiltonian_symbolic::dag::{Array, Map};
+use hamiltonian_symbolic::program::{Instruction, Step, Value};
+
+/// The longest text that stands where it is used.
+const LONGEST: usize = 60;
+
+/// The places of a text in an expression, by how tightly they bind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Binding {
+    /// An argument, a right-hand side: no parentheses at all.
+    Whole,
+    /// A term of a sum.
+    Term,
+    /// A factor of a product.
+    Factor,
+    /// What a method is called of.
+    Atom,
+}
+
+/// The values of a body that stand where they are used.
+#[derive(Debug, Default)]
+pub struct Inlined {
+    once: Map<Value, ()>,
+    texts: Map<Value, (String, Binding)>,
+}
+
+impl Inlined {
+    /// The values that one step at the outermost level of `steps` uses, once, and nothing after them: `kept` has
+    /// what is used by its name.
+    pub fn of(context: Context, steps: &[Step], kept: &[Value]) -> Inlined {
+        let mut uses: Map<Value, u32> = kept.iter().map(|value| (*value, 2)).collect();
+        count(context, steps, 1, &mut uses);
+        let mut once = Map::default();
+        for step in steps {
+            if let Step::Let(value) = step {
+                let instruction = context.program.instruction(*value);
+                let may_move = match instruction {
+                    Instruction::Load(Array::Held(_), ..) => false,
+                    Instruction::Load(..) => context.access == Access::Apart,
+                    Instruction::PairedSin(_) | Instruction::PairedCos(_) => false,
+                    // A function has a branch for rare arguments, and what is computed before it waits for its end.
+                    Instruction::Call(..) | Instruction::External(..) => false,
+                    _ => true,
+                };
+                if may_move && uses.get(value) == Some(&1) {
+                    once.insert(*value, ());
+                }
+            }
+        }
+        Inlined {
+            once,
+            texts: Map::default(),
+        }
+    }
+
+    /// Takes the text of a value that stands where it is used. False if it needs a `let`.
+    pub fn take(&mut self, value: Value, instruction: &Instruction, text: &str) -> bool {
+        if text.len() > LONGEST || !self.once.contains_key(&value) {
+            return false;
+        }
+        let binding = match instruction {
+            Instruction::Add(..) | Instruction::Sub(..) => Binding::Term,
+            Instruction::Mul(..) | Instruction::Div(..) | Instruction::Neg(_) => Binding::Factor,
+            Instruction::Not(_) | Instruction::And(..) | Instruction::Or(..) => Binding::Whole,
+            _ => Binding::Atom,
+        };
+        self.texts.insert(value, (text.to_owned(), binding));
+        true
+    }
+
+    /// The text of a value in a place, if it stands where it is used.
+    pub fn text(&self, value: Value, place: Binding) -> Option<String> {
+        let (text, binding) = self.texts.get(&value)?;
+        Some(match *binding >= place {
+            true => text.clone(),
+            false => format!("({text})"),
+        })
+    }
+}
+
+/// Counts the uses of values; those in loops count as more than one.
+fn count(context: Context, steps: &[Step], by: u32, uses: &mut Map<Value, u32>) {
+    for step in steps {
+        let mut add = |value: Value| *uses.entry(value).or_default() += by;
+        match step {
+            Step::Let(value) => context.program.instruction(*value).for_operands(add),
+            Step::Accumulate(_, value) => add(*value),
+            Step::Store(_, _, _, update) => update.for_operands(add),
+            Step::Loop(inner) => count(context, &inner.body, 2, uses),
+        }
+    }
+}
